@@ -1,0 +1,1 @@
+//! Systems, experiments and seeds the benches share.

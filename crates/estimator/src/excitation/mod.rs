@@ -1,0 +1,1 @@
+//! Designed experiments: what to drive the input with.

@@ -1,0 +1,5 @@
+//! Linear systems `A(q⁻¹) y = B(q⁻¹) u + ξ`.
+
+mod filter;
+
+pub use filter::filter;

@@ -1,0 +1,1 @@
+//! Simulated records, and the noise in them.

@@ -1,0 +1,1 @@
+//! Performance measures of estimators, each with its Monte-Carlo standard error.

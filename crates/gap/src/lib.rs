@@ -1,0 +1,1 @@
+//! The sim-to-real gap of a switched-hysteresis model.

@@ -1,0 +1,1 @@
+//! The `switchback` program: scenarios, rig files, Monte-Carlo execution, studies, plots and reports.
