@@ -12,6 +12,7 @@ pub mod excitation;
 pub mod hysteresis;
 pub mod linear;
 pub mod record;
+pub mod rig;
 pub mod simulation;
 pub mod statistics;
 
