@@ -42,8 +42,17 @@ pub(crate) struct ArrowFit {
     pub(crate) local: Vec<f64>,
     /// Residual variance, degrees of freedom counted.
     pub(crate) variance: f64,
+    freedom: f64,
     factor: Cholesky<f64, Dyn>,
     ties: Vec<LocalTie>,
+}
+
+/// Residuals `r` against every column: `Σ_{t∈q} r(t)` a group, `−Σ_t y(t−i) r(t)` a lag, and `Σ_t r²(t)`.
+#[derive(Debug, Clone)]
+pub(crate) struct Score {
+    pub(crate) residual: Vec<f64>,
+    pub(crate) lagged: Vec<f64>,
+    pub(crate) energy: f64,
 }
 
 /// What eliminating a local column leaves behind.
@@ -104,9 +113,9 @@ impl ArrowFit {
         let factor = well_conditioned(normal, &scale)?;
         let core = factor.solve(&right);
         let local: Vec<f64> = ties.iter().map(|tie| tie.start - tie.slope.dot(&core)).collect();
-        let freedom = statistics.samples() - (n + p + local.len()) as f64;
-        let variance = (energy - core.dot(&right)).max(0.0) / freedom.max(1.0);
-        Ok(Self { core, local, variance, factor, ties })
+        let freedom = (statistics.samples() - (n + p + local.len()) as f64).max(1.0);
+        let variance = (energy - core.dot(&right)).max(0.0) / freedom;
+        Ok(Self { core, local, variance, freedom, factor, ties })
     }
 
     /// Variance of the quantity whose derivative is `gradient`, for white equation error.
@@ -119,6 +128,14 @@ impl ArrowFit {
         }
         let solved = self.factor.solve(&through_core);
         self.variance * (own + through_core.dot(&solved))
+    }
+
+    /// Adds the correction for what a pass over the data finds left in the residual, and takes the residual variance from there.
+    pub(crate) fn refine(&mut self, columns: &Columns, score: &Score) {
+        let step = self.respond(columns, &score.residual, &score.lagged);
+        self.core += step.core;
+        self.local.iter_mut().zip(step.local).for_each(|(l, s)| *l += s);
+        self.variance = score.energy / self.freedom;
     }
 
     /// How all parameters answer to a target that is `residual` in the groups and `lagged` against the lags:
@@ -171,7 +188,7 @@ impl ArrowFit {
     }
 
     /// `o_q + x_qᵀη + Σ_l w_q,l λ_l`.
-    fn group_means(&self, columns: &Columns) -> Vec<f64> {
+    pub(crate) fn group_means(&self, columns: &Columns) -> Vec<f64> {
         let n = self.core.len() - columns.shared.ncols();
         let eta = self.core.rows(n, columns.shared.ncols());
         let mut means: Vec<f64> = columns

@@ -30,7 +30,7 @@ const MOST_STEPS: usize = 30;
 /// If no experiment is given.
 pub(crate) fn efficient(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
-    let start = ArrowFit::solve(&experiments.statistics, &experiments.rank_free_columns())?;
+    let start = experiments.solve(&experiments.rank_free_columns())?;
     let n = experiments.order();
     let mut b: DVector<f64> = start.core.rows(n, n).into_owned();
     let mut w: Vec<Vec<f64>> = rank_free_levels(&experiments, &start)
@@ -38,14 +38,14 @@ pub(crate) fn efficient(experiments: &[&PulseData]) -> Result<Solution, PulseFit
         .map(|levels| levels.into_iter().map(|level| level.value).collect())
         .collect();
     let mut columns = linearised(&experiments, &b, &w);
-    let mut fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let mut fit = experiments.solve(&columns)?;
     for _ in 0..MOST_STEPS {
         let moved = update(&experiments, &fit, &mut b, &mut w);
         if moved < CONVERGED {
             break;
         }
         columns = linearised(&experiments, &b, &w);
-        fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+        fit = experiments.solve(&columns)?;
     }
     let levels = constrained_levels(&experiments, &fit);
     Solution::new(&experiments, columns, fit, levels, Level::Constant)

@@ -53,6 +53,11 @@ impl From<NotExcited> for PulseFitError {
 }
 
 impl PulseFit {
+    /// `a`, `b`, then the points of each border: every estimated number in one fixed order.
+    pub fn parameters(&self) -> impl Iterator<Item = &Estimated> {
+        self.a.iter().chain(&self.b).chain(self.borders.iter().flatten())
+    }
+
     /// `B̂(1)/Â(1)`, output units per normalised `u`.
     pub fn gain(&self) -> f64 {
         let a: f64 = self.a.iter().map(|x| x.value).sum();

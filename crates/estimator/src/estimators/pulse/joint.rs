@@ -21,7 +21,7 @@ use super::solution::{Level, RelativeLevel, Solution, known_level, rank_one_leve
 pub(crate) fn joint(descendant: &PulseData, ascendant: &PulseData) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(&[descendant, ascendant]);
     let columns = experiments.rank_free_columns();
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let levels = rank_free_levels(&experiments, &fit);
     Solution::new(&experiments, columns, fit, levels, Level::Constant)
 }

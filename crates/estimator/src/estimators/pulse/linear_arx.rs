@@ -1,6 +1,6 @@
 //! The yardstick without hysteresis or curve: a linear ARX model.
 
-use super::arrow::{ArrowFit, Columns};
+use super::arrow::Columns;
 use super::data::PulseData;
 use super::experiments::Experiments;
 use super::fit::PulseFitError;
@@ -25,7 +25,7 @@ pub(crate) fn linear_arx(experiments: &[&PulseData]) -> Result<Solution, PulseFi
         local: Vec::new(),
         offset: vec![0.0; experiments.statistics.groups()],
     };
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let levels = experiments
         .parts
         .iter()

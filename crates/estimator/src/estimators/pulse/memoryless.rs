@@ -1,6 +1,6 @@
 //! The yardstick with a curve but no memory: a Hammerstein model with one static nonlinearity.
 
-use super::arrow::{ArrowFit, Columns, LocalColumn};
+use super::arrow::{Columns, LocalColumn};
 use super::data::PulseData;
 use super::experiments::{Experiments, first_level_value, satellite_value};
 use super::fit::PulseFitError;
@@ -39,7 +39,7 @@ pub(crate) fn memoryless(experiments: &[&PulseData]) -> Result<Solution, PulseFi
         })
         .collect();
     let columns = Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] };
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let levels = curve
         .of_experiment
         .iter()

@@ -67,18 +67,20 @@ impl PulseMethod<'_> {
 
 /// A method linearised at its limit: the asymptotic theory, and the control variate of a Monte-Carlo study.
 ///
-/// Made from expected statistics ([`crate::simulation::NoiseMoments::expected`]), where the method returns what it converges to, with its
-/// asymptotic standard errors for that many samples. For a record's statistics, [`Limit::first_order`] is
+/// Made from expected statistics ([`crate::simulation::NoiseMoments::expected`]), where the method returns what it converges to. For a
+/// record's statistics, [`Limit::first_order`] is
 ///
 /// ```text
 /// ∇g · M⁻¹s,   s = S_{Φy} − Sθ₀,   M = E[S]
 /// ```
 ///
-/// which has mean zero exactly, and differs from the estimate's error by `O(1/N)`: subtracted, it takes the noise out of a bias.
+/// which has mean zero exactly, and differs from the estimate's error by `O(1/N)`: subtracted, it takes the noise out of a bias. Where the
+/// equation error is white its variance is [`Limit::theory_se`] squared, exactly.
 #[derive(Debug, Clone)]
 pub struct Limit {
     solution: Solution,
     fit: PulseFit,
+    samples: f64,
 }
 
 impl Limit {
@@ -89,16 +91,26 @@ impl Limit {
     pub fn of(expected: PulseMethod<'_>) -> Result<Self, PulseFitError> {
         let solution = expected.solve()?;
         let fit = solution.fit();
-        Ok(Self { solution, fit })
+        let samples = expected.experiments()[0].statistics.samples();
+        Ok(Self { solution, fit, samples })
     }
 
-    /// What the method converges to, with asymptotic standard errors.
+    /// What the method converges to; standard errors are for as many samples as the expected statistics had.
     pub fn fit(&self) -> &PulseFit {
         &self.fit
     }
 
+    /// Asymptotic standard errors of `a`, `b`, then the points of each border, for `samples` samples of each experiment:
+    /// the square roots of `∇g (σ²M⁻¹/N) ∇gᵀ`. `O(1/S)` off for expected statistics of `S` samples, so take `S` large.
+    pub fn theory_se(&self, samples: f64) -> Vec<f64> {
+        let scale = (self.samples / samples).sqrt();
+        self.fit.parameters().map(|x| x.se * scale).collect()
+    }
+
     /// The first-order part of the error of the same method's estimate from `sample`: `a`, `b`, then the points of each border.
     pub fn first_order(&self, sample: &PulseMethod<'_>) -> Vec<f64> {
-        self.solution.first_order(&sample.experiments(), sample.step())
+        let experiments = sample.experiments();
+        let scale = self.samples / experiments[0].statistics.samples();
+        self.solution.first_order(&experiments, sample.step(), scale)
     }
 }

@@ -1,6 +1,6 @@
 //! The paper's own estimator, one experiment at a time.
 
-use super::arrow::{ArrowFit, Columns, LocalColumn};
+use super::arrow::{Columns, LocalColumn};
 use super::data::{PulseData, StepMean};
 use super::experiments::{Experiments, Seen, first_level_value, satellite_value};
 use super::fit::PulseFitError;
@@ -26,7 +26,7 @@ pub(crate) fn paper(experiment: &PulseData, step: StepMean) -> Result<Solution, 
     let about_step = experiment.about(step.mean);
     let experiments = Experiments::new(&[&about_step]);
     let columns = pulse_columns(&experiments);
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let n = experiments.order();
     let first = first_level_value(experiment.branch) - satellite_value(experiment.branch);
     let levels = (0..experiment.points())

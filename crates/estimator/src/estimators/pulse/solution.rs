@@ -152,8 +152,14 @@ impl Solution {
 
     /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved.
     ///
-    /// `M⁻¹s` carried through the derivatives; `M` and the parameters are this solution's, the score `s` is that of the experiments given.
-    pub(crate) fn first_order(&self, experiments: &[&PulseData], step: Option<StepMean>) -> Vec<f64> {
+    /// `M⁻¹s` carried through the derivatives; `M` (divided by `scale`) and the parameters are this solution's, the score `s` is that of the
+    /// experiments given.
+    pub(crate) fn first_order(
+        &self,
+        experiments: &[&PulseData],
+        step: Option<StepMean>,
+        scale: f64,
+    ) -> Vec<f64> {
         let about: Vec<GroupedStatistics> =
             experiments.iter().map(|data| data.about(self.reference).statistics).collect();
         let stacked = GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>());
@@ -162,7 +168,10 @@ impl Solution {
             (Level::Step(own), Some(other)) => other.mean - own.mean,
             _ => 0.0,
         };
-        self.quantities.iter().map(|q| response.along(&q.gradient) + q.step_slope * step_change).collect()
+        self.quantities
+            .iter()
+            .map(|q| scale * response.along(&q.gradient) + q.step_slope * step_change)
+            .collect()
     }
 }
 
