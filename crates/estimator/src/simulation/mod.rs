@@ -1,1 +1,3 @@
 //! Simulated records, and the noise in them.
+
+pub mod noise;
