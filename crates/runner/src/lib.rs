@@ -1,1 +1,3 @@
 //! The `switchback` program: scenarios, rig files, Monte-Carlo execution, studies, plots and reports.
+
+pub mod scenario;
