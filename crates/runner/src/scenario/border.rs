@@ -38,7 +38,8 @@ impl WireBorder {
     pub(super) fn on(&self, interval: Interval) -> Result<SwitchedHysteresis, Fault> {
         let pair: Box<dyn BorderPair> = (self.shape)();
         SwitchedHysteresis::new(interval, pair).map_err(|error| {
-            let remedy = "raise the ascending border at h_M, lower the descending one at h_m, or change the interval";
+            let remedy =
+                "raise the ascending border at h_M, lower the descending one at h_m, or change the interval";
             Fault::new(self.span.clone(), error.to_string(), remedy)
         })
     }

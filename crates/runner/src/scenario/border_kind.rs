@@ -203,9 +203,8 @@ struct WireTablePoint {
 
 impl Wire for WireTable {
     fn shape(self) -> Result<Shape, BorderError> {
-        let points = |list: Vec<WireTablePoint>| {
-            list.into_iter().map(|w| TablePoint { v: w.v, u: w.u }).collect()
-        };
+        let points =
+            |list: Vec<WireTablePoint>| list.into_iter().map(|w| TablePoint { v: w.v, u: w.u }).collect();
         Table::new(points(self.ascending), points(self.descending)).map(shape)
     }
 }

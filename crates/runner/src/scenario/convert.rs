@@ -3,9 +3,12 @@
 use super::border::WireBorder;
 use super::error::Fault;
 use super::nearest::nearest;
-use super::wire::{WireCase, WireExpect, WirePrecision, WireScenario, WireSweep, WireSystem, WireSystemOverride};
+use super::wire::{
+    WireCase, WireExpect, WirePrecision, WireScenario, WireSweep, WireSystem, WireSystemOverride,
+};
 use super::{
-    Border, Case, Check, Coupling, Disturbance, Expect, Labels, Method, Replication, Scenario, Stopping, Sweep,
+    Border, Case, Check, Coupling, Disturbance, Expect, Labels, Method, Replication, Scenario, Stopping,
+    Sweep,
 };
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -55,7 +58,11 @@ fn replication(wire: &WireScenario) -> Result<Replication, Fault> {
     let replicates = *wire.replicates.get_ref();
     if replicates < 2 {
         let why = "a standard deviation needs at least two replicates";
-        return Err(Fault::new(wire.replicates.span(), why, "write 2 or more; 500 resolves a coverage to 1 %"));
+        return Err(Fault::new(
+            wire.replicates.span(),
+            why,
+            "write 2 or more; 500 resolves a coverage to 1 %",
+        ));
     }
     let stopping = match (&wire.precision, &wire.max_replicates) {
         (None, None) => None,
@@ -208,7 +215,11 @@ fn system(
     let b = overriding.and_then(|c| c.b.as_ref()).unwrap_or(&base.get_ref().b);
     LinearSystem::new(a.get_ref().clone(), b.get_ref().clone()).map_err(|error| {
         let span = change.map_or_else(|| a.span(), Spanned::span);
-        Fault::new(span, error.to_string(), "change a or b so that A is stable, B(1) ≠ 0 and both are coprime")
+        Fault::new(
+            span,
+            error.to_string(),
+            "change a or b so that A is stable, B(1) ≠ 0 and both are coprime",
+        )
     })
 }
 

@@ -16,7 +16,8 @@ pub(super) fn from_file(path: &Path) -> Result<Scenario, ScenarioError> {
 }
 
 pub(super) fn from_text(file: &str, text: &str) -> Result<Scenario, ScenarioError> {
-    let name = Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
+    let name =
+        Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
     convert_text(name, text).map_err(|fault| fault.locate(file, text))
 }
 

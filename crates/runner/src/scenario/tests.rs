@@ -101,7 +101,10 @@ fn an_unknown_key_of_a_border_is_named_too() {
 #[test]
 fn a_wrong_type_is_named_with_key_and_value() {
     let (message, _, line) = refusal("0.02, 0.1", "0.02, \"loud\"");
-    assert!(message.contains("sweep.noise[1] = \"loud\"") && message.contains("expected a number"), "{message}");
+    assert!(
+        message.contains("sweep.noise[1] = \"loud\"") && message.contains("expected a number"),
+        "{message}"
+    );
     assert_eq!(line, 17);
     let (message, ..) = refusal("replicates = 500", "replicates = -5");
     assert!(message.contains("replicates = -5") && message.contains("whole number"), "{message}");
@@ -159,7 +162,11 @@ fn a_misspelt_method_border_or_check_is_answered_with_the_valid_names() {
 #[test]
 fn every_kind_of_border_is_read_with_its_own_keys() {
     for (kind, parameters, at_high) in [
-        ("straight_lines", "ascending = { slope = 1.0, offset = 0.5 }\ndescending = { slope = 2.0, offset = 0.0 }", 20.5),
+        (
+            "straight_lines",
+            "ascending = { slope = 1.0, offset = 0.5 }\ndescending = { slope = 2.0, offset = 0.0 }",
+            20.5,
+        ),
         ("leaf_spring", "stiffness = 0.2\nfriction = 0.8", 4.8),
         ("leaf_spring", "stiffness = 0.2\nhardening = 0.001\nfriction = 0.8", 12.8),
         ("relay", "low = -1.0\nhigh = 2.0\nascending_threshold = 3.0\ndescending_threshold = -3.0", 2.0),
