@@ -1,1 +1,4 @@
 //! The `switchback` program: scenarios, rig files, Monte-Carlo execution, studies, plots and reports.
+
+pub mod results;
+pub mod scenario;
