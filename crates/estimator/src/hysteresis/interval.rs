@@ -11,7 +11,9 @@ pub struct Interval {
 
 /// Why two numbers are no working interval.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("[{low}, {high}] is not an interval: both ends must be finite and the first below the second")]
+#[error(
+    "[{low}, {high}] is not an interval: both ends and their distance must be finite and the first below the second"
+)]
 pub struct IntervalError {
     /// The first end given.
     pub low: f64,
@@ -23,9 +25,9 @@ impl Interval {
     /// The interval from `low` (`h_m`) to `high` (`h_M`).
     ///
     /// # Errors
-    /// [`IntervalError`] unless both are finite and `low < high`.
+    /// [`IntervalError`] unless both and their distance are finite and `low < high`.
     pub fn new(low: f64, high: f64) -> Result<Self, IntervalError> {
-        if low.is_finite() && high.is_finite() && low < high {
+        if low.is_finite() && high.is_finite() && (high - low).is_finite() && low < high {
             Ok(Self { low, high })
         } else {
             Err(IntervalError { low, high })

@@ -1,1 +1,9 @@
-//! Simulated records, and the noise in them.
+//! Simulated experiments, and the superposition that spares simulating them.
+
+mod design;
+mod periodic;
+mod superposition;
+
+pub use design::PeriodicDesign;
+pub use periodic::periodic_response;
+pub use superposition::{NoiseMoments, superpose};
