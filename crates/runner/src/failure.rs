@@ -51,7 +51,8 @@ fn framed(diagnostic: &dyn Diagnostic) -> String {
 /// ```
 pub fn plain(diagnostic: &dyn Diagnostic) -> String {
     let mut told = format!("error: {diagnostic}\n");
-    if let (Some(code), Some(label)) = (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
+    if let (Some(code), Some(label)) =
+        (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
         && let Ok(contents) = code.read_span(label.inner(), 0, 0)
         && let Ok(text) = std::str::from_utf8(contents.data())
     {
@@ -59,8 +60,10 @@ pub fn plain(diagnostic: &dyn Diagnostic) -> String {
         let line = text.lines().next().unwrap_or_default();
         let prefix: String =
             line.chars().take(contents.column()).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-        let marks = "^".repeat(label.len().clamp(1, line.chars().count().saturating_sub(contents.column()).max(1)));
-        let _ = writeln!(told, "  {number} | {line}\n  {:width$} | {prefix}{marks}", "", width = number.len());
+        let marks =
+            "^".repeat(label.len().clamp(1, line.chars().count().saturating_sub(contents.column()).max(1)));
+        let _ =
+            writeln!(told, "  {number} | {line}\n  {:width$} | {prefix}{marks}", "", width = number.len());
     }
     if let Some(help) = diagnostic.help() {
         let _ = writeln!(told, "help: {help}");

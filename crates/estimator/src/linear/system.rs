@@ -36,16 +36,22 @@ pub enum SystemError {
         value: f64,
     },
     /// A pole lies on or outside the unit circle.
-    #[error("A is unstable: its slowest pole has modulus {radius:.6}; every pole must lie inside the unit circle")]
+    #[error(
+        "A is unstable: its slowest pole has modulus {radius:.6}; every pole must lie inside the unit circle"
+    )]
     Unstable {
         /// Largest modulus among the poles.
         radius: f64,
     },
     /// `B(1) = 0`.
-    #[error("B(1) = {0:e}: the static gain vanishes, so no experiment can find the level of the borders; change b")]
+    #[error(
+        "B(1) = {0:e}: the static gain vanishes, so no experiment can find the level of the borders; change b"
+    )]
     NoStaticGain(f64),
     /// `A` and `B` share a root.
-    #[error("A and B share a root (relative singular value {0:e}), so the order is lower than stated; cancel it")]
+    #[error(
+        "A and B share a root (relative singular value {0:e}), so the order is lower than stated; cancel it"
+    )]
     NotCoprime(f64),
 }
 
@@ -129,11 +135,23 @@ mod tests {
     #[test]
     fn what_the_paper_assumes_is_checked() {
         assert!(LinearSystem::new(vec![-1.2, 0.5], vec![0.3, 0.2]).is_ok());
-        assert!(matches!(LinearSystem::new(vec![-1.2, 0.5], vec![0.3]), Err(SystemError::Order { a: 2, b: 1 })));
-        assert!(matches!(LinearSystem::new(vec![-2.1, 1.1], vec![0.3, 0.2]), Err(SystemError::Unstable { .. })));
-        assert!(matches!(LinearSystem::new(vec![-1.2, 0.5], vec![0.3, -0.3]), Err(SystemError::NoStaticGain(_))));
+        assert!(matches!(
+            LinearSystem::new(vec![-1.2, 0.5], vec![0.3]),
+            Err(SystemError::Order { a: 2, b: 1 })
+        ));
+        assert!(matches!(
+            LinearSystem::new(vec![-2.1, 1.1], vec![0.3, 0.2]),
+            Err(SystemError::Unstable { .. })
+        ));
+        assert!(matches!(
+            LinearSystem::new(vec![-1.2, 0.5], vec![0.3, -0.3]),
+            Err(SystemError::NoStaticGain(_))
+        ));
         // (q − 0.5)(q − 0.7) with a zero at 0.7
-        assert!(matches!(LinearSystem::new(vec![-1.2, 0.35], vec![1.0, -0.7]), Err(SystemError::NotCoprime(_))));
+        assert!(matches!(
+            LinearSystem::new(vec![-1.2, 0.35], vec![1.0, -0.7]),
+            Err(SystemError::NotCoprime(_))
+        ));
         assert!(matches!(
             LinearSystem::new(vec![f64::NAN, 0.5], vec![0.3, 0.2]),
             Err(SystemError::NotFinite { .. })

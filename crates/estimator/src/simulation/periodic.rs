@@ -20,7 +20,9 @@ pub fn periodic_response(system: &LinearSystem, u: &[f64]) -> Vec<f64> {
     // Whole periods until the lag window fits into the run.
     let repeats = n.div_ceil(period);
     let length = repeats * period;
-    let wrapped: Vec<f64> = (0..length).map(|t| (1..=n).map(|i| system.b()[i - 1] * u[(t + n * period - i) % period]).sum()).collect();
+    let wrapped: Vec<f64> = (0..length)
+        .map(|t| (1..=n).map(|i| system.b()[i - 1] * u[(t + n * period - i) % period]).sum())
+        .collect();
     let last = |y: &[f64]| DVector::from_fn(n, |i, _| y[length - 1 - i]);
     let forced = last(&filter(system.a(), &[], &wrapped, &wrapped, 0.0, 0.0));
     let free = DMatrix::from_columns(
@@ -33,7 +35,8 @@ pub fn periodic_response(system: &LinearSystem, u: &[f64]) -> Vec<f64> {
             })
             .collect::<Vec<_>>(),
     );
-    let start = (DMatrix::identity(n, n) - free).lu().solve(&forced).expect("a stable system forgets its start");
+    let start =
+        (DMatrix::identity(n, n) - free).lu().solve(&forced).expect("a stable system forgets its start");
     let mut z: Vec<f64> = start.iter().rev().copied().collect();
     for p in 0..period {
         let past: f64 = system.a().iter().enumerate().map(|(i, a)| a * z[n + p - 1 - i]).sum();

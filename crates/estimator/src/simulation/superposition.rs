@@ -58,9 +58,13 @@ impl NoiseMoments {
     pub fn expected(ar: &[f64], ma: &[f64], order: usize, period: usize, samples: f64) -> Self {
         let width = order + 1;
         let gamma = autocovariance(ar, ma, order);
-        let products =
-            (0..width * width).map(|k| samples * gamma[(k / width).abs_diff(k % width)]).collect();
-        Self { order, counts: vec![samples / period as f64; period], products, folds: vec![0.0; period * width] }
+        let products = (0..width * width).map(|k| samples * gamma[(k / width).abs_diff(k % width)]).collect();
+        Self {
+            order,
+            counts: vec![samples / period as f64; period],
+            products,
+            folds: vec![0.0; period * width],
+        }
     }
 }
 

@@ -57,8 +57,7 @@ impl TomlFile {
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
         toml::from_str(&self.text).map_err(|error| {
             let remedy = self.remedy(error.message());
-            let message = error.message().replace("unknown field", "unknown key").replace("missing field", "missing key");
-            self.error(error.span().unwrap_or(0..0), message.trim_end(), remedy)
+            self.error(error.span().unwrap_or(0..0), in_toml_terms(error.message()), remedy)
         })
     }
 
@@ -101,6 +100,20 @@ impl TomlFile {
             _ => "correct the value here; text stands in double quotes, numbers without quotes".to_owned(),
         }
     }
+}
+
+/// The reader's message without the names of Rust's types, which the writer of a TOML file need not know.
+fn in_toml_terms(message: &str) -> String {
+    let terms = [
+        ("unknown field", "unknown key"),
+        ("missing field", "missing key"),
+        ("duplicate field", "duplicate key"),
+        ("expected f64", "expected a number"),
+        ("expected i64", "expected a whole number"),
+        ("expected a sequence", "expected a list"),
+        ("an array of length 2", "two numbers [low, high]"),
+    ];
+    terms.iter().fold(message.trim_end().to_owned(), |told, (theirs, ours)| told.replace(theirs, ours))
 }
 
 impl TomlError {

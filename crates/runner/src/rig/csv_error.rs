@@ -38,9 +38,13 @@ pub enum CsvProblem {
     NotFinite { column: &'static str, cell: String },
     #[error("column `t`: the time stamp {now} does not lie after the one before it, {before}")]
     NotIncreasing { before: f64, now: f64 },
-    #[error("column `t`: {before} is followed by {now}, {step} s later, but the sample time is {sample_time} s")]
+    #[error(
+        "column `t`: {before} is followed by {now}, {step} s later, but the sample time is {sample_time} s"
+    )]
     Gap { before: f64, now: f64, step: f64, sample_time: f64 },
-    #[error("column `t`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s")]
+    #[error(
+        "column `t`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s"
+    )]
     OtherSampleTime { mean_step: f64, sample_time: f64 },
     #[error("the record has {found} samples; at least {needed} are needed")]
     TooShort { found: usize, needed: usize },

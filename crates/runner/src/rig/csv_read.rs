@@ -24,8 +24,7 @@ const NAMES: [&str; 4] = ["t", "v", "y", "y_sim"];
 
 /// Reads the columns `t`, `v`, `y` and, if there, `y_sim` by their names; other columns are ignored.
 pub(super) fn parse(path: &Path, text: &str, demands: Demands) -> Result<Columns, CsvError> {
-    let fail =
-        |line: Option<u64>, problem| CsvError { path: path.display().to_string(), line, problem };
+    let fail = |line: Option<u64>, problem| CsvError { path: path.display().to_string(), line, problem };
     if text.trim().is_empty() {
         return Err(fail(None, CsvProblem::Empty));
     }
@@ -33,8 +32,9 @@ pub(super) fn parse(path: &Path, text: &str, demands: Demands) -> Result<Columns
     let mut reader =
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text.as_bytes());
     let mut rows = reader.records().map(|row| {
-        row.map(|row| (line_of(text, &row), row))
-            .map_err(|error| fail(error.position().map(|p| p.line()), CsvProblem::Unparsable { message: error.to_string() }))
+        row.map(|row| (line_of(text, &row), row)).map_err(|error| {
+            fail(error.position().map(|p| p.line()), CsvProblem::Unparsable { message: error.to_string() })
+        })
     });
     let (header_line, header) = rows.next().transpose()?.ok_or_else(|| fail(None, CsvProblem::Empty))?;
     let positions = columns(&header).map_err(|problem| fail(Some(header_line), problem))?;
@@ -98,6 +98,7 @@ fn number(column: &'static str, cell: &str) -> Result<f64, CsvProblem> {
 fn line_of(text: &str, row: &StringRecord) -> u64 {
     let Some(position) = row.position() else { return 1 };
     let rest = text.as_bytes().get(position.byte() as usize..).unwrap_or_default();
-    let blank = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|byte| **byte == b'\n').count();
+    let blank =
+        rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|byte| **byte == b'\n').count();
     position.line() + blank as u64
 }

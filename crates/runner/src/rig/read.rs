@@ -203,7 +203,10 @@ fn check_motion(file: &TomlFile, wire: &WireRig, records: &[RigRecord]) -> Resul
     let first = wire.record.iter().position(|record| Usage::from(record.usage) == Usage::Fit).unwrap_or(0);
     Err(file.error(
         wire.record[first].file.span(),
-        format!("the input `v` never moves in `{}` nor in any other fit record", wire.record[first].file.get_ref()),
+        format!(
+            "the input `v` never moves in `{}` nor in any other fit record",
+            wire.record[first].file.get_ref()
+        ),
         "fit to records in which `v` rises and falls; check that the column `v` holds the input",
     ))
 }

@@ -7,7 +7,8 @@ use super::csv_error::CsvProblem;
 ///
 /// Two tolerances, because stamps are rounded when written and jitter when taken, but neither adds up:
 /// - a single step may be off by less than half a sample. A lost sample makes a step of two, a doubled one a step of
-///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass.
+///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass. Where the typical step is
+///   off too, it is not a gap but another sample time.
 /// - the whole record may be off by 1 % of its length or half a sample, whichever is more: beyond that the sample time is
 ///   another one, and every frequency and time constant would be wrong by as much.
 ///
@@ -19,11 +20,11 @@ pub(super) fn check(t: &[f64], sample_time: f64) -> Result<(), (Option<usize>, C
         }
     }
     let Some(typical) = median_step(t) else { return Ok(()) };
-    let is_other = |step: f64| (step - sample_time).abs() >= 0.5 * sample_time;
-    if is_other(typical) {
+    let is_off = |step: f64, share: f64| (step - sample_time).abs() >= share * sample_time;
+    if is_off(typical, 0.3) {
         return Err((None, CsvProblem::OtherSampleTime { mean_step: rounded(typical), sample_time }));
     }
-    if let Some(k) = (1..t.len()).find(|&k| is_other(t[k] - t[k - 1])) {
+    if let Some(k) = (1..t.len()).find(|&k| is_off(t[k] - t[k - 1], 0.5)) {
         let (before, now) = (t[k - 1], t[k]);
         return Err((Some(k), CsvProblem::Gap { before, now, step: rounded(now - before), sample_time }));
     }

@@ -131,7 +131,8 @@ impl ArrowFit {
             right[i] = -statistics.total(i + 1);
         }
         for k in 0..p {
-            right[n + k] = (0..statistics.groups()).map(|q| columns.shared[(q, k)] * statistics.count(q)).sum();
+            right[n + k] =
+                (0..statistics.groups()).map(|q| columns.shared[(q, k)] * statistics.count(q)).sum();
         }
         let mut starts = Vec::with_capacity(self.ties.len());
         for (column, tie) in columns.local.iter().zip(&self.ties) {

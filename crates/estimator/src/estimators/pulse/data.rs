@@ -184,7 +184,13 @@ impl<'a> Visits<'a> {
         }
         let spacing = order.max(2);
         if let Some(pair) = away.windows(2).find(|pair| pair[1] - pair[0] < spacing) {
-            return Err(PulseDataError::TooClose { satellite, first: pair[0], second: pair[1], spacing, order });
+            return Err(PulseDataError::TooClose {
+                satellite,
+                first: pair[0],
+                second: pair[1],
+                spacing,
+                order,
+            });
         }
         Ok(visits)
     }
@@ -195,7 +201,8 @@ impl<'a> Visits<'a> {
 
     /// Distinct levels visited after the loading sample, the farthest from the satellite first.
     fn levels(&self) -> Result<Vec<f64>, PulseDataError> {
-        let mut visited: Vec<f64> = (1..self.v.len()).filter(|&t| self.is_away(t)).map(|t| self.v[t]).collect();
+        let mut visited: Vec<f64> =
+            (1..self.v.len()).filter(|&t| self.is_away(t)).map(|t| self.v[t]).collect();
         visited.sort_by(f64::total_cmp);
         if self.branch == Branch::Ascending {
             visited.reverse();
@@ -213,6 +220,8 @@ impl<'a> Visits<'a> {
 
     /// Which of `levels` the input visits at `t`, if it is away from the satellite.
     fn level_at(&self, t: usize, levels: &[f64]) -> Option<usize> {
-        self.is_away(t).then(|| levels.iter().position(|l| (l - self.v[t]).abs() <= 2.0 * self.tolerance)).flatten()
+        self.is_away(t)
+            .then(|| levels.iter().position(|l| (l - self.v[t]).abs() <= 2.0 * self.tolerance))
+            .flatten()
     }
 }

@@ -31,7 +31,8 @@ pub fn excitation(experiments: &[&PulseData]) -> f64 {
             information[(i, l)] = statistics.product(i + 1, l + 1);
         }
         for k in 0..design.ncols() {
-            let cross: f64 = (0..statistics.groups()).map(|q| -design[(q, k)] * statistics.sum(q, i + 1)).sum();
+            let cross: f64 =
+                (0..statistics.groups()).map(|q| -design[(q, k)] * statistics.sum(q, i + 1)).sum();
             information[(i, n + k)] = cross;
             information[(n + k, i)] = cross;
         }

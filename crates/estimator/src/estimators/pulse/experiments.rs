@@ -60,9 +60,10 @@ impl<'a> Experiments<'a> {
             .iter()
             .enumerate()
             .flat_map(move |(e, part)| {
-                std::iter::once((e, Seen::Satellite)).chain((0..part.points()).flat_map(move |level| {
-                    (1..=order).map(move |lag| (e, Seen::Level { level, lag }))
-                }))
+                std::iter::once((e, Seen::Satellite)).chain(
+                    (0..part.points())
+                        .flat_map(move |level| (1..=order).map(move |lag| (e, Seen::Level { level, lag }))),
+                )
             })
             .enumerate()
             .map(|(group, (e, seen))| (group, e, seen))

@@ -42,7 +42,9 @@ pub enum PulseFitError {
     )]
     NotExcited,
     /// `B̂` or `B̂(1)` vanishes, so levels cannot be restored.
-    #[error("the estimated static gain is zero, so the borders' level cannot be found; check the input and the output")]
+    #[error(
+        "the estimated static gain is zero, so the borders' level cannot be found; check the input and the output"
+    )]
     NoGain,
 }
 
@@ -205,7 +207,11 @@ impl PulseFit {
                 Branch::Descending => &mut estimate.descending,
                 Branch::Ascending => &mut estimate.ascending,
             };
-            border.extend(data.levels.iter().zip(points).map(|(&v, p)| BorderPoint { v, f: p.value, se: p.se }));
+            border.extend(data.levels.iter().zip(points).map(|(&v, p)| BorderPoint {
+                v,
+                f: p.value,
+                se: p.se,
+            }));
             border.sort_by(|p, q| p.v.total_cmp(&q.v));
         }
         estimate

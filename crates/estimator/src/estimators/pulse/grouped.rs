@@ -29,7 +29,12 @@ impl GroupedStatistics {
     /// Empty statistics of an autoregression of order `order` over `groups` groups.
     pub fn new(order: usize, groups: usize) -> Self {
         let width = order + 1;
-        Self { order, counts: vec![0.0; groups], sums: vec![0.0; groups * width], products: vec![0.0; width * width] }
+        Self {
+            order,
+            counts: vec![0.0; groups],
+            sums: vec![0.0; groups * width],
+            products: vec![0.0; width * width],
+        }
     }
 
     /// Assembles statistics computed elsewhere; shapes as in the type's formula, rows first.
