@@ -1,6 +1,6 @@
 //! How a command ends, and how a failure is told.
 
-use miette::{Diagnostic, GraphicalReportHandler};
+use miette::{Diagnostic, GraphicalReportHandler, SourceCode, SourceSpan};
 use std::fmt::Write;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -53,20 +53,31 @@ pub fn plain(diagnostic: &dyn Diagnostic) -> String {
     let mut told = format!("error: {diagnostic}\n");
     if let (Some(code), Some(label)) =
         (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
-        && let Ok(contents) = code.read_span(label.inner(), 0, 0)
-        && let Ok(text) = std::str::from_utf8(contents.data())
     {
-        let number = (contents.line() + 1).to_string();
-        let line = text.lines().next().unwrap_or_default();
-        let prefix: String =
-            line.chars().take(contents.column()).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-        let marks =
-            "^".repeat(label.len().clamp(1, line.chars().count().saturating_sub(contents.column()).max(1)));
-        let _ =
-            writeln!(told, "  {number} | {line}\n  {:width$} | {prefix}{marks}", "", width = number.len());
+        told.push_str(&marked_line(code, label.inner()).unwrap_or_default());
     }
     if let Some(help) = diagnostic.help() {
         let _ = writeln!(told, "help: {help}");
     }
     told
+}
+
+/// The line that a span begins on, with its number before it and marks under the span.
+fn marked_line(code: &dyn SourceCode, span: &SourceSpan) -> Option<String> {
+    // A line of context on each side makes sure that the span's own line is there in full.
+    let contents = code.read_span(span, 1, 1).ok()?;
+    let text = std::str::from_utf8(contents.data()).ok()?;
+    let start = span.offset().checked_sub(contents.span().offset())?;
+    let before = text.get(..start)?;
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[line_start..].lines().next().unwrap_or_default();
+    let number = (contents.line() + 1 + before.matches('\n').count()).to_string();
+    let blanks: String = before[line_start..].chars().map(|c| if c == '\t' { c } else { ' ' }).collect();
+    let marked = text[start..].chars().take_while(|c| *c != '\n').count().min(span.len()).max(1);
+    Some(format!(
+        "  {number} | {line}\n  {:width$} | {blanks}{}\n",
+        "",
+        "^".repeat(marked),
+        width = number.len()
+    ))
 }

@@ -111,7 +111,6 @@ fn in_toml_terms(message: &str) -> String {
         ("expected f64", "expected a number"),
         ("expected i64", "expected a whole number"),
         ("expected a sequence", "expected a list"),
-        ("an array of length 2", "two numbers [low, high]"),
     ];
     terms.iter().fold(message.trim_end().to_owned(), |told, (theirs, ours)| told.replace(theirs, ours))
 }

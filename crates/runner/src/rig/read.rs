@@ -6,7 +6,7 @@ use super::wire::{WireRecord, WireRig};
 use crate::input::{FileError, TomlError, TomlFile, read_text};
 use miette::Diagnostic;
 use std::collections::HashSet;
-use std::path::Path;
+use std::path::{Component, Path};
 use switchback_estimator::Record;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
@@ -104,13 +104,16 @@ fn check_header(file: &TomlFile, wire: &WireRig) -> Result<(Option<usize>, Optio
             format!("give a whole number from 1 to {MAX_ORDER}, or leave `order` out to have it chosen from the data"),
         ));
     }
-    let interval = wire.interval.as_ref().map(|interval| {
-        let [low, high] = *interval.get_ref();
-        Interval::new(low, high).map_err(|error| {
+    let interval = wire.interval.as_ref().map(|ends| {
+        let found = match ends.get_ref()[..] {
+            [low, high] => Interval::new(low, high).map_err(|error| error.to_string()),
+            ref other => Err(format!("{} numbers are no interval; it has two ends", other.len())),
+        };
+        found.map_err(|reason| {
             file.error(
-                interval.span(),
-                format!("`interval`: {error}"),
-                "write the lower end h_m first, then the upper end h_M, or leave `interval` out to use the range of the records",
+                ends.span(),
+                format!("`interval`: {reason}"),
+                "write `[h_m, h_M]`, the lower end first, or leave `interval` out to use the range of the records",
             )
         })
     });
@@ -136,7 +139,8 @@ fn check_records(file: &TomlFile, wire: &WireRig) -> Result<(), TomlError> {
     }
     let mut seen = HashSet::new();
     for record in &wire.record {
-        if !seen.insert(Path::new(record.file.get_ref()).components().collect::<Vec<_>>()) {
+        let parts = Path::new(record.file.get_ref()).components().filter(|part| *part != Component::CurDir);
+        if !seen.insert(parts.collect::<Vec<_>>()) {
             return Err(file.error(
                 record.file.span(),
                 format!("`{}` is listed twice", record.file.get_ref()),

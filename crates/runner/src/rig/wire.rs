@@ -10,7 +10,7 @@ pub(super) struct WireRig {
     pub(super) name: Spanned<String>,
     pub(super) sample_time: Spanned<f64>,
     pub(super) order: Option<Spanned<i64>>,
-    pub(super) interval: Option<Spanned<[f64; 2]>>,
+    pub(super) interval: Option<Spanned<Vec<f64>>>,
     pub(super) input: Option<String>,
     pub(super) output: Option<String>,
     #[serde(default)]

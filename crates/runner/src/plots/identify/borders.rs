@@ -38,6 +38,8 @@ pub fn borders(rig: &Rig, identification: &Identification) -> Result<Option<Stri
         let body = header(&canvas, &title, &names)?;
         let mut chart = ChartBuilder::on(&body)
             .margin_right(24)
+            .margin_left(16)
+            .margin_top(10)
             .margin_bottom(6)
             .x_label_area_size(46)
             .y_label_area_size(76)

@@ -1,10 +1,13 @@
 //! Measured against simulated output of one record.
 
 use super::series::{thinned, worst_window};
-use super::style::{Canvas, GRID, INK, MEASURED, PlotError, SIMULATED, header, letters, range, tick};
+use super::style::{Canvas, ERROR, GRID, INK, MEASURED, PlotError, SIMULATED, header, letters, range, tick};
 use crate::identification::FreeRun;
 use plotters::prelude::*;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
+
+const LEGEND: [(&str, RGBColor); 3] =
+    [("measured", MEASURED), ("simulated from v alone", SIMULATED), ("measured − simulated", ERROR)];
 
 const SIZE: (u32, u32) = (960, 640);
 
@@ -34,7 +37,7 @@ pub fn outputs(rig: &Rig, record: &RigRecord, run: &FreeRun) -> Result<String, P
     {
         let canvas = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         canvas.fill(&WHITE).map_err(PlotError::new)?;
-        let body = header(&canvas, &title, &[("measured", MEASURED), ("simulated from v alone", SIMULATED)])?;
+        let body = header(&canvas, &title, &LEGEND)?;
         if measured.len() <= 2 * WINDOW {
             panel(&body, "", [&measured, &simulated], &rig.output_label)?;
         } else {
@@ -63,17 +66,22 @@ fn panel(
     let time = measured[0].0..measured[measured.len() - 1].0;
     // A simulation that runs away must not flatten the measured output to a line.
     let seen = range(measured.iter().map(|p| p.1));
-    let both = range(measured.iter().chain(simulated).map(|p| p.1));
+    let errors: Vec<_> = measured.iter().zip(simulated).map(|(y, s)| (y.0, y.1 - s.1)).collect();
+    let both = range(measured.iter().chain(simulated).chain(&errors).map(|p| p.1));
     let reach = seen.end - seen.start;
     let output = both.start.max(seen.start - reach)..both.end.min(seen.end + reach);
-    let clipped: Vec<_> = simulated
-        .iter()
-        .map(|p| (p.0, if p.1.is_finite() { p.1.clamp(output.start, output.end) } else { output.end }))
-        .collect();
+    let clipped = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+        points
+            .iter()
+            .map(|p| (p.0, p.1.clamp(output.start, output.end)))
+            .filter(|p| p.1.is_finite())
+            .collect()
+    };
 
     let mut chart = ChartBuilder::on(area)
         .caption(caption, letters(15))
         .margin_right(24)
+        .margin_left(16)
         .margin_bottom(6)
         .x_label_area_size(42)
         .y_label_area_size(76)
@@ -93,10 +101,9 @@ fn panel(
         .y_label_formatter(&tick(output.end - output.start))
         .draw()
         .map_err(PlotError::new)?;
-    for (points, colour, width) in [(measured, MEASURED, 3), (&clipped, SIMULATED, 1)] {
-        chart
-            .draw_series(LineSeries::new(thinned(points, SIZE.0 as usize), colour.stroke_width(width)))
-            .map_err(PlotError::new)?;
+    for (points, colour, width) in [(measured, MEASURED, 4), (simulated, SIMULATED, 1), (&errors, ERROR, 1)] {
+        let points = thinned(&clipped(points), SIZE.0 as usize);
+        chart.draw_series(LineSeries::new(points, colour.stroke_width(width))).map_err(PlotError::new)?;
     }
     Ok(())
 }

@@ -24,8 +24,9 @@ impl PlotError {
 pub(super) type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Colours of Okabe and Ito (2008), which readers with any colour vision tell apart, plus a grey for what is given.
-pub(super) const MEASURED: RGBColor = RGBColor(0x77, 0x77, 0x77);
+pub(super) const MEASURED: RGBColor = RGBColor(0x99, 0x99, 0x99);
 pub(super) const SIMULATED: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+pub(super) const ERROR: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const DESCENDING: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const ASCENDING: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
@@ -75,7 +76,9 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 pub(super) fn tick(length: f64) -> impl Fn(&f64) -> String {
     let decimals = (1.0 - length.log10().floor()).clamp(0.0, 9.0) as usize;
     move |x| {
-        let text = format!("{x:.decimals$}");
+        // Adding zero turns the −0 of rounding into 0.
+        let rounded = format!("{x:.decimals$}").parse::<f64>().unwrap_or(*x) + 0.0;
+        let text = format!("{rounded:.decimals$}");
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
             .replace('-', "−")
     }
