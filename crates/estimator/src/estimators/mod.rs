@@ -1,5 +1,6 @@
 //! Estimators: from a record to a system.
 
 mod estimate;
+pub mod free;
 
 pub use estimate::{BorderPoint, Estimate};
