@@ -10,3 +10,4 @@ pub mod plots;
 pub mod results;
 pub mod rig;
 pub mod scenario;
+pub mod study;
