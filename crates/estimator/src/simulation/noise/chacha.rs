@@ -48,6 +48,9 @@ pub(super) fn blocks<const L: usize>(
     counter: u64,
     out: &mut [[u32; L]; WORDS],
 ) {
+    // Words of one size throughout: a 64-bit value in the loop would halve the lanes that the compiler puts in a register.
+    let low = streams.map(|stream| stream as u32);
+    let high = streams.map(|stream| (stream >> 32) as u32);
     for l in 0..L {
         let start = [
             SIGMA[0],
@@ -64,8 +67,8 @@ pub(super) fn blocks<const L: usize>(
             key[7],
             counter as u32,
             (counter >> 32) as u32,
-            streams[l] as u32,
-            (streams[l] >> 32) as u32,
+            low[l],
+            high[l],
         ];
         let mut x = start;
         double_round!(x);

@@ -140,15 +140,12 @@ pub(super) struct Fold<'a> {
 impl Kernel for Fold<'_> {
     #[inline(always)]
     fn run<const L: usize>(self) {
-        let (mut e, _) = self.e.as_chunks::<L>();
-        let (fold, _) = self.fold.as_chunks_mut::<L>();
-        let mut phase = self.phase;
+        // Rows lie end to end: one long loop over them, not a loop over lanes within one over rows.
+        let (mut e, mut phase) = (self.e, self.phase * L);
         while !e.is_empty() {
-            let (now, rest) = e.split_at(e.len().min(fold.len() - phase));
-            for (sum, e) in fold[phase..].iter_mut().zip(now) {
-                for l in 0..L {
-                    sum[l] += e[l];
-                }
+            let (now, rest) = e.split_at(e.len().min(self.fold.len() - phase));
+            for (sum, e) in self.fold[phase..].iter_mut().zip(now) {
+                *sum += e;
             }
             phase = 0;
             e = rest;

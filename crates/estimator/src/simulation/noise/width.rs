@@ -43,7 +43,10 @@ impl Width {
             if std::is_x86_feature_detected!("avx2") {
                 widths.push(Self(Set::Avx2));
             }
-            if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
+            if std::is_x86_feature_detected!("avx512f")
+                && std::is_x86_feature_detected!("avx512dq")
+                && std::is_x86_feature_detected!("avx512vl")
+            {
                 widths.push(Self(Set::Avx512));
             }
         }
@@ -70,7 +73,7 @@ impl Width {
             // SAFETY: this variant is built by `available` alone, after the processor has reported AVX2.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { avx2(kernel) },
-            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX-512 F and DQ.
+            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX-512 F, DQ and VL.
             #[cfg(target_arch = "x86_64")]
             Set::Avx512 => unsafe { avx512(kernel) },
         }
@@ -84,7 +87,7 @@ fn avx2(kernel: impl Kernel) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn avx512(kernel: impl Kernel) {
     kernel.run::<16>();
 }
