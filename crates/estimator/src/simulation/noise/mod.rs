@@ -4,6 +4,7 @@
 //! branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at each checkpoint, what the estimators need: lag products, folds and
 //! edges ([`NoiseRecord`]). [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
 
+mod aligned;
 mod chacha;
 mod kernels;
 mod normal;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::aligned::Aligned;
 use super::kernels::{AutoProducts, AutoRegression, Fold, MovingAverage};
 use super::plan::{NoisePlan, NoisePlanError};
 use super::record::NoiseRecord;
@@ -32,12 +33,12 @@ pub struct NoisePass {
     plan: NoisePlan,
     width: Width,
     /// Rows of w: `ma.len()` past ones, then the block. Empty when there is no moving average.
-    w: Vec<f64>,
+    w: Aligned,
     /// Rows of e: `plan.history()` past ones, then the block.
-    e: Vec<f64>,
+    e: Aligned,
     /// Autoproducts of the whole blocks, and of the current one.
-    products: Vec<f64>,
-    block_products: Vec<f64>,
+    products: Aligned,
+    block_products: Aligned,
     /// Autoproducts of one replicate.
     autoproducts: Vec<f64>,
     folds: Vec<FoldSums>,
@@ -49,7 +50,7 @@ pub struct NoisePass {
 struct FoldSums {
     period: usize,
     phase: usize,
-    sums: Vec<f64>,
+    sums: Aligned,
 }
 
 impl NoisePass {
@@ -68,14 +69,14 @@ impl NoisePass {
         let folds = periods.iter().copied().filter(longest).map(|period| FoldSums {
             period,
             phase: 0,
-            sums: vec![0.0; period * lanes],
+            sums: Aligned::zeros(period * lanes),
         });
         Ok(Self {
             width,
-            w: if plan.ma.is_empty() { vec![] } else { vec![0.0; (plan.ma.len() + BLOCK) * lanes] },
-            e: vec![0.0; (plan.history() + BLOCK) * lanes],
-            products: vec![0.0; (plan.lags + 1) * lanes],
-            block_products: vec![0.0; (plan.lags + 1) * lanes],
+            w: if plan.ma.is_empty() { Aligned::zeros(0) } else { Aligned::zeros((plan.ma.len() + BLOCK) * lanes) },
+            e: Aligned::zeros((plan.history() + BLOCK) * lanes),
+            products: Aligned::zeros((plan.lags + 1) * lanes),
+            block_products: Aligned::zeros((plan.lags + 1) * lanes),
             autoproducts: vec![0.0; plan.lags + 1],
             folds: folds.collect(),
             records: vec![NoiseRecord::zeros(&plan); lanes],
@@ -176,7 +177,7 @@ impl NoisePass {
     /// Closes the block: its products join the total, its last rows become the past.
     fn end_block(&mut self) {
         let lanes = self.width.lanes();
-        for (total, block) in self.products.iter_mut().zip(&mut self.block_products) {
+        for (total, block) in self.products.iter_mut().zip(self.block_products.iter_mut()) {
             *total += *block;
             *block = 0.0;
         }

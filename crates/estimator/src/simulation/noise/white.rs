@@ -99,6 +99,10 @@ impl WhiteNoise {
     }
 }
 
+/// One block of every lane, from the start of a cache line on.
+#[repr(align(64))]
+struct Words<const L: usize>([[u32; L]; WORDS]);
+
 /// Fills `out` with the blocks from `counter` on.
 struct Fill<'a> {
     key: &'a Key,
@@ -113,11 +117,11 @@ impl Kernel for Fill<'_> {
         let (rows, _) = self.out.as_chunks_mut::<L>();
         let (blocks, _) = rows.as_chunks_mut::<PER_BLOCK>();
         let streams: &[u64; L] = self.streams.try_into().expect("one stream a lane");
-        let mut words = [[0; L]; WORDS];
+        let mut words = Words([[0; L]; WORDS]);
         for (counter, rows) in (self.counter..).zip(blocks) {
-            chacha::blocks(self.key, streams, counter, &mut words);
+            chacha::blocks(self.key, streams, counter, &mut words.0);
             for q in 0..PER_BLOCK / 2 {
-                let (w, x) = (&words[4 * q..4 * q + 4], &mut rows[2 * q..2 * q + 2]);
+                let (w, x) = (&words.0[4 * q..4 * q + 4], &mut rows[2 * q..2 * q + 2]);
                 let mut first = [0.0; L];
                 let mut second = [0.0; L];
                 for l in 0..L {
