@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::aligned::Aligned;
-use super::kernels::{AutoProducts, AutoRegression, Fold, MovingAverage};
+use super::kernels::{Advance, Fold, MovingAverage};
 use super::plan::{NoisePlan, NoisePlanError};
 use super::record::NoiseRecord;
 use super::white::{BLOCK, StreamId, WhiteNoise};
@@ -73,7 +73,11 @@ impl NoisePass {
         });
         Ok(Self {
             width,
-            w: if plan.ma.is_empty() { Aligned::zeros(0) } else { Aligned::zeros((plan.ma.len() + BLOCK) * lanes) },
+            w: if plan.ma.is_empty() {
+                Aligned::zeros(0)
+            } else {
+                Aligned::zeros((plan.ma.len() + BLOCK) * lanes)
+            },
             e: Aligned::zeros((plan.history() + BLOCK) * lanes),
             products: Aligned::zeros((plan.lags + 1) * lanes),
             block_products: Aligned::zeros((plan.lags + 1) * lanes),
@@ -108,26 +112,27 @@ impl NoisePass {
     /// Fills the records, one a lane.
     fn run_lanes(&mut self, noise: &mut WhiteNoise) {
         self.rest();
-        // Samples from −burn_in; `origin` is t = 0.
-        let origin = self.plan.burn_in;
-        let mut start = 0;
-        let mut next = 0;
-        if origin == 0 {
-            self.record_head(self.plan.history());
-        }
-        while next < self.plan.checkpoints.len() {
-            self.filter(noise);
+        // Samples are counted from −burn_in; `origin` is t = 0. A block is cut where something has to be done between two samples.
+        let (origin, history) = (self.plan.burn_in, self.plan.history());
+        let (mut start, mut next) = (0, 0);
+        while let Some(last) = self.plan.checkpoints.last()
+            && start < origin + last
+        {
+            self.draw(noise);
             let end = start + BLOCK;
-            let mut t = start.max(origin.min(end));
-            if start < origin && origin <= end {
-                self.record_head(self.plan.history() + origin - start);
-            }
+            let mut t = start;
             while t < end && next < self.plan.checkpoints.len() {
-                let checkpoint = origin + self.plan.checkpoints[next];
-                let stop = checkpoint.min(end);
-                self.accumulate(self.plan.history() + t - start, self.plan.history() + stop - start);
-                if stop == checkpoint {
-                    self.record(next, self.plan.history() + stop - start);
+                let event = if t < origin { origin } else { origin + self.plan.checkpoints[next] };
+                let stop = event.min(end);
+                let rows = history + t - start..history + stop - start;
+                self.advance(rows.clone());
+                if t >= origin {
+                    self.fold(rows.clone());
+                }
+                if stop == origin {
+                    self.begin(rows.end);
+                } else if stop == event {
+                    self.record(next, rows.end);
                     next += 1;
                 }
                 t = stop;
@@ -148,29 +153,33 @@ impl NoisePass {
         }
     }
 
-    /// The next block of e.
-    fn filter(&mut self, noise: &mut WhiteNoise) {
+    /// The next block of w, and of C w in the rows of e.
+    fn draw(&mut self, noise: &mut WhiteNoise) {
         let lanes = self.width.lanes();
-        let history = self.plan.history();
-        let block = &mut self.e[history * lanes..];
+        let block = &mut self.e[self.plan.history() * lanes..];
         if self.plan.ma.is_empty() {
             noise.fill(block);
         } else {
             noise.fill(&mut self.w[self.plan.ma.len() * lanes..]);
             self.width.run(MovingAverage { ma: &self.plan.ma, w: &self.w, x: block });
         }
-        self.width.run(AutoRegression { ar: &self.plan.ar, history, e: &mut self.e });
     }
 
-    /// Adds rows `from..to` of e to the sums.
-    fn accumulate(&mut self, from: usize, to: usize) {
+    /// Turns C w into e over some rows, and adds up their products.
+    fn advance(&mut self, rows: Range<usize>) {
         let lanes = self.width.lanes();
-        let e = &self.e[(from - self.plan.lags) * lanes..to * lanes];
-        self.width.run(AutoProducts { e, sums: &mut self.block_products });
-        let e = &self.e[from * lanes..to * lanes];
+        let history = self.plan.history();
+        let e = &mut self.e[(rows.start - history) * lanes..rows.end * lanes];
+        self.width.run(Advance { ar: &self.plan.ar, history, e, sums: &mut self.block_products });
+    }
+
+    /// Adds some rows of e to the folds.
+    fn fold(&mut self, rows: Range<usize>) {
+        let lanes = self.width.lanes();
+        let e = &self.e[rows.start * lanes..rows.end * lanes];
         for fold in &mut self.folds {
             self.width.run(Fold { e, fold: &mut fold.sums, phase: fold.phase });
-            fold.phase = (fold.phase + to - from) % fold.period;
+            fold.phase = (fold.phase + rows.len()) % fold.period;
         }
     }
 
@@ -187,13 +196,14 @@ impl NoisePass {
         }
     }
 
-    /// Records the n rows of e before row `to` as the head.
-    fn record_head(&mut self, to: usize) {
-        let n = self.plan.lags;
-        let (e, lanes) = (&self.e, self.width.lanes());
+    /// Begins the sums at t = 0, which comes just before row `to`: forgets the products of the burn-in, records the head.
+    fn begin(&mut self, to: usize) {
+        self.products.fill(0.0);
+        self.block_products.fill(0.0);
+        let (n, lanes) = (self.plan.lags, self.width.lanes());
         for (l, record) in self.records.iter_mut().enumerate() {
             for (i, head) in record.head.iter_mut().enumerate() {
-                *head = e[(to - n + i) * lanes + l];
+                *head = self.e[(to - n + i) * lanes + l];
             }
         }
     }
