@@ -11,7 +11,7 @@ use super::width::{Kernel, Width};
 const PER_BLOCK: usize = WORDS / 2;
 
 /// Samples a replicate that [`WhiteNoise::fill`] gives at a time.
-pub const BLOCK: usize = 64;
+pub const BLOCK: usize = 128;
 
 /// Names the noise of one replicate of one experiment of one study.
 ///

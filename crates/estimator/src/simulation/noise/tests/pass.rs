@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use crate::simulation::noise::{
-    NoisePass, NoisePlan, NoisePlanError, NoiseRecord, StreamId, Width, record_by_definition,
+    Checkpoint, NoisePass, NoisePlan, NoisePlanError, NoiseRecord, StreamId, Width, record_by_definition,
     settling_samples,
 };
 
@@ -142,4 +142,15 @@ fn the_burn_in_makes_the_start_stationary() {
     let mean = sum / f64::from(count);
     let error = variance * (2.0 / f64::from(count)).sqrt();
     assert!((mean - variance).abs() < 4.0 * error, "{mean} against {variance} ± {error}");
+}
+
+#[test]
+fn value_stability() {
+    let record = &records(&valid(), Width::detect(), 1)[0];
+    let Checkpoint { lag_products, folds, tail, .. } = &record.checkpoints[0];
+    assert_eq!(
+        [lag_products[(0, 0)], lag_products[(1, 2)], folds[0][21]],
+        [2282.6098910597275, 2089.037229296324, 12.306832789242948]
+    );
+    assert_eq!([record.head[0], tail[1]], [4.966440648567698, -0.05523819090723414]);
 }
