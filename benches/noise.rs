@@ -1,6 +1,8 @@
-//! The noise: white normals in lanes beside the ziggurat of `rand_distr` over the same cipher, and the pass that consumes them.
+//! The noise: white normals in lanes beside the ziggurat of `rand_distr` over the same cipher, and the pass
+//! that consumes them.
 //!
-//! Times are per normal (one sample of one replicate), so that `pass` over `white` at the same width is the cost of everything but the noise.
+//! Times are per normal (one sample of one replicate), so that `pass` over `white` at the same width is the
+//! cost of everything but the noise.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -41,7 +43,7 @@ fn white(c: &mut Criterion) {
     for width in Width::available() {
         let mut noise = WhiteNoise::new(width, StreamId { seed: 1, experiment: 0, replicate: 0 });
         let mut block = vec![0.0; BLOCK * noise.lanes()];
-        group.bench_function(format!("{} lanes", noise.lanes()), |b| {
+        group.bench_function(format!("lanes = {}", noise.lanes()), |b| {
             b.iter(|| {
                 for _ in 0..count / block.len() {
                     noise.fill(&mut block);
@@ -53,7 +55,8 @@ fn white(c: &mut Criterion) {
     group.finish();
 }
 
-/// Second-order noise, as for a leaf spring: folds of one design (m = 8, s = 2) and of a sweep over m with its step experiments.
+/// Second-order noise, as for a leaf spring: folds of one design (m = 8, s = 2) and of a sweep over m with
+/// its step experiments.
 fn pass(c: &mut Criterion) {
     let mut group = c.benchmark_group("pass");
     group.throughput(Throughput::Elements(SAMPLES as u64 * u64::from(REPLICATES)));
@@ -68,7 +71,7 @@ fn pass(c: &mut Criterion) {
                 burn_in: 0,
             };
             let mut pass = NoisePass::new(plan, width).expect("the plan is valid");
-            group.bench_function(format!("{name}, {} lanes", width.lanes()), |b| {
+            group.bench_function(format!("{name}, lanes = {}", width.lanes()), |b| {
                 b.iter(|| {
                     pass.run(1, 0, 0..REPLICATES, |_, record| {
                         black_box(record);

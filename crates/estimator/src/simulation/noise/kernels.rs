@@ -5,7 +5,8 @@ use super::width::Kernel;
 /// Lags whose sums stay in registers together.
 const LAGS_AT_ONCE: usize = 4;
 
-/// `x(t) = w(t) + Σ_j c_j w(t−j)` over a block; the rows of `w` begin with as many past samples as `ma` has coefficients.
+/// `x(t) = w(t) + Σ_j c_j w(t−j)` over a block; the rows of `w` begin with as many past samples as `ma` has
+/// coefficients.
 pub(super) struct MovingAverage<'a> {
     pub(super) ma: &'a [f64],
     pub(super) w: &'a [f64],
@@ -48,7 +49,8 @@ impl Kernel for Advance<'_> {
         let (sums, _) = self.sums.as_chunks_mut::<L>();
         let rows = &mut e[self.history - self.ar.len()..];
         match (self.ar, &mut *sums) {
-            // An estimator of the right order asks for as many lags as the filter has coefficients: both in one go.
+            // An estimator of the right order asks for as many lags as the filter has coefficients: both in
+            // one go.
             ([a1], [_, _]) => recursion_with_products(&[*a1], rows, sums),
             ([a1, a2], [_, _, _]) => recursion_with_products(&[*a1, *a2], rows, sums),
             ([a1, a2, a3], [_, _, _, _]) => recursion_with_products(&[*a1, *a2, *a3], rows, sums),
@@ -62,8 +64,8 @@ impl Kernel for Advance<'_> {
     }
 }
 
-/// Recursion and products with the past and the sums in registers. The newest term of the recursion comes last: it alone waits
-/// for the sample before, and the products fill the wait.
+/// Recursion and products with the past and the sums in registers. The newest term of the recursion comes
+/// last: it alone waits for the sample before, and the products fill the wait.
 #[inline(always)]
 fn recursion_with_products<const L: usize, const P: usize>(
     a: &[f64; P],

@@ -9,11 +9,14 @@ use super::record::NoiseRecord;
 use super::white::{BLOCK, StreamId, WhiteNoise};
 use super::width::Width;
 
-/// Runs a [`NoisePlan`] over many replicates, a lane each, in memory of its own that grows with neither samples nor replicates.
+/// Runs a [`NoisePlan`] over many replicates, a lane each, in memory of its own that grows with neither
+/// samples nor replicates.
 ///
-/// Sums of products are taken over blocks of 64 samples and the blocks then added up, folds are added up in order, all in `f64`: at N = 10⁶
-/// the rounding error of a sum is of the order of 10⁻¹³ of the sum of its terms' moduli, far below the Monte-Carlo error. Results of
-/// one replicate are the same bits whatever the width, and whatever the other replicates of the call.
+/// Sums of products are taken over blocks of [`BLOCK`] samples and the blocks then added up, folds are added
+/// up in order, all in `f64`: at N = 10⁶ the rounding error of a sum is below 10⁻¹³ of the sum of its terms'
+/// moduli, far below the Monte-Carlo error. Results of one replicate are the same bits whatever the width,
+/// and whatever the other replicates of the call. Threads each take a pass of their own (a clone) and ranges
+/// of replicates.
 ///
 /// ```
 /// # use switchback_estimator::simulation::noise::{NoisePass, NoisePlan, Width};
@@ -90,7 +93,8 @@ impl NoisePass {
 
     /// Visits the record of every replicate, in order.
     ///
-    /// A range that is a multiple of [`Width::lanes`] wastes no lane.
+    /// A range that is a multiple of [`Width::lanes`] wastes no lane. Allocates nothing for the replicates
+    /// themselves; `visit` clones what it keeps.
     pub fn run(
         &mut self,
         seed: u64,
@@ -112,7 +116,8 @@ impl NoisePass {
     /// Fills the records, one a lane.
     fn run_lanes(&mut self, noise: &mut WhiteNoise) {
         self.rest();
-        // Samples are counted from −burn_in; `origin` is t = 0. A block is cut where something has to be done between two samples.
+        // Samples are counted from −burn_in; `origin` is t = 0. A block is cut where something has to be done
+        // between two samples.
         let (origin, history) = (self.plan.burn_in, self.plan.history());
         let (mut start, mut next) = (0, 0);
         while let Some(last) = self.plan.checkpoints.last()
@@ -196,7 +201,8 @@ impl NoisePass {
         }
     }
 
-    /// Begins the sums at t = 0, which comes just before row `to`: forgets the products of the burn-in, records the head.
+    /// Begins the sums at t = 0, which comes just before row `to`: forgets the products of the burn-in,
+    /// records the head.
     fn begin(&mut self, to: usize) {
         self.products.fill(0.0);
         self.block_products.fill(0.0);

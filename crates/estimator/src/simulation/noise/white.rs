@@ -15,8 +15,8 @@ pub const BLOCK: usize = 128;
 
 /// Names the noise of one replicate of one experiment of one study.
 ///
-/// The noise is ChaCha8 under the key that `ChaCha8Rng::seed_from_u64(seed)` derives, on stream number [`Self::number`], from its first block.
-/// Different streams of one key do not overlap.
+/// The noise is ChaCha8 under the key that `ChaCha8Rng::seed_from_u64(seed)` derives, on stream number
+/// [`Self::number`], from its first block. Different streams of one key do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StreamId {
     /// Seed of the study.
@@ -36,8 +36,8 @@ impl StreamId {
 
 /// White normal noise of as many replicates as the width has lanes, in blocks of [`BLOCK`] samples.
 ///
-/// Lane `l` carries replicate `first.replicate + l` (modulo 2³²). Its noise depends on its own [`StreamId`] alone: not on the width, its neighbours
-/// or the thread.
+/// Lane `l` carries replicate `first.replicate + l` (modulo 2³²). Its noise depends on its own [`StreamId`]
+/// alone: not on the width, its neighbours or the thread.
 ///
 /// ```
 /// # use switchback_estimator::simulation::noise::{BLOCK, StreamId, WhiteNoise, Width};
