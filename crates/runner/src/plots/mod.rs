@@ -1,4 +1,4 @@
-//! Figures, drawn from result tables alone.
+//! Figures, drawn from results alone.
 //!
 //! A figure's bytes depend on the table's values only. [`Sheet`](sheet::Sheet), [`Panel`](panel::Panel) and
 //! [`Axis`](axis::Axis) are the parts every figure is made of; `convergence` and `borders` are the figures of a
@@ -8,6 +8,7 @@ pub mod axis;
 mod borders;
 pub mod canvas;
 mod convergence;
+pub mod identify;
 pub mod legend;
 pub mod palette;
 pub mod panel;
