@@ -19,6 +19,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    Compare(cmd::compare::Args),
     Identify(cmd::identify::Args),
 }
 
@@ -29,6 +30,7 @@ impl Cli {
     /// The report of an input that could not be used.
     pub fn run(self) -> CommandResult {
         match self.verb {
+            Verb::Compare(args) => cmd::compare::run(&args),
             Verb::Identify(args) => cmd::identify::run(&args),
         }
     }
