@@ -113,6 +113,21 @@ fn columns_are_found_by_name_in_any_order_beside_others() {
 }
 
 #[test]
+fn records_of_the_same_name_in_different_folders_are_told_apart() {
+    let folder = Folder::with_good_rig();
+    for sub in ["one", "two"] {
+        fs::create_dir(folder.path(sub)).expect("writable");
+        fs::copy(folder.path("again.csv"), folder.path(sub).join("again.csv")).expect("writable");
+    }
+    let more =
+        |file: &str| format!("[[record]]\nfile = \"{file}\"\nrole = \"descendant\"\nuse = \"holdout\"\n");
+    folder.edit("rig.toml", |text| format!("{text}\n{}{}", more("one/again.csv"), more("two/again.csv")));
+    let fits = identified(&folder, &["--out", "report"])["fit_percent"].clone();
+    let names: Vec<&String> = fits.as_object().expect("an object").keys().collect();
+    assert_eq!(names, ["again", "ascendant", "descendant", "one-again", "two-again"]);
+}
+
+#[test]
 fn the_order_is_chosen_from_the_data_where_it_is_not_given() {
     let folder = Folder::with_good_rig();
     folder.replace_line("rig.toml", 3, "");

@@ -53,7 +53,7 @@ fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artef
     artefacts.add("estimate.json", identification::json(rig, identification));
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
-        let name = format!("measured_and_simulated_{}.svg", record.name.replace(['/', '\\'], "-"));
+        let name = format!("measured_and_simulated_{}.svg", record.name);
         artefacts.add(name, plots::identify::outputs(rig, record, run)?);
     }
     if let Some(svg) = plots::identify::borders(rig, identification)? {

@@ -27,7 +27,7 @@ pub fn borders(rig: &Rig, identification: &Identification) -> Result<Option<Stri
     }
     let points = || drawn.iter().flat_map(|(_, _, points)| points.iter());
     let input = range(points().map(|p| p.v));
-    let output = range(points().flat_map(|p| interval(p)));
+    let output = range(points().flat_map(interval));
     let names: Vec<_> = drawn.iter().map(|(name, colour, _)| (*name, *colour)).collect();
     let title = format!("{}: borders found by {}, with 95 % intervals", rig.name, identification.method);
 
