@@ -54,8 +54,8 @@ pub(super) fn header<'a>(
         let sample = PathElement::new([(x, 49), (x + 26, 49)], colour.stroke_width(3));
         head.draw(&sample).map_err(PlotError::new)?;
         head.draw(&Text::new((*name).to_owned(), (x + 33, 42), letters(15))).map_err(PlotError::new)?;
-        // A letter of this size takes about eight pixels.
-        x += 33 + 8 * name.chars().count() as i32 + 26;
+        // A letter of this size takes about seven pixels.
+        x += 33 + 7 * name.chars().count() as i32 + 26;
     }
     Ok(body)
 }
