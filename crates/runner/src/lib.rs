@@ -7,4 +7,6 @@ pub mod identification;
 pub mod input;
 pub mod output;
 pub mod plots;
+pub mod results;
 pub mod rig;
+pub mod scenario;

@@ -6,6 +6,7 @@
 mod direction;
 mod error;
 mod free;
+mod levels;
 mod pulse;
 mod step;
 

@@ -1,5 +1,6 @@
 //! The descendant (3.1) and ascendant (4.1) experiments.
 
+use super::levels::check_levels;
 use super::{Direction, ExcitationError};
 use crate::hysteresis::Interval;
 
@@ -59,8 +60,13 @@ impl PulseExperiment {
         points: usize,
         order: usize,
     ) -> Result<Self, ExcitationError> {
-        let towards_satellite = direction.satellite(interval) - direction.opposite(interval);
-        let level = |j| direction.opposite(interval) + towards_satellite * (j as f64 / points as f64);
+        let (start, satellite) = (direction.opposite(interval), direction.satellite(interval));
+        // Weighting the ends rounds decimal levels to themselves (−0.2, not −0.19999999999999996), as rig files have
+        // them; at the first level it could miss the end.
+        let level = |j| match j {
+            0 => start,
+            _ => (start * (points - j) as f64 + satellite * j as f64) / points as f64,
+        };
         Self::with_levels(interval, direction, (0..points).map(level).collect(), order)
     }
 
@@ -191,32 +197,87 @@ fn least_spacing(order: usize) -> usize {
     order.max(2)
 }
 
-fn check_levels(interval: Interval, direction: Direction, levels: &[f64]) -> Result<(), ExcitationError> {
-    let satellite = direction.satellite(interval);
-    let expected = direction.opposite(interval);
-    for (index, &value) in levels.iter().enumerate() {
-        let number = index + 1;
-        if !interval.contains(value) {
-            let (low, high) = (interval.low(), interval.high());
-            return Err(ExcitationError::OutsideInterval { number, value, low, high });
-        }
-        if value == satellite {
-            return Err(ExcitationError::AtSatellite { number, value, direction });
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Direction::{Ascendant, Descendant};
+
+    fn interval() -> Interval {
+        Interval::new(-1.0, 1.0).unwrap()
     }
-    let first = *levels.first().ok_or(ExcitationError::NoLevels)?;
-    if first != expected {
-        return Err(ExcitationError::FirstLevel { value: first, expected, direction });
+
+    #[test]
+    fn one_level_makes_a_period_of_four_spacings() {
+        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 1, 3).unwrap();
+        assert_eq!((experiment.spacing(), experiment.period(), experiment.visit_phase(0)), (3, 12, 6));
     }
-    for (index, pair) in levels.windows(2).enumerate() {
-        let (previous, value) = (pair[0], pair[1]);
-        let towards_satellite = match direction {
-            Direction::Descendant => value > previous,
-            Direction::Ascendant => value < previous,
+
+    #[test]
+    fn the_ascendant_experiment_is_the_mirror_image() {
+        let experiment = |direction| PulseExperiment::evenly_spaced(interval(), direction, 5, 2).unwrap();
+        let mirrored: Vec<f64> = experiment(Descendant).record_input(40).iter().map(|v| -v).collect();
+        assert_eq!(experiment(Ascendant).record_input(40), mirrored);
+    }
+
+    #[test]
+    fn eight_levels_of_a_second_order_rig_give_the_known_input() {
+        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 8, 2).unwrap();
+        let expected = [
+            -1.0, 1.0, 1.0, 1.0, 1.0, -1.0, 1.0, 1.0, 1.0, -0.75, 1.0, -0.5, 1.0, -0.25, 1.0, 0.0, 1.0, 0.25,
+            1.0, 0.5, 1.0, 0.75, 1.0, 1.0, 1.0, 1.0, 1.0, -1.0, 1.0,
+        ];
+        assert_eq!(experiment.record_input(28), expected);
+    }
+
+    #[test]
+    fn an_experiment_without_levels_or_order_is_refused() {
+        let build = |points, order| PulseExperiment::evenly_spaced(interval(), Descendant, points, order);
+        assert_eq!(build(0, 2).unwrap_err(), ExcitationError::NoLevels);
+        assert_eq!(build(4, 0).unwrap_err(), ExcitationError::ZeroOrder);
+    }
+
+    #[test]
+    fn decimal_levels_come_out_as_written() {
+        let levels = |direction| {
+            PulseExperiment::evenly_spaced(interval(), direction, 5, 1).unwrap().levels().to_vec()
         };
-        if !towards_satellite {
-            return Err(ExcitationError::NotOrdered { number: index + 2, value, previous, direction });
-        }
+        assert_eq!(levels(Descendant), [-1.0, -0.6, -0.2, 0.2, 0.6]);
+        assert_eq!(levels(Ascendant), [1.0, 0.6, 0.2, -0.2, -0.6]);
     }
-    Ok(())
+
+    #[test]
+    fn more_levels_than_an_interval_can_tell_apart_are_refused() {
+        let narrow = Interval::new(1.0, 1.0 + 4.0 * f64::EPSILON).unwrap();
+        let error = PulseExperiment::evenly_spaced(narrow, Descendant, 64, 1).unwrap_err();
+        assert!(matches!(error, ExcitationError::NotOrdered { .. } | ExcitationError::AtSatellite { .. }));
+    }
+
+    #[test]
+    fn a_spacing_that_unmasks_the_memory_is_refused_with_the_reason() {
+        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 4, 1).unwrap();
+        let message = experiment.with_spacing(1).unwrap_err().to_string();
+        assert!(
+            message.contains("spacing = 1") && message.contains("wrong border") && message.ends_with("= 2")
+        );
+    }
+
+    #[test]
+    fn a_spacing_below_the_order_is_refused_because_pulses_overlap() {
+        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 4, 4).unwrap();
+        assert_eq!(
+            experiment.clone().with_spacing(3),
+            Err(ExcitationError::PulsesOverlap { spacing: 3, order: 4 })
+        );
+        let message = experiment.with_spacing(1).unwrap_err().to_string();
+        assert!(message.ends_with("= 4"), "the remedy counts both reasons: {message}");
+    }
+
+    #[test]
+    fn a_study_may_break_the_masking_on_purpose_but_not_the_period() {
+        let experiment = |points| PulseExperiment::evenly_spaced(interval(), Descendant, points, 1).unwrap();
+        assert!(!experiment(3).with_spacing_unmasked(1).unwrap().masks_memory());
+        assert!(experiment(2).with_spacing_unmasked(1).unwrap().masks_memory(), "V₁ and V₂ stay two apart");
+        assert_eq!(experiment(3).with_spacing_unmasked(0), Err(ExcitationError::ZeroSpacing));
+        assert_eq!(experiment(3).with_spacing(0), Err(ExcitationError::ZeroSpacing));
+    }
 }

@@ -70,3 +70,50 @@ fn piecewise(pieces: &[Piece], v: f64) -> f64 {
     let piece = &pieces[begun.saturating_sub(1)];
     piece.value + piece.slope * (v - piece.from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flat(from: f64, value: f64) -> Piece {
+        Piece { from, value, slope: 0.0 }
+    }
+
+    #[test]
+    fn every_position_belongs_to_exactly_one_piece() {
+        let up = vec![flat(-1.0, 1.0), flat(0.0, 2.0), flat(0.5, 3.0)];
+        let borders = Discontinuous::new(up, vec![flat(0.0, 0.0)]).unwrap();
+        let values = [-9.0, -1.0, -0.001, 0.0, 0.499, 0.5, 9.0].map(|v| borders.ascending(v));
+        assert_eq!(values, [1.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn the_outer_pieces_go_on_with_their_slopes() {
+        let line = Piece { from: 0.0, value: 1.0, slope: 2.0 };
+        let borders = Discontinuous::new(vec![line], vec![line]).unwrap();
+        assert_eq!((borders.ascending(-3.0), borders.descending(3.0)), (-5.0, 7.0));
+    }
+
+    #[test]
+    fn a_border_without_pieces_is_refused() {
+        let error = Discontinuous::new(vec![], vec![flat(0.0, 0.0)]).unwrap_err();
+        assert_eq!(error.to_string(), "ascending is an empty list: give at least one entry");
+    }
+
+    #[test]
+    fn pieces_out_of_order_are_refused_by_entry() {
+        let error =
+            Discontinuous::new(vec![flat(0.0, 0.0)], vec![flat(0.5, 0.0), flat(0.5, 1.0)]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "descending[1].from = 0.5 follows 0.5: positions must strictly increase; sort them and drop repetitions"
+        );
+    }
+
+    #[test]
+    fn a_slope_that_is_not_finite_is_refused_by_entry() {
+        let steep = Piece { slope: f64::INFINITY, ..flat(1.0, 0.0) };
+        let error = Discontinuous::new(vec![flat(0.0, 0.0), steep], vec![flat(0.0, 0.0)]).unwrap_err();
+        assert_eq!(error.to_string(), "ascending[1].slope = inf: give a finite number");
+    }
+}

@@ -93,3 +93,31 @@ impl BorderPair for General {
         self.descending.at(v)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CURVE: SaturatingCurve =
+        SaturatingCurve { offset: 0.5, amplitude: 2.0, centre: 1.0, width: 0.25, slope: 0.0, curvature: 0.0 };
+
+    #[test]
+    fn without_a_base_line_the_curve_saturates_at_its_amplitude() {
+        let borders = General::new(CURVE, CURVE).unwrap();
+        assert!((borders.ascending(20.0) - 2.5).abs() < 1e-12);
+        assert!((borders.descending(-20.0) + 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_an_s_the_curve_is_a_parabola_about_its_centre() {
+        let parabola = SaturatingCurve { amplitude: 0.0, slope: 3.0, curvature: 0.5, ..CURVE };
+        let borders = General::new(parabola, CURVE).unwrap();
+        assert_eq!(borders.ascending(3.0), 0.5 + 3.0 * 2.0 + 0.5 * 4.0);
+    }
+
+    #[test]
+    fn a_negative_width_is_refused() {
+        let error = General::new(SaturatingCurve { width: -1.0, ..CURVE }, CURVE).unwrap_err();
+        assert_eq!(error.to_string(), "ascending.width = -1: give a number above zero");
+    }
+}

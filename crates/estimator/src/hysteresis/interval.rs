@@ -54,3 +54,25 @@ impl Interval {
         (self.low..=self.high).contains(&v)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_that_are_equal_swapped_or_not_finite_are_refused() {
+        for (low, high) in
+            [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1.7e308, 1.7e308)]
+        {
+            assert!(Interval::new(low, high).is_err());
+        }
+    }
+
+    #[test]
+    fn both_ends_belong_to_the_interval() {
+        let interval = Interval::new(-1.0, 2.0).unwrap();
+        assert!(interval.contains(-1.0) && interval.contains(2.0) && interval.contains(0.0));
+        assert!(!interval.contains(2.1) && !interval.contains(f64::NAN));
+        assert_eq!(interval.width(), 3.0);
+    }
+}

@@ -70,3 +70,38 @@ impl BorderPair for LeafSpring {
         self.elastic(v) - self.friction
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_borders_lie_twice_the_friction_apart_everywhere() {
+        let spring = LeafSpring::hardening(0.5, 0.25, 1.5).unwrap();
+        for x in [-4.0, -1.0, 0.0, 2.0, 8.0] {
+            assert_eq!(spring.ascending(x) - spring.descending(x), 3.0);
+        }
+    }
+
+    #[test]
+    fn hardening_adds_a_cube_and_constant_stiffness_none() {
+        let (hard, plain) =
+            (LeafSpring::hardening(0.5, 0.25, 1.5).unwrap(), LeafSpring::constant(0.5, 1.5).unwrap());
+        for x in [-2.0, 0.0, 4.0] {
+            assert_eq!(hard.ascending(x) - plain.ascending(x), 0.25 * x * x * x);
+        }
+    }
+
+    #[test]
+    fn negative_friction_is_refused() {
+        let error = LeafSpring::constant(1.0, -0.5).unwrap_err();
+        assert_eq!(error.to_string(), "friction = -0.5: give a number that is not negative");
+    }
+
+    #[test]
+    fn parameters_that_are_not_finite_are_refused() {
+        for (k0, k2, fc) in [(f64::NAN, 0.0, 0.0), (0.0, f64::INFINITY, 0.0), (0.0, 0.0, f64::NAN)] {
+            assert!(matches!(LeafSpring::hardening(k0, k2, fc), Err(BorderError::NotFinite { .. })));
+        }
+    }
+}

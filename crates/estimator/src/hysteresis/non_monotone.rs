@@ -110,3 +110,30 @@ impl BorderPair for NonMonotone {
         self.descending.at(v)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WAVE: Wave = Wave { offset: 0.0, slope: 1.0, amplitude: 1.0, wavelength: 2.0, phase: 0.5 };
+
+    #[test]
+    fn one_border_that_turns_is_enough() {
+        let still = Wave { amplitude: 0.0, ..WAVE };
+        assert!(NonMonotone::new(WAVE, still).is_ok());
+        assert!(NonMonotone::new(still, WAVE).is_ok());
+        assert!(matches!(NonMonotone::new(still, still), Err(BorderError::Monotone { .. })));
+    }
+
+    #[test]
+    fn whole_waves_apart_only_the_line_differs() {
+        let borders = NonMonotone::new(WAVE, WAVE).unwrap();
+        assert!((borders.ascending(3.3) - borders.ascending(1.3) - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wavelength_of_zero_is_refused() {
+        let error = NonMonotone::new(WAVE, Wave { wavelength: 0.0, ..WAVE }).unwrap_err();
+        assert_eq!(error.to_string(), "descending.wavelength = 0: give a number above zero");
+    }
+}

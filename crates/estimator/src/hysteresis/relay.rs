@@ -63,3 +63,39 @@ impl BorderPair for Relay {
         if v > self.descending_threshold { self.high } else { self.low }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hysteresis::{Interval, SwitchedHysteresis};
+
+    #[test]
+    fn levels_that_are_equal_or_swapped_are_refused() {
+        for levels in [(1.0, 1.0), (2.0, -1.0)] {
+            assert!(matches!(Relay::new(levels, 0.0, 0.0), Err(BorderError::RelayLevels { .. })));
+        }
+    }
+
+    #[test]
+    fn thresholds_may_lie_in_either_order() {
+        let early = Relay::new((0.0, 1.0), -0.3, 0.3).unwrap();
+        assert_eq!((early.ascending(0.0), early.descending(0.0)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn a_relay_that_does_not_switch_inside_the_interval_fails_assumption_1() {
+        let interval = Interval::new(-1.0, 1.0).unwrap();
+        let builds = |up, down| {
+            SwitchedHysteresis::new(interval, Box::new(Relay::new((0.0, 1.0), up, down).unwrap())).is_ok()
+        };
+        assert!(builds(1.0, -1.0), "both ends of the interval count as inside");
+        assert!(!builds(1.1, 0.0));
+        assert!(!builds(0.0, -1.1));
+    }
+
+    #[test]
+    fn a_threshold_that_is_not_finite_is_named() {
+        let error = Relay::new((0.0, 1.0), 0.0, f64::NEG_INFINITY).unwrap_err();
+        assert_eq!(error.to_string(), "descending_threshold = -inf: give a finite number");
+    }
+}

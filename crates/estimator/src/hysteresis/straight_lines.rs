@@ -64,3 +64,17 @@ impl BorderPair for StraightLines {
         self.descending.at(v)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_that_is_not_finite_is_named_with_its_border() {
+        let line = Line { slope: 1.0, offset: 0.0 };
+        let error = StraightLines::new(line, Line { slope: f64::NAN, ..line }).unwrap_err();
+        assert_eq!(error.to_string(), "descending.slope = NaN: give a finite number");
+        let error = StraightLines::new(Line { offset: f64::INFINITY, ..line }, line).unwrap_err();
+        assert_eq!(error.to_string(), "ascending.offset = inf: give a finite number");
+    }
+}

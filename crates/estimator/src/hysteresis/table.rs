@@ -70,3 +70,48 @@ fn interpolate(points: &[TablePoint], v: f64) -> f64 {
         None => from.u,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(pairs: &[(f64, f64)]) -> Vec<TablePoint> {
+        pairs.iter().map(|&(v, u)| TablePoint { v, u }).collect()
+    }
+
+    #[test]
+    fn each_point_is_taken_exactly() {
+        let given = points(&[(-0.7, 0.1), (0.1, -0.3), (0.3, 0.9), (1.1, 0.2)]);
+        let table = Table::new(given.clone(), given.clone()).unwrap();
+        for point in given {
+            assert_eq!((table.ascending(point.v), table.descending(point.v)), (point.u, point.u));
+        }
+    }
+
+    #[test]
+    fn one_point_makes_a_constant_border() {
+        let table = Table::new(points(&[(0.0, 2.0)]), points(&[(0.0, -2.0)])).unwrap();
+        for v in [-5.0, 0.0, 5.0] {
+            assert_eq!((table.ascending(v), table.descending(v)), (2.0, -2.0));
+        }
+    }
+
+    #[test]
+    fn a_table_without_points_is_refused() {
+        let error = Table::new(points(&[(0.0, 0.0)]), vec![]).unwrap_err();
+        assert_eq!(error, BorderError::Empty { parameter: "descending".to_owned() });
+    }
+
+    #[test]
+    fn points_that_do_not_increase_are_refused_by_entry() {
+        let error =
+            Table::new(points(&[(0.0, 0.0), (1.0, 1.0), (0.5, 2.0)]), points(&[(0.0, 0.0)])).unwrap_err();
+        assert!(error.to_string().starts_with("ascending[2].v = 0.5 follows 1:"));
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_is_refused_by_entry() {
+        let error = Table::new(points(&[(0.0, f64::NAN)]), points(&[(0.0, 0.0)])).unwrap_err();
+        assert_eq!(error.to_string(), "ascending[0].u = NaN: give a finite number");
+    }
+}

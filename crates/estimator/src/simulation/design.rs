@@ -1,7 +1,7 @@
 //! A pulse experiment unrolled: what every phase of its period does to the system and to the regression.
 
 use crate::estimators::pulse::PulseData;
-use crate::excitation::{Direction, PulseExperiment};
+use crate::excitation::PulseExperiment;
 use crate::hysteresis::{Branch, SwitchedHysteresis};
 
 /// One period of a pulse experiment on a given hysteresis: `u` and the regression's group, phase for phase.
@@ -38,12 +38,8 @@ impl PeriodicDesign {
                     .unwrap_or(0)
             })
             .collect();
-        let branch = match experiment.direction() {
-            Direction::Descendant => Branch::Descending,
-            Direction::Ascendant => Branch::Ascending,
-        };
         Self {
-            branch,
+            branch: experiment.direction().visited_branch(),
             levels: experiment.levels().to_vec(),
             satellite: experiment.satellite(),
             order,

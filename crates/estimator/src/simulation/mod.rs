@@ -1,6 +1,7 @@
-//! Simulated experiments, and the superposition that spares simulating them.
+//! Simulated experiments, their noise, and the superposition that spares simulating them.
 
 mod design;
+pub mod noise;
 mod periodic;
 mod superposition;
 

@@ -105,11 +105,6 @@ pub fn superpose(design: &PeriodicDesign, z: &[f64], sigma: f64, noise: &NoiseMo
             }
         }
     }
-    PulseData {
-        branch: design.branch,
-        levels: design.levels.clone(),
-        satellite: design.satellite,
-        statistics: GroupedStatistics::from_parts(order, counts, sums, products),
-        reference: 0.0,
-    }
+    let statistics = GroupedStatistics::from_parts(order, counts, sums, products);
+    PulseData::from_statistics(design.branch, design.levels.clone(), design.satellite, statistics)
 }

@@ -42,8 +42,17 @@ pub(crate) struct ArrowFit {
     pub(crate) local: Vec<f64>,
     /// Residual variance, degrees of freedom counted.
     pub(crate) variance: f64,
+    freedom: f64,
     factor: Cholesky<f64, Dyn>,
     ties: Vec<LocalTie>,
+}
+
+/// Residuals `r` against every column: `Σ_{t∈q} r(t)` a group, `−Σ_t y(t−i) r(t)` a lag, and `Σ_t r²(t)`.
+#[derive(Debug, Clone)]
+pub(crate) struct Score {
+    pub(crate) residual: Vec<f64>,
+    pub(crate) lagged: Vec<f64>,
+    pub(crate) energy: f64,
 }
 
 /// What eliminating a local column leaves behind.
@@ -104,9 +113,9 @@ impl ArrowFit {
         let factor = well_conditioned(normal, &scale)?;
         let core = factor.solve(&right);
         let local: Vec<f64> = ties.iter().map(|tie| tie.start - tie.slope.dot(&core)).collect();
-        let freedom = statistics.samples() - (n + p + local.len()) as f64;
-        let variance = (energy - core.dot(&right)).max(0.0) / freedom.max(1.0);
-        Ok(Self { core, local, variance, factor, ties })
+        let freedom = (statistics.samples() - (n + p + local.len()) as f64).max(1.0);
+        let variance = (energy - core.dot(&right)).max(0.0) / freedom;
+        Ok(Self { core, local, variance, freedom, factor, ties })
     }
 
     /// Variance of the quantity whose derivative is `gradient`, for white equation error.
@@ -121,28 +130,79 @@ impl ArrowFit {
         self.variance * (own + through_core.dot(&solved))
     }
 
-    /// The estimates for the target that is 1 in every sample: how all parameters move with a constant left in `y`.
-    ///
-    /// `statistics` and `columns` are those that were solved.
-    pub(crate) fn response_to_constant(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
-        let (n, p) = (statistics.order(), columns.shared.ncols());
+    /// Adds the correction for what a pass over the data finds left in the residual, and takes the residual variance from there.
+    pub(crate) fn refine(&mut self, columns: &Columns, score: &Score) {
+        let step = self.respond(columns, &score.residual, &score.lagged);
+        self.core += step.core;
+        self.local.iter_mut().zip(step.local).for_each(|(l, s)| *l += s);
+        self.variance = score.energy / self.freedom;
+    }
+
+    /// How all parameters answer to a target that is `residual` in the groups and `lagged` against the lags:
+    /// `Σ_{t∈q} r(t)` a group and `−Σ_t y(t−i) r(t)` a lag.
+    fn respond(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> Response {
+        let (n, p) = (lagged.len(), columns.shared.ncols());
         let mut right = DVector::zeros(n + p);
-        for i in 0..n {
-            right[i] = -statistics.total(i + 1);
-        }
-        for k in 0..p {
-            right[n + k] =
-                (0..statistics.groups()).map(|q| columns.shared[(q, k)] * statistics.count(q)).sum();
+        right.rows_mut(0, n).copy_from_slice(lagged);
+        for (q, r) in residual.iter().enumerate() {
+            for k in 0..p {
+                right[n + k] += columns.shared[(q, k)] * r;
+            }
         }
         let mut starts = Vec::with_capacity(self.ties.len());
         for (column, tie) in columns.local.iter().zip(&self.ties) {
-            let target: f64 = column.support.iter().map(|&(q, w)| w * statistics.count(q)).sum();
+            let target: f64 = column.support.iter().map(|&(q, w)| w * residual[q]).sum();
             right.axpy(-target, &tie.slope, 1.0);
             starts.push(target / tie.own);
         }
         let core = self.factor.solve(&right);
         let local = self.ties.iter().zip(starts).map(|(tie, start)| start - tie.slope.dot(&core)).collect();
         Response { core, local }
+    }
+
+    /// How all parameters move with a constant 1 left in `y`; `statistics` and `columns` are those that were solved.
+    pub(crate) fn response_to_constant(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
+        let residual: Vec<f64> = (0..statistics.groups()).map(|q| statistics.count(q)).collect();
+        let lagged: Vec<f64> = (1..=statistics.order()).map(|i| -statistics.total(i)).collect();
+        self.respond(columns, &residual, &lagged)
+    }
+
+    /// `M⁻¹s`: this regression's answer to the score `s = S_{Φy} − Sθ₀` of other statistics, with `θ₀` and `M` its own.
+    pub(crate) fn response_to_score(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
+        let n = statistics.order();
+        let a = self.core.rows(0, n);
+        let mut residual = Vec::with_capacity(statistics.groups());
+        let mut lagged: Vec<f64> = (1..=n)
+            .map(|i| {
+                -statistics.product(0, i) - (0..n).map(|l| a[l] * statistics.product(i, l + 1)).sum::<f64>()
+            })
+            .collect();
+        for (q, mean) in self.group_means(columns).into_iter().enumerate() {
+            let past: f64 = (0..n).map(|l| a[l] * statistics.sum(q, l + 1)).sum();
+            residual.push(statistics.sum(q, 0) + past - mean * statistics.count(q));
+            for (i, lagged) in lagged.iter_mut().enumerate() {
+                *lagged += mean * statistics.sum(q, i + 1);
+            }
+        }
+        self.respond(columns, &residual, &lagged)
+    }
+
+    /// `o_q + x_qᵀη + Σ_l w_q,l λ_l`.
+    pub(crate) fn group_means(&self, columns: &Columns) -> Vec<f64> {
+        let n = self.core.len() - columns.shared.ncols();
+        let eta = self.core.rows(n, columns.shared.ncols());
+        let mut means: Vec<f64> = columns
+            .offset
+            .iter()
+            .enumerate()
+            .map(|(q, o)| o + columns.shared.row(q).transpose().dot(&eta))
+            .collect();
+        for (column, lambda) in columns.local.iter().zip(&self.local) {
+            for &(q, w) in &column.support {
+                means[q] += w * lambda;
+            }
+        }
+        means
     }
 }
 

@@ -3,6 +3,7 @@
 use super::grouped::GroupedStatistics;
 use crate::Record;
 use crate::hysteresis::Branch;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Levels and sufficient statistics of one descendant or ascendant experiment.
@@ -21,6 +22,17 @@ pub struct PulseData {
     pub statistics: GroupedStatistics,
     /// What was taken from `y`, to keep digits.
     pub reference: f64,
+    /// The record itself, where there is one: it lets a solution be refined beyond the digits that sums of squares keep.
+    pub(crate) rows: Option<Arc<Rows>>,
+}
+
+/// The samples behind a set of statistics.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Rows {
+    /// The output from `n` samples before the first row on, as recorded.
+    pub(crate) y: Vec<f64>,
+    /// The group of each row.
+    pub(crate) groups: Vec<usize>,
 }
 
 /// Mean of the settled output of a step experiment (3.6), without its transient.
@@ -121,6 +133,7 @@ impl PulseData {
         let reference = y[first..].iter().sum::<f64>() / (record.len() - first) as f64;
         let mut statistics = GroupedStatistics::new(order, 1 + levels.len() * order);
         let mut window = vec![0.0; order + 1];
+        let mut groups = Vec::with_capacity(y.len() - first);
         for t in first..y.len() {
             let group = (1..=order)
                 .find_map(|lag| visits.level_at(t - lag, &levels).map(|j| 1 + j * order + lag - 1))
@@ -129,8 +142,20 @@ impl PulseData {
                 *w = y[t - l] - reference;
             }
             statistics.push(group, &window);
+            groups.push(group);
         }
-        Ok(Self { branch, levels, satellite: visits.satellite, statistics, reference })
+        let rows = Some(Arc::new(Rows { y: y[first - order..].to_vec(), groups }));
+        Ok(Self { branch, levels, satellite: visits.satellite, statistics, reference, rows })
+    }
+
+    /// Statistics computed without a record, of an output about zero.
+    pub fn from_statistics(
+        branch: Branch,
+        levels: Vec<f64>,
+        satellite: f64,
+        statistics: GroupedStatistics,
+    ) -> Self {
+        Self { branch, levels, satellite, statistics, reference: 0.0, rows: None }
     }
 
     /// Number of levels `m`.

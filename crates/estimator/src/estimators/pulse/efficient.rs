@@ -3,8 +3,9 @@
 use super::arrow::{ArrowFit, Columns, Gradient, LocalColumn};
 use super::data::PulseData;
 use super::experiments::{Experiments, Seen, first_level_value};
-use super::fit::{Level, PulseFit, PulseFitError, RelativeLevel, finish, known_level};
-use super::joint::{rank_free, rank_free_levels};
+use super::fit::PulseFitError;
+use super::joint::rank_free_levels;
+use super::solution::{Level, RelativeLevel, Solution, known_level};
 use nalgebra::DVector;
 
 /// A change of the parameters below this share of their size ends the iteration.
@@ -27,25 +28,27 @@ const MOST_STEPS: usize = 30;
 ///
 /// # Panics
 /// If no experiment is given.
-pub fn efficient(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError> {
+pub(crate) fn efficient(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
-    let start = rank_free(&experiments)?;
+    let start = experiments.solve(&experiments.rank_free_columns())?;
     let n = experiments.order();
     let mut b: DVector<f64> = start.core.rows(n, n).into_owned();
     let mut w: Vec<Vec<f64>> = rank_free_levels(&experiments, &start)
         .into_iter()
         .map(|levels| levels.into_iter().map(|level| level.value).collect())
         .collect();
-    let mut fit = ArrowFit::solve(&experiments.statistics, &linearised(&experiments, &b, &w))?;
+    let mut columns = linearised(&experiments, &b, &w);
+    let mut fit = experiments.solve(&columns)?;
     for _ in 0..MOST_STEPS {
         let moved = update(&experiments, &fit, &mut b, &mut w);
         if moved < CONVERGED {
             break;
         }
-        fit = ArrowFit::solve(&experiments.statistics, &linearised(&experiments, &b, &w))?;
+        columns = linearised(&experiments, &b, &w);
+        fit = experiments.solve(&columns)?;
     }
     let levels = constrained_levels(&experiments, &fit);
-    finish(&experiments, &fit, levels, Level::Constant)
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
 }
 
 /// The regression linearised about `b` and `w`.

@@ -1,11 +1,9 @@
-//! What the pulse methods return, and how it is drawn from a solved regression.
+//! What the pulse methods return, and why there may be nothing to return.
 
-use super::arrow::{ArrowFit, Gradient, NotExcited, Response};
-use super::data::{PulseData, StepMean};
-use super::experiments::Experiments;
+use super::arrow::NotExcited;
+use super::data::PulseData;
 use crate::estimators::{BorderPoint, Estimate};
 use crate::hysteresis::Branch;
-use nalgebra::DVector;
 use thiserror::Error;
 
 /// A number with its standard error.
@@ -54,128 +52,12 @@ impl From<NotExcited> for PulseFitError {
     }
 }
 
-/// How the absolute level of the borders was found.
-pub(crate) enum Level<'a> {
-    /// From the constant column `κ`, the last core parameter; levels are relative to `u_m`.
-    Constant,
-    /// From a step experiment; levels are relative to the satellite's. The response is that of the regression to a constant.
-    Step { step: StepMean, response: &'a Response },
-}
-
-/// A level's value relative to the base, and its derivative.
-pub(crate) struct RelativeLevel {
-    pub(crate) value: f64,
-    pub(crate) gradient: Gradient,
-}
-
-/// Rank-one value `Σᵢ bᵢhᵢ / Σᵢ bᵢ²` (3.24b) of a level whose free means `hᵢ ≈ bᵢ f` are local columns `first…first+n−1`.
-pub(crate) fn rank_one_level(fit: &ArrowFit, order: usize, first_local: usize) -> RelativeLevel {
-    let b = fit.core.rows(order, order);
-    let h = &fit.local[first_local..first_local + order];
-    let norm: f64 = b.iter().map(|x| x * x).sum();
-    let inner: f64 = b.iter().zip(h).map(|(b, h)| b * h).sum();
-    let mut core = DVector::zeros(fit.core.len());
-    for i in 0..order {
-        core[order + i] = h[i] / norm - 2.0 * b[i] * inner / (norm * norm);
-    }
-    let local = (0..order).map(|i| (first_local + i, b[i] / norm)).collect();
-    RelativeLevel { value: inner / norm, gradient: Gradient { core, local } }
-}
-
-/// A level that the method does not estimate.
-pub(crate) fn known_level(fit: &ArrowFit, value: f64) -> RelativeLevel {
-    RelativeLevel { value, gradient: Gradient { core: DVector::zeros(fit.core.len()), local: Vec::new() } }
-}
-
-/// The base of the levels: `u` where the relative level is zero, with its derivatives.
-struct Base {
-    value: f64,
-    core: DVector<f64>,
-    /// Derivative in `ŷ₀`, where there is a step experiment.
-    step: f64,
-}
-
-/// Turns a solved regression with core `(a, b[, κ])` and its relative levels into a [`PulseFit`].
-///
-/// ```text
-/// constant column:  F(V_j) = w_j + κ/B(1),            κ about the reference r: κ = κ' + A(1)·r
-/// step experiment:  F(V_j) = f_j + A(1)/B(1)·ŷ₀       (3.25)
-/// ```
-///
-/// Standard errors follow by the delta method; with a step experiment the error of `ŷ₀` (variance `σ²/(A(1)²L)`) enters both directly
-/// and through the regression on `ỹ = y − ŷ₀`, whose residual it leaves at `−A(1)·δ`.
-pub(crate) fn finish(
-    experiments: &Experiments<'_>,
-    fit: &ArrowFit,
-    levels: Vec<Vec<RelativeLevel>>,
-    level: Level<'_>,
-) -> Result<PulseFit, PulseFitError> {
-    let n = experiments.order();
-    let a_at_one = 1.0 + fit.core.rows(0, n).sum();
-    let b_at_one: f64 = fit.core.rows(n, n).sum();
-    if b_at_one == 0.0 || !b_at_one.is_finite() {
-        return Err(PulseFitError::NoGain);
-    }
-    let base = base_level(fit, n, experiments.reference, &level);
-    let se = |gradient: &Gradient, direct: f64| {
-        let through_step = match &level {
-            Level::Constant => 0.0,
-            Level::Step { step, response } => {
-                let slope = direct - a_at_one * response.along(gradient);
-                slope * slope * fit.variance / (a_at_one * a_at_one * step.samples)
-            }
-        };
-        (fit.variance_of(gradient) + through_step).sqrt()
-    };
-    let coefficient = |k: usize| {
-        let mut core = DVector::zeros(fit.core.len());
-        core[k] = 1.0;
-        Estimated { value: fit.core[k], se: se(&Gradient { core, local: Vec::new() }, 0.0) }
-    };
-    let borders = levels
-        .into_iter()
-        .map(|of_experiment| {
-            of_experiment
-                .into_iter()
-                .map(|mut relative| {
-                    relative.gradient.core += &base.core;
-                    Estimated { value: base.value + relative.value, se: se(&relative.gradient, base.step) }
-                })
-                .collect()
-        })
-        .collect();
-    let u_low = match (&level, experiments.parts[0].branch) {
-        (Level::Step { .. }, Branch::Descending) => base.value - 1.0,
-        _ => base.value,
-    };
-    Ok(PulseFit {
-        a: (0..n).map(coefficient).collect(),
-        b: (n..2 * n).map(coefficient).collect(),
-        borders,
-        noise_sd: fit.variance.sqrt(),
-        u_low,
-    })
-}
-
-fn base_level(fit: &ArrowFit, n: usize, reference: f64, level: &Level<'_>) -> Base {
-    let a_at_one = 1.0 + fit.core.rows(0, n).sum();
-    let b_at_one: f64 = fit.core.rows(n, n).sum();
-    let mut core = DVector::zeros(fit.core.len());
-    let (held, output) = match level {
-        Level::Constant => {
-            core[2 * n] = 1.0 / b_at_one;
-            (fit.core[2 * n] + a_at_one * reference, reference)
-        }
-        Level::Step { step, .. } => (a_at_one * step.mean, step.mean),
-    };
-    for i in 0..n {
-        core[i] = output / b_at_one;
-        core[n + i] = -held / (b_at_one * b_at_one);
-    }
-    Base { value: held / b_at_one, core, step: a_at_one / b_at_one }
-}
-
 impl PulseFit {
+    /// `a`, `b`, then the points of each border: every estimated number in one fixed order.
+    pub fn parameters(&self) -> impl Iterator<Item = &Estimated> {
+        self.a.iter().chain(&self.b).chain(self.borders.iter().flatten())
+    }
+
     /// `B̂(1)/Â(1)`, output units per normalised `u`.
     pub fn gain(&self) -> f64 {
         let a: f64 = self.a.iter().map(|x| x.value).sum();

@@ -3,7 +3,8 @@
 use super::arrow::ArrowFit;
 use super::data::PulseData;
 use super::experiments::{Experiments, first_level_value, satellite_value};
-use super::fit::{Level, PulseFit, PulseFitError, RelativeLevel, finish, known_level, rank_one_level};
+use super::fit::PulseFitError;
+use super::solution::{Level, RelativeLevel, Solution, known_level, rank_one_level};
 
 /// Descendant and ascendant experiment together: `a` and `b` shared, a constant column instead of step experiments.
 ///
@@ -17,19 +18,15 @@ use super::fit::{Level, PulseFit, PulseFitError, RelativeLevel, finish, known_le
 ///
 /// # Errors
 /// [`PulseFitError`] if the experiments do not excite every parameter.
-pub fn joint(descendant: &PulseData, ascendant: &PulseData) -> Result<PulseFit, PulseFitError> {
+pub(crate) fn joint(descendant: &PulseData, ascendant: &PulseData) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(&[descendant, ascendant]);
-    let fit = rank_free(&experiments)?;
+    let columns = experiments.rank_free_columns();
+    let fit = experiments.solve(&columns)?;
     let levels = rank_free_levels(&experiments, &fit);
-    finish(&experiments, &fit, levels, Level::Constant)
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
 }
 
-/// The over-parameterised least squares of any set of experiments, with a constant column.
-pub(crate) fn rank_free(experiments: &Experiments<'_>) -> Result<ArrowFit, PulseFitError> {
-    Ok(ArrowFit::solve(&experiments.statistics, &experiments.rank_free_columns())?)
-}
-
-/// Levels of [`rank_free`], relative to `u_m`.
+/// Levels of the regression with a free mean for every (level, lag), relative to `u_m`.
 pub(crate) fn rank_free_levels(experiments: &Experiments<'_>, fit: &ArrowFit) -> Vec<Vec<RelativeLevel>> {
     let n = experiments.order();
     let of_experiment = |e: usize| {

@@ -1,9 +1,10 @@
 //! The yardstick without hysteresis or curve: a linear ARX model.
 
-use super::arrow::{ArrowFit, Columns};
+use super::arrow::Columns;
 use super::data::PulseData;
 use super::experiments::Experiments;
-use super::fit::{Level, PulseFit, PulseFitError, finish, known_level};
+use super::fit::PulseFitError;
+use super::solution::{Level, Solution, known_level};
 use crate::hysteresis::Branch;
 
 /// Least squares of `y(t) = −Σ aᵢ y(t−i) + Σ bᵢ v(t−i) + c`: what a user picks who knows of no nonlinearity.
@@ -16,7 +17,7 @@ use crate::hysteresis::Branch;
 ///
 /// # Panics
 /// If no experiment is given.
-pub fn linear_arx(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError> {
+pub(crate) fn linear_arx(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
     let position = |e: usize, level: usize| relative_position(experiments.parts[e], level);
     let columns = Columns {
@@ -24,14 +25,14 @@ pub fn linear_arx(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError>
         local: Vec::new(),
         offset: vec![0.0; experiments.statistics.groups()],
     };
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let levels = experiments
         .parts
         .iter()
         .enumerate()
         .map(|(e, part)| (0..part.points()).map(|j| known_level(&fit, position(e, j))).collect())
         .collect();
-    finish(&experiments, &fit, levels, Level::Constant)
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
 }
 
 /// `(V_j − h_m)/(h_M − h_m)`.

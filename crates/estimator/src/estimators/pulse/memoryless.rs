@@ -1,9 +1,10 @@
 //! The yardstick with a curve but no memory: a Hammerstein model with one static nonlinearity.
 
-use super::arrow::{ArrowFit, Columns, LocalColumn};
+use super::arrow::{Columns, LocalColumn};
 use super::data::PulseData;
 use super::experiments::{Experiments, first_level_value, satellite_value};
-use super::fit::{Level, PulseFit, PulseFitError, finish, known_level, rank_one_level};
+use super::fit::PulseFitError;
+use super::solution::{Level, Solution, known_level, rank_one_level};
 
 /// Two levels nearer than this share of the interval are one level of the static curve.
 const SAME_LEVEL: f64 = 1e-6;
@@ -22,7 +23,7 @@ const SAME_LEVEL: f64 = 1e-6;
 ///
 /// # Panics
 /// If no experiment is given.
-pub fn memoryless(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError> {
+pub(crate) fn memoryless(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
     let n = experiments.order();
     let curve = StaticCurve::through(&experiments);
@@ -38,7 +39,7 @@ pub fn memoryless(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError>
         })
         .collect();
     let columns = Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] };
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
+    let fit = experiments.solve(&columns)?;
     let levels = curve
         .of_experiment
         .iter()
@@ -49,7 +50,7 @@ pub fn memoryless(experiments: &[&PulseData]) -> Result<PulseFit, PulseFitError>
                 .collect()
         })
         .collect();
-    finish(&experiments, &fit, levels, Level::Constant)
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
 }
 
 /// The distinct inner levels, and which of them each experiment visits.

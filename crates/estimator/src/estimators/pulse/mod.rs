@@ -1,6 +1,6 @@
-//! Methods for the designed experiments, all on sufficient statistics.
+//! Methods for the designed experiments, all on sufficient statistics: see [`PulseMethod`].
 //!
-//! Every method here is one linear (or, for [`efficient()`], one iterated) least squares over [`GroupedStatistics`] that differs
+//! Every method here is one linear (or, for the efficient one, one iterated) least squares over [`GroupedStatistics`] that differs
 //! in its columns only; see each method for its own reference.
 
 mod arrow;
@@ -13,14 +13,12 @@ mod grouped;
 mod joint;
 mod linear_arx;
 mod memoryless;
+mod method;
 mod paper;
+mod solution;
 
 pub use data::{PulseData, PulseDataError, StepMean};
-pub use efficient::efficient;
 pub use excitation::excitation;
 pub use fit::{Estimated, PulseFit, PulseFitError};
 pub use grouped::GroupedStatistics;
-pub use joint::joint;
-pub use linear_arx::linear_arx;
-pub use memoryless::memoryless;
-pub use paper::paper;
+pub use method::{Limit, PulseMethod};

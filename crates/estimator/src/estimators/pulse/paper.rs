@@ -1,9 +1,10 @@
 //! The paper's own estimator, one experiment at a time.
 
-use super::arrow::{ArrowFit, Columns, LocalColumn};
+use super::arrow::{Columns, LocalColumn};
 use super::data::{PulseData, StepMean};
 use super::experiments::{Experiments, Seen, first_level_value, satellite_value};
-use super::fit::{Level, PulseFit, PulseFitError, finish, known_level, rank_one_level};
+use super::fit::PulseFitError;
+use super::solution::{Level, Solution, known_level, rank_one_level};
 use nalgebra::DMatrix;
 
 /// Least squares (3.21) on `ỹ = y − ŷ₀`, rank one (3.24a–b), level from the step experiment (3.25).
@@ -21,12 +22,11 @@ use nalgebra::DMatrix;
 ///
 /// # Errors
 /// [`PulseFitError`] if the experiment does not excite every parameter.
-pub fn paper(experiment: &PulseData, step: StepMean) -> Result<PulseFit, PulseFitError> {
+pub(crate) fn paper(experiment: &PulseData, step: StepMean) -> Result<Solution, PulseFitError> {
     let about_step = experiment.about(step.mean);
     let experiments = Experiments::new(&[&about_step]);
     let columns = pulse_columns(&experiments);
-    let fit = ArrowFit::solve(&experiments.statistics, &columns)?;
-    let response = fit.response_to_constant(&experiments.statistics, &columns);
+    let fit = experiments.solve(&columns)?;
     let n = experiments.order();
     let first = first_level_value(experiment.branch) - satellite_value(experiment.branch);
     let levels = (0..experiment.points())
@@ -35,7 +35,7 @@ pub fn paper(experiment: &PulseData, step: StepMean) -> Result<PulseFit, PulseFi
             _ => rank_one_level(&fit, n, (j - 1) * n),
         })
         .collect();
-    finish(&experiments, &fit, vec![levels], Level::Step { step, response: &response })
+    Solution::new(&experiments, columns, fit, vec![levels], Level::Step(step))
 }
 
 /// One column a (level, lag): `V₁`'s are shared columns because they are `∓bᵢ` themselves, the others are free means.
