@@ -9,11 +9,12 @@ mod pulse;
 mod simulate;
 mod table;
 
+pub use crate::scenario::Method;
 pub use dispatch::identify;
 pub use error::IdentificationError;
 pub use fit::fit_percent;
 pub use json::json;
-pub use method::Method;
+pub use method::default_method;
 pub use table::table;
 
 use switchback_estimator::estimators::Estimate;
