@@ -1,10 +1,11 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
 use super::basis::{Basis, Cell, place_knots};
-use super::branch::{Branches, SensorNoise};
+use super::branch::Branches;
 use super::error::FreeError;
 use super::model;
 use super::problem::{Segment, Structure};
+use super::sensor::SensorNoise;
 use super::settings::{InputMap, Settings};
 use crate::hysteresis::{Branch, Interval};
 use crate::record::Record;
@@ -34,9 +35,9 @@ impl<'a> Data<'a> {
         let noise = records
             .iter()
             .map(|r| SensorNoise::of(r.v()))
-            .max_by(|x, y| x.threshold().total_cmp(&y.threshold()))
+            .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let threshold = settings.threshold.unwrap_or_else(|| noise.threshold());
+        let threshold = settings.threshold.unwrap_or(noise.threshold);
         let records: Vec<_> = records
             .iter()
             .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
@@ -111,6 +112,6 @@ fn usable<'a>(
     to: usize,
 ) -> Option<Segment<'a>> {
     let from = from.max(known) + structure.memory();
-    let to = to.min(record.len());
+    let to = to.min(record.len() - structure.ahead());
     (from < to).then_some(Segment { y: record.y(), cells, from, to })
 }
