@@ -3,6 +3,7 @@
 mod dispatch;
 mod error;
 mod fit;
+mod free;
 mod json;
 mod method;
 mod pulse;
@@ -34,6 +35,18 @@ pub struct Identification {
     pub warnings: Vec<String>,
 }
 
+impl Identification {
+    /// Whether the method found points of a border.
+    pub fn has_borders(&self) -> bool {
+        !(self.estimate.descending.is_empty() && self.estimate.ascending.is_empty())
+    }
+
+    /// Whether both borders are the same curve, as in the yardsticks that know no hysteresis.
+    pub fn has_one_curve(&self) -> bool {
+        self.estimate.descending == self.estimate.ascending
+    }
+}
+
 /// An identified system's simulation of one record, from the record's `v` alone once it has started.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeRun {
@@ -56,11 +69,6 @@ impl FreeRun {
 /// The unit in a label, `N` in `force [N]`; empty where there is none.
 pub fn unit(label: &str) -> &str {
     label.split_once('[').and_then(|(_, rest)| rest.split_once(']')).map_or("", |(unit, _)| unit.trim())
-}
-
-/// Whether the method found points of a border.
-fn has_borders(identification: &Identification) -> bool {
-    !(identification.estimate.descending.is_empty() && identification.estimate.ascending.is_empty())
 }
 
 /// Whether nothing is held out, so that no fit figure proves anything.

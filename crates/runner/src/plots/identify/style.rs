@@ -28,7 +28,8 @@ pub(super) const MEASURED: RGBColor = RGBColor(0x99, 0x99, 0x99);
 pub(super) const SIMULATED: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 pub(super) const ERROR: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const DESCENDING: RGBColor = RGBColor(0x00, 0x72, 0xB2);
-pub(super) const ASCENDING: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+pub(super) const ASCENDING: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+pub(super) const BOTH: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const GRID: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
 
