@@ -157,3 +157,60 @@ fn an_unknown_method_lists_the_known_ones() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr.contains("paper-descendant") && stderr.contains("memoryless"), "{stderr}");
 }
+
+/// The small rig with its pulse records declared free, so that only what any record tells is used.
+fn undesigned() -> Folder {
+    let folder = Folder::with_good_rig();
+    folder.edit("rig.toml", |text| {
+        text.replace("\"descendant\"", "\"free\"").replace("\"ascendant\"", "\"free\"")
+    });
+    folder
+}
+
+#[test]
+fn records_that_nobody_designed_go_to_the_free_method() {
+    let found = identified(&undesigned(), &[]);
+    assert_eq!(found["method"], "free");
+    assert!(found["fit_percent"]["again"].as_f64().expect("a number") > 98.0, "{found}");
+}
+
+#[test]
+fn the_yardsticks_run_and_show_one_static_curve() {
+    let folder = undesigned();
+    for method in ["linear-arx", "memoryless"] {
+        let found = identified(&folder, &["--method", method, "--out", method]);
+        assert_eq!(found["method"], method);
+        assert_eq!(found["descendant"], found["ascendant"]);
+        assert!(listing(&folder.path(method)).contains(&"borders.svg".to_owned()));
+    }
+}
+
+/// Measured records are their authors' work and lie beside the workspace, not in it.
+fn measured(rig: &str) -> Option<std::path::PathBuf> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/rigs")
+        .join(rig)
+        .join("rig.toml");
+    if !path.exists() {
+        println!("skipped: {} is not there; the README names the records' public source", path.display());
+    }
+    path.exists().then_some(path)
+}
+
+#[test]
+fn a_measured_rig_is_read_identified_and_judged_on_its_hold_out() {
+    let Some(path) = measured("mr-damper") else { return };
+    let folder = Folder::with_good_rig();
+    let rig = path.to_str().expect("a UTF-8 path");
+    let output = folder.switchback(&["identify", rig, "--json"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(found["method"], "free");
+    assert_eq!(found["records"][1]["use"], "holdout");
+    // A switch with eleven points a border, fitted by equation errors at n = 1, reaches 62 % here.
+    assert!(
+        found["fit_percent"]["sweep_down"].as_f64().expect("a number") > 62.0,
+        "{}",
+        found["fit_percent"]
+    );
+}
