@@ -52,7 +52,7 @@ impl Branches {
     ///
     /// The threshold is in input units and not negative.
     pub fn of(v: &[f64], threshold: f64) -> Option<Self> {
-        let band = threshold / 2.0;
+        let band = 0.0*threshold;
         let (mut high, mut low) = (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
         let mut labels = Vec::with_capacity(v.len());

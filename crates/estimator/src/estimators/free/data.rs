@@ -1,6 +1,6 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
-use super::basis::{Basis, Cell, place_knots};
+use super::basis::{Basis, Cell, Spacing, place_knots};
 use super::branch::Branches;
 use super::error::FreeError;
 use super::model;
@@ -60,11 +60,15 @@ impl<'a> Data<'a> {
             };
             self.records.iter().flat_map(visited).collect()
         };
-        let place = |branch| place_knots(&values(branch), self.interval, knots);
+        let place = |branch, spacing| place_knots(&values(branch), self.interval, knots, spacing);
         match map {
             InputMap::Linear => Basis::linear(self.interval),
-            InputMap::Static => Basis::curve(place(None)),
-            InputMap::Borders => Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending))),
+            InputMap::Static => Basis::curve(place(None, Spacing::Even)),
+            InputMap::Borders => {
+                let [descending, ascending] = [Branch::Descending, Branch::Ascending]
+                    .map(|branch| place(Some(branch), Spacing::DenseEnds));
+                Basis::borders(descending, ascending)
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod basis;
 mod branch;
+mod cross_validation;
 mod data;
 mod equation_error;
 mod error;

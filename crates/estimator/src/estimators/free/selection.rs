@@ -1,15 +1,13 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::data::{Data, Featured};
+use super::cross_validation::{Assessed, FOLDS, assess};
+use super::data::Data;
 use super::error::FreeError;
-use super::fit::{Effort, FIRST_KNOTS, Fitted, Ladder};
-use super::problem::{Segment, Structure};
+use super::fit::{FIRST_KNOTS, Ladder};
+use super::problem::Structure;
 use super::settings::{InputMap, Settings};
-use super::simulation_error::cost;
 use std::ops::RangeInclusive;
 
-/// Parts that the fit records are cut into; each is left out once.
-const FOLDS: usize = 4;
 /// Orders tried.
 const ORDERS: RangeInclusive<usize> = 1..=4;
 /// Delays tried. −1: no delay at all; −2: `y` answers one sample before `v` shows, as when the sensor of `v` lags.
@@ -26,8 +24,12 @@ pub struct Candidate {
     pub structure: Structure,
     /// Knots of each curve; 2 for a straight line.
     pub knots: usize,
+    /// Free parameters.
+    pub parameters: usize,
     /// `100·(1 − √(Σ(y−ŷ)²/Σ(y−ȳ)²))`, free runs over blocks that the fit had not seen; the criterion.
     pub fit_percent: f64,
+    /// How far its squared error exceeds the best candidate's, in standard errors of the difference over folds.
+    pub behind: f64,
 }
 
 /// How the structure was chosen.
@@ -46,7 +48,10 @@ pub struct Selection {
 /// Chooses what the settings leave open.
 ///
 /// First every order and delay at a middling number of knots, then every number of knots at the best of
-/// these. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs.
+/// these. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
+/// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
+/// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
+/// smaller ones travel better to records that the fit has not seen.
 pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, FreeError> {
     let orders: Vec<usize> = settings.order.map_or(ORDERS.collect(), |n| vec![n]);
     let delays: Vec<isize> = settings.delay.map_or(DELAYS.collect(), |d| vec![d]);
@@ -65,60 +70,36 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     let mut assessed: Vec<Assessed> =
         structures.iter().map(|&structure| assess(&ladder, structure, settings.refine, None)).collect();
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
-    let mut candidates: Vec<Candidate> = assessed.iter().map(|a| a.candidate(first_knots)).collect();
+    let mut second: Vec<Assessed> = Vec::new();
     for &k in knots.iter().filter(|&&k| k != first_knots) {
         let ladder = Ladder::last_step(data, settings.input_map, k);
         for finalist in assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite()) {
-            let next = assess(&ladder, finalist.structure, settings.refine, Some(&finalist.folds));
-            candidates.push(next.candidate(k));
+            second.push(assess(&ladder, finalist.structure, settings.refine, Some(&finalist.fits)));
         }
     }
-    candidates.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
-    let best = candidates[0];
-    if !best.fit_percent.is_finite() {
-        return Err(FreeError::Unstable { order: best.structure.order });
-    }
-    Ok(Selection { folds: FOLDS, structure: best.structure, knots: best.knots, candidates })
-}
-
-/// A structure, its score, and its fit to the rest of each fold.
-#[derive(Debug)]
-struct Assessed {
-    structure: Structure,
-    fit_percent: f64,
-    folds: Vec<Fitted>,
-}
-
-impl Assessed {
-    fn candidate(&self, knots: usize) -> Candidate {
-        Candidate { structure: self.structure, knots, fit_percent: self.fit_percent }
+    assessed.extend(second);
+    assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
+    let candidates: Vec<Candidate> = assessed.iter().map(|a| candidate(a, &assessed[0])).collect();
+    let close = candidates.iter().filter(|c| c.behind <= 1.0);
+    match close.min_by_key(|c| c.parameters) {
+        Some(&Candidate { structure, knots, .. }) => Ok(Selection { candidates, folds: FOLDS, structure, knots }),
+        None => Err(FreeError::Unstable { order: structures[0].order }),
     }
 }
 
-/// Cross-validates one structure at the top of a ladder, from each fold's earlier fit where there is one.
-fn assess(ladder: &Ladder, structure: Structure, refine: bool, below: Option<&[Fitted]>) -> Assessed {
-    let (mut missed, mut energy) = (0.0, 0.0);
-    let mut folds = Vec::with_capacity(FOLDS);
-    for fold in 0..FOLDS {
-        let rest = |f| blocks(f, structure, fold, false);
-        let fitted = if refine {
-            ladder.climb(structure, Effort::SEARCH, below.map(|b| &b[fold]), rest)
-        } else {
-            ladder.one_shot(structure, &rest(ladder.top()))
-        };
-        let Some(fitted) = fitted else {
-            return Assessed { structure, fit_percent: f64::NEG_INFINITY, folds: Vec::new() };
-        };
-        let left_out = blocks(ladder.top(), structure, fold, true);
-        missed += cost(structure, &fitted.theta, &left_out);
-        energy += left_out.iter().map(Segment::energy).sum::<f64>();
-        folds.push(fitted);
+/// Sets an assessment against the best one.
+fn candidate(assessed: &Assessed, best: &Assessed) -> Candidate {
+    let excess: Vec<f64> = assessed.losses.iter().zip(&best.losses).map(|(x, y)| x - y).collect();
+    let count = excess.len() as f64;
+    let mean = excess.iter().sum::<f64>() / count;
+    let variance = excess.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
+    let error = (variance / count).sqrt();
+    let behind = if mean == 0.0 { 0.0 } else { mean / error };
+    Candidate {
+        structure: assessed.structure,
+        knots: assessed.knots,
+        parameters: assessed.parameters,
+        fit_percent: assessed.fit_percent,
+        behind: if assessed.fit_percent.is_finite() { behind } else { f64::INFINITY },
     }
-    Assessed { structure, fit_percent: 100.0 * (1.0 - (missed / energy).sqrt()), folds }
-}
-
-/// The blocks of one fold, or all the others.
-fn blocks<'s>(featured: &'s Featured, structure: Structure, fold: usize, inside: bool) -> Vec<Segment<'s>> {
-    let all = featured.blocks(structure, FOLDS).into_iter().enumerate();
-    all.filter(|(i, _)| (i % FOLDS == fold) == inside).map(|(_, s)| s).collect()
 }
