@@ -1,7 +1,7 @@
 //! The command line.
 //!
 //! A verb is one file in [`crate::cmd`] with its `Args` and `run`; to add one, add its variant to [`Verb`] and its arm to
-//! [`Verb::run`].
+//! [`Cli::run`].
 
 use crate::cmd;
 use crate::failure::CommandResult;

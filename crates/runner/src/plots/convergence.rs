@@ -30,14 +30,21 @@ struct Row<'r> {
 }
 
 /// Draws one figure: rows are border shapes (and `m`), columns parameter groups, colours noise levels.
-pub(super) fn figure(measure: Measure, selection: &Selection<'_>, results: &Results) -> String {
+///
+/// The same part of a `baseline` is drawn behind, in grey.
+pub(super) fn figure(
+    measure: Measure,
+    selection: &Selection<'_>,
+    baseline: Option<&Selection<'_>>,
+    results: &Results,
+) -> String {
     let rows = rows(selection);
     let groups = selection.groups();
     let noises = thinned(&selection.noises(), OKABE_ITO.len());
     let sheet = Sheet {
         title: title(measure, selection, results),
         notes: notes(measure, selection, &rows),
-        legend: legend(measure, &noises, selection),
+        legend: legend(measure, &noises, selection, baseline.is_some()),
         grid: Grid {
             columns: groups.len().max(1),
             rows: rows.len(),
@@ -64,6 +71,10 @@ pub(super) fn figure(measure: Measure, selection: &Selection<'_>, results: &Resu
                 for (k, &noise) in noises.iter().enumerate() {
                     let cells = selection.curve(row.border, row.points, noise);
                     let aside = 5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0);
+                    if let Some(baseline) = baseline {
+                        let cells = baseline.curve(row.border, row.points, noise);
+                        Curve { cells, group, colour: GREY, aside: -6.0 }.draw_behind(&panel, measure);
+                    }
                     let curve = Curve { cells, group, colour: OKABE_ITO[k], aside };
                     match measure {
                         Measure::Bias => curve.draw_bias(&panel),
@@ -115,7 +126,7 @@ fn notes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>]) -> Vec<S
     notes
 }
 
-fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>) -> Vec<Entry> {
+fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>, over_baseline: bool) -> Vec<Entry> {
     let mut entries: Vec<Entry> = noises
         .iter()
         .zip(&OKABE_ITO)
@@ -123,6 +134,9 @@ fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>) -> Vec<En
             Entry::new(Sample::Disc(Pen::new(colour, 1.5), true), format!("noise {}", plain(noise)))
         })
         .collect();
+    if over_baseline {
+        entries.push(Entry::new(Sample::Disc(Pen::new(GREY, 1.5), true), "grey, left of it: the baseline"));
+    }
     let has = |f: fn(&Parameter) -> bool| selection.cells.iter().any(|c| c.parameters.iter().any(f));
     match measure {
         Measure::Bias => {
@@ -178,7 +192,7 @@ struct Curve<'r> {
     cells: Vec<&'r Cell>,
     group: Group,
     colour: RGBColor,
-    /// Where marks behind the curve stand beside their place, pixels.
+    /// How far marks stand beside their place where they would cover others, pixels.
     aside: f64,
 }
 
@@ -205,7 +219,8 @@ impl Curve<'_> {
         }
         for (n, bias) in front {
             let filled = self.resolved(*n, bias);
-            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled, aside: 0.0 };
+            let aside = if filled { 0.0 } else { self.aside };
+            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled, aside };
             panel.mark(*n, bias.value(), bar(bias), mark);
         }
     }
@@ -217,6 +232,18 @@ impl Curve<'_> {
         for (n, sd) in self.pooled(Parameter::best_sd) {
             let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled: true, aside: 0.0 };
             panel.mark(n, sd.value(), bar(&sd), mark);
+        }
+    }
+
+    /// The figures alone, smaller and beside their place.
+    fn draw_behind(&self, panel: &Panel<'_, '_>, measure: Measure) {
+        let figures = match measure {
+            Measure::Bias => self.pooled(Parameter::best_bias),
+            Measure::Sd => self.pooled(Parameter::best_sd),
+        };
+        let mark = Mark { pen: Pen::new(self.colour, 1.2), radius: 3.0, filled: true, aside: self.aside };
+        for (n, figure) in figures {
+            panel.mark(n, figure.value(), bar(&figure), mark);
         }
     }
 
