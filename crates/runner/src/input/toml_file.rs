@@ -17,8 +17,14 @@ pub struct TomlFile {
 
 /// Something in a TOML file is wrong: what, where, and the remedy.
 #[derive(Debug, Error, Diagnostic)]
+#[error(transparent)]
+#[diagnostic(transparent)]
+pub struct TomlError(Box<Located>);
+
+/// Boxed, because it carries the file's text and errors should be cheap to pass up.
+#[derive(Debug, Error, Diagnostic)]
 #[error("{path}:{line}:{column}: {message}")]
-pub struct TomlError {
+struct Located {
     path: String,
     line: usize,
     column: usize,
@@ -74,7 +80,7 @@ impl TomlFile {
         let path = self.path.display().to_string();
         // A table's span covers all of its lines; its first line says enough.
         let end = self.text[start..].find('\n').map_or(self.text.len(), |newline| start + newline);
-        TomlError {
+        TomlError(Box::new(Located {
             line: 1 + before.matches('\n').count(),
             column: 1 + before[line_start..].chars().count(),
             message: message.into(),
@@ -82,7 +88,7 @@ impl TomlFile {
             path,
             span: (start..span.end.clamp(start, end)).into(),
             remedy: remedy.into(),
-        }
+        }))
     }
 
     /// What to do about an error of the TOML reader.
@@ -118,11 +124,11 @@ fn in_toml_terms(message: &str) -> String {
 impl TomlError {
     /// Line of the error, from 1.
     pub fn line(&self) -> usize {
-        self.line
+        self.0.line
     }
 
     /// Column of the error in letters, from 1.
     pub fn column(&self) -> usize {
-        self.column
+        self.0.column
     }
 }

@@ -2,7 +2,6 @@
 
 use super::border::WireBorder;
 use super::error::Fault;
-use super::nearest::nearest;
 use super::wire::{
     WireCase, WireExpect, WirePrecision, WireScenario, WireSweep, WireSystem, WireSystemOverride,
 };
@@ -10,6 +9,7 @@ use super::{
     Border, Case, Check, Coupling, Disturbance, Expect, Labels, Method, Replication, Scenario, Stopping,
     Sweep,
 };
+use crate::input::closest;
 use std::collections::HashSet;
 use std::fmt::Display;
 use std::hash::Hash;
@@ -371,7 +371,7 @@ fn distinct<'a, T: Eq + Hash + Display + 'a>(
 }
 
 fn unknown(name: &Spanned<String>, what: &str, valid: &[&str]) -> Fault {
-    let guess = nearest(name.get_ref(), valid.iter().copied());
+    let guess = closest(name.get_ref(), valid.iter().copied());
     let guess = guess.map_or_else(String::new, |g| format!("did you mean \"{g}\"? "));
     Fault::new(name.span(), format!("no such {what}"), format!("{guess}valid: {}", valid.join(", ")))
 }

@@ -1,6 +1,6 @@
 //! Why a scenario is refused.
 
-use super::nearest::nearest;
+use crate::input::closest;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -99,7 +99,7 @@ fn remedy_for(message: &str) -> Option<String> {
     let mut quoted = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown field").then(|| quoted.next()).flatten()?;
     let known: Vec<&str> = quoted.collect();
-    Some(match nearest(unknown, known.iter().copied()) {
+    Some(match closest(unknown, known.iter().copied()) {
         Some(guess) => format!("did you mean `{guess}`?"),
         None => "remove it, or use one of the keys listed".to_owned(),
     })

@@ -9,7 +9,6 @@ mod convert;
 mod error;
 mod expect;
 mod method;
-mod nearest;
 mod read;
 #[cfg(test)]
 mod tests;

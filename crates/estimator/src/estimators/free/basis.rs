@@ -95,24 +95,45 @@ impl Basis {
     }
 }
 
-/// `count` knots from `low` to `high`, half-way between evenly spaced and evenly visited.
+/// How knots lie between the ends of the interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Spacing {
+    /// At equal shares, for a static curve that may bend anywhere.
+    Even,
+    /// At the shares `(1 − cos πs)/2`, denser towards the ends: a loop bends most just after a reversal, and reversals
+    /// lie near the ends of the motion.
+    DenseEnds,
+}
+
+impl Spacing {
+    fn share(self, s: f64) -> f64 {
+        match self {
+            Self::Even => s,
+            Self::DenseEnds => 0.5 * (1.0 - (std::f64::consts::PI * s).cos()),
+        }
+    }
+}
+
+/// `count` knots (at least 2) over the interval, each half-way between the share of the interval and the same share of the
+/// visits.
 ///
-/// Evenly visited knots alone crowd where the input dwells (the turning points of a sine) and leave the middle bare;
-/// evenly spaced ones may leave a hat without data. `values` need not be sorted. Knots closer than a thousandth of the
+/// Shares of the visits alone crowd where the input dwells (the turning points of a sine) and leave the middle bare; shares
+/// of the interval alone may leave a hat without data. `values` need not be sorted. Knots closer than a thousandth of the
 /// interval are merged.
-pub(super) fn place_knots(values: &[f64], interval: Interval, count: usize) -> Vec<f64> {
+pub(super) fn place_knots(values: &[f64], interval: Interval, count: usize, spacing: Spacing) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|&v| interval.contains(v)).collect();
     sorted.sort_by(f64::total_cmp);
+    let closest = 1e-3 * interval.width();
     let mut knots = vec![interval.low()];
-    for j in 1..count.max(2) {
-        let share = j as f64 / (count.max(2) - 1) as f64;
+    for j in 1..count - 1 {
+        let share = spacing.share(j as f64 / (count - 1) as f64);
         let even = interval.low() + share * interval.width();
-        let visited =
-            sorted.get((share * (sorted.len().max(1) - 1) as f64) as usize).copied().unwrap_or(even);
-        let knot = if j + 1 == count.max(2) { interval.high() } else { 0.5 * (even + visited) };
-        if knot - knots[knots.len() - 1] > 1e-3 * interval.width() {
+        let visited = sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(even);
+        let knot = 0.5 * (even + visited);
+        if knot - knots[knots.len() - 1] > closest && interval.high() - knot > closest {
             knots.push(knot);
         }
     }
+    knots.push(interval.high());
     knots
 }

@@ -1,10 +1,11 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
-use super::basis::{Basis, Cell, place_knots};
-use super::branch::{Branches, SensorNoise};
+use super::basis::{Basis, Cell, Spacing, place_knots};
+use super::branch::Branches;
 use super::error::FreeError;
 use super::model;
 use super::problem::{Segment, Structure};
+use super::sensor::SensorNoise;
 use super::settings::{InputMap, Settings};
 use crate::hysteresis::{Branch, Interval};
 use crate::record::Record;
@@ -34,16 +35,15 @@ impl<'a> Data<'a> {
         let noise = records
             .iter()
             .map(|r| SensorNoise::of(r.v()))
-            .max_by(|x, y| x.threshold().total_cmp(&y.threshold()))
+            .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let threshold = settings.threshold.unwrap_or_else(|| noise.threshold());
+        let threshold = settings.threshold.unwrap_or(noise.threshold);
         let records: Vec<_> = records
             .iter()
             .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
             .collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
-        let range =
-            Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
@@ -60,12 +60,14 @@ impl<'a> Data<'a> {
             };
             self.records.iter().flat_map(visited).collect()
         };
-        let place = |branch| place_knots(&values(branch), self.interval, knots);
+        let place = |branch, spacing| place_knots(&values(branch), self.interval, knots, spacing);
         match map {
             InputMap::Linear => Basis::linear(self.interval),
-            InputMap::Static => Basis::curve(place(None)),
+            InputMap::Static => Basis::curve(place(None, Spacing::Even)),
             InputMap::Borders => {
-                Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending)))
+                let [descending, ascending] = [Branch::Descending, Branch::Ascending]
+                    .map(|branch| place(Some(branch), Spacing::DenseEnds));
+                Basis::borders(descending, ascending)
             }
         }
     }
@@ -82,8 +84,7 @@ impl<'a> Data<'a> {
 impl Featured<'_> {
     /// Everything that a structure can explain.
     pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
-        let whole =
-            self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
+        let whole = self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
         whole.flatten().collect()
     }
 
@@ -115,6 +116,6 @@ fn usable<'a>(
     to: usize,
 ) -> Option<Segment<'a>> {
     let from = from.max(known) + structure.memory();
-    let to = to.min(record.len());
+    let to = to.min(record.len() - structure.ahead());
     (from < to).then_some(Segment { y: record.y(), cells, from, to })
 }

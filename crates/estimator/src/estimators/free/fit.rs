@@ -1,19 +1,24 @@
 //! One fit at a given structure: equation error, rank one, then the simulation error.
 
-use super::data::Featured;
+use super::basis::Basis;
+use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::alternate;
+use super::settings::InputMap;
 use super::simulation_error::{Refinement, cost, is_stable};
 
-/// How hard a fit tries.
+/// How hard a refinement tries.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
     pub(super) iterations: usize,
+    /// Relative decrease of the cost below which a step counts as the last.
     pub(super) tolerance: f64,
 }
 
 impl Effort {
+    /// Enough to tell which start is best.
+    const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3 };
     /// Enough to rank structures.
     pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3 };
     /// For the fit that is kept.
@@ -23,13 +28,80 @@ impl Effort {
 /// Weight of the smoothness penalty: decides only what the data leave open.
 const SMOOTHNESS: f64 = 1e-8;
 
-/// The fit to some stretches of data; `None` if none of the starts leads to a stable model.
-pub(super) fn fit(
-    featured: &Featured,
-    structure: Structure,
-    segments: &[Segment],
-    effort: Option<Effort>,
-) -> Option<Parameters> {
+/// The data seen through every basis of a ladder from the straight line up to the map wanted.
+///
+/// The simulation error has local minima, and a start from the equation error alone may end in a poor one: worse than the
+/// straight line that the curve contains. Climbing from each model to the next larger one that contains it rules that out.
+#[derive(Debug)]
+pub(super) struct Ladder<'a> {
+    rungs: Vec<Featured<'a>>,
+}
+
+/// A fit, and the basis that its curves are on.
+#[derive(Debug, Clone)]
+pub(super) struct Fitted {
+    pub(super) basis: Basis,
+    pub(super) theta: Parameters,
+}
+
+/// Knots a curve on the way up, and in the first stage of the selection: enough for a bend and a jump.
+pub(super) const FIRST_KNOTS: usize = 5;
+
+impl<'a> Ladder<'a> {
+    /// The way up to `knots` knots a curve.
+    pub(super) fn new(data: &Data<'a>, map: InputMap, knots: usize) -> Self {
+        let on_the_way = knots.min(FIRST_KNOTS);
+        let mut rungs = vec![(InputMap::Linear, 2)];
+        if map != InputMap::Linear {
+            rungs.push((InputMap::Static, on_the_way));
+            rungs.push((map, on_the_way));
+            rungs.push((map, knots));
+            rungs.dedup();
+        }
+        Self { rungs: rungs.into_iter().map(|(map, k)| data.featured(data.basis(map, k))).collect() }
+    }
+
+    /// The last step only, for a climb that starts from an earlier fit.
+    pub(super) fn last_step(data: &Data<'a>, map: InputMap, knots: usize) -> Self {
+        Self { rungs: vec![data.featured(data.basis(map, knots))] }
+    }
+
+    /// The rung of the map wanted.
+    pub(super) fn top(&self) -> &Featured<'a> {
+        &self.rungs[self.rungs.len() - 1]
+    }
+
+    /// The fit at the top of the ladder to the stretches that `choose` picks of each rung, from below the lowest rung if a fit is
+    /// given; `None` if no stable model fits.
+    pub(super) fn climb<'s>(
+        &'s self,
+        structure: Structure,
+        effort: Effort,
+        below: Option<&Fitted>,
+        choose: impl Fn(&'s Featured<'a>) -> Vec<Segment<'s>>,
+    ) -> Option<Fitted> {
+        let mut below = below.cloned();
+        for (i, rung) in self.rungs.iter().enumerate() {
+            let segments = choose(rung);
+            let lifted = below.map(|lower| lower.theta.on_basis(&lower.basis, &rung.basis));
+            let effort = if i + 1 == self.rungs.len() { effort } else { Effort::SEARCH };
+            let theta = refined(rung, structure, &segments, lifted, effort)?;
+            below = Some(Fitted { basis: rung.basis.clone(), theta });
+        }
+        below
+    }
+
+    /// The equation-error fit at the top, without refinement.
+    pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
+        let starts = equation_error_starts(self.top(), structure, segments);
+        let theta = starts.into_iter().next()?;
+        Some(Fitted { basis: self.top().basis.clone(), theta })
+    }
+}
+
+/// Fits of the equation error, best in simulation first: the alternation may end in different places from different
+/// numerators.
+fn equation_error_starts(featured: &Featured, structure: Structure, segments: &[Segment]) -> Vec<Parameters> {
     let moments = Moments::of(structure, featured.basis.features(), segments);
     let nb = structure.numerator();
     let uniform = vec![1.0 / nb as f64; nb];
@@ -39,26 +111,36 @@ pub(super) fn fit(
     if nb > 1 {
         difference[1] = -0.95;
     }
-    let mut starts: Vec<Parameters> = [uniform, first, difference]
-        .into_iter()
-        .filter_map(|b| alternate(&moments, b, 10))
-        .map(|theta| stabilised(theta))
-        .collect();
-    let Some(effort) = effort else {
-        return best(structure, starts, segments);
-    };
-    let curves: Vec<usize> = featured.basis.sizes().collect();
-    let refinement = Refinement { iterations: 4, tolerance: 1e-3, curves: &curves, smoothness: SMOOTHNESS };
-    starts = starts.into_iter().map(|s| refinement.run(structure, s, segments)).collect();
-    let start = best(structure, starts, segments)?;
-    let refinement = Refinement { iterations: effort.iterations, tolerance: effort.tolerance, ..refinement };
-    Some(refinement.run(structure, start, segments))
+    let starts = [uniform, first, difference].into_iter();
+    let fits = starts.filter_map(|b| alternate(&moments, b, 10)).map(stabilised).collect();
+    ranked(structure, fits, segments)
 }
 
-/// The start of least simulation error.
-fn best(structure: Structure, starts: Vec<Parameters>, segments: &[Segment]) -> Option<Parameters> {
-    let costed = starts.into_iter().map(|s| (cost(structure, &s, segments), s));
-    costed.filter(|(c, _)| c.is_finite()).min_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, s)| s)
+/// The best of the starts after a few steps, refined as far as `effort` says.
+fn refined(
+    featured: &Featured,
+    structure: Structure,
+    segments: &[Segment],
+    lifted: Option<Parameters>,
+    effort: Effort,
+) -> Option<Parameters> {
+    let curves: Vec<usize> = featured.basis.sizes().collect();
+    let refinement = |effort| Refinement { effort, curves: &curves, smoothness: SMOOTHNESS };
+    let trial = refinement(Effort::TRIAL);
+    let fresh = equation_error_starts(featured, structure, segments);
+    let count = if lifted.is_some() { 1 } else { 2 };
+    let starts = fresh.into_iter().take(count).chain(lifted);
+    let starts = starts.map(|s| trial.run(structure, s, segments)).collect();
+    let start = ranked(structure, starts, segments).into_iter().next()?;
+    Some(refinement(effort).run(structure, start, segments))
+}
+
+/// By simulation error, least first; unstable ones are dropped.
+fn ranked(structure: Structure, fits: Vec<Parameters>, segments: &[Segment]) -> Vec<Parameters> {
+    let costed = fits.into_iter().map(|s| (cost(structure, &s, segments), s));
+    let mut costed: Vec<_> = costed.filter(|(c, _)| c.is_finite()).collect();
+    costed.sort_by(|x, y| x.0.total_cmp(&y.0));
+    costed.into_iter().map(|(_, s)| s).collect()
 }
 
 /// The same numerator with the poles drawn towards zero until they are stable.

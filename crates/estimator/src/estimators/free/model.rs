@@ -53,14 +53,15 @@ impl Model {
     /// its first value and `y` at the output this holds, or at the first of `y_before`. An input that never moves
     /// by more than the threshold counts as ascending.
     pub fn simulate(&self, v: &[f64], y_before: &[f64]) -> Vec<f64> {
-        let Some(&first) = self.cells(v).first() else { return Vec::new() };
+        let cells = self.cells(v);
+        let (Some(&first), Some(&last)) = (cells.first(), cells.last()) else { return Vec::new() };
         let memory = self.structure.memory();
-        let cells = [vec![first; memory], self.cells(v)].concat();
+        let cells = [vec![first; memory], cells, vec![last; self.structure.ahead()]].concat();
         let rest = y_before.first().copied().unwrap_or_else(|| self.rest(first.value(&self.parameters.f)));
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
-        y.resize(cells.len(), 0.0);
-        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: cells.len() };
+        y.resize(memory + v.len(), 0.0);
+        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: memory + v.len() };
         let run = free_run(self.structure, &self.parameters, &segment);
         y[memory..memory + given].iter().copied().chain(run).collect()
     }

@@ -12,19 +12,29 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Number of coefficients of `B`: `n`, and one more where a direct term `b₀` precedes them.
+    /// Number of coefficients of `B`: its lags run from `1 + delay` to `n + delay`, or to `n` where the delay is negative.
     pub fn numerator(&self) -> usize {
-        if self.delay < 0 { self.order + 1 } else { self.order }
+        self.order + self.lead()
     }
 
-    /// Lag of the first coefficient of `B`.
-    pub(super) fn first_lag(&self) -> usize {
-        (1 + self.delay).max(0) as usize
+    /// Samples by which the first coefficient precedes the paper's: `−delay`, or 0.
+    pub(super) fn lead(&self) -> usize {
+        (-self.delay).max(0) as usize
+    }
+
+    /// Samples ahead of `t` that a prediction of `y(t)` looks at.
+    pub(super) fn ahead(&self) -> usize {
+        self.lead().saturating_sub(1)
+    }
+
+    /// Sample of `u` that coefficient `i` (from 0) weighs in `y(t)`; `t` must lie at least [`Self::memory`] from the start.
+    pub(super) fn input(&self, t: usize, i: usize) -> usize {
+        t.wrapping_add_signed(-1 - self.delay) - i
     }
 
     /// Oldest sample that a prediction looks back to.
     pub(super) fn memory(&self) -> usize {
-        self.order.max(self.first_lag() + self.numerator() - 1)
+        self.order + self.delay.max(0) as usize
     }
 }
 
@@ -75,5 +85,12 @@ pub(super) struct Segment<'a> {
 impl Segment<'_> {
     pub(super) fn len(&self) -> usize {
         self.to - self.from
+    }
+
+    /// Energy of the outputs to be explained about their mean.
+    pub(super) fn energy(&self) -> f64 {
+        let y = &self.y[self.from..self.to];
+        let mean = y.iter().sum::<f64>() / y.len() as f64;
+        y.iter().map(|y| (y - mean) * (y - mean)).sum()
     }
 }

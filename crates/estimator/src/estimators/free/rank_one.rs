@@ -81,3 +81,41 @@ pub(super) fn alternate(moments: &Moments, start: Vec<f64>, rounds: usize) -> Op
     }
     result
 }
+
+/// Where `(a, b, f, c)` lies in the over-parameterised regression: `a`, every `bᵢf_k`, `c`.
+fn products(moments: &Moments, theta: &Parameters) -> DVector<f64> {
+    let values = theta.b.iter().flat_map(|b| theta.f.iter().map(move |f| b * f));
+    let all = theta.a.iter().copied().chain(values).chain([theta.c]);
+    DVector::from_iterator(moments.constant() + 1, all)
+}
+
+/// Sum of squared equation errors.
+pub(super) fn residual_energy(moments: &Moments, theta: &Parameters) -> f64 {
+    let x = products(moments, theta).push(-1.0);
+    x.dot(&(&moments.matrix * &x)).max(0.0)
+}
+
+/// `JᵀMJ`, with `J` the derivative of the over-parameterised coefficients with respect to `(a, b, f, c)`: the
+/// information of the rank-one regression per unit noise variance.
+pub(super) fn information(moments: &Moments, theta: &Parameters) -> DMatrix<f64> {
+    let jacobian = jacobian(moments, theta);
+    let p = jacobian.nrows();
+    jacobian.transpose() * moments.matrix.view((0, 0), (p, p)) * jacobian
+}
+
+/// Derivative of [`products`].
+fn jacobian(moments: &Moments, theta: &Parameters) -> DMatrix<f64> {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let mut jacobian = DMatrix::zeros(moments.constant() + 1, n + nb + m + 1);
+    for i in 0..n {
+        jacobian[(i, i)] = 1.0;
+    }
+    for i in 0..nb {
+        for k in 0..m {
+            jacobian[(moments.product(i, k), n + i)] = theta.f[k];
+            jacobian[(moments.product(i, k), n + nb + k)] = theta.b[i];
+        }
+    }
+    jacobian[(moments.constant(), n + nb + m)] = 1.0;
+    jacobian
+}

@@ -1,5 +1,6 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
+use super::fit::Effort;
 use super::problem::{Parameters, Segment, Structure};
 use nalgebra::{DMatrix, DVector};
 
@@ -26,7 +27,7 @@ pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segme
             now -= a * y[t - 1 - i];
         }
         for (i, b) in theta.b.iter().enumerate() {
-            now += b * u[t - structure.first_lag() - i];
+            now += b * u[structure.input(t, i)];
         }
         y.push(now);
     }
@@ -97,7 +98,7 @@ pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Se
                     present[i] -= before(now - 1 - i);
                 }
                 for (i, b) in theta.b.iter().enumerate() {
-                    let cell = segment.cells[now - structure.first_lag() - i];
+                    let cell = segment.cells[structure.input(now, i)];
                     present[n + i] += cell.value(&theta.f);
                     for (k, x) in cell.features() {
                         present[n + nb + k] += b * x;
@@ -124,9 +125,7 @@ pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Se
 /// When to stop, and how much to prefer smooth curves where the data say nothing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refinement<'a> {
-    pub(super) iterations: usize,
-    /// Relative decrease of the cost below which a step counts as the last.
-    pub(super) tolerance: f64,
+    pub(super) effort: Effort,
     /// Sizes of the curves, whose second differences the penalty sums.
     pub(super) curves: &'a [usize],
     /// Weight of the penalty, as a fraction of the output's energy.
@@ -167,7 +166,7 @@ impl Refinement<'_> {
         };
         let mut now = penalised(&theta);
         let mut damping = 1e-3;
-        for _ in 0..self.iterations {
+        for _ in 0..self.effort.iterations {
             let mut model = linearise(structure, &theta, segments);
             let f = DVector::from_column_slice(&theta.f);
             let mut block = model.information.view_mut((offset, offset), penalty.shape());
@@ -188,7 +187,7 @@ impl Refinement<'_> {
                     _ => damping *= 8.0,
                 }
             }
-            if before - now <= self.tolerance * before {
+            if before - now <= self.effort.tolerance * before {
                 break;
             }
         }

@@ -1,9 +1,11 @@
 //! The noise of a study: unit white normals in lanes, and the one pass over them that serves every cell.
 //!
-//! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box and Muller's transform without a
-//! branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at each checkpoint, what the estimators need: lag products, folds and
-//! edges ([`NoiseRecord`]). [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
+//! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box
+//! and Muller's transform without a branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at
+//! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). [`samples`]
+//! gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
 
+mod aligned;
 mod chacha;
 mod kernels;
 mod normal;

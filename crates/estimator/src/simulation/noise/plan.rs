@@ -44,8 +44,9 @@ pub enum NoisePlanError {
 /// A(q⁻¹) e(t) = C(q⁻¹) w(t),   A = 1 + a₁q⁻¹ + …,   C = 1 + c₁q⁻¹ + …,   w unit white normal
 /// ```
 ///
-/// The filter starts at rest (w = e = 0) at `t = −burn_in`, so that `e` is stationary at `t = 0` to within what is left of the impulse
-/// response of C/A after `burn_in` samples; [`settling_samples`] gives a number after which nothing is left in double precision.
+/// The filter starts at rest (w = e = 0) at `t = −burn_in`, so that `e` is stationary at `t = 0` to within
+/// what is left of the impulse response of C/A after `burn_in` samples; [`settling_samples`] gives a number
+/// after which nothing is left in double precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoisePlan {
     /// `a₁…a_p`; empty for white noise or a pure moving average.
@@ -113,10 +114,11 @@ fn is_stable(a: &[f64]) -> bool {
     true
 }
 
-/// Samples after which the impulse response of `1/A` has died out: what is left has less than `tolerance²` of its energy.
+/// Samples after which the impulse response of `1/A` has died out: the first of p successive values that are
+/// each below `tolerance` times the root of the energy before them, p the order of A.
 ///
-/// For a stationary start choose a `tolerance` of 10⁻¹² or so; add the length of C for a filter C/A. `None` when `ar` is not stable, or needs more than
-/// ten million samples.
+/// For a stationary start choose a `tolerance` of 10⁻¹² or so; add the length of C for a filter C/A. `None`
+/// when `ar` is not stable, or needs more than ten million samples.
 ///
 /// ```
 /// # use switchback_estimator::simulation::noise::settling_samples;
@@ -129,8 +131,7 @@ pub fn settling_samples(ar: &[f64], tolerance: f64) -> Option<usize> {
     if !is_stable(ar) {
         return None;
     }
-    // State after k samples: the last p values of the impulse response. Its energy, relative to the response so far, bounds what comes
-    // only through the stable dynamics, so the state has to be small over p successive samples.
+    // The state of the filter is its last p values; when all of them are small, what follows is.
     let mut past = vec![0.0; ar.len()];
     let (mut energy, mut quiet) = (0.0, 0);
     for k in 0..LONGEST {

@@ -2,8 +2,8 @@
 
 /// An instruction set the kernels are compiled for.
 ///
-/// All give the same bits: the source of a kernel is one, it is compiled once for each set, it never fuses a multiplication with an
-/// addition, and no operation crosses from one lane to another.
+/// All give the same bits: the source of a kernel is one, it is compiled once for each set, it never fuses a
+/// multiplication with an addition, and no operation crosses from one lane to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Width(Set);
 
@@ -19,7 +19,8 @@ enum Set {
 
 /// A piece of work that can be done for any number of lanes.
 pub(super) trait Kernel {
-    /// Does it for `L` lanes. Implementations are `#[inline(always)]`, so that they take on the instruction set of the caller.
+    /// Does it for `L` lanes. Implementations are `#[inline(always)]`, so that they take on the instruction
+    /// set of the caller.
     fn run<const L: usize>(self);
 }
 
@@ -43,7 +44,10 @@ impl Width {
             if std::is_x86_feature_detected!("avx2") {
                 widths.push(Self(Set::Avx2));
             }
-            if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
+            if std::is_x86_feature_detected!("avx512f")
+                && std::is_x86_feature_detected!("avx512dq")
+                && std::is_x86_feature_detected!("avx512vl")
+            {
                 widths.push(Self(Set::Avx512));
             }
         }
@@ -70,7 +74,8 @@ impl Width {
             // SAFETY: this variant is built by `available` alone, after the processor has reported AVX2.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { avx2(kernel) },
-            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX-512 F and DQ.
+            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX-512 F,
+            // DQ and VL.
             #[cfg(target_arch = "x86_64")]
             Set::Avx512 => unsafe { avx512(kernel) },
         }
@@ -84,7 +89,7 @@ fn avx2(kernel: impl Kernel) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn avx512(kernel: impl Kernel) {
     kernel.run::<16>();
 }

@@ -1,0 +1,105 @@
+//! Order, delay and number of knots, chosen by cross-validation on the fit records.
+
+use super::cross_validation::{Assessed, FOLDS, assess};
+use super::data::Data;
+use super::error::FreeError;
+use super::fit::{FIRST_KNOTS, Ladder};
+use super::problem::Structure;
+use super::settings::{InputMap, Settings};
+use std::ops::RangeInclusive;
+
+/// Orders tried.
+const ORDERS: RangeInclusive<usize> = 1..=4;
+/// Delays tried. −1: no delay at all; −2: `y` answers one sample before `v` shows, as when the sensor of `v` lags.
+const DELAYS: RangeInclusive<isize> = -2..=1;
+/// Knots a curve tried in the second stage; the first stage has [`FIRST_KNOTS`].
+const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
+/// Structures that reach the second stage.
+const FINALISTS: usize = 3;
+
+/// One candidate and what cross-validation says of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Order and delay.
+    pub structure: Structure,
+    /// Knots of each curve; 2 for a straight line.
+    pub knots: usize,
+    /// Free parameters.
+    pub parameters: usize,
+    /// `100·(1 − √(Σ(y−ŷ)²/Σ(y−ȳ)²))`, free runs over blocks that the fit had not seen; the criterion.
+    pub fit_percent: f64,
+    /// How far its squared error exceeds the best candidate's, in standard errors of the difference over folds.
+    pub behind: f64,
+}
+
+/// How the structure was chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    /// Every candidate tried, best first; empty where the settings left nothing to choose.
+    pub candidates: Vec<Candidate>,
+    /// Blocks of time that were left out in turn.
+    pub folds: usize,
+    /// Order and delay chosen.
+    pub structure: Structure,
+    /// Knots of each curve chosen.
+    pub knots: usize,
+}
+
+/// Chooses what the settings leave open.
+///
+/// First every order and delay at a middling number of knots, then every number of knots at the best of
+/// these. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
+/// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
+/// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
+/// smaller ones travel better to records that the fit has not seen.
+pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, FreeError> {
+    let orders: Vec<usize> = settings.order.map_or(ORDERS.collect(), |n| vec![n]);
+    let delays: Vec<isize> = settings.delay.map_or(DELAYS.collect(), |d| vec![d]);
+    let knots: Vec<usize> = match (settings.input_map, settings.knots) {
+        (InputMap::Linear, _) => vec![2],
+        (_, Some(k)) => vec![k],
+        _ => KNOTS.to_vec(),
+    };
+    let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
+    let structures: Vec<Structure> =
+        orders.iter().flat_map(|&order| delays.iter().map(move |&delay| Structure { order, delay })).collect();
+    if let ([structure], [knots]) = (&structures[..], &knots[..]) {
+        return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
+    }
+    let ladder = Ladder::new(data, settings.input_map, first_knots);
+    let mut assessed: Vec<Assessed> =
+        structures.iter().map(|&structure| assess(&ladder, structure, settings.refine, None)).collect();
+    assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
+    let mut second: Vec<Assessed> = Vec::new();
+    for &k in knots.iter().filter(|&&k| k != first_knots) {
+        let ladder = Ladder::last_step(data, settings.input_map, k);
+        for finalist in assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite()) {
+            second.push(assess(&ladder, finalist.structure, settings.refine, Some(&finalist.fits)));
+        }
+    }
+    assessed.extend(second);
+    assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
+    let candidates: Vec<Candidate> = assessed.iter().map(|a| candidate(a, &assessed[0])).collect();
+    let close = candidates.iter().filter(|c| c.behind <= 1.0);
+    match close.min_by_key(|c| c.parameters) {
+        Some(&Candidate { structure, knots, .. }) => Ok(Selection { candidates, folds: FOLDS, structure, knots }),
+        None => Err(FreeError::Unstable { order: structures[0].order }),
+    }
+}
+
+/// Sets an assessment against the best one.
+fn candidate(assessed: &Assessed, best: &Assessed) -> Candidate {
+    let excess: Vec<f64> = assessed.losses.iter().zip(&best.losses).map(|(x, y)| x - y).collect();
+    let count = excess.len() as f64;
+    let mean = excess.iter().sum::<f64>() / count;
+    let variance = excess.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
+    let error = (variance / count).sqrt();
+    let behind = if mean == 0.0 { 0.0 } else { mean / error };
+    Candidate {
+        structure: assessed.structure,
+        knots: assessed.knots,
+        parameters: assessed.parameters,
+        fit_percent: assessed.fit_percent,
+        behind: if assessed.fit_percent.is_finite() { behind } else { f64::INFINITY },
+    }
+}
