@@ -42,7 +42,7 @@ pub(super) fn figure(
     let groups = selection.groups();
     let noises = thinned(&selection.noises(), OKABE_ITO.len());
     let sheet = Sheet {
-        title: title(measure, selection, results),
+        title: title(measure, selection, results, baseline.is_some()),
         notes: notes(measure, selection, &rows),
         legend: legend(measure, &noises, selection, baseline.is_some()),
         grid: Grid {
@@ -56,7 +56,7 @@ pub(super) fn figure(
     };
     sheet.render(|canvas, frames| {
         for (column, &group) in groups.iter().enumerate() {
-            let axes = axes(measure, selection, &rows, group);
+            let axes = axes(measure, &shown(&rows, [Some(selection), baseline]), group);
             for (r, row) in rows.iter().enumerate() {
                 let panel = Panel::new(canvas, frames.corner(r, column), frames.size(), axes);
                 if r == 0 {
@@ -102,12 +102,13 @@ fn name_row(canvas: &Canvas<'_>, frames: &Frames, index: usize, row: &Row<'_>) {
     canvas.text(&points, (42.0, middle), TextLook::new(15.0).middle().upwards().colour(GREY));
 }
 
-fn title(measure: Measure, selection: &Selection<'_>, results: &Results) -> String {
+fn title(measure: Measure, selection: &Selection<'_>, results: &Results, over_baseline: bool) -> String {
     let what = match measure {
         Measure::Bias => "bias of the estimates against N",
         Measure::Sd => "standard deviation of the estimates against N",
     };
-    format!("{}: {what}", selection.title(results))
+    let and = if over_baseline { ", over the baseline" } else { "" };
+    format!("{}: {what}{and}", selection.title(results))
 }
 
 fn notes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>]) -> Vec<String> {
@@ -162,14 +163,14 @@ fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>, over_base
     entries
 }
 
+/// The cells that the figure draws.
+fn shown<'r>(rows: &[Row<'_>], selections: [Option<&Selection<'r>>; 2]) -> Vec<&'r Cell> {
+    let drawn = |c: &&Cell| rows.iter().any(|r| r.border == c.series.border && r.points == c.series.points);
+    selections.into_iter().flatten().flat_map(|s| s.cells.iter().copied()).filter(drawn).collect()
+}
+
 /// Axes that all rows of a column share, so that they can be compared.
-fn axes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>], group: Group) -> (Axis, Axis) {
-    let shown: Vec<&Cell> = selection
-        .cells
-        .iter()
-        .copied()
-        .filter(|c| rows.iter().any(|r| r.border == c.series.border && r.points == c.series.points))
-        .collect();
+fn axes(measure: Measure, shown: &[&Cell], group: Group) -> (Axis, Axis) {
     let measured = |f: fn(&Parameter) -> Option<Measured>| {
         shown
             .iter()
