@@ -3,7 +3,8 @@
 use crate::compare::{self, Comparison};
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder};
-use crate::results;
+use crate::plots;
+use crate::results::{self, Results};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -16,7 +17,7 @@ pub struct Args {
     /// The results to judge.
     new: PathBuf,
 
-    /// Also write comparison.txt and comparison.svg into this folder.
+    /// Also write comparison.txt, comparison.svg and overlays of the curves into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -32,17 +33,20 @@ pub fn run(args: &Args) -> CommandResult {
     let comparison = compare::compare(&baseline, &new);
     let summary = compare::summary(&comparison, &baseline, &new);
     if let Some(folder) = folder {
-        let title = format!("{}: new results against the baseline", baseline.name);
-        folder.commit(&artefacts(&comparison, &summary, &title))?;
+        folder.commit(&artefacts(&comparison, &summary, (&baseline, &new)))?;
     }
     print(&summary)?;
     Ok(if comparison.agrees() { Outcome::Done } else { Outcome::Unmet })
 }
 
-fn artefacts(comparison: &Comparison, summary: &str, title: &str) -> Artefacts {
+fn artefacts(comparison: &Comparison, summary: &str, (baseline, new): (&Results, &Results)) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("comparison.txt", summary);
-    artefacts.add("comparison.svg", compare::overlay(comparison, title));
+    let title = format!("{}: new results against the baseline", baseline.name);
+    artefacts.add("comparison.svg", compare::quantiles(comparison, &title));
+    for figure in plots::overlays(baseline, new) {
+        artefacts.add(format!("overlay-{}", figure.name), figure.svg);
+    }
     artefacts
 }
 

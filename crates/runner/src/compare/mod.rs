@@ -1,9 +1,9 @@
 //! Two result tables side by side, in units of their Monte-Carlo errors.
 
-mod overlay;
 mod pairs;
+mod quantiles;
 mod text;
 
-pub use overlay::overlay;
 pub use pairs::{Comparison, Difference, Place, compare};
+pub use quantiles::quantiles;
 pub use text::summary;

@@ -149,11 +149,13 @@ pub fn draw((width, height): (f64, f64), paint: impl FnOnce(&Canvas<'_>)) -> Str
     }
     let shown = format!("width=\"{width}\" height=\"{height}\"");
     let svg = svg.replacen(&format!("width=\"{w}\" height=\"{h}\""), &shown, 1);
-    [Dash::Dashes, Dash::Dots].into_iter().fold(svg, |svg, dash| {
+    let svg = [Dash::Dashes, Dash::Dots].into_iter().fold(svg, |svg, dash| {
         let (drawn, left_out) = dash.pattern();
         let pattern = format!("stroke-dasharray=\"{} {}\"", fine(drawn), fine(left_out));
         svg.replace(&format!("opacity=\"{}\"", dash.opacity()), &pattern)
-    })
+    });
+    // Full opacity is what SVG assumes; a sixth of the file would say so.
+    svg.replace(" opacity=\"1\"", "")
 }
 
 impl Canvas<'_> {

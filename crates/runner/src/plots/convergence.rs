@@ -30,14 +30,21 @@ struct Row<'r> {
 }
 
 /// Draws one figure: rows are border shapes (and `m`), columns parameter groups, colours noise levels.
-pub(super) fn figure(measure: Measure, selection: &Selection<'_>, results: &Results) -> String {
+///
+/// The same part of a `baseline` is drawn behind, in grey.
+pub(super) fn figure(
+    measure: Measure,
+    selection: &Selection<'_>,
+    baseline: Option<&Selection<'_>>,
+    results: &Results,
+) -> String {
     let rows = rows(selection);
     let groups = selection.groups();
     let noises = thinned(&selection.noises(), OKABE_ITO.len());
     let sheet = Sheet {
-        title: title(measure, selection, results),
+        title: title(measure, selection, results, baseline.is_some()),
         notes: notes(measure, selection, &rows),
-        legend: legend(measure, &noises, selection),
+        legend: legend(measure, &noises, selection, baseline.is_some()),
         grid: Grid {
             columns: groups.len().max(1),
             rows: rows.len(),
@@ -49,7 +56,7 @@ pub(super) fn figure(measure: Measure, selection: &Selection<'_>, results: &Resu
     };
     sheet.render(|canvas, frames| {
         for (column, &group) in groups.iter().enumerate() {
-            let axes = axes(measure, selection, &rows, group);
+            let axes = axes(measure, &shown(&rows, [Some(selection), baseline]), group);
             for (r, row) in rows.iter().enumerate() {
                 let panel = Panel::new(canvas, frames.corner(r, column), frames.size(), axes);
                 if r == 0 {
@@ -64,6 +71,10 @@ pub(super) fn figure(measure: Measure, selection: &Selection<'_>, results: &Resu
                 for (k, &noise) in noises.iter().enumerate() {
                     let cells = selection.curve(row.border, row.points, noise);
                     let aside = 5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0);
+                    if let Some(baseline) = baseline {
+                        let cells = baseline.curve(row.border, row.points, noise);
+                        Curve { cells, group, colour: GREY, aside: -6.0 }.draw_behind(&panel, measure);
+                    }
                     let curve = Curve { cells, group, colour: OKABE_ITO[k], aside };
                     match measure {
                         Measure::Bias => curve.draw_bias(&panel),
@@ -91,12 +102,13 @@ fn name_row(canvas: &Canvas<'_>, frames: &Frames, index: usize, row: &Row<'_>) {
     canvas.text(&points, (42.0, middle), TextLook::new(15.0).middle().upwards().colour(GREY));
 }
 
-fn title(measure: Measure, selection: &Selection<'_>, results: &Results) -> String {
+fn title(measure: Measure, selection: &Selection<'_>, results: &Results, over_baseline: bool) -> String {
     let what = match measure {
         Measure::Bias => "bias of the estimates against N",
         Measure::Sd => "standard deviation of the estimates against N",
     };
-    format!("{}: {what}", selection.title(results))
+    let and = if over_baseline { ", over the baseline" } else { "" };
+    format!("{}: {what}{and}", selection.title(results))
 }
 
 fn notes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>]) -> Vec<String> {
@@ -115,7 +127,7 @@ fn notes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>]) -> Vec<S
     notes
 }
 
-fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>) -> Vec<Entry> {
+fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>, over_baseline: bool) -> Vec<Entry> {
     let mut entries: Vec<Entry> = noises
         .iter()
         .zip(&OKABE_ITO)
@@ -123,6 +135,9 @@ fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>) -> Vec<En
             Entry::new(Sample::Disc(Pen::new(colour, 1.5), true), format!("noise {}", plain(noise)))
         })
         .collect();
+    if over_baseline {
+        entries.push(Entry::new(Sample::Disc(Pen::new(GREY, 1.5), true), "grey, left of it: the baseline"));
+    }
     let has = |f: fn(&Parameter) -> bool| selection.cells.iter().any(|c| c.parameters.iter().any(f));
     match measure {
         Measure::Bias => {
@@ -148,14 +163,14 @@ fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>) -> Vec<En
     entries
 }
 
+/// The cells that the figure draws.
+fn shown<'r>(rows: &[Row<'_>], selections: [Option<&Selection<'r>>; 2]) -> Vec<&'r Cell> {
+    let drawn = |c: &&Cell| rows.iter().any(|r| r.border == c.series.border && r.points == c.series.points);
+    selections.into_iter().flatten().flat_map(|s| s.cells.iter().copied()).filter(drawn).collect()
+}
+
 /// Axes that all rows of a column share, so that they can be compared.
-fn axes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>], group: Group) -> (Axis, Axis) {
-    let shown: Vec<&Cell> = selection
-        .cells
-        .iter()
-        .copied()
-        .filter(|c| rows.iter().any(|r| r.border == c.series.border && r.points == c.series.points))
-        .collect();
+fn axes(measure: Measure, shown: &[&Cell], group: Group) -> (Axis, Axis) {
     let measured = |f: fn(&Parameter) -> Option<Measured>| {
         shown
             .iter()
@@ -178,7 +193,7 @@ struct Curve<'r> {
     cells: Vec<&'r Cell>,
     group: Group,
     colour: RGBColor,
-    /// Where marks behind the curve stand beside their place, pixels.
+    /// How far marks stand beside their place where they would cover others, pixels.
     aside: f64,
 }
 
@@ -205,7 +220,8 @@ impl Curve<'_> {
         }
         for (n, bias) in front {
             let filled = self.resolved(*n, bias);
-            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled, aside: 0.0 };
+            let aside = if filled { 0.0 } else { self.aside };
+            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled, aside };
             panel.mark(*n, bias.value(), bar(bias), mark);
         }
     }
@@ -217,6 +233,18 @@ impl Curve<'_> {
         for (n, sd) in self.pooled(Parameter::best_sd) {
             let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled: true, aside: 0.0 };
             panel.mark(n, sd.value(), bar(&sd), mark);
+        }
+    }
+
+    /// The figures alone, smaller and beside their place.
+    fn draw_behind(&self, panel: &Panel<'_, '_>, measure: Measure) {
+        let figures = match measure {
+            Measure::Bias => self.pooled(Parameter::best_bias),
+            Measure::Sd => self.pooled(Parameter::best_sd),
+        };
+        let mark = Mark { pen: Pen::new(self.colour, 1.2), radius: 3.0, filled: true, aside: self.aside };
+        for (n, figure) in figures {
+            panel.mark(n, figure.value(), bar(&figure), mark);
         }
     }
 

@@ -33,11 +33,26 @@ pub fn consistency(results: &Results) -> Vec<Figure> {
     let mut figures = Vec::new();
     for selection in selection::selections(results) {
         for (what, measure) in [("bias", Measure::Bias), ("sd", Measure::Sd)] {
-            let svg = convergence::figure(measure, &selection, results);
+            let svg = convergence::figure(measure, &selection, None, results);
             figures.push(Figure { name: selection.file(what, results), svg });
         }
         if let Some(svg) = borders::figure(&selection, results) {
             figures.push(Figure { name: selection.file("borders", results), svg });
+        }
+    }
+    figures
+}
+
+/// Bias and standard deviation of every case and method that both tables hold, the baseline behind in grey.
+pub fn overlays(baseline: &Results, new: &Results) -> Vec<Figure> {
+    let old = selection::selections(baseline);
+    let mut figures = Vec::new();
+    for selection in selection::selections(new) {
+        let same = |s: &&selection::Selection<'_>| s.case == selection.case && s.method == selection.method;
+        let Some(twin) = old.iter().find(same) else { continue };
+        for (what, measure) in [("bias", Measure::Bias), ("sd", Measure::Sd)] {
+            let svg = convergence::figure(measure, &selection, Some(twin), new);
+            figures.push(Figure { name: selection.file(what, new), svg });
         }
     }
     figures
@@ -74,8 +89,13 @@ mod tests {
     #[test]
     fn figures_can_be_looked_at() {
         let Ok(folder) = std::env::var("SWITCHBACK_FIGURES") else { return };
-        for figure in consistency(&synthetic::results()) {
-            std::fs::write(std::path::Path::new(&folder).join(figure.name), figure.svg)
+        let folder = std::path::Path::new(&folder);
+        let results = synthetic::results();
+        for figure in consistency(&results) {
+            std::fs::write(folder.join(figure.name), figure.svg).expect("a writable folder");
+        }
+        for figure in overlays(&results, &results) {
+            std::fs::write(folder.join(format!("overlay-{}", figure.name)), figure.svg)
                 .expect("a writable folder");
         }
     }

@@ -1,6 +1,6 @@
 //! One diagram: a frame, two axes, and data drawn inside.
 
-use super::axis::Axis;
+use super::axis::{Axis, Tick};
 use super::canvas::{Canvas, Dash, Pen, Point, TextLook};
 use super::palette::{FAINT, GREY, INK};
 
@@ -45,24 +45,26 @@ impl<'c, 's> Panel<'c, 's> {
         let ((left, top), (width, height)) = (self.corner, self.size);
         let (right, bottom) = (left + width, top + height);
         let look = TextLook::new(TICK_TEXT);
+        let mut comb = vec![(left, bottom)];
         for tick in self.x.ticks() {
             let Some(x) = self.x.place(tick.at).map(|p| left + p * width) else { continue };
-            let length = if tick.label.is_some() { 5.0 } else { 3.0 };
+            comb.extend([(x, bottom), (x, bottom - length(&tick)), (x, bottom)]);
             if let Some(label) = tick.label {
                 self.canvas.line(&[(x, top), (x, bottom)], Pen::new(FAINT, 1.0));
                 self.canvas.text(&label, (x, bottom + 14.0), look.middle());
             }
-            self.canvas.line(&[(x, bottom), (x, bottom - length)], Pen::new(GREY, 1.0));
         }
+        self.canvas.line(&comb, Pen::new(GREY, 1.0));
+        let mut comb = vec![(left, bottom)];
         for tick in self.y.ticks() {
             let Some(y) = self.y.place(tick.at).map(|p| bottom - p * height) else { continue };
-            let length = if tick.label.is_some() { 5.0 } else { 3.0 };
+            comb.extend([(left, y), (left + length(&tick), y), (left, y)]);
             if let Some(label) = tick.label {
                 self.canvas.line(&[(left, y), (right, y)], Pen::new(FAINT, 1.0));
                 self.canvas.text(&label, (left - 5.0, y), look.end());
             }
-            self.canvas.line(&[(left, y), (left + length, y)], Pen::new(GREY, 1.0));
         }
+        self.canvas.line(&comb, Pen::new(GREY, 1.0));
     }
 
     /// Place on the sheet, inside the frame or not; `None` for what a logarithmic axis cannot hold.
@@ -97,12 +99,12 @@ impl<'c, 's> Panel<'c, 's> {
         let beside = |y: f64| self.place(x, y).map(|(px, py)| (px + mark.aside, py));
         let (Some(foot), Some(head)) = (beside(inside(low)), beside(inside(high))) else { return };
         if head.1 < foot.1 {
-            self.canvas.line(&[foot, head], mark.pen);
-            for (end, cut) in [(foot, low < self.y.low()), (head, high > self.y.high())] {
-                if !cut {
-                    self.canvas.line(&[(end.0 - 3.0, end.1), (end.0 + 3.0, end.1)], mark.pen);
-                }
-            }
+            let cap = |end: Point, cut: bool| {
+                let reach = if cut { 0.0 } else { 3.0 };
+                [end, (end.0 - reach, end.1), (end.0 + reach, end.1), end]
+            };
+            let bar = [cap(foot, low < self.y.low()), cap(head, high > self.y.high())].concat();
+            self.canvas.line(&bar, mark.pen);
         }
         let shown = (self.y.low()..=self.y.high()).contains(&y);
         if let Some(centre) = beside(y).filter(|_| shown && mark.radius > 0.0) {
@@ -133,6 +135,11 @@ impl<'c, 's> Panel<'c, 's> {
         let centre = (self.corner.0 + self.size.0 / 2.0, self.corner.1 + self.size.1 / 2.0);
         self.canvas.text(text, centre, TextLook::new(15.0).middle().colour(GREY));
     }
+}
+
+/// Length of a tick's mark, pixels.
+fn length(tick: &Tick) -> f64 {
+    if tick.label.is_some() { 5.0 } else { 3.0 }
 }
 
 /// The part of a segment inside a rectangle (Liang and Barsky 1984).

@@ -1,4 +1,4 @@
-//! The figure of a comparison.
+//! All differences of a comparison in one figure.
 
 use super::{Comparison, Difference};
 use crate::plots::axis::{Axis, plain};
@@ -23,7 +23,7 @@ const WITHIN: RGBColor = OKABE_ITO[0];
 ///
 /// In each diagram the differences stand in order at the normal quantiles they would have if nothing had changed; then
 /// they follow the diagonal.
-pub fn overlay(comparison: &Comparison, title: &str) -> String {
+pub fn quantiles(comparison: &Comparison, title: &str) -> String {
     let sheet = Sheet {
         title: title.to_owned(),
         notes: vec![
@@ -38,7 +38,7 @@ pub fn overlay(comparison: &Comparison, title: &str) -> String {
             ),
             Entry::new(Sample::Line(Pen::new(GREY, 1.2)), "expected where nothing changed"),
         ],
-        grid: Grid { columns: 2, rows: 2, height: 300.0, left: 82.0, between: 82.0, above: 70.0 },
+        grid: Grid { columns: 2, rows: 2, height: 300.0, left: 82.0, between: 82.0, above: 78.0 },
     };
     sheet.render(|canvas, frames| {
         for (i, (measure, name)) in MEASURES.into_iter().enumerate() {
@@ -96,7 +96,7 @@ mod tests {
     use crate::results::synthetic;
 
     #[test]
-    fn the_overlay_marks_what_is_beyond_chance_and_repeats_itself() {
+    fn the_figure_marks_what_is_beyond_chance_and_repeats_itself() {
         let baseline = synthetic::results();
         let mut new = baseline.clone();
         for cell in &mut new.cells {
@@ -110,9 +110,9 @@ mod tests {
             }
         }
         let comparison = compare(&baseline, &new);
-        let svg = overlay(&comparison, "synthetic against itself, moved");
+        let svg = quantiles(&comparison, "synthetic against itself, moved");
         assert!(svg.contains("#D55E00"));
-        assert_eq!(svg, overlay(&comparison, "synthetic against itself, moved"));
+        assert_eq!(svg, quantiles(&comparison, "synthetic against itself, moved"));
         if let Ok(folder) = std::env::var("SWITCHBACK_FIGURES") {
             std::fs::write(std::path::Path::new(&folder).join("compare.svg"), svg)
                 .expect("a writable folder");
