@@ -1,0 +1,116 @@
+//! The fit records, with everything that does not depend on a model's structure worked out once.
+
+use super::basis::{Basis, Cell, place_knots};
+use super::branch::{Branches, SensorNoise};
+use super::error::FreeError;
+use super::model;
+use super::problem::{Segment, Structure};
+use super::settings::{InputMap, Settings};
+use crate::hysteresis::{Branch, Interval};
+use crate::record::Record;
+
+/// The records and their branches.
+#[derive(Debug)]
+pub(super) struct Data<'a> {
+    pub(super) records: Vec<(&'a Record, Branches)>,
+    pub(super) interval: Interval,
+    pub(super) threshold: f64,
+    pub(super) noise: SensorNoise,
+}
+
+/// Hats of every sample of every record, for one basis.
+#[derive(Debug)]
+pub(super) struct Featured<'a> {
+    pub(super) basis: Basis,
+    records: Vec<(&'a Record, usize, Vec<Cell>)>,
+}
+
+impl<'a> Data<'a> {
+    /// Finds the threshold, the branches and the interval. Records whose input never moves are left out.
+    pub(super) fn new(records: &[&'a Record], settings: &Settings) -> Result<Self, FreeError> {
+        if records.is_empty() {
+            return Err(FreeError::NoRecords);
+        }
+        let noise = records
+            .iter()
+            .map(|r| SensorNoise::of(r.v()))
+            .max_by(|x, y| x.threshold().total_cmp(&y.threshold()))
+            .ok_or(FreeError::NoRecords)?;
+        let threshold = settings.threshold.unwrap_or_else(|| noise.threshold());
+        let records: Vec<_> = records
+            .iter()
+            .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
+            .collect();
+        let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
+        let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
+        if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
+            return Err(FreeError::ConstantOutput);
+        }
+        Ok(Self { records, interval: settings.interval.unwrap_or(range), threshold, noise })
+    }
+
+    /// A basis with `knots` knots a curve, placed by where the records go.
+    pub(super) fn basis(&self, map: InputMap, knots: usize) -> Basis {
+        let values = |wanted: Option<Branch>| -> Vec<f64> {
+            let visited = |(record, branches): &(&Record, Branches)| {
+                let labelled = record.v().iter().zip(branches.labels()).skip(branches.first_known());
+                labelled.filter(|(_, b)| wanted.is_none_or(|w| w == **b)).map(|(v, _)| *v).collect::<Vec<_>>()
+            };
+            self.records.iter().flat_map(visited).collect()
+        };
+        let place = |branch| place_knots(&values(branch), self.interval, knots);
+        match map {
+            InputMap::Linear => Basis::linear(self.interval),
+            InputMap::Static => Basis::curve(place(None)),
+            InputMap::Borders => Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending))),
+        }
+    }
+
+    /// Hats of every sample.
+    pub(super) fn featured(&self, basis: Basis) -> Featured<'a> {
+        let hats = |(record, branches): &(&'a Record, Branches)| {
+            (*record, branches.first_known(), model::cells(&basis, record.v(), branches))
+        };
+        Featured { records: self.records.iter().map(hats).collect(), basis }
+    }
+}
+
+impl Featured<'_> {
+    /// Everything that a structure can explain.
+    pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
+        let whole = self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
+        whole.flatten().collect()
+    }
+
+    /// Blocks of time of about equal length, none across records: `blocks` in all, or a few more.
+    ///
+    /// A block's first outputs serve as its initial state, so that no block sees another's outputs.
+    pub(super) fn blocks(&self, structure: Structure, blocks: usize) -> Vec<Segment<'_>> {
+        let total: usize = self.records.iter().map(|(r, ..)| r.len()).sum();
+        let length = total.div_ceil(blocks).max(1);
+        let mut out = Vec::new();
+        for (record, known, cells) in &self.records {
+            let count = (record.len() as f64 / length as f64).round().max(1.0) as usize;
+            for j in 0..count {
+                let (from, to) = (record.len() * j / count, record.len() * (j + 1) / count);
+                out.extend(usable(structure, record, *known, cells, from, to));
+            }
+        }
+        out
+    }
+}
+
+/// The part of `from..to` whose inputs and past outputs are all known and lie inside it.
+fn usable<'a>(
+    structure: Structure,
+    record: &'a Record,
+    known: usize,
+    cells: &'a [Cell],
+    from: usize,
+    to: usize,
+) -> Option<Segment<'a>> {
+    let from = from.max(known) + structure.memory();
+    let to = to.min(record.len());
+    (from < to).then_some(Segment { y: record.y(), cells, from, to })
+}

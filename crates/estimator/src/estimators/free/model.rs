@@ -1,0 +1,113 @@
+//! An identified system that runs on its own.
+
+use super::basis::{Basis, Cell};
+use super::branch::Branches;
+use super::problem::{Parameters, Segment, Structure};
+use super::simulation_error::free_run;
+use crate::hysteresis::Branch;
+use crate::record::Record;
+
+/// A Hammerstein system on piecewise-linear curves, in output units.
+///
+/// ```text
+/// A(q⁻¹) y(t) = Σᵢ bᵢ u(t−d−i) + c,   u(t) = Σₖ f_k hat_k(v(t)) on the branch of t
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    pub(super) basis: Basis,
+    pub(super) structure: Structure,
+    pub(super) parameters: Parameters,
+    pub(super) threshold: f64,
+}
+
+/// A free run over a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeRun {
+    /// One output a sample; the measured ones before `start`.
+    pub y: Vec<f64>,
+    /// First sample that is simulated.
+    pub start: usize,
+    /// `100·(1 − ‖y − ŷ‖ / ‖y − ȳ‖)` over the simulated samples; negative infinity if `y` is constant there.
+    pub fit_percent: f64,
+}
+
+impl Model {
+    /// The hat functions of the curves.
+    pub fn basis(&self) -> &Basis {
+        &self.basis
+    }
+
+    /// Order and delay.
+    pub fn structure(&self) -> Structure {
+        self.structure
+    }
+
+    /// Reversal threshold, input units.
+    pub fn threshold(&self) -> f64 {
+        self.threshold
+    }
+
+    /// The output for an input, given the outputs measured before the simulation starts.
+    ///
+    /// The run starts from `y_before` (any length). Where it reaches back further, the system rests: `u` at
+    /// its first value and `y` at the output this holds, or at the first of `y_before`. An input that never moves
+    /// by more than the threshold counts as ascending.
+    pub fn simulate(&self, v: &[f64], y_before: &[f64]) -> Vec<f64> {
+        let Some(&first) = self.cells(v).first() else { return Vec::new() };
+        let memory = self.structure.memory();
+        let cells = [vec![first; memory], self.cells(v)].concat();
+        let rest = y_before.first().copied().unwrap_or_else(|| self.rest(first.value(&self.parameters.f)));
+        let given = y_before.len().min(v.len());
+        let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
+        y.resize(cells.len(), 0.0);
+        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: cells.len() };
+        let run = free_run(self.structure, &self.parameters, &segment);
+        y[memory..memory + given].iter().copied().chain(run).collect()
+    }
+
+    /// A free run over a record, and how well it fits.
+    ///
+    /// The same rule serves every method: the outputs measured up to the first sample whose inputs are
+    /// all known, the first move plus the memory of the model, are its initial state; all later ones are
+    /// simulated from `v` alone.
+    pub fn free_run(&self, record: &Record) -> FreeRun {
+        let known = Branches::of(record.v(), self.threshold).map_or(record.len(), |b| b.first_known());
+        let start = (known + self.structure.memory()).min(record.len());
+        let y = self.simulate(record.v(), &record.y()[..start]);
+        let fit_percent = fit_percent(&record.y()[start..], &y[start..]);
+        FreeRun { y, start, fit_percent }
+    }
+
+    /// Stationary output at a value of `u`.
+    fn rest(&self, u: f64) -> f64 {
+        let a: f64 = 1.0 + self.parameters.a.iter().sum::<f64>();
+        (self.parameters.b.iter().sum::<f64>() * u + self.parameters.c) / a
+    }
+
+    /// Hats of every sample.
+    fn cells(&self, v: &[f64]) -> Vec<Cell> {
+        match Branches::of(v, self.threshold) {
+            Some(branches) => cells(&self.basis, v, &branches),
+            None => v.iter().map(|&v| self.basis.cell(Branch::Ascending, v)).collect(),
+        }
+    }
+}
+
+/// Hats of every sample of an input whose branches are known.
+pub(super) fn cells(basis: &Basis, v: &[f64], branches: &Branches) -> Vec<Cell> {
+    v.iter().zip(branches.labels()).map(|(&v, &branch)| basis.cell(branch, v)).collect()
+}
+
+/// `100·(1 − ‖y − ŷ‖ / ‖y − ȳ‖)`: 100 for a perfect prediction, 0 for the mean, negative for worse.
+///
+/// ```
+/// use switchback_estimator::estimators::free::fit_percent;
+/// assert_eq!(fit_percent(&[1.0, 2.0, 3.0], &[1.0, 2.0, 3.0]), 100.0);
+/// assert_eq!(fit_percent(&[1.0, 2.0, 3.0], &[2.0, 2.0, 2.0]), 0.0);
+/// ```
+pub fn fit_percent(measured: &[f64], predicted: &[f64]) -> f64 {
+    let mean = measured.iter().sum::<f64>() / measured.len().max(1) as f64;
+    let energy: f64 = measured.iter().map(|y| (y - mean) * (y - mean)).sum();
+    let missed: f64 = measured.iter().zip(predicted).map(|(y, p)| (y - p) * (y - p)).sum();
+    if energy > 0.0 { 100.0 * (1.0 - (missed / energy).sqrt()) } else { f64::NEG_INFINITY }
+}

@@ -1,0 +1,225 @@
+//! Refinement: the parameters that minimise the error of a free run.
+
+use super::problem::{Parameters, Segment, Structure};
+use nalgebra::{DMatrix, DVector};
+
+/// Whether all zeros of `1 + a₁z⁻¹ + … + aₙz⁻ⁿ` lie inside the unit circle (Schur–Cohn step-down).
+pub(super) fn is_stable(a: &[f64]) -> bool {
+    let mut a = a.to_vec();
+    while let Some(&k) = a.last() {
+        if k.is_nan() || k.abs() >= 1.0 {
+            return false;
+        }
+        let n = a.len() - 1;
+        a = (0..n).map(|i| (a[i] - k * a[n - 1 - i]) / (1.0 - k * k)).collect();
+    }
+    true
+}
+
+/// The free run over a stretch: measured outputs before it, simulated ones from there on.
+pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segment) -> Vec<f64> {
+    let u: Vec<f64> = segment.cells.iter().map(|cell| cell.value(&theta.f)).collect();
+    let mut y = segment.y[..segment.from].to_vec();
+    for t in segment.from..segment.to {
+        let mut now = theta.c;
+        for (i, a) in theta.a.iter().enumerate() {
+            now -= a * y[t - 1 - i];
+        }
+        for (i, b) in theta.b.iter().enumerate() {
+            now += b * u[t - structure.first_lag() - i];
+        }
+        y.push(now);
+    }
+    y.split_off(segment.from)
+}
+
+/// Sum of squared free-run errors; infinite for an unstable `A`.
+pub(super) fn cost(structure: Structure, theta: &Parameters, segments: &[Segment]) -> f64 {
+    if !is_stable(&theta.a) {
+        return f64::INFINITY;
+    }
+    let square = |s: &Segment| -> f64 {
+        let run = free_run(structure, theta, s);
+        run.iter().zip(&s.y[s.from..s.to]).map(|(p, y)| (y - p) * (y - p)).sum()
+    };
+    segments.iter().map(square).sum()
+}
+
+/// Gauss–Newton quantities of the free-run error: `H = ΣJᵀJ`, `g = ΣJᵀ(y − ŷ)`, over parameters a, b, f, c.
+#[derive(Debug, Clone)]
+pub(super) struct Linearised {
+    pub(super) information: DMatrix<f64>,
+    pub(super) gradient: DVector<f64>,
+    pub(super) cost: f64,
+    /// `g` over each batch of consecutive samples, for standard errors that allow for coloured residuals.
+    pub(super) batches: Vec<DVector<f64>>,
+}
+
+/// Rows of the Jacobian gathered before they are squared: enough for a matrix product to pay, few enough for the cache.
+const BATCH: usize = 128;
+
+/// Linearises the free run. The Jacobian follows the same recursion as `ŷ` itself:
+///
+/// ```text
+/// A(q⁻¹) ∂ŷ/∂aᵢ = −ŷ(t−i),   A ∂ŷ/∂bᵢ = u(t−d−i),   A ∂ŷ/∂f_k = B φ_k(t),   A ∂ŷ/∂c = 1
+/// ```
+///
+/// from rest, since the outputs before the stretch are given.
+pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Segment]) -> Linearised {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let p = n + nb + m + 1;
+    let mut sums = Linearised {
+        information: DMatrix::zeros(p, p),
+        gradient: DVector::zeros(p),
+        cost: 0.0,
+        batches: Vec::new(),
+    };
+    for segment in segments {
+        let run = free_run(structure, theta, segment);
+        let before = |t: usize| if t < segment.from { segment.y[t] } else { run[t - segment.from] };
+        // Column t of the batch is ∂ŷ(t)/∂θ; the first n columns are carried over from the batch before.
+        let mut rows = DMatrix::<f64>::zeros(p, n + BATCH);
+        let mut t = segment.from;
+        while t < segment.to {
+            let count = BATCH.min(segment.to - t);
+            let mut error = DVector::zeros(count);
+            for s in 0..count {
+                let now = t + s;
+                error[s] = segment.y[now] - run[now - segment.from];
+                let (past, present) = rows.as_mut_slice().split_at_mut(p * (n + s));
+                let present = &mut present[..p];
+                present.fill(0.0);
+                for (i, a) in theta.a.iter().enumerate() {
+                    let earlier = &past[p * (n + s - 1 - i)..p * (n + s - i)];
+                    for (now, before) in present.iter_mut().zip(earlier) {
+                        *now -= a * before;
+                    }
+                    present[i] -= before(now - 1 - i);
+                }
+                for (i, b) in theta.b.iter().enumerate() {
+                    let cell = segment.cells[now - structure.first_lag() - i];
+                    present[n + i] += cell.value(&theta.f);
+                    for (k, x) in cell.features() {
+                        present[n + nb + k] += b * x;
+                    }
+                }
+                present[p - 1] += 1.0;
+            }
+            let batch = rows.columns(n, count);
+            sums.information.gemm(1.0, &batch, &batch.transpose(), 1.0);
+            let gradient = batch * &error;
+            sums.gradient += &gradient;
+            sums.batches.push(gradient);
+            sums.cost += error.norm_squared();
+            for i in 0..n {
+                let column = rows.column(count + i).clone_owned();
+                rows.set_column(i, &column);
+            }
+            t += count;
+        }
+    }
+    sums
+}
+
+/// When to stop, and how much to prefer smooth curves where the data say nothing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Refinement<'a> {
+    pub(super) iterations: usize,
+    /// Relative decrease of the cost below which a step counts as the last.
+    pub(super) tolerance: f64,
+    /// Sizes of the curves, whose second differences the penalty sums.
+    pub(super) curves: &'a [usize],
+    /// Weight of the penalty, as a fraction of the output's energy.
+    pub(super) smoothness: f64,
+}
+
+impl Refinement<'_> {
+    /// `P` of the penalty `fᵀPf`: squared second differences of every curve.
+    fn penalty(&self, width: usize) -> DMatrix<f64> {
+        let mut penalty = DMatrix::zeros(width, width);
+        let mut first = 0;
+        for &size in self.curves {
+            for k in first + 1..(first + size).saturating_sub(1) {
+                // Knot k has feature k − 1; knot 0 is the reference, always 0.
+                let stencil = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
+                for (p, x) in stencil.iter().filter(|(p, _)| *p > 0) {
+                    for (q, z) in stencil.iter().filter(|(q, _)| *q > 0) {
+                        penalty[(p - 1, q - 1)] += x * z;
+                    }
+                }
+            }
+            first += size;
+        }
+        penalty
+    }
+
+    /// Levenberg–Marquardt from a start with a stable `A`; steps that would leave the stable region are not taken.
+    ///
+    /// K. Levenberg 1944; D. Marquardt, SIAM J. Appl. Math. 11 (1963), doi 10.1137/0111030.
+    pub(super) fn run(&self, structure: Structure, start: Parameters, segments: &[Segment]) -> Parameters {
+        let mut theta = start.balanced();
+        let energy = output_energy(segments);
+        let offset = theta.a.len() + theta.b.len();
+        let penalty = self.penalty(theta.f.len()) * (self.smoothness * energy);
+        let penalised = |theta: &Parameters| {
+            let f = DVector::from_column_slice(&theta.f);
+            cost(structure, theta, segments) + f.dot(&(&penalty * &f))
+        };
+        let mut now = penalised(&theta);
+        let mut damping = 1e-3;
+        for _ in 0..self.iterations {
+            let mut model = linearise(structure, &theta, segments);
+            let f = DVector::from_column_slice(&theta.f);
+            let mut block = model.information.view_mut((offset, offset), penalty.shape());
+            block += &penalty;
+            let mut pull = model.gradient.rows_mut(offset, f.len());
+            pull -= &penalty * f;
+            let before = now;
+            while damping < 1e12 {
+                let next = damped_step(&model, damping).map(|step| theta.moved(step.as_slice()));
+                let cost = next.as_ref().map_or(f64::INFINITY, &penalised);
+                match next {
+                    Some(next) if cost < now => {
+                        theta = next;
+                        now = cost;
+                        damping = (damping * 0.1).max(1e-12);
+                        break;
+                    }
+                    _ => damping *= 8.0,
+                }
+            }
+            if before - now <= self.tolerance * before {
+                break;
+            }
+        }
+        theta.balanced()
+    }
+}
+
+/// Energy of the outputs about their mean.
+fn output_energy(segments: &[Segment]) -> f64 {
+    let values = || segments.iter().flat_map(|s| &s.y[s.from..s.to]);
+    let mean = values().sum::<f64>() / values().count().max(1) as f64;
+    values().map(|y| (y - mean) * (y - mean)).sum()
+}
+
+/// `(H + λ diag H)⁻¹ g`.
+fn damped_step(model: &Linearised, damping: f64) -> Option<DVector<f64>> {
+    let mut damped = model.information.clone();
+    let scale: Vec<f64> = damped.diagonal().iter().map(|d| d.sqrt().max(f64::MIN_POSITIVE)).collect();
+    let mut right = model.gradient.clone();
+    for i in 0..scale.len() {
+        for j in 0..scale.len() {
+            damped[(i, j)] /= scale[i] * scale[j];
+        }
+        right[i] /= scale[i];
+    }
+    for i in 0..scale.len() {
+        damped[(i, i)] += damping + 1e-13;
+    }
+    let mut step = damped.cholesky()?.solve(&right);
+    for i in 0..scale.len() {
+        step[i] /= scale[i];
+    }
+    Some(step)
+}

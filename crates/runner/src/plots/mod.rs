@@ -1,0 +1,3 @@
+//! Figures, drawn from results alone.
+
+pub mod identify;
