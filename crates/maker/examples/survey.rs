@@ -1,5 +1,7 @@
 //! Prints which sizes every law reaches, and at what magnitude: `cargo run -p switchback-maker --example survey`.
 
+#![allow(clippy::disallowed_macros, reason = "an example prints")]
+
 use switchback_maker::{EFFECTS, FOREIGN, Ingredient, MakeError, MakeRig, laws_of};
 
 fn main() -> Result<(), MakeError> {

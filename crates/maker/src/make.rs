@@ -3,7 +3,7 @@
 use crate::campaign::{Passage, Plan, campaign};
 use crate::effects::laws_of;
 use crate::key::{Key, TrueEffect, Truth};
-use crate::law::{Dose, Law};
+use crate::law::{Dose, Law, Nature};
 use crate::plant::{Family, Plant};
 use crate::refit::{Leftover, Refit};
 use crate::simulate::{Active, Noise, Trace, simulate};
@@ -147,8 +147,11 @@ impl MakeRig {
         let refit = Refit::new(&plant, &passages);
         let mut workshop = Workshop { plant, passages, refit, seed: self.seed };
         workshop.measure_reach();
-        let (active, effects): (Vec<_>, Vec<_>) =
+        let (active, mut effects): (Vec<_>, Vec<_>) =
             self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
+        if let ([one], [entry]) = (active.as_slice(), effects.as_mut_slice()) {
+            workshop.tune_noise(one, entry);
+        }
         workshop.assemble(&active, effects)
     }
 }
@@ -220,6 +223,27 @@ impl Workshop {
             size: found.size,
         };
         (active(found.magnitude), entry)
+    }
+
+    /// Where the magnitude alone could not bring the size, the noise may: a size is a ratio of the two.
+    ///
+    /// A gap that is smaller than the shortest move, or an effect at its limit, leaves no magnitude that fits. The rig
+    /// then becomes up to eight times quieter or louder. Magnitudes that count noise sds would scale along and stay.
+    fn tune_noise(&mut self, one: &Active, entry: &mut TrueEffect) {
+        const ROUNDS: usize = 4;
+        const RANGE: f64 = 8.0;
+        if one.law.nature() == Nature::Noise || one.law.unit() == "noise sd" {
+            return;
+        }
+        let drawn = self.plant.noise_sd;
+        for _ in 0..ROUNDS {
+            if (entry.size / entry.wanted - 1.0).abs() < 0.02 {
+                return;
+            }
+            let scale = self.plant.noise_sd / drawn * entry.size / entry.wanted;
+            self.plant.noise_sd = drawn * scale.clamp(1.0 / RANGE, RANGE);
+            entry.size = self.trial(std::slice::from_ref(one)).size;
+        }
     }
 
     fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {

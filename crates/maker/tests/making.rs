@@ -33,8 +33,8 @@ fn the_asked_size_is_reached_by_nearly_every_law() {
     for (effect, law) in each_law() {
         let made = make(effect, law, 1.0, 11);
         let truth = &made.key.effects[0];
-        assert!(truth.size <= 1.02, "{effect} {law}: {}", truth.size);
-        if truth.size < 0.98 {
+        assert!(truth.size <= 1.03, "{effect} {law}: {}", truth.size);
+        if truth.size < 0.97 {
             short_of.push(format!("{effect} {}: {:.2}", truth.law, truth.size));
         }
     }
