@@ -59,6 +59,17 @@ fn the_same_recipe_gives_the_same_rig_and_another_seed_another() {
 }
 
 #[test]
+fn a_rig_made_again_from_its_key_is_the_same_to_the_bit() {
+    for effect in ["backlash", "outliers", "border_wear"] {
+        let recipe = MakeRig::new(9).plan(short()).with(Ingredient::with_law(effect, 1, 4.0).unwrap());
+        let made = recipe.make().unwrap();
+        let again = recipe.again(&made.key).unwrap();
+        assert_eq!((&made.rig, &made.key, &made.truth), (&again.rig, &again.key, &again.truth));
+        assert!(matches!(MakeRig::new(9).again(&made.key), Err(MakeError::ForeignKey { .. })));
+    }
+}
+
+#[test]
 fn an_effect_changes_the_output_and_nothing_else_that_is_drawn() {
     let without = MakeRig::new(5).plan(short()).make().unwrap();
     let with = make("creep", 0, 2.0, 5);
