@@ -28,6 +28,7 @@ mod refit;
 mod simulate;
 mod size;
 mod stream;
+mod workshop;
 
 pub use campaign::{Passage, Plan};
 pub use effects::{EFFECTS, FOREIGN, laws_of};

@@ -1,17 +1,16 @@
 //! Making a rig.
 
-use crate::campaign::{Passage, Plan, campaign};
+use crate::campaign::{Plan, campaign};
 use crate::effects::laws_of;
 use crate::key::{Key, TrueEffect, Truth};
-use crate::law::{Dose, Law, Nature};
+use crate::law::Law;
 use crate::plant::{Family, Plant};
-use crate::refit::{Leftover, Refit};
-use crate::simulate::{Active, Noise, Trace, simulate};
-use crate::size::magnitude_for;
+use crate::refit::Refit;
+use crate::simulate::Active;
 use crate::stream::{Purpose, stream};
-use rand::RngExt;
-use switchback_estimator::record::{Record, RecordError};
-use switchback_estimator::rig::{Rig, RigRecord};
+use crate::workshop::Workshop;
+use switchback_estimator::record::RecordError;
+use switchback_estimator::rig::Rig;
 use thiserror::Error;
 
 /// Why no rig could be made.
@@ -57,9 +56,9 @@ pub enum MakeError {
 /// An effect to be put into a rig.
 #[derive(Debug, Clone, Copy)]
 pub struct Ingredient {
-    law: &'static dyn Law,
-    plain: bool,
-    size: f64,
+    pub(crate) law: &'static dyn Law,
+    pub(crate) plain: bool,
+    pub(crate) size: f64,
 }
 
 impl Ingredient {
@@ -187,150 +186,5 @@ impl MakeRig {
         let mut workshop = Workshop { plant, passages, refit, seed: self.seed };
         workshop.measure_reach();
         workshop
-    }
-}
-
-/// A system with its campaign, on which effects are tried.
-struct Workshop {
-    plant: Plant,
-    passages: Vec<Passage>,
-    refit: Refit,
-    seed: u64,
-}
-
-/// All passages with some effects, and what the nominal re-fit leaves of them.
-struct Trial {
-    traces: Vec<Trace>,
-    leftover: Leftover,
-    size: f64,
-}
-
-impl Workshop {
-    /// Runs the nominal rig once, without noise, to learn what its output reaches.
-    fn measure_reach(&mut self) {
-        let centre = self.plant.y_centre();
-        let outputs = self.recorded(&self.traces(&[], Noise::None));
-        self.plant.reach = outputs.iter().flatten().fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
-    }
-
-    fn traces(&self, active: &[Active], noise: Noise) -> Vec<Trace> {
-        self.passages.iter().map(|p| simulate(&self.plant, active, p, self.seed, noise)).collect()
-    }
-
-    fn recorded(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
-        self.passages.iter().zip(traces).map(|(p, t)| p.recorded(&t.y).to_vec()).collect()
-    }
-
-    fn trial(&self, active: &[Active]) -> Trial {
-        let traces = self.traces(active, Noise::Recorded);
-        let leftover = self.refit.solve(&self.passages, &self.recorded(&traces));
-        // The realised noise, not σ², so that its sampling error cancels.
-        let (mut sum, mut count) = (0.0, 0_usize);
-        for (passage, trace) in self.passages.iter().zip(&traces) {
-            if passage.usage == switchback_estimator::rig::Usage::Fit {
-                let white = &passage.recorded(&trace.white)[leftover.first[passage.index]..];
-                sum += white.iter().map(|w| w * w).sum::<f64>();
-                count += white.len();
-            }
-        }
-        let oracle: f64 = active.iter().map(|e| e.law.oracle_variance(&self.plant, &e.dose)).product();
-        let ratio = leftover.variance / (oracle * sum / count as f64);
-        Trial { traces, leftover, size: (ratio - 1.0).max(0.0).sqrt() }
-    }
-
-    /// A law at a magnitude; its shape numbers are the rig's.
-    fn active(&self, slot: usize, law: &'static dyn Law, magnitude: f64) -> Active {
-        let mut rng = stream(self.seed, Purpose::Shape(slot));
-        Active { law, dose: Dose { magnitude, shape: std::array::from_fn(|_| rng.random()) }, slot }
-    }
-
-    /// Finds the magnitude of one effect, alone in the rig.
-    fn sized(&self, slot: usize, ingredient: &Ingredient) -> (Active, TrueEffect) {
-        let law = ingredient.law;
-        let active = |magnitude: f64| self.active(slot, law, magnitude);
-        let found = magnitude_for(ingredient.size, law.limit(), |x| self.trial(&[active(x)]).size);
-        let entry = TrueEffect {
-            effect: law.effect(),
-            law: law.name(),
-            plain: ingredient.plain,
-            stage: law.stage(),
-            nature: law.nature(),
-            magnitude: found.magnitude,
-            unit: law.unit(),
-            wanted: ingredient.size,
-            size: found.size,
-        };
-        (active(found.magnitude), entry)
-    }
-
-    /// Where the magnitude alone could not bring the size, the noise may: a size is a ratio of the two.
-    ///
-    /// A gap that is smaller than the shortest move, or an effect at its limit, leaves no magnitude that fits. The rig
-    /// then becomes up to eight times quieter or louder. Magnitudes that count noise sds would scale along and stay.
-    fn tune_noise(&mut self, one: &Active, entry: &mut TrueEffect) {
-        const ROUNDS: usize = 4;
-        const RANGE: f64 = 8.0;
-        if one.law.nature() == Nature::Noise || one.law.unit() == "noise sd" {
-            return;
-        }
-        let drawn = self.plant.noise_sd;
-        for _ in 0..ROUNDS {
-            if (entry.size / entry.wanted - 1.0).abs() < 0.02 {
-                return;
-            }
-            let scale = self.plant.noise_sd / drawn * entry.size / entry.wanted;
-            self.plant.noise_sd = drawn * scale.clamp(1.0 / RANGE, RANGE);
-            entry.size = self.trial(std::slice::from_ref(one)).size;
-        }
-    }
-
-    fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
-        let trial = self.trial(active);
-        let repeating = self.traces(active, Noise::None);
-        let mut records = Vec::with_capacity(self.passages.len());
-        let mut truth = Vec::with_capacity(self.passages.len());
-        for (i, passage) in self.passages.iter().enumerate() {
-            let trace = &trial.traces[i];
-            let record =
-                Record::new(passage.recorded(&passage.v).to_vec(), passage.recorded(&trace.y).to_vec())?;
-            records.push(RigRecord {
-                name: passage.name.to_owned(),
-                role: passage.role,
-                usage: passage.usage,
-                record,
-                predicted: None,
-            });
-            let first = trial.leftover.first[i];
-            let white = passage.recorded(&trace.white);
-            let surviving = trial.leftover.residuals[i].iter().zip(white).enumerate();
-            truth.push(Truth {
-                record: passage.name.to_owned(),
-                repeating: passage.recorded(&repeating[i].y).to_vec(),
-                surviving: surviving
-                    .map(|(t, (r, w))| if t < first { 0.0 } else { (r - w) / self.plant.noise_sd })
-                    .collect(),
-                first,
-            });
-        }
-        let rig = Rig {
-            name: format!("rig-{}", self.seed),
-            sample_time: self.plant.sample_time,
-            order: Some(self.plant.order()),
-            interval: Some(self.plant.interval),
-            input_label: "v".to_owned(),
-            output_label: "y".to_owned(),
-            records,
-        };
-        let key = Key {
-            seed: self.seed,
-            order: self.plant.order(),
-            a: self.plant.a.clone(),
-            b: self.plant.b.clone(),
-            borders: self.plant.shape.name(),
-            noise_sd: self.plant.noise_sd,
-            effects,
-            size: trial.size,
-        };
-        Ok(MadeRig { rig, key, truth })
     }
 }

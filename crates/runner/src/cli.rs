@@ -20,6 +20,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Identify(cmd::identify::Args),
+    Rig(cmd::rig::Args),
 }
 
 impl Cli {
@@ -30,6 +31,7 @@ impl Cli {
     pub fn run(self) -> CommandResult {
         match self.verb {
             Verb::Identify(args) => cmd::identify::run(&args),
+            Verb::Rig(args) => cmd::rig::run(&args),
         }
     }
 }

@@ -1,3 +1,4 @@
 //! One file a verb: its arguments and what it does.
 
 pub mod identify;
+pub mod rig;
