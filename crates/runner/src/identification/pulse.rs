@@ -2,9 +2,7 @@
 
 use super::simulate::EstimatedSystem;
 use super::{Identification, IdentificationError, Method};
-use switchback_estimator::estimators::pulse::{
-    PulseData, PulseDataError, PulseFit, StepMean, efficient, joint, paper,
-};
+use switchback_estimator::estimators::pulse::{PulseData, PulseDataError, PulseFit, PulseMethod, StepMean};
 use switchback_estimator::hysteresis::{Branch, Interval};
 use switchback_estimator::linear::{is_stable, settling_samples};
 use switchback_estimator::rig::{Rig, RigRecord, Role};
@@ -120,7 +118,7 @@ fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usi
     let criterion = |order: usize| -> Option<f64> {
         let data: Vec<PulseData> =
             records.iter().map(|record| pulse_data(record, order)).collect::<Result<_, _>>().ok()?;
-        let fit = efficient(&data.iter().collect::<Vec<_>>()).ok()?;
+        let fit = PulseMethod::Efficient(&data.iter().collect::<Vec<_>>()).fit().ok()?;
         let samples: f64 = data.iter().map(|d| d.statistics.samples()).sum();
         let levels: usize = data.iter().map(|d| d.points() - 1).sum();
         Some(samples * 2.0 * fit.noise_sd.ln() + (2 * order + levels + 1) as f64 * samples.ln())
@@ -143,16 +141,17 @@ fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, Ident
         reason,
         remedy: "try a lower `order`, a longer record, or `--method free`".to_owned(),
     };
-    match method {
+    let fitted = match method {
         Method::PaperDescendant | Method::PaperAscendant => {
             // Any mean serves for a first a, which then says how long the step takes to settle.
-            let a = efficient(data).map_err(|error| refused(error.to_string()))?.a;
-            let a: Vec<f64> = a.iter().map(|x| x.value).collect();
-            paper(data[0], step_mean(rig, method, &a)?).map_err(|error| refused(error.to_string()))
+            let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
+            let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
+            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }.fit()
         }
-        Method::Joint => joint(data[0], data[1]).map_err(|error| refused(error.to_string())),
-        _ => efficient(data).map_err(|error| refused(error.to_string())),
-    }
+        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit(),
+        _ => PulseMethod::Efficient(data).fit(),
+    };
+    fitted.map_err(|error| refused(error.to_string()))
 }
 
 /// (3.6) without its transient.

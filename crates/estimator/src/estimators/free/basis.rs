@@ -107,7 +107,8 @@ pub(super) fn place_knots(values: &[f64], interval: Interval, count: usize) -> V
     for j in 1..count.max(2) {
         let share = j as f64 / (count.max(2) - 1) as f64;
         let even = interval.low() + share * interval.width();
-        let visited = sorted.get((share * (sorted.len().max(1) - 1) as f64) as usize).copied().unwrap_or(even);
+        let visited =
+            sorted.get((share * (sorted.len().max(1) - 1) as f64) as usize).copied().unwrap_or(even);
         let knot = if j + 1 == count.max(2) { interval.high() } else { 0.5 * (even + visited) };
         if knot - knots[knots.len() - 1] > 1e-3 * interval.width() {
             knots.push(knot);

@@ -53,7 +53,8 @@ impl Branches {
     /// The threshold is in input units and not negative.
     pub fn of(v: &[f64], threshold: f64) -> Option<Self> {
         let band = threshold / 2.0;
-        let (mut high, mut low) = (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
+        let (mut high, mut low) =
+            (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
         let mut labels = Vec::with_capacity(v.len());
         let (mut first_known, mut reversals) = (0, 0);
@@ -61,8 +62,12 @@ impl Branches {
             high.push(1.0, now, t, band);
             low.push(-1.0, now, t, band);
             let turned = match direction {
-                None | Some(Branch::Ascending) if high.value - now > threshold => Some((Branch::Descending, high.turn)),
-                None | Some(Branch::Descending) if now - low.value > threshold => Some((Branch::Ascending, low.turn)),
+                None | Some(Branch::Ascending) if high.value - now > threshold => {
+                    Some((Branch::Descending, high.turn))
+                }
+                None | Some(Branch::Descending) if now - low.value > threshold => {
+                    Some((Branch::Ascending, low.turn))
+                }
                 _ => None,
             };
             labels.push(direction.unwrap_or(Branch::Ascending));
@@ -120,7 +125,8 @@ impl SensorNoise {
     /// that the kinks at reversals do not count). A random walk never shows it. Levels drawn at random do, but their
     /// "noise" is as large as the signal: more than 2 % of the range is taken as motion, not noise.
     pub fn of(v: &[f64]) -> Self {
-        let (low, high) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let (low, high) =
+            v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
         let range = high - low;
         let step = lattice_step(v).filter(|&s| s < range / 200.0).unwrap_or(0.0);
         let sd = (2..=4).find_map(|k| white_sd(v, k)).filter(|&sd| sd < 0.02 * range).unwrap_or(0.0);

@@ -42,7 +42,8 @@ impl<'a> Data<'a> {
             .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
             .collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
-        let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let range =
+            Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
@@ -63,7 +64,9 @@ impl<'a> Data<'a> {
         match map {
             InputMap::Linear => Basis::linear(self.interval),
             InputMap::Static => Basis::curve(place(None)),
-            InputMap::Borders => Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending))),
+            InputMap::Borders => {
+                Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending)))
+            }
         }
     }
 
@@ -79,7 +82,8 @@ impl<'a> Data<'a> {
 impl Featured<'_> {
     /// Everything that a structure can explain.
     pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
-        let whole = self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
+        let whole =
+            self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
         whole.flatten().collect()
     }
 

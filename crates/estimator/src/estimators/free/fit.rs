@@ -48,8 +48,7 @@ pub(super) fn fit(
         return best(structure, starts, segments);
     };
     let curves: Vec<usize> = featured.basis.sizes().collect();
-    let refinement =
-        Refinement { iterations: 4, tolerance: 1e-3, curves: &curves, smoothness: SMOOTHNESS };
+    let refinement = Refinement { iterations: 4, tolerance: 1e-3, curves: &curves, smoothness: SMOOTHNESS };
     starts = starts.into_iter().map(|s| refinement.run(structure, s, segments)).collect();
     let start = best(structure, starts, segments)?;
     let refinement = Refinement { iterations: effort.iterations, tolerance: effort.tolerance, ..refinement };

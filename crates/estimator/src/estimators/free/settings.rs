@@ -35,6 +35,14 @@ pub struct Settings {
 impl Settings {
     /// Everything left to the data, with refinement.
     pub fn new(input_map: InputMap) -> Self {
-        Self { input_map, order: None, delay: None, knots: None, threshold: None, interval: None, refine: true }
+        Self {
+            input_map,
+            order: None,
+            delay: None,
+            knots: None,
+            threshold: None,
+            interval: None,
+            refine: true,
+        }
     }
 }
