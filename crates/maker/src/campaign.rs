@@ -173,11 +173,16 @@ fn random_ramps(interval: Interval, samples: usize, rng: &mut ChaCha8Rng) -> Vec
     let mut z = rng.random_range(0.3..0.7);
     let mut v = vec![within(z)];
     while v.len() < samples {
-        let target: f64 = if rng.random_bool(0.4) {
-            // A short stroke: nested loops show what full strokes hide.
-            (z + rng.random_range(-0.25..0.25_f64)).clamp(0.01, 0.99)
-        } else {
-            rng.random_range(0.01..0.99)
+        let target = loop {
+            let target: f64 = if rng.random_bool(0.4) {
+                // A short stroke: nested loops show what full strokes hide.
+                (z + rng.random_range(-0.25..0.25_f64)).clamp(0.01, 0.99)
+            } else {
+                rng.random_range(0.01..0.99)
+            };
+            if (target - z).abs() > 0.04 {
+                break target;
+            }
         };
         let duration = (rng.random_range(1.0..5.5_f64)).exp2().round() as usize;
         // The last sample is the target itself, to the bit: a rest must not move.

@@ -108,6 +108,11 @@ pub trait Law: Debug + Send + Sync {
     /// Largest magnitude that makes sense.
     fn limit(&self) -> f64;
 
+    /// Smallest magnitude worth its name; below it, the rig is rather made noisier.
+    fn least(&self) -> f64 {
+        0.0
+    }
+
     /// Variance of the one-step prediction error of a model that knows the effect, over that of the white equation error.
     ///
     /// 1 unless the effect itself raises what nobody could predict.

@@ -150,9 +150,9 @@ impl MakeRig {
     /// [`MakeError::Record`] if the output is not finite.
     pub fn make(&self) -> Result<MadeRig, MakeError> {
         let mut workshop = self.workshop();
-        let (active, mut effects): (Vec<_>, Vec<_>) =
+        let (mut active, mut effects): (Vec<_>, Vec<_>) =
             self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
-        if let ([one], [entry]) = (active.as_slice(), effects.as_mut_slice()) {
+        if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
             workshop.tune_noise(one, entry);
         }
         workshop.assemble(&active, effects)

@@ -60,6 +60,11 @@ impl Plant {
         impulse_response(&self.a)
     }
 
+    /// Output noise sd over equation noise sd: `√Σe²`, `e` the impulse response of `1/A`.
+    pub fn noise_amplification(&self) -> f64 {
+        self.noise_response().iter().map(|e| e * e).sum::<f64>().sqrt()
+    }
+
     /// Samples after which a transient has fallen below 10⁻⁶ of its start.
     pub fn settling(&self) -> usize {
         self.noise_response().len()

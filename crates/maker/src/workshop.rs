@@ -86,25 +86,35 @@ impl Workshop {
         (active(found.magnitude), entry)
     }
 
-    /// Where the magnitude alone could not bring the size, the noise may: a size is a ratio of the two.
+    /// Where the magnitude alone does not bring the size, the noise may: a size is a ratio of the two.
     ///
-    /// A gap that is smaller than the shortest move, or an effect at its limit, leaves no magnitude that fits. The rig
-    /// then becomes up to eight times quieter or louder. Magnitudes that count noise sds would scale along and stay.
-    pub(crate) fn tune_noise(&mut self, one: &Active, entry: &mut TrueEffect) {
+    /// A gap shorter than any move, or an effect at its limit, leaves no sensible magnitude that fits; the rig then
+    /// becomes quieter or louder, between 0.02 % and 6 % of its stationary span in the output. Magnitudes that count
+    /// noise sds would scale along and stay.
+    pub(crate) fn tune_noise(&mut self, one: &mut Active, entry: &mut TrueEffect) {
         const ROUNDS: usize = 4;
-        const RANGE: f64 = 8.0;
         if one.law.nature() == Nature::Noise || one.law.unit() == "noise sd" {
             return;
         }
-        let drawn = self.plant.noise_sd;
-        for _ in 0..ROUNDS {
-            if (entry.size / entry.wanted - 1.0).abs() < 0.02 {
-                return;
-            }
-            let scale = self.plant.noise_sd / drawn * entry.size / entry.wanted;
-            self.plant.noise_sd = drawn * scale.clamp(1.0 / RANGE, RANGE);
+        if one.dose.magnitude < one.law.least() {
+            one.dose.magnitude = one.law.least();
             entry.size = self.trial(std::slice::from_ref(one)).size;
         }
+        let span = 2.0 * self.plant.y_half() / self.plant.noise_amplification();
+        for _ in 0..ROUNDS {
+            if (entry.size / entry.wanted - 1.0).abs() < 0.02 {
+                break;
+            }
+            self.plant.noise_sd =
+                (self.plant.noise_sd * entry.size / entry.wanted).clamp(2e-4 * span, 0.06 * span);
+            entry.size = self.trial(std::slice::from_ref(one)).size;
+        }
+        if entry.size > 1.05 * entry.wanted {
+            let dose = |magnitude: f64| Active { dose: Dose { magnitude, ..one.dose }, ..*one };
+            let found = magnitude_for(entry.wanted, one.dose.magnitude, |x| self.trial(&[dose(x)]).size);
+            (one.dose.magnitude, entry.size) = (found.magnitude, found.size);
+        }
+        entry.magnitude = one.dose.magnitude;
     }
 
     pub(crate) fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {

@@ -6,12 +6,19 @@ use crate::law::{Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 3] = [&Play, &PrandtlIshlinskii, &UnevenPlay];
 
+/// Shorter than this, in widths, the effect falls between the samples of a moving input.
+const SHORTEST: f64 = 0.01;
+
 /// The play operator: `v'(t) = min(max(v'(t−1), v(t) − r), v(t) + r)`.
 #[derive(Debug)]
 struct Play;
 
 impl Law for Play {
     card!("backlash", "play", Operator, "interval widths", 0.2);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
         let radius = scene.x() * scene.plant.interval.width();
@@ -25,6 +32,10 @@ struct PrandtlIshlinskii;
 
 impl Law for PrandtlIshlinskii {
     card!("backlash", "Prandtl-Ishlinskii", Operator, "interval widths", 0.15);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
         if scene.x() == 0.0 {
@@ -48,6 +59,10 @@ struct UnevenPlay;
 
 impl Law for UnevenPlay {
     card!("backlash", "uneven play", Operator, "interval widths", 0.15);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
         let plant = scene.plant;

@@ -8,12 +8,19 @@ use crate::law::{Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 4] = [&Exponential, &Dahl, &BoucWen, &MaxwellSlip];
 
+/// Shorter than this, in widths, the effect falls between the samples of a moving input.
+const SHORTEST: f64 = 0.01;
+
 /// `dz = (s − z)·|dv|/λ`, solved exactly over a step.
 #[derive(Debug)]
 struct Exponential;
 
 impl Law for Exponential {
     card!("gradual_transition", "exponential", Operator, "interval widths", 1.0);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let length = scene.x();
@@ -29,6 +36,10 @@ struct Dahl;
 
 impl Law for Dahl {
     card!("gradual_transition", "Dahl, exponent 1/2", Operator, "interval widths", 1.0);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let length = scene.x();
@@ -47,6 +58,10 @@ struct BoucWen;
 
 impl Law for BoucWen {
     card!("gradual_transition", "Bouc-Wen, exponent 2", Operator, "interval widths", 1.0);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let length = scene.x();
@@ -73,6 +88,10 @@ struct MaxwellSlip;
 
 impl Law for MaxwellSlip {
     card!("gradual_transition", "Maxwell slip", Operator, "interval widths", 1.0);
+
+    fn least(&self) -> f64 {
+        SHORTEST
+    }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         if scene.x() == 0.0 {

@@ -83,8 +83,8 @@ impl Plant {
         };
         plant.reach = plant.y_half();
         // The output's noise, not the equation's, is what an engineer sees: 0.1 % to 2 % of the stationary span.
-        let amplification = plant.noise_response().iter().map(|e| e * e).sum::<f64>().sqrt();
-        plant.noise_sd = 2.0 * plant.y_half() * 10.0_f64.powf(rng.random_range(-3.0..-1.7)) / amplification;
+        plant.noise_sd =
+            2.0 * plant.y_half() * 10.0_f64.powf(rng.random_range(-3.0..-1.7)) / plant.noise_amplification();
         plant
     }
 }
