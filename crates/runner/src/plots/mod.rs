@@ -1,3 +1,4 @@
 //! Figures, drawn from results alone.
 
+pub mod blind;
 pub mod identify;
