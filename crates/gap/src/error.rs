@@ -53,7 +53,9 @@ pub enum DiagnoseError {
         value: f64,
     },
     /// The given model cannot be simulated.
-    #[error("the given model is unusable: {reason}; give a, b of equal order n ≥ 1 with A stable, and both borders by increasing v")]
+    #[error(
+        "the given model is unusable: {reason}; give a, b of equal order n ≥ 1 with A stable, and both borders by increasing v"
+    )]
     Model {
         /// What is wrong.
         reason: String,
@@ -67,7 +69,9 @@ pub enum DiagnoseError {
         rig: usize,
     },
     /// The regression has no solution.
-    #[error("the records do not determine the model: {reason}; add a record that moves v over its interval in both directions")]
+    #[error(
+        "the records do not determine the model: {reason}; add a record that moves v over its interval in both directions"
+    )]
     Singular {
         /// What is undetermined.
         reason: String,

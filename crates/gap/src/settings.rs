@@ -21,7 +21,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { effects: Effect::ALL.to_vec(), max_order: 4, max_effects: 2, name_at: 0.9, seed: 1, resamples: 400 }
+        Self {
+            effects: Effect::ALL.to_vec(),
+            max_order: 4,
+            max_effects: 2,
+            name_at: 0.9,
+            seed: 1,
+            resamples: 400,
+        }
     }
 }
 
