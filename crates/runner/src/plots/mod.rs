@@ -5,6 +5,7 @@
 //! consistency study.
 
 pub mod axis;
+pub mod blind;
 mod borders;
 pub mod canvas;
 mod convergence;
