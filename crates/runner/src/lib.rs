@@ -8,6 +8,7 @@ pub mod identification;
 pub mod input;
 pub mod output;
 pub mod plots;
+pub mod progress;
 pub mod report;
 pub mod results;
 pub mod rig;

@@ -44,6 +44,36 @@ fn every_pulse_method_finds_the_system_of_the_small_rig() {
 }
 
 #[test]
+fn the_papers_method_takes_the_level_from_the_step_experiment() {
+    for (name, satellite, role, border, other) in [
+        ("descendant", 1.0, "step_high", "descendant", "ascendant"),
+        ("ascendant", -1.0, "step_low", "ascendant", "descendant"),
+    ] {
+        let folder = Folder::with_good_rig();
+        folder.write("step.csv", &common::step(satellite, 4));
+        folder.edit("rig.toml", |text| {
+            format!("{text}\n[[record]]\nfile = \"step.csv\"\nrole = \"{role}\"\nuse = \"fit\"\n")
+        });
+        let found = identified(&folder, &["--method", &format!("paper-{name}"), "--out", "report"]);
+        near(&found["a"][0], -1.2, 0.01);
+        near(&found["y_high"], 1.0, 0.02);
+        near(&found["y_low"], -1.0, 0.02);
+        let points = found[border].as_array().expect("a list");
+        assert_eq!(points.len(), 4);
+        for point in points {
+            let v = point["v"].as_f64().expect("a number");
+            near(&point["f"], 0.3 * v - 0.2 * satellite, 0.01);
+        }
+        // The other border was not seen, so records that run on it have no fit and no figure.
+        assert_eq!(found[other], Value::Array(Vec::new()));
+        assert!(found["fit_percent"][name].as_f64().expect("a number") > 98.0);
+        assert!(found["fit_percent"][other].is_null());
+        assert!(!folder.path(&format!("report/measured_and_simulated_{other}.svg")).exists());
+        assert!(found["warnings"][0].as_str().expect("a warning").contains("border only"));
+    }
+}
+
+#[test]
 fn without_a_method_the_best_one_is_taken() {
     let folder = Folder::with_good_rig();
     assert_eq!(identified(&folder, &[])["method"], "efficient");

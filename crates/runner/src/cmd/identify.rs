@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let identification = identification::identify(&rig, method)?;
+    let identification = identification::identify(&rig, method).map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }

@@ -140,7 +140,8 @@ impl Bench {
         match method.experiments() {
             &[k] => {
                 let statistics = data[k].statistics.merged(&self.expected_step(k, sigma).statistics);
-                let with_step = PulseData { statistics, ..data[k].clone() };
+                let PulseData { branch, satellite, ref levels, .. } = data[k];
+                let with_step = PulseData::from_statistics(branch, levels.clone(), satellite, statistics);
                 Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&with_step]))?, records: 2.0 })
             }
             _ => Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&data[0], &data[1]]))?, records: 1.0 }),

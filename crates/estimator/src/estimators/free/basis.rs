@@ -18,26 +18,49 @@ pub struct Basis {
     extrapolate: bool,
 }
 
-/// The two hats that are non-zero at one sample.
+/// The hats that are non-zero at one sample: two neighbours of one curve, or of both where the reversal falls inside the sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cell {
+    /// On the branch of the sample.
+    pub(super) main: Place,
+    /// On the branch that the reversal leads to, and its share of the sample.
+    pub(super) next: Option<(Place, f64)>,
+}
+
+/// Where a sample lies between two knots.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
     /// Number of the left knot; the right one is the next.
     pub(super) knot: usize,
     /// Height of the right hat; the left one's is `1 − weight`.
-    pub(super) weight: f64,
+    weight: f64,
+}
+
+impl Place {
+    /// The two hats as (feature, height); the reference knot has no feature.
+    fn features(self, share: f64) -> impl Iterator<Item = (usize, f64)> {
+        let left = self.knot.checked_sub(1).map(|k| (k, share * (1.0 - self.weight)));
+        left.into_iter().chain([(self.knot, share * self.weight)])
+    }
+
+    /// `u` here, for knot values `f₁…`, relative to the reference knot.
+    pub(super) fn value(self, f: &[f64]) -> f64 {
+        let left = if self.knot == 0 { 0.0 } else { (1.0 - self.weight) * f[self.knot - 1] };
+        left + self.weight * f[self.knot]
+    }
 }
 
 impl Cell {
-    /// The non-zero hats as (feature, height); the reference knot has no feature.
+    /// The non-zero hats as (feature, height).
     pub(super) fn features(self) -> impl Iterator<Item = (usize, f64)> {
-        let left = self.knot.checked_sub(1).map(|k| (k, 1.0 - self.weight));
-        left.into_iter().chain([(self.knot, self.weight)])
+        let share = self.next.map_or(1.0, |(_, share)| 1.0 - share);
+        self.main.features(share).chain(self.next.into_iter().flat_map(|(place, share)| place.features(share)))
     }
 
     /// `u`, for knot values `f₁…`, relative to the reference knot.
     pub(super) fn value(self, f: &[f64]) -> f64 {
-        let left = if self.knot == 0 { 0.0 } else { (1.0 - self.weight) * f[self.knot - 1] };
-        left + self.weight * f[self.knot]
+        let main = self.main.value(f);
+        self.next.map_or(main, |(place, share)| main + share * (place.value(f) - main))
     }
 }
 
@@ -83,7 +106,7 @@ impl Basis {
     }
 
     /// The hats at `v` on a branch.
-    pub(super) fn cell(&self, branch: Branch, v: f64) -> Cell {
+    pub(super) fn place(&self, branch: Branch, v: f64) -> Place {
         let (curve, first) = match branch {
             Branch::Ascending if self.is_switched() => (&self.curves[1], self.curves[0].len()),
             _ => (&self.curves[0], 0),
@@ -91,7 +114,7 @@ impl Basis {
         let left = curve.partition_point(|&k| k <= v).clamp(1, curve.len() - 1) - 1;
         let weight = (v - curve[left]) / (curve[left + 1] - curve[left]);
         let weight = if self.extrapolate { weight } else { weight.clamp(0.0, 1.0) };
-        Cell { knot: first + left, weight }
+        Place { knot: first + left, weight }
     }
 }
 

@@ -2,28 +2,57 @@
 
 use crate::hysteresis::Branch;
 
+/// Where between two samples a reversal takes effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Timing {
+    /// As in (2.3): the turning sample is on the old border, the next one on the new.
+    AtSamples,
+    /// At the vertex of the parabola through the turning sample and its neighbours. The turning sample is then shared between the
+    /// borders, by the part of its interval `[t−½, t+½]` that follows the vertex: what a rig that knows no samples does.
+    BetweenSamples,
+}
+
+/// What counts as a reversal, and when it takes effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReversalRule {
+    /// A reversal counts once `v` has moved back by more than this, input units.
+    pub threshold: f64,
+    /// The turning sample is the last one this close to the extremum, input units; at most half the threshold.
+    pub band: f64,
+    /// When it takes effect.
+    pub timing: Timing,
+}
+
+impl ReversalRule {
+    /// Exactly (2.3): every move counts, at its sample.
+    pub const EXACT: Self = Self { threshold: 0.0, band: 0.0, timing: Timing::AtSamples };
+}
+
 /// The branch of every sample of an input.
 ///
 /// A reversal counts only once `v` has moved back from its extremum by more than the threshold (a turning-point, or
 /// zigzag, rule), and then takes effect *retroactively*: every sample after the turning sample is on the new
-/// branch. The turning sample is the last one within half a threshold of the extremum, so that the whole of a noisy rest at an
+/// branch. The turning sample is the last one within the band of the extremum, so that the whole of a noisy rest at an
 /// extremum stays on the border it was reached on, as (2.3) has it. The rule looks ahead, which is no
 /// obstacle: the input of a record, or of a simulation, is known as a whole. A causal rule would put the samples between the
 /// turn and its confirmation on the wrong border.
 ///
-/// With threshold 0 this is exactly (2.3): rising, falling, and holding at a rest.
+/// With [`ReversalRule::EXACT`] this is (2.3): rising, falling, and holding at a rest.
 ///
 /// ```
-/// use switchback_estimator::estimators::free::Branches;
+/// use switchback_estimator::estimators::free::{Branches, ReversalRule};
 /// use switchback_estimator::hysteresis::Branch::{Ascending, Descending};
 /// // The dip of 0.1 is sensor noise for a threshold of 0.3; the fall from 2 to 1 is a reversal.
-/// let branches = Branches::of(&[0.0, 1.0, 0.9, 2.0, 1.0], 0.3).unwrap();
+/// let rule = ReversalRule { threshold: 0.3, ..ReversalRule::EXACT };
+/// let branches = Branches::of(&[0.0, 1.0, 0.9, 2.0, 1.0], rule).unwrap();
 /// assert_eq!(branches.labels(), [Ascending, Ascending, Ascending, Ascending, Descending]);
 /// assert_eq!(branches.first_known(), 1);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branches {
     labels: Vec<Branch>,
+    /// Share of each sample that follows its reversal; zero except at turning samples.
+    turned: Vec<f64>,
     first_known: usize,
     reversals: usize,
 }
@@ -50,9 +79,8 @@ impl Extremum {
 impl Branches {
     /// Reads the branches off an input; `None` if `v` never moves by more than the threshold.
     ///
-    /// The threshold is in input units and not negative.
-    pub fn of(v: &[f64], threshold: f64) -> Option<Self> {
-        let band = 0.0*threshold;
+    pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
+        let ReversalRule { threshold, band, timing } = rule;
         let (mut high, mut low) = (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
         let mut labels = Vec::with_capacity(v.len());
@@ -78,7 +106,13 @@ impl Branches {
                 low = high;
             }
         }
-        direction.map(|_| Self { labels, first_known, reversals })
+        direction?;
+        let turns = (first_known.max(1)..v.len() - 1).filter(|&t| labels[t] != labels[t + 1]);
+        let mut turned = vec![0.0; v.len()];
+        if timing == Timing::BetweenSamples {
+            turns.for_each(|t| turned[t] = share_after_vertex([v[t - 1], v[t], v[t + 1]]));
+        }
+        Some(Self { labels, turned, first_known, reversals })
     }
 
     /// One branch a sample. Samples before the first move get the branch of that move.
@@ -91,8 +125,20 @@ impl Branches {
         self.first_known
     }
 
+    /// Share of a sample that belongs to the other branch already, if any.
+    pub(super) fn turned(&self, t: usize) -> Option<f64> {
+        Some(self.turned[t]).filter(|&share| share > 0.0)
+    }
+
     /// Number of reversals after the first move.
     pub fn reversals(&self) -> usize {
         self.reversals
     }
+}
+
+/// Part of the middle sample's interval that follows the vertex of the parabola through three samples.
+fn share_after_vertex([before, turn, after]: [f64; 3]) -> f64 {
+    let vertex = 0.5 * (before - after) / (before - 2.0 * turn + after);
+    // Three samples in line have no vertex: the reversal then counts from the next sample on.
+    if vertex.is_finite() { 0.5 - vertex.clamp(-0.5, 0.5) } else { 0.0 }
 }

@@ -24,13 +24,37 @@ pub(super) struct Assessed {
     pub(super) fits: Vec<Fitted>,
 }
 
-/// Cross-validates one structure at the top of a ladder, from each fold's earlier fit where there is one.
-pub(super) fn assess(
-    ladder: &Ladder,
-    structure: Structure,
-    refine: bool,
-    below: Option<&[Fitted]>,
-) -> Assessed {
+/// Cross-validates structures at the top of a ladder, smaller ones first.
+pub(super) fn assess_all(ladder: &Ladder, structures: &[Structure], refine: bool) -> Vec<Assessed> {
+    let folds = (0..FOLDS).map(|fold| {
+        if refine {
+            ladder.climb_all(structures, Effort::SEARCH, |rung, s| blocks(rung, s, fold, false))
+        } else {
+            let one_shot = |&s| ladder.one_shot(s, &blocks(ladder.top(), s, fold, false));
+            structures.iter().map(one_shot).collect()
+        }
+    });
+    let folds: Vec<Vec<Option<Fitted>>> = folds.collect();
+    let fits = |i: usize| folds.iter().map(|fold: &Vec<Option<Fitted>>| fold[i].clone()).collect();
+    structures.iter().enumerate().map(|(i, &structure)| judge(ladder, structure, fits(i))).collect()
+}
+
+/// Cross-validates the structure of an earlier assessment on another basis, from the fits that it found.
+pub(super) fn assess_next(ladder: &Ladder, earlier: &Assessed, refine: bool) -> Assessed {
+    let structure = earlier.structure;
+    let fit = |fold: usize| {
+        let rest = |rung| blocks(rung, structure, fold, false);
+        if refine {
+            ladder.climb(structure, Effort::SEARCH, &earlier.fits[fold..=fold], rest)
+        } else {
+            ladder.one_shot(structure, &rest(ladder.top()))
+        }
+    };
+    judge(ladder, structure, (0..FOLDS).map(fit).collect())
+}
+
+/// The errors of each fold's fit over the block it had not seen.
+fn judge(ladder: &Ladder, structure: Structure, fits: Vec<Option<Fitted>>) -> Assessed {
     let basis = &ladder.top().basis;
     let mut assessed = Assessed {
         structure,
@@ -38,21 +62,16 @@ pub(super) fn assess(
         parameters: structure.order + structure.numerator() + basis.features(),
         fit_percent: f64::NEG_INFINITY,
         losses: Vec::with_capacity(FOLDS),
-        fits: Vec::with_capacity(FOLDS),
+        fits: fits.into_iter().flatten().collect(),
     };
+    if assessed.fits.len() < FOLDS {
+        return assessed;
+    }
     let mut energy = 0.0;
-    for fold in 0..FOLDS {
-        let rest = |f| blocks(f, structure, fold, false);
-        let fitted = if refine {
-            ladder.climb(structure, Effort::SEARCH, below.map(|b| &b[fold]), rest)
-        } else {
-            ladder.one_shot(structure, &rest(ladder.top()))
-        };
-        let Some(fitted) = fitted else { return assessed };
+    for (fold, fitted) in assessed.fits.iter().enumerate() {
         let left_out = blocks(ladder.top(), structure, fold, true);
         assessed.losses.push(cost(structure, &fitted.theta, &left_out));
         energy += left_out.iter().map(Segment::energy).sum::<f64>();
-        assessed.fits.push(fitted);
     }
     assessed.losses.iter_mut().for_each(|loss| *loss /= energy);
     assessed.fit_percent = 100.0 * (1.0 - assessed.losses.iter().sum::<f64>().sqrt());

@@ -1,7 +1,7 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
 use super::basis::{Basis, Cell, Spacing, place_knots};
-use super::branch::Branches;
+use super::branch::{Branches, ReversalRule, Timing};
 use super::error::FreeError;
 use super::model;
 use super::problem::{Segment, Structure};
@@ -15,7 +15,7 @@ use crate::record::Record;
 pub(super) struct Data<'a> {
     pub(super) records: Vec<(&'a Record, Branches)>,
     pub(super) interval: Interval,
-    pub(super) threshold: f64,
+    pub(super) rule: ReversalRule,
     pub(super) noise: SensorNoise,
 }
 
@@ -38,17 +38,25 @@ impl<'a> Data<'a> {
             .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
         let threshold = settings.threshold.unwrap_or(noise.threshold);
-        let records: Vec<_> = records
-            .iter()
-            .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
-            .collect();
+        let rule = ReversalRule { timing: settings.timing.unwrap_or(Timing::AtSamples), ..noise.rule(threshold) };
+        let records: Vec<_> =
+            records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
         let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
         }
-        Ok(Self { records, interval: settings.interval.unwrap_or(range), threshold, noise })
+        Ok(Self { records, interval: settings.interval.unwrap_or(range), rule, noise })
+    }
+
+    /// The same records with another timing of the reversals.
+    pub(super) fn with_timing(&self, timing: Timing) -> Self {
+        let rule = ReversalRule { timing, ..self.rule };
+        let again = |(record, branches): &(&'a Record, Branches)| {
+            (*record, Branches::of(record.v(), rule).unwrap_or_else(|| branches.clone()))
+        };
+        Self { records: self.records.iter().map(again).collect(), rule, ..*self }
     }
 
     /// A basis with `knots` knots a curve, placed by where the records go.

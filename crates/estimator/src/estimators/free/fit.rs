@@ -37,11 +37,19 @@ pub(super) struct Ladder<'a> {
     rungs: Vec<Featured<'a>>,
 }
 
-/// A fit, and the basis that its curves are on.
+/// A fit, with the structure and the basis it is in.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
+    pub(super) structure: Structure,
     pub(super) basis: Basis,
     pub(super) theta: Parameters,
+}
+
+impl Fitted {
+    /// The same system in a structure and on a basis that contain its own, or nearly so.
+    fn lifted(&self, structure: Structure, basis: &Basis) -> Parameters {
+        self.theta.in_structure(self.structure, structure).on_basis(&self.basis, basis)
+    }
 }
 
 /// Knots a curve on the way up, and in the first stage of the selection: enough for a bend and a jump.
@@ -71,31 +79,63 @@ impl<'a> Ladder<'a> {
         &self.rungs[self.rungs.len() - 1]
     }
 
-    /// The fit at the top of the ladder to the stretches that `choose` picks of each rung, from below the lowest rung if a fit is
-    /// given; `None` if no stable model fits.
+    /// Fits to the stretches that `choose` picks of each rung, one a structure; `None` where no stable model fits.
+    ///
+    /// A structure also starts from the smaller ones before it in the list that it contains, so that more
+    /// coefficients never fit worse.
+    pub(super) fn climb_all<'s>(
+        &'s self,
+        structures: &[Structure],
+        effort: Effort,
+        choose: impl Fn(&'s Featured<'a>, Structure) -> Vec<Segment<'s>>,
+    ) -> Vec<Option<Fitted>> {
+        let mut fits: Vec<Option<Fitted>> = Vec::with_capacity(structures.len());
+        for &structure in structures {
+            let smaller = fits.iter().flatten().filter(|f| f.structure.is_just_inside(structure));
+            let smaller: Vec<Fitted> = smaller.cloned().collect();
+            fits.push(self.climb(structure, effort, &smaller, |rung| choose(rung, structure)));
+        }
+        fits
+    }
+
+    /// The fit at the top, given fits to start from; `None` if no stable model fits.
     pub(super) fn climb<'s>(
         &'s self,
         structure: Structure,
         effort: Effort,
-        below: Option<&Fitted>,
+        smaller: &[Fitted],
         choose: impl Fn(&'s Featured<'a>) -> Vec<Segment<'s>>,
     ) -> Option<Fitted> {
-        let mut below = below.cloned();
+        let mut below: Option<Fitted> = None;
         for (i, rung) in self.rungs.iter().enumerate() {
+            let is_top = i + 1 == self.rungs.len();
             let segments = choose(rung);
-            let lifted = below.map(|lower| lower.theta.on_basis(&lower.basis, &rung.basis));
-            let effort = if i + 1 == self.rungs.len() { effort } else { Effort::SEARCH };
-            let theta = refined(rung, structure, &segments, lifted, effort)?;
-            below = Some(Fitted { basis: rung.basis.clone(), theta });
+            let starts = below.iter().chain(smaller.iter().filter(|_| is_top));
+            let starts = starts.map(|f| f.lifted(structure, &rung.basis)).collect();
+            let effort = if is_top { effort } else { Effort::SEARCH };
+            let theta = refined(rung, structure, &segments, starts, effort)?;
+            below = Some(Fitted { structure, basis: rung.basis.clone(), theta });
         }
         below
+    }
+
+    /// The fit to everything, by way of the smaller structures inside it.
+    pub(super) fn climb_from_smaller(&self, structure: Structure, effort: Effort) -> Option<Fitted> {
+        let smaller = |delay: isize| (1..=structure.order).map(move |order| Structure { order, delay });
+        let delays = structure.delay..=structure.delay.max(0);
+        let way: Vec<Structure> = delays.rev().flat_map(smaller).collect();
+        let fits = self.climb_all(&way, Effort::SEARCH, |rung, s| rung.segments(s));
+        let start: Vec<Fitted> = fits.into_iter().flatten().filter(|f| f.structure == structure).collect();
+        let top = self.top();
+        let theta = refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
+        Some(Fitted { structure, basis: top.basis.clone(), theta })
     }
 
     /// The equation-error fit at the top, without refinement.
     pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
         let starts = equation_error_starts(self.top(), structure, segments);
         let theta = starts.into_iter().next()?;
-        Some(Fitted { basis: self.top().basis.clone(), theta })
+        Some(Fitted { structure, basis: self.top().basis.clone(), theta })
     }
 }
 
@@ -121,15 +161,15 @@ fn refined(
     featured: &Featured,
     structure: Structure,
     segments: &[Segment],
-    lifted: Option<Parameters>,
+    lifted: Vec<Parameters>,
     effort: Effort,
 ) -> Option<Parameters> {
     let curves: Vec<usize> = featured.basis.sizes().collect();
     let refinement = |effort| Refinement { effort, curves: &curves, smoothness: SMOOTHNESS };
     let trial = refinement(Effort::TRIAL);
+    let lifted = ranked(structure, lifted.into_iter().map(stabilised).collect(), segments);
     let fresh = equation_error_starts(featured, structure, segments);
-    let count = if lifted.is_some() { 1 } else { 2 };
-    let starts = fresh.into_iter().take(count).chain(lifted);
+    let starts = lifted.into_iter().take(2).chain(fresh.into_iter().take(1));
     let starts = starts.map(|s| trial.run(structure, s, segments)).collect();
     let start = ranked(structure, starts, segments).into_iter().next()?;
     Some(refinement(effort).run(structure, start, segments))

@@ -8,7 +8,7 @@ use super::model::Model;
 use super::normalise::{Covariance, Figures, normalise};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{information, residual_energy};
-use super::selection::{Selection, select};
+use super::selection::{Selection, select, with_best_timing};
 use super::settings::Settings;
 use super::simulation_error::{cost, linearise};
 use super::warning::{Examination, Warning};
@@ -32,7 +32,7 @@ pub struct Identified {
 /// Identifies a Hammerstein system from any records.
 ///
 /// 1. The branch at every sample is read off `v` ([`crate::estimators::free::Branches`]).
-/// 2. Order, delay and knots are chosen by cross-validation where the settings leave them open.
+/// 2. Whether reversals take effect at samples or between them is decided by the fit of a middling structure. Order, delay and knots are chosen by cross-validation where the settings leave them open.
 /// 3. Least squares with one coefficient for every product `bᵢf_k`, drawn to rank one.
 /// 4. With `refine`, Levenberg–Marquardt on the error of the free run.
 ///
@@ -44,7 +44,7 @@ pub struct Identified {
 /// [`FreeError`] if there is nothing to identify from, or too little for the settings.
 pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, FreeError> {
     settings.check()?;
-    let data = Data::new(records, settings)?;
+    let data = with_best_timing(Data::new(records, settings)?, settings);
     let selection = select(&data, settings)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
@@ -52,14 +52,14 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     let segments = featured.segments(structure);
     check_length(featured, structure, &segments)?;
     let fitted = if settings.refine {
-        ladder.climb(structure, Effort::FINAL, None, |rung| rung.segments(structure))
+        ladder.climb_from_smaller(structure, Effort::FINAL)
     } else {
         ladder.one_shot(structure, &segments)
     };
     let theta = fitted.ok_or(FreeError::Unstable { order: structure.order })?.theta;
     let warnings = examine(&data, featured, structure, &theta, &segments);
     let estimate = estimate(featured, structure, &theta, &segments, settings.refine);
-    let model = Model { basis: featured.basis.clone(), structure, parameters: theta, threshold: data.threshold };
+    let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
     Ok(Identified { estimate, model, selection, warnings })
 }
 
@@ -116,10 +116,10 @@ fn examine(
 ) -> Vec<Warning> {
     let mut visits = vec![0; featured.basis.features() + 1];
     for cell in segments.iter().flat_map(|s| &s.cells[s.from..s.to]) {
-        visits[cell.knot] += 1;
-        visits[cell.knot + 1] += 1;
+        visits[cell.main.knot] += 1;
+        visits[cell.main.knot + 1] += 1;
     }
     let reversals = data.records.iter().map(|(_, b)| b.reversals()).sum();
-    let (noise, threshold) = (data.noise, data.threshold);
+    let (noise, threshold) = (data.noise, data.rule.threshold);
     Examination { basis: &featured.basis, structure, theta, noise, threshold, reversals, visits }.warnings()
 }

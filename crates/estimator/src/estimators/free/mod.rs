@@ -20,7 +20,7 @@ mod simulation_error;
 mod warning;
 
 pub use basis::Basis;
-pub use branch::Branches;
+pub use branch::{Branches, ReversalRule, Timing};
 pub use error::FreeError;
 pub use identify::{Identified, identify};
 pub use model::{FreeRun, Model, fit_percent};

@@ -7,7 +7,7 @@ use crate::hysteresis::Branch;
 impl Parameters {
     /// The same curves on the knots of another basis (exactly the same where its knots contain the old ones).
     pub(super) fn on_basis(&self, from: &Basis, to: &Basis) -> Self {
-        let u = |branch, v| from.cell(branch, v).value(&self.f);
+        let u = |branch, v| from.place(branch, v).value(&self.f);
         let mut values: Vec<f64> = to.descending().iter().map(|&v| u(Branch::Descending, v)).collect();
         if to.is_switched() {
             values.extend(to.ascending().iter().map(|&v| u(Branch::Ascending, v)));

@@ -22,6 +22,12 @@ impl Structure {
         (-self.delay).max(0) as usize
     }
 
+    /// Whether `other` has the same coefficients and one more lag on one side.
+    pub(super) fn is_just_inside(&self, other: Self) -> bool {
+        (self.delay == other.delay && self.order + 1 == other.order)
+            || (self.order == other.order && self.delay == other.delay + 1 && self.delay <= 0)
+    }
+
     /// Samples ahead of `t` that a prediction of `y(t)` looks at.
     pub(super) fn ahead(&self) -> usize {
         self.lead().saturating_sub(1)

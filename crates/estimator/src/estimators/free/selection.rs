@@ -1,11 +1,13 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::cross_validation::{Assessed, FOLDS, assess};
+use super::branch::Timing;
+use super::cross_validation::{Assessed, FOLDS, assess_all, assess_next};
 use super::data::Data;
 use super::error::FreeError;
-use super::fit::{FIRST_KNOTS, Ladder};
+use super::fit::{Effort, FIRST_KNOTS, Ladder};
 use super::problem::Structure;
 use super::settings::{InputMap, Settings};
+use super::simulation_error::cost;
 use std::ops::RangeInclusive;
 
 /// Orders tried.
@@ -61,21 +63,20 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
         _ => KNOTS.to_vec(),
     };
     let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
+    // Smaller structures first: by falling delay, then by order.
     let structures: Vec<Structure> =
-        orders.iter().flat_map(|&order| delays.iter().map(move |&delay| Structure { order, delay })).collect();
+        delays.iter().rev().flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay })).collect();
     if let ([structure], [knots]) = (&structures[..], &knots[..]) {
         return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
     }
     let ladder = Ladder::new(data, settings.input_map, first_knots);
-    let mut assessed: Vec<Assessed> =
-        structures.iter().map(|&structure| assess(&ladder, structure, settings.refine, None)).collect();
+    let mut assessed = assess_all(&ladder, &structures, settings.refine);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
     let mut second: Vec<Assessed> = Vec::new();
     for &k in knots.iter().filter(|&&k| k != first_knots) {
         let ladder = Ladder::last_step(data, settings.input_map, k);
-        for finalist in assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite()) {
-            second.push(assess(&ladder, finalist.structure, settings.refine, Some(&finalist.fits)));
-        }
+        let finalists = assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite());
+        second.extend(finalists.map(|a| assess_next(&ladder, a, settings.refine)));
     }
     assessed.extend(second);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
@@ -84,6 +85,27 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     match close.min_by_key(|c| c.parameters) {
         Some(&Candidate { structure, knots, .. }) => Ok(Selection { candidates, folds: FOLDS, structure, knots }),
         None => Err(FreeError::Unstable { order: structures[0].order }),
+    }
+}
+
+/// The data with the timing of reversals that fits better.
+///
+/// The two timings have the same parameters, so the fit itself decides; a middling structure shows the difference.
+pub(super) fn with_best_timing<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
+    if settings.timing.is_some() || settings.input_map != InputMap::Borders {
+        return data;
+    }
+    let structure = Structure { order: settings.order.unwrap_or(2), delay: settings.delay.unwrap_or(-1) };
+    let knots = settings.knots.unwrap_or(FIRST_KNOTS);
+    let between = data.with_timing(Timing::BetweenSamples);
+    let error = |data: &Data| {
+        let ladder = Ladder::new(data, settings.input_map, knots);
+        let fitted = ladder.climb_from_smaller(structure, Effort::SEARCH)?;
+        Some(cost(structure, &fitted.theta, &ladder.top().segments(structure)))
+    };
+    match (error(&data), error(&between)) {
+        (Some(at), Some(between_error)) if between_error < at => between,
+        _ => data,
     }
 }
 

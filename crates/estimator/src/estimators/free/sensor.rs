@@ -1,5 +1,7 @@
 //! Sensor noise on the input, and the reversal threshold that it calls for.
 
+use super::branch::{ReversalRule, Timing};
+
 /// What the sensor of `v` adds to it, and what a move must exceed to count as a reversal.
 ///
 /// Two independent looks, since neither sees everything:
@@ -45,6 +47,11 @@ impl SensorNoise {
         let sd = (2..=4).find_map(|k| white_sd(v, k)).filter(|&sd| sd < limit).unwrap_or(0.0);
         let threshold = if small_pairs > 0.0 { 2.0 * small_pairs } else { THRESHOLD_IN_SD * sd };
         Self { sd, small_pairs, threshold }
+    }
+
+    /// The rule that goes with a threshold (this one, or the user's): a rest at an extremum extends three noise sds from it.
+    pub(super) fn rule(&self, threshold: f64) -> ReversalRule {
+        ReversalRule { threshold, band: (3.0 * self.sd).min(threshold / 2.0), timing: Timing::AtSamples }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the user may fix, and what is otherwise chosen from the data.
 
+use super::branch::Timing;
 use super::error::FreeError;
 use crate::hysteresis::Interval;
 
@@ -27,6 +28,8 @@ pub struct Settings {
     pub knots: Option<usize>,
     /// Reversal threshold, input units.
     pub threshold: Option<f64>,
+    /// Whether reversals take effect at samples or between them.
+    pub timing: Option<Timing>,
     /// Working interval; the range of the records otherwise.
     pub interval: Option<Interval>,
     /// Whether to minimise the simulation error after the equation error.
@@ -36,7 +39,7 @@ pub struct Settings {
 impl Settings {
     /// Everything left to the data, with refinement.
     pub fn new(input_map: InputMap) -> Self {
-        Self { input_map, order: None, delay: None, knots: None, threshold: None, interval: None, refine: true }
+        Self { input_map, order: None, delay: None, knots: None, threshold: None, timing: None, interval: None, refine: true }
     }
 
     /// Refuses what makes no sense.

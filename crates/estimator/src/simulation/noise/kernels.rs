@@ -157,15 +157,21 @@ pub(super) struct Fold<'a> {
 impl Kernel for Fold<'_> {
     #[inline(always)]
     fn run<const L: usize>(self) {
-        // Rows lie end to end: one long loop over them, not a loop over lanes within one over rows.
-        let (mut e, mut phase) = (self.e, self.phase * L);
-        while !e.is_empty() {
-            let (now, rest) = e.split_at(e.len().min(self.fold.len() - phase));
-            for (sum, e) in self.fold[phase..].iter_mut().zip(now) {
-                *sum += e;
+        let (e, _) = self.e.as_chunks::<L>();
+        let (fold, _) = self.fold.as_chunks_mut::<L>();
+        // Phase by phase, so that a sum is loaded and stored once and not at every visit.
+        let period = fold.len();
+        let (before, after) = fold.split_at_mut(self.phase);
+        for (first, sum) in after.iter_mut().chain(before).enumerate().take(e.len()) {
+            let mut total = *sum;
+            let mut t = first;
+            while t < e.len() {
+                for l in 0..L {
+                    total[l] += e[t][l];
+                }
+                t += period;
             }
-            phase = 0;
-            e = rest;
+            *sum = total;
         }
     }
 }

@@ -65,9 +65,10 @@ fn minus_two_ln(u: f64) -> f64 {
     // An integer below 2⁵² in the mantissa of 2⁵² reads as 2⁵² plus that integer: a conversion every vector
     // unit has.
     const TWO_52: u64 = 0x4330 << 48;
-    let bits = u.to_bits() + (ONE - ROOT_HALF);
+    // Neither addition can overflow; checked ones, as in development builds, would undo the vectorisation.
+    let bits = u.to_bits().wrapping_add(ONE - ROOT_HALF);
     let exponent = f64::from_bits(TWO_52 | (bits >> 52)) - (4503599627370496.0 + 1023.0);
-    let m = f64::from_bits((bits & MANTISSA) + ROOT_HALF);
+    let m = f64::from_bits((bits & MANTISSA).wrapping_add(ROOT_HALF));
     let s = (m - 1.0) / (m + 1.0);
     let z = s * s;
     let tail = s * (z * polynomial(&ATANH, z));
