@@ -35,8 +35,7 @@ fn refusal(from: &str, to: &str) -> (String, String, usize) {
         Err(ScenarioError::Invalid(invalid)) => {
             let message = invalid.to_string();
             assert!(message.starts_with("scenarios/bad.toml:"), "{message}");
-            let remedy =
-                miette::Diagnostic::help(&invalid).map_or_else(String::new, |h| h.to_string());
+            let remedy = miette::Diagnostic::help(&invalid).map_or_else(String::new, |h| h.to_string());
             (message, remedy, invalid.line())
         }
         other => panic!("{to} must be refused, not {other:?}"),
