@@ -6,8 +6,11 @@ use super::{Cell, Measured, Parameter, Results};
 const PLACE: [&str; 10] =
     ["case", "border", "method", "points", "noise", "samples", "replicates", "failures", "parameter", "v"];
 
+/// A column's name and where its figure stands.
+type Column<T> = (&'static str, fn(&Parameter) -> Option<T>);
+
 /// Measures without an error.
-const EXACT: [(&str, fn(&Parameter) -> Option<f64>); 4] = [
+const EXACT: [Column<f64>; 4] = [
     ("truth", |p| Some(p.truth)),
     ("mean_estimate", |p| p.mean_estimate),
     ("theory_sd", |p| p.theory_sd),
@@ -15,7 +18,7 @@ const EXACT: [(&str, fn(&Parameter) -> Option<f64>); 4] = [
 ];
 
 /// Measures with their Monte-Carlo standard errors, a column each.
-const MEASURED: [(&str, fn(&Parameter) -> Option<Measured>); 8] = [
+const MEASURED: [Column<Measured>; 8] = [
     ("bias", |p| p.bias),
     ("bias_controlled", |p| p.bias_controlled),
     ("sd", |p| p.sd),
