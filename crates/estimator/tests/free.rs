@@ -1,4 +1,5 @@
 //! Identification from any record, on rigs simulated here and on measured ones.
+#![allow(clippy::disallowed_macros, reason = "a test tells what it measured, or that it was skipped")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -57,7 +58,12 @@ fn added(x: &[f64], e: &[f64]) -> Vec<f64> {
 }
 
 fn known(order: usize, delay: isize, knots: usize) -> Settings {
-    Settings { order: Some(order), delay: Some(delay), knots: Some(knots), ..Settings::new(InputMap::Borders) }
+    Settings {
+        order: Some(order),
+        delay: Some(delay),
+        knots: Some(knots),
+        ..Settings::new(InputMap::Borders)
+    }
 }
 
 const A: [f64; 2] = [-1.1, 0.4];
@@ -110,7 +116,10 @@ fn one_shot_is_unbiased_and_its_intervals_cover_under_white_equation_error() {
         let variance = z.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
         // Four Monte-Carlo standard errors, and the bias of order 1/N beside them.
         assert!(mean.abs() < 4.0 / count.sqrt() + 0.1, "parameter {i}: mean z {mean}");
-        assert!((variance - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "parameter {i}: variance of z {variance}");
+        assert!(
+            (variance - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
+            "parameter {i}: variance of z {variance}"
+        );
     }
 }
 
@@ -120,7 +129,11 @@ fn identify_recovers_a_system_on_a_smooth_input_without_noise() {
     let y = simulate(SPRING, &A, &B, &v, &[]);
     let record = Record::new(v, y).unwrap();
     let found = identify(&[&record], &known(2, 0, 2)).unwrap();
-    assert!(found.model.free_run(&record).fit_percent > 99.99, "{}", found.model.free_run(&record).fit_percent);
+    assert!(
+        found.model.free_run(&record).fit_percent > 99.99,
+        "{}",
+        found.model.free_run(&record).fit_percent
+    );
     assert!(found.estimate.a.iter().zip(A).all(|(x, y)| (x - y).abs() < 1e-3), "{:?}", found.estimate.a);
     assert_eq!(found.model.rule().timing, Timing::AtSamples);
 }
@@ -153,11 +166,12 @@ fn refinement_removes_the_bias_of_output_noise() {
 
 #[test]
 fn sensor_noise_on_the_input_is_found_and_does_not_fake_reversals() {
-    let clean = smooth(4000);
+    let wave = |t: f64| 0.8 * (0.041 * t).sin() + 0.15 * (0.0093 * t + 1.0).sin();
+    let clean: Vec<f64> = (0..4000).map(|t| wave(f64::from(t))).collect();
     let y = added(&simulate(SPRING, &A, &B, &clean, &[]), &normals(7, 4000, 0.01));
     let v = added(&clean, &normals(8, 4000, 0.004));
     let noise = SensorNoise::of(&v);
-    assert!(noise.threshold > 0.008 && noise.threshold < 0.05, "{noise:?}");
+    assert!(noise.threshold > 0.015 && noise.threshold < 0.05, "{noise:?}");
     assert_eq!(SensorNoise::of(&clean).threshold, 0.0);
     let record = Record::new(v, y).unwrap();
     let fit = |threshold| {
@@ -167,7 +181,9 @@ fn sensor_noise_on_the_input_is_found_and_does_not_fake_reversals() {
     let (with_threshold, warnings) = fit(None);
     assert!(with_threshold > 90.0, "{with_threshold}");
     assert!(warnings.iter().any(|w| matches!(w, Warning::SensorNoise { .. })));
-    assert!(fit(Some(0.0)).0 < with_threshold - 10.0);
+    let without = fit(Some(0.0)).0;
+    println!("{with_threshold:.1} % with, {without:.1} % without a threshold");
+    assert!(without < with_threshold - 5.0);
 }
 
 #[test]
@@ -177,7 +193,8 @@ fn motion_is_not_taken_for_noise() {
         walk[t] += walk[t - 1];
     }
     let steps: Vec<f64> = (0..2000).map(|t| if t % 20 < 10 { 0.0 } else { 1.0 }).collect();
-    let pulses: Vec<f64> = (0..2000).map(|t| if t % 2 == 0 { 1.0 } else { f64::from(t % 10) / 10.0 }).collect();
+    let pulses: Vec<f64> =
+        (0..2000).map(|t| if t % 2 == 0 { 1.0 } else { f64::from(t % 10) / 10.0 }).collect();
     for v in [random_levels(2, 2000), walk, steps, pulses] {
         assert_eq!(SensorNoise::of(&v).threshold, 0.0);
     }
@@ -187,8 +204,12 @@ fn motion_is_not_taken_for_noise() {
 fn a_noisy_rest_at_an_extremum_stays_on_its_border() {
     // Up, rest for 50 samples, down, rest, up again.
     let ramp = |from: f64, to: f64| (0..100).map(move |t| from + (to - from) * f64::from(t) / 100.0);
-    let clean: Vec<f64> =
-        ramp(0.0, 1.0).chain([1.0; 50]).chain(ramp(1.0, 0.0)).chain([0.0; 50]).chain(ramp(0.0, 1.0)).collect();
+    let clean: Vec<f64> = ramp(0.0, 1.0)
+        .chain([1.0; 50])
+        .chain(ramp(1.0, 0.0))
+        .chain([0.0; 50])
+        .chain(ramp(0.0, 1.0))
+        .collect();
     let exact = Branches::of(&clean, ReversalRule::EXACT).unwrap();
     let noisy = added(&clean, &normals(3, clean.len(), 0.002));
     let rule = ReversalRule { threshold: 0.012, band: 0.006, timing: Timing::AtSamples };
@@ -216,8 +237,13 @@ fn weak_points_are_reported() {
     assert!(found.warnings.iter().any(|w| matches!(w, Warning::SteepCell { .. })), "{:?}", found.warnings);
     let slope: Vec<f64> = (0..400).map(|t| f64::from(t) / 200.0 - 1.0).collect();
     let y = simulate(SPRING, &A, &B, &[&slope[..], &slope[..]].concat(), &[]);
-    let found = identify(&[&Record::new([&slope[..], &slope[..]].concat(), y).unwrap()], &known(1, 0, 3)).unwrap();
-    assert!(found.warnings.iter().any(|w| matches!(w, Warning::FewReversals { count: 2 })), "{:?}", found.warnings);
+    let found =
+        identify(&[&Record::new([&slope[..], &slope[..]].concat(), y).unwrap()], &known(1, 0, 3)).unwrap();
+    assert!(
+        found.warnings.iter().any(|w| matches!(w, Warning::FewReversals { count: 2 })),
+        "{:?}",
+        found.warnings
+    );
 }
 
 #[test]
@@ -230,14 +256,17 @@ fn what_cannot_be_identified_is_refused() {
     assert_eq!(identify(&[&flat], &settings).unwrap_err(), FreeError::ConstantOutput);
     let short = Record::new(random_levels(1, 20), random_levels(2, 20)).unwrap();
     assert!(matches!(identify(&[&short], &known(2, 0, 5)), Err(FreeError::TooShort { .. })));
-    assert!(identify(&[&short], &settings).is_err());
+    assert!(matches!(identify(&[&short], &settings), Err(FreeError::TooShort { .. })));
     let negative = Settings { threshold: Some(-1.0), ..settings };
     assert!(matches!(identify(&[&still], &negative), Err(FreeError::Setting { name: "threshold", .. })));
     let order = Settings { order: Some(0), ..settings };
     assert!(matches!(identify(&[&still], &order), Err(FreeError::Setting { name: "order", .. })));
     let far = Grid { basis: Basis::borders(vec![-1.0, 5.0, 6.0], vec![-1.0, 1.0]), ..leaf_grid() };
     let record = Record::new(random_levels(1, 200), random_levels(2, 200)).unwrap();
-    assert_eq!(one_shot(&[&record], &far).unwrap_err(), FreeError::UnvisitedKnot { curve: "descending", v: 6.0 });
+    assert_eq!(
+        one_shot(&[&record], &far).unwrap_err(),
+        FreeError::UnvisitedKnot { curve: "descending", v: 6.0 }
+    );
 }
 
 /// Reads `t,v,y`; `None` where the measured rigs are not at hand.
@@ -258,7 +287,8 @@ fn on_measured_friction_two_borders_beat_a_line_and_a_curve_on_the_held_out_reco
             println!("skipped: the measured rigs are not beside the workspace");
             return;
         };
-        let score = |map| identify(&[&fit], &Settings::new(map)).unwrap().model.free_run(&holdout).fit_percent;
+        let score =
+            |map| identify(&[&fit], &Settings::new(map)).unwrap().model.free_run(&holdout).fit_percent;
         let [line, curve, borders] = [InputMap::Linear, InputMap::Static, InputMap::Borders].map(score);
         println!("line {line:.1} %, curve {curve:.1} %, borders {borders:.1} %");
         assert!(borders > wanted && borders > curve && borders > line);

@@ -52,7 +52,11 @@ fn solve(moments: &Reduced, ridge: f64) -> Option<DVector<f64>> {
 }
 
 /// Solves `(M + ridge·diag M) x = r` with columns scaled to one; a tiny ridge decides only what `M` leaves open.
-pub(super) fn solve_symmetric(matrix: &DMatrix<f64>, right: &DVector<f64>, ridge: f64) -> Option<DVector<f64>> {
+pub(super) fn solve_symmetric(
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+    ridge: f64,
+) -> Option<DVector<f64>> {
     let p = matrix.nrows();
     let scale = DVector::from_fn(p, |i, _| matrix[(i, i)].sqrt().max(f64::MIN_POSITIVE));
     let mut scaled = DMatrix::from_fn(p, p, |i, j| matrix[(i, j)] / (scale[i] * scale[j]));
@@ -103,9 +107,11 @@ pub(super) fn gauss_newton(moments: &Moments, start: Parameters) -> Parameters {
     let rounding = 1e-12 * moments.matrix[(p, p)];
     for _ in 0..MOST_STEPS {
         let jacobian = jacobian(moments, &theta);
-        let residual = moments.matrix.view((0, p), (p, 1)) - moments.matrix.view((0, 0), (p, p)) * products(moments, &theta);
+        let residual = moments.matrix.view((0, p), (p, 1))
+            - moments.matrix.view((0, 0), (p, p)) * products(moments, &theta);
         let gradient = jacobian.transpose() * residual;
-        let Some(step) = solve_symmetric(&information(moments, &theta), &gradient.column(0).into(), 1e-13) else {
+        let Some(step) = solve_symmetric(&information(moments, &theta), &gradient.column(0).into(), 1e-13)
+        else {
             break;
         };
         let shares = (0..12).map(|k| 0.5f64.powi(k));
