@@ -1,2 +1,9 @@
 //! The `switchback` binary.
-fn main() {}
+
+use clap::Parser;
+use std::process::ExitCode;
+use switchback::{cli::Cli, failure};
+
+fn main() -> ExitCode {
+    failure::exit_code(Cli::parse().run())
+}

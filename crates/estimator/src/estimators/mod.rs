@@ -2,5 +2,6 @@
 
 mod estimate;
 pub mod free;
+pub mod pulse;
 
 pub use estimate::{BorderPoint, Estimate};

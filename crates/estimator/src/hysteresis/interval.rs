@@ -11,7 +11,9 @@ pub struct Interval {
 
 /// Why two numbers are no working interval.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("[{low}, {high}] is not an interval: both ends must be finite and the first below the second")]
+#[error(
+    "[{low}, {high}] is not an interval: both ends and their distance must be finite and the first below the second"
+)]
 pub struct IntervalError {
     /// The first end given.
     pub low: f64,
@@ -23,9 +25,9 @@ impl Interval {
     /// The interval from `low` (`h_m`) to `high` (`h_M`).
     ///
     /// # Errors
-    /// [`IntervalError`] unless both are finite and `low < high`.
+    /// [`IntervalError`] unless both and their distance are finite and `low < high`.
     pub fn new(low: f64, high: f64) -> Result<Self, IntervalError> {
-        if low.is_finite() && high.is_finite() && low < high {
+        if low.is_finite() && high.is_finite() && (high - low).is_finite() && low < high {
             Ok(Self { low, high })
         } else {
             Err(IntervalError { low, high })
@@ -50,5 +52,27 @@ impl Interval {
     /// Whether `v` lies in the closed interval.
     pub fn contains(&self, v: f64) -> bool {
         (self.low..=self.high).contains(&v)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_that_are_equal_swapped_or_not_finite_are_refused() {
+        for (low, high) in
+            [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1.7e308, 1.7e308)]
+        {
+            assert!(Interval::new(low, high).is_err());
+        }
+    }
+
+    #[test]
+    fn both_ends_belong_to_the_interval() {
+        let interval = Interval::new(-1.0, 2.0).unwrap();
+        assert!(interval.contains(-1.0) && interval.contains(2.0) && interval.contains(0.0));
+        assert!(!interval.contains(2.1) && !interval.contains(f64::NAN));
+        assert_eq!(interval.width(), 3.0);
     }
 }

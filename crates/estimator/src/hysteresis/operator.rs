@@ -1,6 +1,7 @@
 //! The operator `u = F[v]`.
 
 use super::{BorderPair, Branch, Interval};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// The switched hysteresis (2.3) on a working interval.
@@ -12,11 +13,11 @@ use thiserror::Error;
 /// ```
 ///
 /// Assumption 1 holds: `u_m = C_d(h_m) < u_M = C_a(h_M)`, both finite. The borders may be discontinuous and need
-/// not be invertible.
-#[derive(Debug)]
+/// not be invertible. Clones share their borders.
+#[derive(Debug, Clone)]
 pub struct SwitchedHysteresis {
     interval: Interval,
-    borders: Box<dyn BorderPair>,
+    borders: Arc<dyn BorderPair>,
 }
 
 /// Why a pair of borders is no switched hysteresis on the interval.
@@ -44,7 +45,7 @@ impl SwitchedHysteresis {
         let u_low = borders.descending(interval.low());
         let u_high = borders.ascending(interval.high());
         if u_low.is_finite() && u_high.is_finite() && u_low < u_high {
-            Ok(Self { interval, borders })
+            Ok(Self { interval, borders: borders.into() })
         } else {
             Err(HysteresisError::Assumption1 { u_low, u_high })
         }

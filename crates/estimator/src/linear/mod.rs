@@ -1,5 +1,11 @@
 //! Linear systems `A(q⁻¹) y = B(q⁻¹) u + ξ`.
 
+mod autocovariance;
 mod filter;
+mod polynomial;
+mod system;
 
+pub use autocovariance::autocovariance;
 pub use filter::filter;
+pub use polynomial::{is_stable, relative_coprimeness, settling_samples, spectral_radius};
+pub use system::{LinearSystem, SystemError};

@@ -1,1 +1,10 @@
-//! Simulated records, and the noise in them.
+//! Simulated experiments, their noise, and the superposition that spares simulating them.
+
+mod design;
+pub mod noise;
+mod periodic;
+mod superposition;
+
+pub use design::PeriodicDesign;
+pub use periodic::periodic_response;
+pub use superposition::{NoiseMoments, superpose};

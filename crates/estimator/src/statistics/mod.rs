@@ -1,1 +1,18 @@
 //! Performance measures of estimators, each with its Monte-Carlo standard error.
+
+mod error_sums;
+mod jackknife;
+mod line;
+
+pub use error_sums::{ErrorSums, Performance, ReplicateError};
+pub use jackknife::jackknife_se;
+pub use line::{Line, weighted_line};
+
+/// A measured number with its Monte-Carlo standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// Its Monte-Carlo standard error.
+    pub mcse: f64,
+}

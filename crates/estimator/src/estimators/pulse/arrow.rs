@@ -1,0 +1,272 @@
+//! Least squares on grouped statistics, where most columns touch only a group or two of their own.
+
+use super::grouped::GroupedStatistics;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// A column of the regression that is non-zero in a few groups only: weight `w` in each group listed.
+///
+/// Local columns of one regression have disjoint groups, so their block of the normal equations is diagonal.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LocalColumn {
+    /// Group and weight.
+    pub(crate) support: Vec<(usize, f64)>,
+}
+
+impl LocalColumn {
+    /// A free mean for one group.
+    pub(crate) fn own(group: usize) -> Self {
+        Self { support: vec![(group, 1.0)] }
+    }
+}
+
+/// The input part of a regression over groups: `y(t) = −Σaᵢy(t−i) + o_q + x_qᵀη + Σ_l w_q,l λ_l + ξ(t)`.
+#[derive(Debug, Clone)]
+pub(crate) struct Columns {
+    /// `x`, one row a group.
+    pub(crate) shared: DMatrix<f64>,
+    /// The local columns.
+    pub(crate) local: Vec<LocalColumn>,
+    /// `o`, a known part of `y` one value a group.
+    pub(crate) offset: Vec<f64>,
+}
+
+/// A solved regression: estimates, residual variance and covariance.
+///
+/// The core parameters are `(a₁…aₙ, η)`; the local ones `λ` are eliminated first (the normal equations are an arrow), so
+/// the cost is `O((n + p)²)` a local column and `O((n + p)³)` once, instead of cubic in all columns.
+#[derive(Debug, Clone)]
+pub(crate) struct ArrowFit {
+    /// `(a, η)`.
+    pub(crate) core: DVector<f64>,
+    /// `λ`.
+    pub(crate) local: Vec<f64>,
+    /// Residual variance, degrees of freedom counted.
+    pub(crate) variance: f64,
+    freedom: f64,
+    factor: Cholesky<f64, Dyn>,
+    ties: Vec<LocalTie>,
+}
+
+/// Residuals `r` against every column: `Σ_{t∈q} r(t)` a group, `−Σ_t y(t−i) r(t)` a lag, and `Σ_t r²(t)`.
+#[derive(Debug, Clone)]
+pub(crate) struct Score {
+    pub(crate) residual: Vec<f64>,
+    pub(crate) lagged: Vec<f64>,
+    pub(crate) energy: f64,
+}
+
+/// What eliminating a local column leaves behind.
+#[derive(Debug, Clone)]
+struct LocalTie {
+    /// Its own entry `D = Σ K w²` of the normal matrix.
+    own: f64,
+    /// `c/D`: how its estimate follows the core's.
+    slope: DVector<f64>,
+    /// Right-hand side over `D`: its estimate were the core zero.
+    start: f64,
+}
+
+/// A linear functional of the parameters: derivative of some quantity in the core and the local ones.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Gradient {
+    /// Over `(a, η)`.
+    pub(crate) core: DVector<f64>,
+    /// Over the local columns named by index; the rest are zero.
+    pub(crate) local: Vec<(usize, f64)>,
+}
+
+/// The normal matrix cannot be inverted: the record does not excite every parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NotExcited;
+
+impl ArrowFit {
+    /// Solves the regression.
+    pub(crate) fn solve(statistics: &GroupedStatistics, columns: &Columns) -> Result<Self, NotExcited> {
+        let (n, p) = (statistics.order(), columns.shared.ncols());
+        let (mut normal, mut right, mut energy) = core_equations(statistics, columns);
+        let scale: Vec<f64> = normal.diagonal().iter().map(|d| d.abs().sqrt()).collect();
+        let mut ties = Vec::with_capacity(columns.local.len());
+        for column in &columns.local {
+            let mut own = 0.0;
+            let mut target = 0.0;
+            let mut cross = DVector::zeros(n + p);
+            for &(q, w) in &column.support {
+                let count = statistics.count(q);
+                own += w * w * count;
+                target += w * (statistics.sum(q, 0) - columns.offset[q] * count);
+                for i in 0..n {
+                    cross[i] -= w * statistics.sum(q, i + 1);
+                }
+                for k in 0..p {
+                    cross[n + k] += w * count * columns.shared[(q, k)];
+                }
+            }
+            if own <= 0.0 {
+                return Err(NotExcited);
+            }
+            let start = target / own;
+            right.axpy(-start, &cross, 1.0);
+            normal.ger(-1.0 / own, &cross, &cross, 1.0);
+            energy -= target * start;
+            ties.push(LocalTie { own, slope: cross / own, start });
+        }
+        let factor = well_conditioned(normal, &scale)?;
+        let core = factor.solve(&right);
+        let local: Vec<f64> = ties.iter().map(|tie| tie.start - tie.slope.dot(&core)).collect();
+        let freedom = (statistics.samples() - (n + p + local.len()) as f64).max(1.0);
+        let variance = (energy - core.dot(&right)).max(0.0) / freedom;
+        Ok(Self { core, local, variance, freedom, factor, ties })
+    }
+
+    /// Variance of the quantity whose derivative is `gradient`, for white equation error.
+    pub(crate) fn variance_of(&self, gradient: &Gradient) -> f64 {
+        let mut through_core = gradient.core.clone();
+        let mut own = 0.0;
+        for &(l, weight) in &gradient.local {
+            own += weight * weight / self.ties[l].own;
+            through_core.axpy(-weight, &self.ties[l].slope, 1.0);
+        }
+        let solved = self.factor.solve(&through_core);
+        self.variance * (own + through_core.dot(&solved))
+    }
+
+    /// Adds the correction for what a pass over the data finds left in the residual, and takes the residual variance from there.
+    pub(crate) fn refine(&mut self, columns: &Columns, score: &Score) {
+        let step = self.respond(columns, &score.residual, &score.lagged);
+        self.core += step.core;
+        self.local.iter_mut().zip(step.local).for_each(|(l, s)| *l += s);
+        self.variance = score.energy / self.freedom;
+    }
+
+    /// How all parameters answer to a target that is `residual` in the groups and `lagged` against the lags:
+    /// `Σ_{t∈q} r(t)` a group and `−Σ_t y(t−i) r(t)` a lag.
+    fn respond(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> Response {
+        let (n, p) = (lagged.len(), columns.shared.ncols());
+        let mut right = DVector::zeros(n + p);
+        right.rows_mut(0, n).copy_from_slice(lagged);
+        for (q, r) in residual.iter().enumerate() {
+            for k in 0..p {
+                right[n + k] += columns.shared[(q, k)] * r;
+            }
+        }
+        let mut starts = Vec::with_capacity(self.ties.len());
+        for (column, tie) in columns.local.iter().zip(&self.ties) {
+            let target: f64 = column.support.iter().map(|&(q, w)| w * residual[q]).sum();
+            right.axpy(-target, &tie.slope, 1.0);
+            starts.push(target / tie.own);
+        }
+        let core = self.factor.solve(&right);
+        let local = self.ties.iter().zip(starts).map(|(tie, start)| start - tie.slope.dot(&core)).collect();
+        Response { core, local }
+    }
+
+    /// How all parameters move with a constant 1 left in `y`; `statistics` and `columns` are those that were solved.
+    pub(crate) fn response_to_constant(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
+        let residual: Vec<f64> = (0..statistics.groups()).map(|q| statistics.count(q)).collect();
+        let lagged: Vec<f64> = (1..=statistics.order()).map(|i| -statistics.total(i)).collect();
+        self.respond(columns, &residual, &lagged)
+    }
+
+    /// `M⁻¹s`: this regression's answer to the score `s = S_{Φy} − Sθ₀` of other statistics, with `θ₀` and `M` its own.
+    pub(crate) fn response_to_score(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
+        let n = statistics.order();
+        let a = self.core.rows(0, n);
+        let mut residual = Vec::with_capacity(statistics.groups());
+        let mut lagged: Vec<f64> = (1..=n)
+            .map(|i| {
+                -statistics.product(0, i) - (0..n).map(|l| a[l] * statistics.product(i, l + 1)).sum::<f64>()
+            })
+            .collect();
+        for (q, mean) in self.group_means(columns).into_iter().enumerate() {
+            let past: f64 = (0..n).map(|l| a[l] * statistics.sum(q, l + 1)).sum();
+            residual.push(statistics.sum(q, 0) + past - mean * statistics.count(q));
+            for (i, lagged) in lagged.iter_mut().enumerate() {
+                *lagged += mean * statistics.sum(q, i + 1);
+            }
+        }
+        self.respond(columns, &residual, &lagged)
+    }
+
+    /// `o_q + x_qᵀη + Σ_l w_q,l λ_l`.
+    pub(crate) fn group_means(&self, columns: &Columns) -> Vec<f64> {
+        let n = self.core.len() - columns.shared.ncols();
+        let eta = self.core.rows(n, columns.shared.ncols());
+        let mut means: Vec<f64> = columns
+            .offset
+            .iter()
+            .enumerate()
+            .map(|(q, o)| o + columns.shared.row(q).transpose().dot(&eta))
+            .collect();
+        for (column, lambda) in columns.local.iter().zip(&self.local) {
+            for &(q, w) in &column.support {
+                means[q] += w * lambda;
+            }
+        }
+        means
+    }
+}
+
+/// A change of all parameters.
+#[derive(Debug, Clone)]
+pub(crate) struct Response {
+    core: DVector<f64>,
+    local: Vec<f64>,
+}
+
+impl Response {
+    /// The change of the quantity whose derivative is `gradient`.
+    pub(crate) fn along(&self, gradient: &Gradient) -> f64 {
+        gradient.core.dot(&self.core) + gradient.local.iter().map(|&(l, w)| w * self.local[l]).sum::<f64>()
+    }
+}
+
+/// Normal matrix and right-hand side of `(a, η)`, and the energy of the target.
+fn core_equations(statistics: &GroupedStatistics, columns: &Columns) -> (DMatrix<f64>, DVector<f64>, f64) {
+    let (n, p) = (statistics.order(), columns.shared.ncols());
+    let mut normal = DMatrix::zeros(n + p, n + p);
+    let mut right = DVector::zeros(n + p);
+    let mut energy = statistics.product(0, 0);
+    for i in 0..n {
+        right[i] = -statistics.product(0, i + 1);
+        for l in 0..n {
+            normal[(i, l)] = statistics.product(i + 1, l + 1);
+        }
+    }
+    for q in 0..statistics.groups() {
+        let (count, offset) = (statistics.count(q), columns.offset[q]);
+        let target = statistics.sum(q, 0) - offset * count;
+        energy -= offset * (statistics.sum(q, 0) + target);
+        for i in 0..n {
+            right[i] += offset * statistics.sum(q, i + 1);
+        }
+        for k in 0..p {
+            let x = columns.shared[(q, k)];
+            if x == 0.0 {
+                continue;
+            }
+            right[n + k] += x * target;
+            for i in 0..n {
+                normal[(i, n + k)] -= x * statistics.sum(q, i + 1);
+            }
+            for l in 0..p {
+                normal[(n + k, n + l)] += x * columns.shared[(q, l)] * count;
+            }
+        }
+    }
+    for i in 0..n {
+        for k in 0..p {
+            normal[(n + k, i)] = normal[(i, n + k)];
+        }
+    }
+    (normal, right, energy)
+}
+
+/// Factors the reduced normal matrix, refusing one that is singular to working precision; `scale` holds the norms
+/// of the core columns before the elimination.
+fn well_conditioned(normal: DMatrix<f64>, scale: &[f64]) -> Result<Cholesky<f64, Dyn>, NotExcited> {
+    let factor = Cholesky::new(normal).ok_or(NotExcited)?;
+    let l = factor.l_dirty();
+    // A pivot that kept less than 1e-7 of its column (1e-14 of its energy) lost all its digits to the others.
+    let sound = scale.iter().enumerate().all(|(i, s)| *s > 0.0 && l[(i, i)] > 1e-7 * s);
+    if sound { Ok(factor) } else { Err(NotExcited) }
+}

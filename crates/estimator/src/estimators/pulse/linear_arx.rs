@@ -1,0 +1,45 @@
+//! The yardstick without hysteresis or curve: a linear ARX model.
+
+use super::arrow::Columns;
+use super::data::PulseData;
+use super::experiments::Experiments;
+use super::fit::PulseFitError;
+use super::solution::{Level, Solution, known_level};
+use crate::hysteresis::Branch;
+
+/// Least squares of `y(t) = −Σ aᵢ y(t−i) + Σ bᵢ v(t−i) + c`: what a user picks who knows of no nonlinearity.
+///
+/// In the paper's normalisation both borders are the straight line from `(h_m, u_m)` to `(h_M, u_M)`; it is wrong, and
+/// its error stays, unless the borders are that line.
+///
+/// # Errors
+/// [`PulseFitError`] if the experiments do not excite every parameter.
+///
+/// # Panics
+/// If no experiment is given.
+pub(crate) fn linear_arx(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
+    let experiments = Experiments::new(experiments);
+    let position = |e: usize, level: usize| relative_position(experiments.parts[e], level);
+    let columns = Columns {
+        shared: experiments.core_columns(position),
+        local: Vec::new(),
+        offset: vec![0.0; experiments.statistics.groups()],
+    };
+    let fit = experiments.solve(&columns)?;
+    let levels = experiments
+        .parts
+        .iter()
+        .enumerate()
+        .map(|(e, part)| (0..part.points()).map(|j| known_level(&fit, position(e, j))).collect())
+        .collect();
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+}
+
+/// `(V_j − h_m)/(h_M − h_m)`.
+fn relative_position(part: &PulseData, level: usize) -> f64 {
+    let from_satellite = (part.levels[level] - part.satellite) / (part.levels[0] - part.satellite);
+    match part.branch {
+        Branch::Descending => 1.0 - from_satellite,
+        Branch::Ascending => from_satellite,
+    }
+}

@@ -1,0 +1,24 @@
+//! Methods for the designed experiments, all on sufficient statistics: see [`PulseMethod`].
+//!
+//! Every method here is one linear (or, for the efficient one, one iterated) least squares over [`GroupedStatistics`] that differs
+//! in its columns only; see each method for its own reference.
+
+mod arrow;
+mod data;
+mod efficient;
+mod excitation;
+mod experiments;
+mod fit;
+mod grouped;
+mod joint;
+mod linear_arx;
+mod memoryless;
+mod method;
+mod paper;
+mod solution;
+
+pub use data::{PulseData, PulseDataError, StepMean};
+pub use excitation::excitation;
+pub use fit::{Estimated, PulseFit, PulseFitError};
+pub use grouped::GroupedStatistics;
+pub use method::{Limit, PulseMethod};

@@ -1,0 +1,203 @@
+//! A solved regression read as a system: its parameters, their derivatives and their errors.
+
+use super::arrow::{ArrowFit, Columns, Gradient};
+use super::data::{PulseData, StepMean};
+use super::experiments::Experiments;
+use super::fit::{Estimated, PulseFit, PulseFitError};
+use super::grouped::GroupedStatistics;
+use crate::hysteresis::Branch;
+use nalgebra::DVector;
+
+/// How the absolute level of the borders was found.
+#[derive(Debug, Clone)]
+pub(crate) enum Level {
+    /// From the constant column `κ`, the last core parameter; levels are relative to `u_m`.
+    Constant,
+    /// From a step experiment; levels are relative to the satellite's.
+    Step(StepMean),
+}
+
+/// A level's value relative to the base, and its derivative.
+pub(crate) struct RelativeLevel {
+    pub(crate) value: f64,
+    pub(crate) gradient: Gradient,
+}
+
+/// Rank-one value `Σᵢ bᵢhᵢ / Σᵢ bᵢ²` (3.24b) of a level whose free means `hᵢ ≈ bᵢ f` are local columns `first…first+n−1`.
+pub(crate) fn rank_one_level(fit: &ArrowFit, order: usize, first_local: usize) -> RelativeLevel {
+    let b = fit.core.rows(order, order);
+    let h = &fit.local[first_local..first_local + order];
+    let norm: f64 = b.iter().map(|x| x * x).sum();
+    let inner: f64 = b.iter().zip(h).map(|(b, h)| b * h).sum();
+    let mut core = DVector::zeros(fit.core.len());
+    for i in 0..order {
+        core[order + i] = h[i] / norm - 2.0 * b[i] * inner / (norm * norm);
+    }
+    let local = (0..order).map(|i| (first_local + i, b[i] / norm)).collect();
+    RelativeLevel { value: inner / norm, gradient: Gradient { core, local } }
+}
+
+/// A level that the method does not estimate.
+pub(crate) fn known_level(fit: &ArrowFit, value: f64) -> RelativeLevel {
+    RelativeLevel { value, gradient: Gradient { core: DVector::zeros(fit.core.len()), local: Vec::new() } }
+}
+
+/// A reported parameter: its value, its derivative in the regression's parameters and, in total, in `ŷ₀`.
+#[derive(Debug, Clone)]
+struct Quantity {
+    value: f64,
+    gradient: Gradient,
+    step_slope: f64,
+}
+
+/// A regression over pulse experiments, solved, with all that is reported of it: `a`, `b`, then the borders' points.
+///
+/// ```text
+/// constant column:  F(V_j) = w_j + κ/B(1),            κ about the reference r: κ = κ' + A(1)·r
+/// step experiment:  F(V_j) = f_j + A(1)/B(1)·ŷ₀       (3.25)
+/// ```
+///
+/// Standard errors follow by the delta method; with a step experiment the error `δ` of `ŷ₀` (variance `σ²/(A(1)²L)`) enters both directly
+/// and through the regression on `ỹ = y − ŷ₀`, whose residual it leaves at `−A(1)·δ`.
+#[derive(Debug, Clone)]
+pub(crate) struct Solution {
+    columns: Columns,
+    fit: ArrowFit,
+    level: Level,
+    order: usize,
+    reference: f64,
+    points: Vec<usize>,
+    quantities: Vec<Quantity>,
+    u_low: f64,
+}
+
+impl Solution {
+    /// Reads a regression with core `(a, b[, κ])` whose levels, relative to the base, are given for every experiment.
+    pub(crate) fn new(
+        experiments: &Experiments<'_>,
+        columns: Columns,
+        fit: ArrowFit,
+        levels: Vec<Vec<RelativeLevel>>,
+        level: Level,
+    ) -> Result<Self, PulseFitError> {
+        let n = experiments.order();
+        let b_at_one: f64 = fit.core.rows(n, n).sum();
+        if b_at_one == 0.0 || !b_at_one.is_finite() {
+            return Err(PulseFitError::NoGain);
+        }
+        let base = Base::of(&fit, n, experiments.reference, &level);
+        let u_low = match (&level, experiments.parts[0].branch) {
+            (Level::Step(_), Branch::Descending) => base.value - 1.0,
+            _ => base.value,
+        };
+        let points = levels.iter().map(Vec::len).collect();
+        let coefficients = (0..2 * n).map(|k| {
+            let mut core = DVector::zeros(fit.core.len());
+            core[k] = 1.0;
+            (fit.core[k], Gradient { core, local: Vec::new() }, 0.0)
+        });
+        let border_points = levels.into_iter().flatten().map(|mut relative| {
+            relative.gradient.core += &base.core;
+            (base.value + relative.value, relative.gradient, base.step)
+        });
+        let through = match level {
+            Level::Constant => None,
+            Level::Step(_) => Some(fit.response_to_constant(&experiments.statistics, &columns)),
+        };
+        let a_at_one = 1.0 + fit.core.rows(0, n).sum();
+        let quantities = coefficients
+            .chain(border_points)
+            .map(|(value, gradient, direct)| {
+                let step_slope = through.as_ref().map_or(0.0, |r| direct - a_at_one * r.along(&gradient));
+                Quantity { value, gradient, step_slope }
+            })
+            .collect();
+        Ok(Self {
+            columns,
+            fit,
+            level,
+            order: n,
+            reference: experiments.reference,
+            points,
+            quantities,
+            u_low,
+        })
+    }
+
+    /// The estimate with its standard errors.
+    pub(crate) fn fit(&self) -> PulseFit {
+        let n = self.order;
+        let step_variance = match self.level {
+            Level::Constant => 0.0,
+            Level::Step(step) => {
+                let a_at_one = 1.0 + self.fit.core.rows(0, n).sum();
+                self.fit.variance / (a_at_one * a_at_one * step.samples)
+            }
+        };
+        let mut estimated = self.quantities.iter().map(|quantity| {
+            let through_step = quantity.step_slope * quantity.step_slope * step_variance;
+            Estimated {
+                value: quantity.value,
+                se: (self.fit.variance_of(&quantity.gradient) + through_step).sqrt(),
+            }
+        });
+        PulseFit {
+            a: estimated.by_ref().take(n).collect(),
+            b: estimated.by_ref().take(n).collect(),
+            borders: self.points.iter().map(|&m| estimated.by_ref().take(m).collect()).collect(),
+            noise_sd: self.fit.variance.sqrt(),
+            u_low: self.u_low,
+        }
+    }
+
+    /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved.
+    ///
+    /// `M⁻¹s` carried through the derivatives; `M` (divided by `scale`) and the parameters are this solution's, the score `s` is that of the
+    /// experiments given.
+    pub(crate) fn first_order(
+        &self,
+        experiments: &[&PulseData],
+        step: Option<StepMean>,
+        scale: f64,
+    ) -> Vec<f64> {
+        let about: Vec<GroupedStatistics> =
+            experiments.iter().map(|data| data.about(self.reference).statistics).collect();
+        let stacked = GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>());
+        let response = self.fit.response_to_score(&stacked, &self.columns);
+        let step_change = match (&self.level, step) {
+            (Level::Step(own), Some(other)) => other.mean - own.mean,
+            _ => 0.0,
+        };
+        self.quantities
+            .iter()
+            .map(|q| scale * response.along(&q.gradient) + q.step_slope * step_change)
+            .collect()
+    }
+}
+
+/// The base of the levels: `u` where the relative level is zero, with its derivatives in the core and in `ŷ₀`.
+struct Base {
+    value: f64,
+    core: DVector<f64>,
+    step: f64,
+}
+
+impl Base {
+    fn of(fit: &ArrowFit, n: usize, reference: f64, level: &Level) -> Self {
+        let a_at_one = 1.0 + fit.core.rows(0, n).sum();
+        let b_at_one: f64 = fit.core.rows(n, n).sum();
+        let mut core = DVector::zeros(fit.core.len());
+        let (held, output) = match level {
+            Level::Constant => {
+                core[2 * n] = 1.0 / b_at_one;
+                (fit.core[2 * n] + a_at_one * reference, reference)
+            }
+            Level::Step(step) => (a_at_one * step.mean, step.mean),
+        };
+        for i in 0..n {
+            core[i] = output / b_at_one;
+            core[n + i] = -held / (b_at_one * b_at_one);
+        }
+        Self { value: held / b_at_one, core, step: a_at_one / b_at_one }
+    }
+}

@@ -1,0 +1,6 @@
+//! The noise against its definitions: the cipher, the transform, the law, the pass.
+
+mod cipher;
+mod law;
+mod pass;
+mod transform;

@@ -1,0 +1,47 @@
+//! Why a rig could not be identified.
+
+use super::Method;
+use miette::Diagnostic;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a method found no system.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum IdentificationError {
+    /// The rig lacks an experiment that the method is made for.
+    #[error("{rig}: the method {method} needs {needed} among the fit records")]
+    #[diagnostic(help(
+        "add a [[record]] with that `role` and `use = \"fit\"`, or choose `--method free`, which takes any record"
+    ))]
+    MissingExperiment {
+        /// The rig's name, or its file where that is known.
+        rig: String,
+        /// The method asked for.
+        method: Method,
+        /// The role that is missing.
+        needed: &'static str,
+    },
+    /// The method refused the records.
+    #[error("{rig}: the method {method} cannot identify from these records: {reason}")]
+    #[diagnostic(help("{remedy}"))]
+    Refused {
+        /// The rig's name, or its file where that is known.
+        rig: String,
+        /// The method used.
+        method: Method,
+        /// What it said.
+        reason: String,
+        /// What to try.
+        remedy: String,
+    },
+}
+
+impl IdentificationError {
+    /// Names the rig by its file, which a message should lead to.
+    pub fn in_file(mut self, file: &Path) -> Self {
+        let (Self::MissingExperiment { rig, .. } | Self::Refused { rig, .. }) = &mut self;
+        *rig = file.display().to_string();
+        self
+    }
+}

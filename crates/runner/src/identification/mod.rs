@@ -1,0 +1,77 @@
+//! Identification of a rig: which method, what it found, how well that simulates every record.
+
+mod dispatch;
+mod error;
+mod fit;
+mod free;
+mod json;
+mod method;
+mod pulse;
+mod simulate;
+mod table;
+
+pub use crate::scenario::Method;
+pub use dispatch::identify;
+pub use error::IdentificationError;
+pub use fit::fit_percent;
+pub use json::json;
+pub use method::default_method;
+pub use table::table;
+
+use switchback_estimator::estimators::Estimate;
+use switchback_estimator::rig::Rig;
+
+/// What a method made of a rig.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identification {
+    /// The method used.
+    pub method: Method,
+    /// The system it found.
+    pub estimate: Estimate,
+    /// Free-run simulation of every record, in the order of the rig; none where the record needs a border that the method
+    /// does not see.
+    pub runs: Vec<Option<FreeRun>>,
+    /// What the reader must know before trusting the figures, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl Identification {
+    /// Whether the method found points of a border.
+    pub fn has_borders(&self) -> bool {
+        !(self.estimate.descending.is_empty() && self.estimate.ascending.is_empty())
+    }
+
+    /// Whether both borders are the same curve, as in the yardsticks that know no hysteresis.
+    pub fn has_one_curve(&self) -> bool {
+        self.estimate.descending == self.estimate.ascending
+    }
+}
+
+/// An identified system's simulation of one record, from the record's `v` alone once it has started.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeRun {
+    /// One output a sample, output units; the measured ones before `start`.
+    pub simulated: Vec<f64>,
+    /// First sample that is simulated; those before it are the initial state.
+    pub start: usize,
+    /// [`fit_percent`] from `start` on.
+    pub fit_percent: f64,
+}
+
+impl FreeRun {
+    /// Judges a simulation against the measured output.
+    pub fn new(measured: &[f64], simulated: Vec<f64>, start: usize) -> Self {
+        let fit_percent = fit_percent(&measured[start..], &simulated[start..]);
+        Self { simulated, start, fit_percent }
+    }
+}
+
+/// The unit in a label, `N` in `force [N]`; empty where there is none.
+pub fn unit(label: &str) -> &str {
+    label.split_once('[').and_then(|(_, rest)| rest.split_once(']')).map_or("", |(unit, _)| unit.trim())
+}
+
+/// Whether nothing is held out, so that no fit figure proves anything.
+fn lacks_holdout(rig: &Rig) -> bool {
+    rig.holdout_records().next().is_none()
+}

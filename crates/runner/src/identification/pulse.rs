@@ -1,0 +1,189 @@
+//! Methods for the designed experiments of a rig.
+
+use super::simulate::EstimatedSystem;
+use super::{Identification, IdentificationError, Method};
+use switchback_estimator::estimators::pulse::{PulseData, PulseDataError, PulseFit, PulseMethod, StepMean};
+use switchback_estimator::hysteresis::{Branch, Interval};
+use switchback_estimator::linear::{is_stable, settling_samples};
+use switchback_estimator::rig::{Rig, RigRecord, Role};
+
+/// Orders tried where the rig file names none.
+const ORDERS: std::ops::RangeInclusive<usize> = 1..=6;
+
+/// The share of a step's transient that may remain when its mean is taken.
+const SETTLED: f64 = 1e-4;
+
+/// Identifies from the pulse experiments among the fit records.
+pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, IdentificationError> {
+    let records = experiments(rig, method)?;
+    let mut warnings = Vec::new();
+    let order = match rig.order {
+        Some(order) => order,
+        None => {
+            let order = chosen_order(rig, method, &records)?;
+            warnings.push(format!(
+                "order {order} was chosen from the data (least BIC); set `order` in the rig file if it is known"
+            ));
+            order
+        }
+    };
+    let data = read(rig, method, &records, order)?;
+    let data: Vec<&PulseData> = data.iter().collect();
+    let fit = fit(rig, method, &data)?;
+    let estimate = fit.estimate(&data);
+    if method != Method::Joint && data.len() == 1 {
+        warnings.push(format!(
+            "one experiment shows the {} border only; records that run on the other cannot be simulated",
+            match data[0].branch {
+                Branch::Descending => "descending",
+                Branch::Ascending => "ascending",
+            }
+        ));
+    }
+    let (one, other) = (data[0].satellite, data[0].levels[0]);
+    let interval =
+        Interval::new(one.min(other), one.max(other)).map_err(|error| IdentificationError::Refused {
+            rig: rig.name.clone(),
+            method,
+            reason: error.to_string(),
+            remedy: "check the column `v`".to_owned(),
+        })?;
+    let runs = match EstimatedSystem::new(&estimate, interval) {
+        Ok(system) => rig.records.iter().map(|record| system.run(&record.record)).collect(),
+        Err(reason) => {
+            warnings.push(format!("no record was simulated: {reason}"));
+            vec![None; rig.records.len()]
+        }
+    };
+    Ok(Identification { method, estimate, runs, warnings })
+}
+
+/// The fit records that the method works on: the longest of each role it needs.
+fn experiments(rig: &Rig, method: Method) -> Result<Vec<&RigRecord>, IdentificationError> {
+    let missing = |needed| IdentificationError::MissingExperiment { rig: rig.name.clone(), method, needed };
+    let find = |role| longest(rig, role);
+    match method {
+        Method::PaperDescendant => {
+            Ok(vec![find(Role::Descendant).ok_or_else(|| missing("a `descendant` record"))?])
+        }
+        Method::PaperAscendant => {
+            Ok(vec![find(Role::Ascendant).ok_or_else(|| missing("an `ascendant` record"))?])
+        }
+        Method::Joint => Ok(vec![
+            find(Role::Descendant).ok_or_else(|| missing("a `descendant` record"))?,
+            find(Role::Ascendant).ok_or_else(|| missing("an `ascendant` record"))?,
+        ]),
+        _ => {
+            let found: Vec<_> = [Role::Descendant, Role::Ascendant].into_iter().filter_map(find).collect();
+            if found.is_empty() { Err(missing("a `descendant` or an `ascendant` record")) } else { Ok(found) }
+        }
+    }
+}
+
+fn longest(rig: &Rig, role: Role) -> Option<&RigRecord> {
+    rig.fit_records().filter(|record| record.role == role).max_by_key(|record| record.record.len())
+}
+
+fn read(
+    rig: &Rig,
+    method: Method,
+    records: &[&RigRecord],
+    order: usize,
+) -> Result<Vec<PulseData>, IdentificationError> {
+    records
+        .iter()
+        .map(|record| {
+            pulse_data(record, order).map_err(|error| IdentificationError::Refused {
+                rig: rig.name.clone(),
+                method,
+                reason: format!("record {}: {error}", record.name),
+                remedy: "give the record its true `role`, or choose `--method free`, which takes any record"
+                    .to_owned(),
+            })
+        })
+        .collect()
+}
+
+/// Nothing but the lag window is left out: regression on measured lags needs no settled start.
+fn pulse_data(record: &RigRecord, order: usize) -> Result<PulseData, PulseDataError> {
+    let branch = match record.role {
+        Role::Ascendant => Branch::Ascending,
+        _ => Branch::Descending,
+    };
+    PulseData::from_record(&record.record, branch, order, 0)
+}
+
+/// The order of least `N ln σ² + p ln N` of the rank-one constrained fit.
+fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usize, IdentificationError> {
+    let criterion = |order: usize| -> Option<f64> {
+        let data: Vec<PulseData> =
+            records.iter().map(|record| pulse_data(record, order)).collect::<Result<_, _>>().ok()?;
+        let fit = PulseMethod::Efficient(&data.iter().collect::<Vec<_>>()).fit().ok()?;
+        let samples: f64 = data.iter().map(|d| d.statistics.samples()).sum();
+        let levels: usize = data.iter().map(|d| d.points() - 1).sum();
+        Some(samples * 2.0 * fit.noise_sd.ln() + (2 * order + levels + 1) as f64 * samples.ln())
+    };
+    let best = ORDERS
+        .filter_map(|order| criterion(order).map(|value| (order, value)))
+        .min_by(|(_, x), (_, y)| x.total_cmp(y));
+    match best {
+        Some((order, _)) => Ok(order),
+        // No order works: say why the simplest does not.
+        None => read(rig, method, records, *ORDERS.start())
+            .and_then(|data| fit(rig, method, &data.iter().collect::<Vec<_>>()).map(|_| *ORDERS.start())),
+    }
+}
+
+fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, IdentificationError> {
+    let refused = |reason: String| IdentificationError::Refused {
+        rig: rig.name.clone(),
+        method,
+        reason,
+        remedy: "try a lower `order`, a longer record, or `--method free`".to_owned(),
+    };
+    let fitted = match method {
+        Method::PaperDescendant | Method::PaperAscendant => {
+            // Any mean serves for a first a, which then says how long the step takes to settle.
+            let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
+            let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
+            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }.fit()
+        }
+        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit(),
+        _ => PulseMethod::Efficient(data).fit(),
+    };
+    fitted.map_err(|error| refused(error.to_string()))
+}
+
+/// (3.6) without its transient.
+fn step_mean(rig: &Rig, method: Method, a: &[f64]) -> Result<StepMean, IdentificationError> {
+    let (role, needed) = match method {
+        Method::PaperDescendant => (Role::StepHigh, "a `step_high` record"),
+        _ => (Role::StepLow, "a `step_low` record"),
+    };
+    let record = longest(rig, role).ok_or_else(|| IdentificationError::MissingExperiment {
+        rig: rig.name.clone(),
+        method,
+        needed,
+    })?;
+    let refused = |reason: String| IdentificationError::Refused {
+        rig: rig.name.clone(),
+        method,
+        reason,
+        remedy: "record a longer step, or choose `--method efficient`, which needs none".to_owned(),
+    };
+    if !is_stable(a) {
+        return Err(refused("the estimated A is unstable, so the step never settles".to_owned()));
+    }
+    // One sample loads the border; the step follows it.
+    let from = 1 + settling_samples(a, SETTLED);
+    let y = record.record.y();
+    if y.len() < from + a.len() + 1 {
+        return Err(refused(format!(
+            "record {} has {} samples, but its transient lasts {from}",
+            record.name,
+            y.len()
+        )));
+    }
+    let settled = &y[from..];
+    Ok(StepMean { mean: settled.iter().sum::<f64>() / settled.len() as f64, samples: settled.len() as f64 })
+}

@@ -1,0 +1,87 @@
+//! A whole file as text.
+
+use miette::Diagnostic;
+use std::io;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a file could not be read as text.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum FileError {
+    /// Nothing exists at the path.
+    #[error("{path}: no such file")]
+    #[diagnostic(help("check the path; it is taken relative to the folder that the command runs in"))]
+    Missing {
+        /// The path as given.
+        path: String,
+    },
+    /// The path leads to a folder.
+    #[error("{path}: is a folder, not a file")]
+    #[diagnostic(help("{help}"))]
+    Directory {
+        /// The path as given.
+        path: String,
+        /// What to give instead.
+        help: String,
+    },
+    /// The bytes are not UTF-8.
+    #[error("{path}:{line}: the text is not UTF-8")]
+    #[diagnostic(help("save the file as UTF-8 text; spreadsheets call it \"CSV UTF-8\""))]
+    NotUtf8 {
+        /// The path as given.
+        path: String,
+        /// Line of the first byte that is no UTF-8, from 1.
+        line: usize,
+    },
+    /// The system refused to read it.
+    #[error("{path}: cannot be read: {source}")]
+    #[diagnostic(help("check that the file may be read and that its disk is present"))]
+    Unreadable {
+        /// The path as given.
+        path: String,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// Reads a file as UTF-8 text; a byte order mark at its start is dropped.
+///
+/// # Errors
+/// [`FileError`] if there is no file, it is a folder, cannot be read, or is no UTF-8.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let shown = path.display().to_string();
+    if path.is_dir() {
+        return Err(FileError::Directory { help: instead_of_folder(path), path: shown });
+    }
+    let bytes = std::fs::read(path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown.clone() },
+        _ => FileError::Unreadable { path: shown.clone(), source },
+    })?;
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
+            Some(rest) => rest.to_owned(),
+            None => text,
+        }),
+        Err(error) => {
+            let valid = error.utf8_error().valid_up_to();
+            let line = 1 + error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count();
+            Err(FileError::NotUtf8 { path: shown, line })
+        }
+    }
+}
+
+/// Names the one TOML file of a folder, where there is exactly one.
+fn instead_of_folder(folder: &Path) -> String {
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
+    match (files.pop(), files.is_empty()) {
+        (Some(only), true) => format!("give the file in it: {}", only.display()),
+        _ => "give the path of a file in it".to_owned(),
+    }
+}

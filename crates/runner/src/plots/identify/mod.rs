@@ -1,0 +1,10 @@
+//! Figures of an identified rig: measured against simulated outputs, and the borders.
+
+mod borders;
+mod outputs;
+mod series;
+mod style;
+
+pub use borders::borders;
+pub use outputs::outputs;
+pub use style::PlotError;

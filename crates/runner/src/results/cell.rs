@@ -1,0 +1,83 @@
+//! One cell of the sweep and what came out of it.
+
+use super::{Group, Measured, Series};
+use serde::{Deserialize, Serialize};
+
+/// What the replicates of one (case, border, method, m, noise, N) gave.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cell {
+    /// The curve this cell is a point of.
+    pub series: Series,
+    /// `N`: regression samples of each experiment.
+    pub samples: usize,
+    /// Replicates run, failed ones included.
+    pub replicates: usize,
+    /// Replicates that gave no estimate; never redrawn.
+    pub failures: Failures,
+    /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.
+    pub parameters: Vec<Parameter>,
+}
+
+/// Replicates that gave no estimate. A replicate is found again from the study's seed and its index.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Failures {
+    /// How many.
+    pub count: usize,
+    /// Their indices, ascending; at most the first hundred.
+    pub replicates: Vec<usize>,
+    /// What the first of them said.
+    pub reason: Option<String>,
+}
+
+/// The performance of one parameter's estimate over the replicates.
+///
+/// Measures and their errors as in Morris, White, Crowther (2019), Table 6, doi 10.1002/sim.8086. A measure is
+/// `None` where it does not exist: no theory for this method, too few replicates, no finite value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// `a1`, `b2`, `F_desc(V3)`, `F_asc(V2)`.
+    pub name: String,
+    /// The family it is judged with.
+    pub group: Group,
+    /// Position on the input axis, input units; borders only.
+    pub v: Option<f64>,
+    /// The true value, in the normalisation `u_M − u_m = 1`.
+    pub truth: f64,
+    /// Mean of the estimates.
+    pub mean_estimate: Option<f64>,
+    /// Mean of the estimates less the truth.
+    pub bias: Option<Measured>,
+    /// The same with the exact-mean linear term taken out (control variate).
+    pub bias_controlled: Option<Measured>,
+    /// Standard deviation of the estimates.
+    pub sd: Option<Measured>,
+    /// The same with the exactly known variance of the linear term put in place of its sample variance.
+    pub sd_controlled: Option<Measured>,
+    /// Mean squared error.
+    pub mse: Option<Measured>,
+    /// Share of the 95 % intervals that hold the truth.
+    pub coverage: Option<Measured>,
+    /// Root mean square of the standard errors the method reports.
+    pub model_sd: Option<Measured>,
+    /// `model_sd / sd − 1`.
+    pub model_sd_relative_error: Option<Measured>,
+    /// Asymptotic standard deviation of this method.
+    pub theory_sd: Option<f64>,
+    /// The Cramér–Rao bound, as a standard deviation.
+    pub bound_sd: Option<f64>,
+}
+
+impl Parameter {
+    /// The bias with the smaller error: controlled where it exists, else plain.
+    pub fn best_bias(&self) -> Option<Measured> {
+        self.bias_controlled.or(self.bias)
+    }
+
+    /// The standard deviation with the smaller error: controlled where it exists, else plain.
+    pub fn best_sd(&self) -> Option<Measured> {
+        self.sd_controlled.or(self.sd)
+    }
+}

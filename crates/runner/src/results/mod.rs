@@ -1,0 +1,96 @@
+//! The result table: everything a study found, with its Monte-Carlo errors.
+//!
+//! Plots, reports and comparisons know these types only, so they can be redrawn without simulating again. The bytes
+//! of `results.json` depend on the values alone; numbers that are not finite cannot occur in it.
+
+mod cell;
+mod csv;
+mod curve;
+mod json;
+mod measured;
+mod pooled;
+mod series;
+mod summary;
+#[cfg(test)]
+pub(crate) mod synthetic;
+
+pub use cell::{Cell, Failures, Parameter};
+pub use csv::to_csv;
+pub use curve::{BorderCurve, CurvePoint};
+pub use json::{ResultsError, read, to_json};
+pub use measured::{Measured, MeasuredError};
+pub use pooled::{root_mean_square, root_mean_square_exact};
+pub use series::{Group, Series};
+pub use summary::{Expectation, Fitted, Summary, Verdict};
+
+use crate::scenario::{Coupling, Labels};
+use serde::{Deserialize, Serialize};
+
+/// Version of the layout of `results.json`; a reader refuses any other.
+pub const SCHEMA: u32 = 1;
+
+/// All that a consistency study found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Always `consistency`.
+    pub study: String,
+    /// The scenario's name.
+    pub name: String,
+    /// What the study was to answer.
+    pub question: String,
+    /// The seed of every random stream.
+    pub seed: u64,
+    /// Switchback's version.
+    pub version: String,
+    /// The command that makes this file again.
+    pub command: String,
+    /// How the replicates were computed.
+    pub engine: Engine,
+    /// Whether cells share their noise.
+    pub coupling: Coupling,
+    /// What the axes are called.
+    pub labels: Labels,
+    /// The scenario file as JSON.
+    pub scenario: serde_json::Value,
+    /// The true borders, one entry a case and border.
+    pub curves: Vec<BorderCurve>,
+    /// What must come out, and whether it did.
+    pub expectations: Vec<Expectation>,
+    /// One entry a curve and parameter group.
+    pub summaries: Vec<Summary>,
+    /// One entry a cell.
+    pub cells: Vec<Cell>,
+}
+
+/// How the replicates were computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Engine {
+    /// One noise pass a replicate serves every cell by superposition.
+    Superposed,
+    /// Every cell is simulated on its own.
+    Direct,
+    /// Superposition where the input is deterministic and the noise fits, direct simulation elsewhere.
+    Mixed,
+}
+
+impl Results {
+    /// Whether everything the scenario expects came out.
+    pub fn as_expected(&self) -> bool {
+        self.expectations.iter().all(|e| e.held)
+    }
+
+    /// The curves of the study in the order of the cells, each once.
+    pub fn series(&self) -> Vec<&Series> {
+        let mut found: Vec<&Series> = Vec::new();
+        for cell in &self.cells {
+            if !found.contains(&&cell.series) {
+                found.push(&cell.series);
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,110 @@
+//! What a rig file may say, as it stands on the page. Checked and converted in [`super::read`].
+
+use serde::{Deserialize, Serialize};
+use switchback_estimator::rig::{Role, Usage};
+use toml::Spanned;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireRig {
+    pub(super) name: Spanned<String>,
+    pub(super) sample_time: Spanned<f64>,
+    pub(super) order: Option<Spanned<i64>>,
+    pub(super) interval: Option<Spanned<Vec<f64>>>,
+    pub(super) input: Option<String>,
+    pub(super) output: Option<String>,
+    #[serde(default)]
+    pub(super) record: Vec<WireRecord>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireRecord {
+    pub(super) file: Spanned<String>,
+    #[serde(default)]
+    pub(super) role: WireRole,
+    #[serde(rename = "use")]
+    pub(super) usage: WireUse,
+}
+
+#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum WireRole {
+    StepHigh,
+    StepLow,
+    Descendant,
+    Ascendant,
+    #[default]
+    Free,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum WireUse {
+    Fit,
+    Holdout,
+}
+
+/// The same page as [`WireRig`], for writing: keys in reading order, what is unknown left out.
+#[derive(Debug, Serialize)]
+pub(super) struct WrittenRig<'a> {
+    pub(super) name: &'a str,
+    pub(super) sample_time: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) order: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) interval: Option<[f64; 2]>,
+    pub(super) input: &'a str,
+    pub(super) output: &'a str,
+    pub(super) record: Vec<WrittenRecord>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct WrittenRecord {
+    pub(super) file: String,
+    pub(super) role: WireRole,
+    #[serde(rename = "use")]
+    pub(super) usage: WireUse,
+}
+
+impl From<WireRole> for Role {
+    fn from(wire: WireRole) -> Self {
+        match wire {
+            WireRole::StepHigh => Self::StepHigh,
+            WireRole::StepLow => Self::StepLow,
+            WireRole::Descendant => Self::Descendant,
+            WireRole::Ascendant => Self::Ascendant,
+            WireRole::Free => Self::Free,
+        }
+    }
+}
+
+impl From<Role> for WireRole {
+    fn from(role: Role) -> Self {
+        match role {
+            Role::StepHigh => Self::StepHigh,
+            Role::StepLow => Self::StepLow,
+            Role::Descendant => Self::Descendant,
+            Role::Ascendant => Self::Ascendant,
+            Role::Free => Self::Free,
+        }
+    }
+}
+
+impl From<WireUse> for Usage {
+    fn from(wire: WireUse) -> Self {
+        match wire {
+            WireUse::Fit => Self::Fit,
+            WireUse::Holdout => Self::Holdout,
+        }
+    }
+}
+
+impl From<Usage> for WireUse {
+    fn from(usage: Usage) -> Self {
+        match usage {
+            Usage::Fit => Self::Fit,
+            Usage::Holdout => Self::Holdout,
+        }
+    }
+}

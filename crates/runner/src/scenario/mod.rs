@@ -1,0 +1,205 @@
+//! Scenario files: one study, one TOML file.
+//!
+//! The file is read faithfully into private wire types (`wire`), then converted once (`convert`) into a [`Scenario`],
+//! which cannot be invalid: whoever holds one may run it. Every refusal names file, line, key, value and remedy.
+
+mod border;
+mod border_kind;
+mod convert;
+mod error;
+mod expect;
+mod method;
+mod read;
+#[cfg(test)]
+mod tests;
+mod wire;
+
+pub use error::{Invalid, ScenarioError};
+pub use expect::{Check, Expect};
+pub use method::Method;
+
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+use std::sync::Arc;
+use switchback_estimator::hysteresis::SwitchedHysteresis;
+use switchback_estimator::linear::LinearSystem;
+
+/// A consistency study: which systems, borders, noise levels, record lengths and methods, and what must come out.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    name: String,
+    question: String,
+    seed: u64,
+    replication: Replication,
+    coupling: Coupling,
+    labels: Labels,
+    cases: Vec<Case>,
+    sweep: Sweep,
+    source: serde_json::Value,
+}
+
+/// How many replicates each cell takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Replication {
+    /// Replicates that every cell takes, at least 2.
+    pub replicates: usize,
+    /// When to go on beyond them; `None` stops there.
+    pub stopping: Option<Stopping>,
+}
+
+/// The rule that lets cells take more replicates than the first batch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stopping {
+    /// Stop when the Monte-Carlo standard error of every bias is at most this many standard deviations of its estimate.
+    pub bias_mcse: Option<f64>,
+    /// Stop when the Monte-Carlo standard error of every standard deviation is at most this share of it.
+    pub sd_relative_mcse: Option<f64>,
+    /// Stop at this many replicates even so.
+    pub max_replicates: usize,
+}
+
+/// Whether the cells of a sweep see the same noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coupling {
+    /// Replicate r of every cell sees the same unit noise (common random numbers).
+    Shared,
+    /// Every cell has its own noise.
+    Independent,
+}
+
+/// What the axes are called: quantity and unit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Labels {
+    /// The input `v`.
+    pub input: String,
+    /// The output `y`.
+    pub output: String,
+}
+
+/// One system under one set of assumptions, kept or broken.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Unique in the scenario.
+    pub name: String,
+    /// The true linear part; `b` in output units per unit of `u`.
+    pub system: LinearSystem,
+    /// The borders of the sweep on this case's interval, in the order of the sweep.
+    pub borders: Vec<Border>,
+    /// What disturbs the record.
+    pub disturbance: Disturbance,
+    /// The order the estimators assume.
+    pub order: usize,
+    /// Samples `s` between neighbouring visits of the descendant and ascendant experiments.
+    pub spacing: usize,
+    /// What must come out of this case.
+    pub expect: Expect,
+}
+
+/// A named hysteresis.
+#[derive(Debug, Clone)]
+pub struct Border {
+    /// Unique in the scenario.
+    pub name: String,
+    /// The operator on the case's interval; Assumption 1 holds.
+    pub hysteresis: Arc<SwitchedHysteresis>,
+}
+
+/// What disturbs the record. In every kind the sweep's noise level is the standard deviation of the white source.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Disturbance {
+    /// White equation error `ξ`: what the paper assumes.
+    White,
+    /// Equation error `ξ = M/D·w`: `D = 1 + d₁q⁻¹ + …` (`ar`, stable) and `M = 1 + m₁q⁻¹ + …` (`ma`), `w` white.
+    Coloured {
+        /// `d₁, d₂, …`
+        ar: Vec<f64>,
+        /// `m₁, m₂, …`
+        ma: Vec<f64>,
+    },
+    /// White noise added to the measured output: equation error `A(q⁻¹) w`.
+    Output,
+}
+
+/// The grid every case is run on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// Standard deviations of the noise, output units; positive, distinct.
+    pub noise: Vec<f64>,
+    /// Regression samples `N` of each experiment; ascending, none shorter than a period of any case and `m`.
+    pub samples: Vec<usize>,
+    /// Numbers of points `m` visited on each border; positive, distinct.
+    pub points: Vec<usize>,
+    /// Methods, distinct.
+    pub methods: Vec<Method>,
+}
+
+impl Case {
+    /// The period of the experiments with `m` points: `T = s(m + 3)` samples.
+    pub fn period(&self, points: usize) -> usize {
+        self.spacing * (points + 3)
+    }
+}
+
+impl Scenario {
+    /// Reads and checks a scenario file; its stem becomes the scenario's name.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] if the file cannot be read or holds anything that is not a valid scenario.
+    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
+        read::from_file(path)
+    }
+
+    /// Checks a scenario given as text. `file` is what messages call it; its stem becomes the scenario's name.
+    ///
+    /// # Errors
+    /// [`ScenarioError::Invalid`] if the text is not a valid scenario.
+    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
+        read::from_text(file, text)
+    }
+
+    /// The file's stem; names the report folder.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the study is to answer.
+    pub fn question(&self) -> &str {
+        &self.question
+    }
+
+    /// The seed of every random stream.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// How many replicates each cell takes.
+    pub fn replication(&self) -> Replication {
+        self.replication
+    }
+
+    /// Whether the cells share their noise.
+    pub fn coupling(&self) -> Coupling {
+        self.coupling
+    }
+
+    /// What the axes are called.
+    pub fn labels(&self) -> &Labels {
+        &self.labels
+    }
+
+    /// At least one.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+
+    /// The grid.
+    pub fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+
+    /// The file's content as written, for the results to echo.
+    pub fn source(&self) -> &serde_json::Value {
+        &self.source
+    }
+}

@@ -1,0 +1,52 @@
+//! From text to a scenario: parse, take the borders apart by kind, convert.
+
+use super::border::{self, WireBorder};
+use super::error::Fault;
+use super::wire::WireScenario;
+use super::{Scenario, ScenarioError, convert};
+use serde::Deserialize;
+use std::path::Path;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
+
+pub(super) fn from_file(path: &Path) -> Result<Scenario, ScenarioError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })?;
+    from_text(&path.display().to_string(), &text)
+}
+
+pub(super) fn from_text(file: &str, text: &str) -> Result<Scenario, ScenarioError> {
+    let name =
+        Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
+    convert_text(name, text).map_err(|fault| fault.locate(file, text))
+}
+
+fn convert_text(name: String, text: &str) -> Result<Scenario, Fault> {
+    let mut document = DeTable::parse(text)?;
+    let borders = take_borders(document.get_mut())?;
+    let wire = WireScenario::deserialize(Deserializer::from(document))?;
+    let source = toml::from_str(text)?;
+    convert::scenario(name, wire, borders, source)
+}
+
+/// Takes `[[border]]` out of the document: which keys a border may have depends on its kind.
+fn take_borders(document: &mut DeTable<'_>) -> Result<Vec<WireBorder>, Fault> {
+    let Some(value) = take(document, "border") else {
+        return Err(Fault::new(
+            0..0,
+            "the scenario has no [[border]]",
+            "add at least one [[border]] with name, kind and the kind's parameters",
+        ));
+    };
+    let span = value.span();
+    match value.into_inner() {
+        DeValue::Array(array) => array.into_iter().map(border::read).collect(),
+        _ => Err(Fault::new(span, "border must be a list of tables", "write each as [[border]]")),
+    }
+}
+
+/// Removes a key from a table and hands over its value.
+pub(super) fn take<'i>(table: &mut DeTable<'i>, name: &str) -> Option<Spanned<DeValue<'i>>> {
+    let key = table.keys().find(|k| k.get_ref() == name).cloned()?;
+    table.remove(&key)
+}
