@@ -30,6 +30,7 @@ mod simulate;
 mod spectral;
 mod spectrum;
 mod weights;
+pub mod workbench;
 
 pub use diagnose::{CandidateFit, Plan, diagnose};
 pub use diagnosis::{

@@ -1,7 +1,7 @@
 //! The command line.
 //!
 //! A verb is one file in [`crate::cmd`] with its `Args` and `run`; to add one, add its variant to [`Verb`] and its arm to
-//! [`Verb::run`].
+//! [`Cli::run`].
 
 use crate::cmd;
 use crate::failure::CommandResult;
@@ -11,14 +11,23 @@ use clap::{Parser, Subcommand};
 ///
 /// Exit codes: 0 done; 1 an expectation or comparison failed; 2 bad input, nothing written.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(
+    version,
+    arg_required_else_help = true,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 pub struct Cli {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Option<Verb>,
+
+    #[command(flatten)]
+    study: Option<cmd::study::Args>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    Compare(cmd::compare::Args),
     Identify(cmd::identify::Args),
     Rig(cmd::rig::Args),
 }
@@ -29,9 +38,14 @@ impl Cli {
     /// # Errors
     /// The report of an input that could not be used.
     pub fn run(self) -> CommandResult {
-        match self.verb {
-            Verb::Identify(args) => cmd::identify::run(&args),
-            Verb::Rig(args) => cmd::rig::run(&args),
+        match (self.verb, self.study) {
+            (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
+            (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
+            (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
+            (None, Some(args)) => cmd::study::run(&args),
+            (None, None) => {
+                Err(miette::miette!("nothing to do; name a scenario file, or see `switchback --help`"))
+            }
         }
     }
 }

@@ -3,11 +3,15 @@
 pub mod blind;
 pub mod cli;
 pub mod cmd;
+pub mod compare;
 pub mod failure;
 pub mod identification;
 pub mod input;
 pub mod output;
 pub mod plots;
+pub mod progress;
+pub mod report;
 pub mod results;
 pub mod rig;
 pub mod scenario;
+pub mod study;

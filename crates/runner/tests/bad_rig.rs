@@ -253,7 +253,11 @@ fn text_in_another_encoding_is_refused() {
 
 #[test]
 fn a_record_that_is_no_pulse_experiment_is_refused() {
-    refused_row(40, "0.38,0.123,1", &["small", "method efficient", "record descendant", "--method free"]);
+    refused_row(
+        40,
+        "0.38,0.123,1",
+        &["rig.toml: the method efficient", "record descendant", "--method free"],
+    );
 }
 
 /// Another thing than a rig file in its place.

@@ -44,6 +44,36 @@ fn every_pulse_method_finds_the_system_of_the_small_rig() {
 }
 
 #[test]
+fn the_papers_method_takes_the_level_from_the_step_experiment() {
+    for (name, satellite, role, border, other) in [
+        ("descendant", 1.0, "step_high", "descendant", "ascendant"),
+        ("ascendant", -1.0, "step_low", "ascendant", "descendant"),
+    ] {
+        let folder = Folder::with_good_rig();
+        folder.write("step.csv", &common::step(satellite, 4));
+        folder.edit("rig.toml", |text| {
+            format!("{text}\n[[record]]\nfile = \"step.csv\"\nrole = \"{role}\"\nuse = \"fit\"\n")
+        });
+        let found = identified(&folder, &["--method", &format!("paper-{name}"), "--out", "report"]);
+        near(&found["a"][0], -1.2, 0.01);
+        near(&found["y_high"], 1.0, 0.02);
+        near(&found["y_low"], -1.0, 0.02);
+        let points = found[border].as_array().expect("a list");
+        assert_eq!(points.len(), 4);
+        for point in points {
+            let v = point["v"].as_f64().expect("a number");
+            near(&point["f"], 0.3 * v - 0.2 * satellite, 0.01);
+        }
+        // The other border was not seen, so records that run on it have no fit and no figure.
+        assert_eq!(found[other], Value::Array(Vec::new()));
+        assert!(found["fit_percent"][name].as_f64().expect("a number") > 98.0);
+        assert!(found["fit_percent"][other].is_null());
+        assert!(!folder.path(&format!("report/measured_and_simulated_{other}.svg")).exists());
+        assert!(found["warnings"][0].as_str().expect("a warning").contains("border only"));
+    }
+}
+
+#[test]
 fn without_a_method_the_best_one_is_taken() {
     let folder = Folder::with_good_rig();
     assert_eq!(identified(&folder, &[])["method"], "efficient");
@@ -113,6 +143,21 @@ fn columns_are_found_by_name_in_any_order_beside_others() {
 }
 
 #[test]
+fn records_of_the_same_name_in_different_folders_are_told_apart() {
+    let folder = Folder::with_good_rig();
+    for sub in ["one", "two"] {
+        fs::create_dir(folder.path(sub)).expect("writable");
+        fs::copy(folder.path("again.csv"), folder.path(sub).join("again.csv")).expect("writable");
+    }
+    let more =
+        |file: &str| format!("[[record]]\nfile = \"{file}\"\nrole = \"descendant\"\nuse = \"holdout\"\n");
+    folder.edit("rig.toml", |text| format!("{text}\n{}{}", more("one/again.csv"), more("two/again.csv")));
+    let fits = identified(&folder, &["--out", "report"])["fit_percent"].clone();
+    let names: Vec<&String> = fits.as_object().expect("an object").keys().collect();
+    assert_eq!(names, ["again", "ascendant", "descendant", "one-again", "two-again"]);
+}
+
+#[test]
 fn the_order_is_chosen_from_the_data_where_it_is_not_given() {
     let folder = Folder::with_good_rig();
     folder.replace_line("rig.toml", 3, "");
@@ -141,4 +186,61 @@ fn an_unknown_method_lists_the_known_ones() {
     let stderr = String::from_utf8(output.stderr).expect("UTF-8");
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr.contains("paper-descendant") && stderr.contains("memoryless"), "{stderr}");
+}
+
+/// The small rig with its pulse records declared free, so that only what any record tells is used.
+fn undesigned() -> Folder {
+    let folder = Folder::with_good_rig();
+    folder.edit("rig.toml", |text| {
+        text.replace("\"descendant\"", "\"free\"").replace("\"ascendant\"", "\"free\"")
+    });
+    folder
+}
+
+#[test]
+fn records_that_nobody_designed_go_to_the_free_method() {
+    let found = identified(&undesigned(), &[]);
+    assert_eq!(found["method"], "free");
+    assert!(found["fit_percent"]["again"].as_f64().expect("a number") > 98.0, "{found}");
+}
+
+#[test]
+fn the_yardsticks_run_and_show_one_static_curve() {
+    let folder = undesigned();
+    for method in ["linear-arx", "memoryless"] {
+        let found = identified(&folder, &["--method", method, "--out", method]);
+        assert_eq!(found["method"], method);
+        assert_eq!(found["descendant"], found["ascendant"]);
+        assert!(listing(&folder.path(method)).contains(&"borders.svg".to_owned()));
+    }
+}
+
+/// Measured records are their authors' work and lie beside the workspace, not in it.
+fn measured(rig: &str) -> Option<std::path::PathBuf> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/rigs")
+        .join(rig)
+        .join("rig.toml");
+    if !path.exists() {
+        println!("skipped: {} is not there; the README names the records' public source", path.display());
+    }
+    path.exists().then_some(path)
+}
+
+#[test]
+fn a_measured_rig_is_read_identified_and_judged_on_its_hold_out() {
+    let Some(path) = measured("mr-damper") else { return };
+    let folder = Folder::with_good_rig();
+    let rig = path.to_str().expect("a UTF-8 path");
+    let output = folder.switchback(&["identify", rig, "--json"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(found["method"], "free");
+    assert_eq!(found["records"][1]["use"], "holdout");
+    // A switch with eleven points a border, fitted by equation errors at n = 1, reaches 62 % here.
+    assert!(
+        found["fit_percent"]["sweep_down"].as_f64().expect("a number") > 62.0,
+        "{}",
+        found["fit_percent"]
+    );
 }

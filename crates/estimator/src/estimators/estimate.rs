@@ -25,8 +25,9 @@ pub struct Estimate {
     pub b: Vec<f64>,
     /// Their standard errors.
     pub b_se: Vec<f64>,
-    /// Extra whole samples of delay between `u` and `y`: `B` acts on `u(t−1−delay)` and older; zero in the paper.
-    pub delay: usize,
+    /// Extra whole samples of delay between `u` and `y`: `B` acts on `u(t−1−delay)` and older; zero in the paper. −1 is a
+    /// direct term `b₀u(t)` before `b₁…bₙ`; lower values look ahead, as where the sensor of `v` lags.
+    pub delay: isize,
     /// Standard deviation of the equation error, output units.
     pub noise_sd: f64,
     /// `B̂(1)/Â(1)`, output units per normalised `u`.

@@ -49,25 +49,24 @@ pub fn spectral_radius(a: &[f64]) -> f64 {
 ///
 /// The impulse response of `1/A` is bounded by `c·ρᵗ` with a polynomial factor for multiple poles; the bound used is its
 /// actual decay: the response is run until `n` consecutive values, weighted by the peak so far, stay below
-/// `tolerance·(1 − ρ)`, where `ρ` is the slowest pole. At least `n`, and at most 10⁷.
+/// `tolerance·(1 − ρ)`, where `ρ` is the slowest pole. At least `n`, and at most 10⁷; none for `A = 1`.
 ///
 /// # Panics
 /// If `A` is unstable.
 pub fn settling_samples(a: &[f64], tolerance: f64) -> usize {
     assert!(is_stable(a), "an unstable system never settles");
     let n = a.len();
+    if n == 0 {
+        return 0;
+    }
     let rho = spectral_radius(a).min(1.0 - 1e-9);
     let mut recent = vec![0.0; n];
-    if n > 0 {
-        recent[0] = 1.0;
-    }
+    recent[0] = 1.0;
     let mut peak: f64 = 1.0;
     for t in 1..10_000_000 {
         let now: f64 = -a.iter().zip(&recent).map(|(ai, y)| ai * y).sum::<f64>();
         recent.rotate_right(1);
-        if n > 0 {
-            recent[0] = now;
-        }
+        recent[0] = now;
         peak = peak.max(now.abs());
         if t >= n && recent.iter().all(|y| y.abs() <= tolerance * (1.0 - rho) * peak) {
             return t;
@@ -137,5 +136,6 @@ mod tests {
     fn settling_is_the_decay_of_the_slowest_pole() {
         let t = settling_samples(&[-0.9], 1e-6);
         assert!(0.9_f64.powi(t as i32) <= 1e-6 && 0.9_f64.powi(t as i32) >= 1e-8);
+        assert_eq!(settling_samples(&[], 1e-6), 0);
     }
 }

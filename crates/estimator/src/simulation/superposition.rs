@@ -1,6 +1,7 @@
 //! Sufficient statistics of `y = z + σe` from those of `e` alone.
 
 use super::design::PeriodicDesign;
+use super::noise::Checkpoint;
 use crate::estimators::pulse::{GroupedStatistics, PulseData};
 use crate::linear::autocovariance;
 
@@ -50,6 +51,33 @@ impl NoiseMoments {
             }
         }
         moments
+    }
+
+    /// Reads the moments of period `plan.periods[period]` off what a pass over the noise recorded at one of its checkpoints.
+    ///
+    /// ```text
+    /// G_p,l = F_{p−l} + Σ_{s=−l}^{−1} [s+l ≡ p] e(s) − Σ_{s=N−l}^{N−1} [s+l ≡ p] e(s)
+    /// ```
+    ///
+    /// with `F` the plain fold: exact, both edges of the sum moved by `l`.
+    pub fn from_checkpoint(head: &[f64], checkpoint: &Checkpoint, period: usize) -> Self {
+        let order = head.len();
+        let width = order + 1;
+        let fold = &checkpoint.folds[period];
+        let (period, samples) = (fold.len(), checkpoint.samples);
+        let mut folds = vec![0.0; period * width];
+        for l in 0..width {
+            for p in 0..period {
+                folds[p * width + l] = fold[(p + l * (period - 1)) % period];
+            }
+            for back in 1..=l {
+                folds[(l - back) % period * width + l] += head[order - back];
+                folds[(samples + l - back) % period * width + l] -= checkpoint.tail[order - back];
+            }
+        }
+        let counts = (0..period).map(|p| ((samples + period - 1 - p) / period) as f64).collect();
+        let products = checkpoint.lag_products.iter().copied().collect();
+        Self { order, counts, products, folds }
     }
 
     /// The mean of these statistics over all noise: no folds, lag products from the autocovariances of `e = C/A w`, `w` unit white.
@@ -107,4 +135,40 @@ pub fn superpose(design: &PeriodicDesign, z: &[f64], sigma: f64, noise: &NoiseMo
     }
     let statistics = GroupedStatistics::from_parts(order, counts, sums, products);
     PulseData::from_statistics(design.branch, design.levels.clone(), design.satellite, statistics)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::noise::{NoisePass, NoisePlan, StreamId, Width, samples};
+
+    #[test]
+    fn moments_of_the_pass_are_those_of_the_samples() {
+        let plan = NoisePlan {
+            ar: vec![-1.2, 0.5],
+            ma: vec![0.3],
+            lags: 3,
+            periods: vec![1, 5, 14],
+            checkpoints: vec![20, 333, 1000],
+            burn_in: 100,
+        };
+        let open =
+            samples(&plan, StreamId { seed: 7, experiment: 2, replicate: 4 }, 1000).expect("a valid plan");
+        let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a valid plan");
+        pass.run(7, 2, 4..5, |_, record| {
+            for (c, &n) in plan.checkpoints.iter().enumerate() {
+                for (k, &period) in plan.periods.iter().enumerate() {
+                    let fast = NoiseMoments::from_checkpoint(&record.head, &record.checkpoints[c], k);
+                    let e = &open.e[plan.burn_in - 3..plan.burn_in + n];
+                    let slow = NoiseMoments::from_samples(e, 3, period);
+                    assert_eq!(fast.counts, slow.counts);
+                    for (f, s) in
+                        fast.folds.iter().chain(&fast.products).zip(slow.folds.iter().chain(&slow.products))
+                    {
+                        assert!((f - s).abs() < 1e-9, "N {n}, T {period}: {f} against {s}");
+                    }
+                }
+            }
+        });
+    }
 }

@@ -17,7 +17,7 @@ pub struct Args {
 
     /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
     /// records allow]
-    #[arg(long)]
+    #[arg(long, value_parser = method_by_name)]
     method: Option<Method>,
 
     /// Print one JSON object instead of tables.
@@ -36,8 +36,8 @@ pub struct Args {
 pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
-    let method = args.method.unwrap_or_else(|| Method::default_for(&rig));
-    let identification = identification::identify(&rig, method)?;
+    let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
+    let identification = identification::identify(&rig, method).map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
@@ -48,12 +48,17 @@ pub fn run(args: &Args) -> CommandResult {
     })
 }
 
+fn method_by_name(name: &str) -> Result<Method, String> {
+    let known = || Method::ALL.map(Method::name).join(", ");
+    Method::from_name(name).ok_or_else(|| format!("the methods are {}", known()))
+}
+
 fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
     let mut artefacts = Artefacts::default();
     artefacts.add("estimate.json", identification::json(rig, identification));
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
-        let name = format!("measured_and_simulated_{}.svg", record.name.replace(['/', '\\'], "-"));
+        let name = format!("measured_and_simulated_{}.svg", record.name);
         artefacts.add(name, plots::identify::outputs(rig, record, run)?);
     }
     if let Some(svg) = plots::identify::borders(rig, identification)? {

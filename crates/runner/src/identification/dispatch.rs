@@ -1,6 +1,7 @@
 //! Which estimator a method is.
 
-use super::{Identification, IdentificationError, Method, pulse};
+use super::{Identification, IdentificationError, Method, free, pulse};
+use switchback_estimator::estimators::free::InputMap;
 use switchback_estimator::rig::Rig;
 
 /// Identifies a rig from its fit records and simulates all of its records.
@@ -12,11 +13,8 @@ pub fn identify(rig: &Rig, method: Method) -> Result<Identification, Identificat
         Method::PaperDescendant | Method::PaperAscendant | Method::Joint | Method::Efficient => {
             pulse::identify(rig, method)
         }
-        Method::Free | Method::LinearArx | Method::Memoryless => Err(IdentificationError::Refused {
-            rig: rig.name.clone(),
-            method,
-            reason: "this build holds the pulse methods only".to_owned(),
-            remedy: "choose `--method efficient`".to_owned(),
-        }),
+        Method::Free => free::identify(rig, method, InputMap::Borders),
+        Method::LinearArx => free::identify(rig, method, InputMap::Linear),
+        Method::Memoryless => free::identify(rig, method, InputMap::Static),
     }
 }

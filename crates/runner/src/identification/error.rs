@@ -2,6 +2,7 @@
 
 use super::Method;
 use miette::Diagnostic;
+use std::path::Path;
 use thiserror::Error;
 
 /// Why a method found no system.
@@ -14,7 +15,7 @@ pub enum IdentificationError {
         "add a [[record]] with that `role` and `use = \"fit\"`, or choose `--method free`, which takes any record"
     ))]
     MissingExperiment {
-        /// The rig.
+        /// The rig's name, or its file where that is known.
         rig: String,
         /// The method asked for.
         method: Method,
@@ -25,7 +26,7 @@ pub enum IdentificationError {
     #[error("{rig}: the method {method} cannot identify from these records: {reason}")]
     #[diagnostic(help("{remedy}"))]
     Refused {
-        /// The rig.
+        /// The rig's name, or its file where that is known.
         rig: String,
         /// The method used.
         method: Method,
@@ -34,4 +35,13 @@ pub enum IdentificationError {
         /// What to try.
         remedy: String,
     },
+}
+
+impl IdentificationError {
+    /// Names the rig by its file, which a message should lead to.
+    pub fn in_file(mut self, file: &Path) -> Self {
+        let (Self::MissingExperiment { rig, .. } | Self::Refused { rig, .. }) = &mut self;
+        *rig = file.display().to_string();
+        self
+    }
 }

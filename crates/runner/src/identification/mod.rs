@@ -3,17 +3,19 @@
 mod dispatch;
 mod error;
 mod fit;
+mod free;
 mod json;
 mod method;
 mod pulse;
 mod simulate;
 mod table;
 
+pub use crate::scenario::Method;
 pub use dispatch::identify;
 pub use error::IdentificationError;
 pub use fit::fit_percent;
 pub use json::json;
-pub use method::Method;
+pub use method::default_method;
 pub use table::table;
 
 use switchback_estimator::estimators::Estimate;
@@ -31,6 +33,18 @@ pub struct Identification {
     pub runs: Vec<Option<FreeRun>>,
     /// What the reader must know before trusting the figures, one sentence each.
     pub warnings: Vec<String>,
+}
+
+impl Identification {
+    /// Whether the method found points of a border.
+    pub fn has_borders(&self) -> bool {
+        !(self.estimate.descending.is_empty() && self.estimate.ascending.is_empty())
+    }
+
+    /// Whether both borders are the same curve, as in the yardsticks that know no hysteresis.
+    pub fn has_one_curve(&self) -> bool {
+        self.estimate.descending == self.estimate.ascending
+    }
 }
 
 /// An identified system's simulation of one record, from the record's `v` alone once it has started.
@@ -55,11 +69,6 @@ impl FreeRun {
 /// The unit in a label, `N` in `force [N]`; empty where there is none.
 pub fn unit(label: &str) -> &str {
     label.split_once('[').and_then(|(_, rest)| rest.split_once(']')).map_or("", |(unit, _)| unit.trim())
-}
-
-/// Whether the method found points of a border.
-fn has_borders(identification: &Identification) -> bool {
-    !(identification.estimate.descending.is_empty() && identification.estimate.ascending.is_empty())
 }
 
 /// Whether nothing is held out, so that no fit figure proves anything.

@@ -1,6 +1,6 @@
 //! The identification as a page for a person.
 
-use super::{Identification, has_borders, lacks_holdout, unit};
+use super::{Identification, lacks_holdout, unit};
 use std::fmt::Write;
 use switchback_estimator::estimators::{BorderPoint, Estimate};
 use switchback_estimator::rig::{Rig, Usage};
@@ -15,9 +15,9 @@ pub fn table(rig: &Rig, identification: &Identification) -> String {
         page.push('\n');
         page.push_str(&part);
     }
-    if has_borders(identification) {
+    if identification.has_borders() {
         page.push('\n');
-        page.push_str(&borders(rig, &identification.estimate));
+        page.push_str(&borders(rig, identification));
     }
     if !identification.warnings.is_empty() || lacks_holdout(rig) {
         page.push('\n');
@@ -33,10 +33,14 @@ pub fn table(rig: &Rig, identification: &Identification) -> String {
 
 fn headline(rig: &Rig, identification: &Identification) -> String {
     let estimate = &identification.estimate;
+    // In the paper the output follows one sample after the input at the earliest; only another delay is worth a word.
     let delay = match estimate.delay {
         0 => String::new(),
-        1 => ", delay 1 sample".to_owned(),
-        samples => format!(", delay {samples} samples"),
+        1 => ", 1 sample of extra delay".to_owned(),
+        extra if extra > 1 => format!(", {extra} samples of extra delay"),
+        -1 => ", with a direct term".to_owned(),
+        -2 => ", looking 1 sample ahead".to_owned(),
+        ahead => format!(", looking {} samples ahead", -1 - ahead),
     };
     format!(
         "{}: {}, order {}{delay}, {} samples of {} s\n",
@@ -51,11 +55,13 @@ fn headline(rig: &Rig, identification: &Identification) -> String {
 fn parameters(rig: &Rig, estimate: &Estimate) -> String {
     let output = unit(&rig.output_label);
     let mut rows = vec![["parameter", "estimate", "95 % interval", "unit"].map(str::to_owned)];
-    for (letter, values, errors, unit) in
-        [("a", &estimate.a, &estimate.a_se, ""), ("b", &estimate.b, &estimate.b_se, output)]
+    // A negative delay starts B at b₀ or before; a positive one shifts the whole of B and leaves its names alone.
+    let first_b = 1 + estimate.delay.min(0);
+    for (letter, first, values, errors, unit) in
+        [("a", 1, &estimate.a, &estimate.a_se, ""), ("b", first_b, &estimate.b, &estimate.b_se, output)]
     {
-        for (i, (value, se)) in values.iter().zip(errors).enumerate() {
-            rows.push([format!("{letter}{}", i + 1), number(*value), plus_minus(*se), unit.to_owned()]);
+        for (lag, (value, se)) in (first..).zip(values.iter().zip(errors)) {
+            rows.push([format!("{letter}{lag}"), number(*value), plus_minus(*se), unit.to_owned()]);
         }
     }
     for (name, value) in [
@@ -86,33 +92,36 @@ fn fits(rig: &Rig, identification: &Identification) -> String {
     aligned(&rows)
 }
 
-/// Both borders over one axis: where only one was estimated, the other's cells stay empty.
-fn borders(rig: &Rig, estimate: &Estimate) -> String {
-    let mut positions: Vec<f64> =
-        estimate.descending.iter().chain(&estimate.ascending).map(|point| point.v).collect();
-    positions.sort_by(f64::total_cmp);
-    positions.dedup();
-    let at = |border: &[BorderPoint], v: f64| {
-        let point = border.iter().find(|point| point.v == v);
-        point.map_or([String::new(), String::new()], |point| [number(point.f), plus_minus(point.se)])
-    };
-    let v_header = match unit(&rig.input_label) {
+/// Both borders over one axis, where a cell stays empty if that border has no point there; one curve if they coincide.
+fn borders(rig: &Rig, identification: &Identification) -> String {
+    let estimate = &identification.estimate;
+    let v = match unit(&rig.input_label) {
         "" => "v".to_owned(),
         unit => format!("v [{unit}]"),
     };
-    let mut rows = vec![[
-        v_header,
-        "descending border".to_owned(),
-        "95 %".to_owned(),
-        "ascending border".to_owned(),
-        "95 %".to_owned(),
-    ]];
-    for v in positions {
-        let [d, d_se] = at(&estimate.descending, v);
-        let [a, a_se] = at(&estimate.ascending, v);
-        rows.push([number(v), d, d_se, a, a_se]);
-    }
-    format!("{}borders in units of u_M − u_m; times the gain they are stationary outputs\n", aligned(&rows))
+    let table = if identification.has_one_curve() {
+        let points = estimate.descending.iter().map(|p| [number(p.v), number(p.f), plus_minus(p.se)]);
+        let header = [v, "static curve".to_owned(), "95 %".to_owned()];
+        aligned(&std::iter::once(header).chain(points).collect::<Vec<_>>())
+    } else {
+        let mut positions: Vec<f64> =
+            estimate.descending.iter().chain(&estimate.ascending).map(|point| point.v).collect();
+        positions.sort_by(f64::total_cmp);
+        positions.dedup();
+        let at = |border: &[BorderPoint], v: f64| {
+            let point = border.iter().find(|point| point.v == v);
+            point.map_or([String::new(), String::new()], |point| [number(point.f), plus_minus(point.se)])
+        };
+        let mut rows =
+            vec![[v, "descending border".into(), "95 %".into(), "ascending border".into(), "95 %".into()]];
+        for v in positions {
+            let [d, d_se] = at(&estimate.descending, v);
+            let [a, a_se] = at(&estimate.ascending, v);
+            rows.push([number(v), d, d_se, a, a_se]);
+        }
+        aligned(&rows)
+    };
+    format!("{table}in units of u_M − u_m; times the gain these are stationary outputs\n")
 }
 
 /// Five significant digits: more than any record supports, few enough to compare by eye.

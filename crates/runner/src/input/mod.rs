@@ -4,5 +4,6 @@ mod closest;
 mod text_file;
 mod toml_file;
 
+pub(crate) use closest::closest;
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};

@@ -17,8 +17,14 @@ pub struct TomlFile {
 
 /// Something in a TOML file is wrong: what, where, and the remedy.
 #[derive(Debug, Error, Diagnostic)]
+#[error(transparent)]
+#[diagnostic(transparent)]
+pub struct TomlError(Box<Located>);
+
+/// Boxed, because it carries the file's text and errors should be cheap to pass up.
+#[derive(Debug, Error, Diagnostic)]
 #[error("{path}:{line}:{column}: {message}")]
-pub struct TomlError {
+struct Located {
     path: String,
     line: usize,
     column: usize,
@@ -40,6 +46,11 @@ impl TomlFile {
         Ok(Self { path: path.to_owned(), text: read_text(path)? })
     }
 
+    /// A file given as text; `path` is what messages call it.
+    pub fn from_text(path: &Path, text: &str) -> Self {
+        Self { path: path.to_owned(), text: text.to_owned() }
+    }
+
     /// Where the file lies.
     pub fn path(&self) -> &Path {
         &self.path
@@ -56,9 +67,14 @@ impl TomlFile {
     /// [`TomlError`] at the first thing that is no TOML or does not fit `T`.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
         toml::from_str(&self.text).map_err(|error| {
-            let remedy = self.remedy(error.message());
-            self.error(error.span().unwrap_or(0..0), in_toml_terms(error.message()), remedy)
+            let (message, remedy) = self.explain(&error);
+            self.error(error.span().unwrap_or(0..0), message, remedy)
         })
+    }
+
+    /// What the TOML reader's error means to the file's writer, and what to do about it.
+    pub(crate) fn explain(&self, error: &toml::de::Error) -> (String, String) {
+        (in_toml_terms(error.message()), self.remedy(error.message()))
     }
 
     /// An error at a place of this file. `message` says what is wrong there, `remedy` what to do about it.
@@ -74,7 +90,7 @@ impl TomlFile {
         let path = self.path.display().to_string();
         // A table's span covers all of its lines; its first line says enough.
         let end = self.text[start..].find('\n').map_or(self.text.len(), |newline| start + newline);
-        TomlError {
+        TomlError(Box::new(Located {
             line: 1 + before.matches('\n').count(),
             column: 1 + before[line_start..].chars().count(),
             message: message.into(),
@@ -82,7 +98,7 @@ impl TomlFile {
             path,
             span: (start..span.end.clamp(start, end)).into(),
             remedy: remedy.into(),
-        }
+        }))
     }
 
     /// What to do about an error of the TOML reader.
@@ -110,6 +126,9 @@ fn in_toml_terms(message: &str) -> String {
         ("duplicate field", "duplicate key"),
         ("expected f64", "expected a number"),
         ("expected i64", "expected a whole number"),
+        ("expected usize", "expected a whole number, 0 or more"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected a tuple of size 2", "expected two numbers, [low, high]"),
         ("expected a sequence", "expected a list"),
     ];
     terms.iter().fold(message.trim_end().to_owned(), |told, (theirs, ours)| told.replace(theirs, ours))
@@ -118,11 +137,11 @@ fn in_toml_terms(message: &str) -> String {
 impl TomlError {
     /// Line of the error, from 1.
     pub fn line(&self) -> usize {
-        self.line
+        self.0.line
     }
 
     /// Column of the error in letters, from 1.
     pub fn column(&self) -> usize {
-        self.column
+        self.0.column
     }
 }

@@ -1,6 +1,7 @@
 //! `results.json`: writing it byte for byte the same, and refusing what is not one.
 
 use super::{Results, SCHEMA};
+use miette::Diagnostic;
 use serde::Serialize;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
@@ -8,14 +9,12 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Why a file holds no results.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum ResultsError {
     /// The file cannot be read.
-    #[error(
-        "cannot read {}: {source}; give a results.json, or the folder of a report that holds one",
-        path.display()
-    )]
+    #[error("{}: cannot be read: {source}", path.display())]
+    #[diagnostic(help("give a results.json, or the folder of a report that holds one"))]
     Unreadable {
         /// The path tried.
         path: PathBuf,
@@ -23,7 +22,8 @@ pub enum ResultsError {
         source: io::Error,
     },
     /// The content is not a result table.
-    #[error("{} is not a results file of Switchback: {source}", path.display())]
+    #[error("{}: is not a results file of Switchback: {source}", path.display())]
+    #[diagnostic(help("give a results.json as a consistency study writes it"))]
     NotResults {
         /// The path read.
         path: PathBuf,
@@ -31,10 +31,8 @@ pub enum ResultsError {
         source: serde_json::Error,
     },
     /// The layout is of another version.
-    #[error(
-        "{} has results layout {found}, this version reads {SCHEMA}; run its scenario again to renew it",
-        path.display()
-    )]
+    #[error("{}: has results layout {found}, this version reads {SCHEMA}", path.display())]
+    #[diagnostic(help("run its scenario again to renew it"))]
     OtherSchema {
         /// The path read.
         path: PathBuf,

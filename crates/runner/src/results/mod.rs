@@ -8,6 +8,7 @@ mod csv;
 mod curve;
 mod json;
 mod measured;
+mod pooled;
 mod series;
 mod summary;
 #[cfg(test)]
@@ -18,6 +19,7 @@ pub use csv::to_csv;
 pub use curve::{BorderCurve, CurvePoint};
 pub use json::{ResultsError, read, to_json};
 pub use measured::{Measured, MeasuredError};
+pub use pooled::{root_mean_square, root_mean_square_exact};
 pub use series::{Group, Series};
 pub use summary::{Expectation, Fitted, Summary, Verdict};
 

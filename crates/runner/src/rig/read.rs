@@ -157,19 +157,29 @@ fn samples_needed(order: Option<usize>) -> usize {
     order.map_or(10, |n| (3 * n + 3).max(10))
 }
 
-/// The file's name without its ending; where two records would share it, with the folders before it.
+/// The file's name without its ending; where two records would share it, with the folders before it, and where even
+/// these are alike, with a number after it. Names become parts of file names, so they hold no separators.
 fn record_names(records: &[WireRecord]) -> Vec<String> {
-    let stem = |record: &WireRecord| {
-        let file = Path::new(record.file.get_ref());
-        file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
+    let parts = |record: &WireRecord| -> Vec<String> {
+        let path = Path::new(record.file.get_ref()).with_extension("");
+        let named = path.components().filter(|part| matches!(part, Component::Normal(_)));
+        named.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
     };
-    let stems: Vec<String> = records.iter().map(stem).collect();
-    let is_shared = |stem: &String| stems.iter().filter(|other| *other == stem).count() > 1;
-    records
-        .iter()
-        .zip(&stems)
-        .map(|(record, stem)| if is_shared(stem) { record.file.get_ref().clone() } else { stem.clone() })
-        .collect()
+    let stems: Vec<String> =
+        records.iter().map(|record| parts(record).pop().unwrap_or_else(|| "record".to_owned())).collect();
+    let mut names: Vec<String> = Vec::with_capacity(records.len());
+    for (record, stem) in records.iter().zip(&stems) {
+        let is_shared = stems.iter().filter(|other| *other == stem).count() > 1;
+        let name = if is_shared { parts(record).join("-") } else { stem.clone() };
+        let mut free = name.clone();
+        let mut count = 1;
+        while names.contains(&free) {
+            count += 1;
+            free = format!("{name}-{count}");
+        }
+        names.push(free);
+    }
+    names
 }
 
 fn read_record(

@@ -10,7 +10,10 @@ pub const RIG_FILE: &str = "rig.toml";
 
 /// The files of a rig: `rig.toml` and one CSV a record. [`read`](super::read) gives the same rig back, to the last bit.
 ///
-/// Each record's time stamps start at zero. A folder in a record's name becomes part of the file's name, `a/b` to `a-b`.
+/// Each record's time stamps start at zero. Its file is called as the record, with the ending `.csv`.
+///
+/// # Panics
+/// If two records share a name, or one holds a path separator.
 pub fn artefacts(rig: &Rig) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add(RIG_FILE, description(rig));
@@ -42,8 +45,7 @@ fn description(rig: &Rig) -> String {
 }
 
 fn file_name(record: &RigRecord) -> String {
-    let name = record.name.strip_suffix(".csv").unwrap_or(&record.name);
-    format!("{}.csv", name.replace(['/', '\\'], "-"))
+    format!("{}.csv", record.name)
 }
 
 /// Shortest decimals that read back as the same number.

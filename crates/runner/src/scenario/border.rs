@@ -2,8 +2,8 @@
 
 use super::border_kind::{self, Shape};
 use super::error::Fault;
-use super::nearest::nearest;
 use super::read::take;
+use crate::input::closest;
 use serde::Deserialize;
 use std::ops::Range;
 use switchback_estimator::hysteresis::{BorderError, BorderPair, Interval, SwitchedHysteresis};
@@ -54,7 +54,7 @@ fn text(table: &mut DeTable<'_>, key: &str, border: &Range<usize>) -> Result<Spa
 
 fn unknown_kind(kind: &Spanned<String>) -> Fault {
     let names = border_kind::NAMES;
-    let guess = nearest(kind.get_ref(), names).map_or(String::new(), |k| format!("did you mean \"{k}\"? "));
+    let guess = closest(kind.get_ref(), names).map_or(String::new(), |k| format!("did you mean \"{k}\"? "));
     Fault::new(kind.span(), "no such kind of border", format!("{guess}valid: {}", names.join(", ")))
 }
 

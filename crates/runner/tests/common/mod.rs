@@ -38,9 +38,9 @@ impl Folder {
         let root = TempDir::new().expect("a temporary folder");
         let folder = Self { root };
         folder.write("rig.toml", RIG);
-        folder.write("descendant.csv", &record(1.0, 1));
-        folder.write("ascendant.csv", &record(-1.0, 2));
-        folder.write("again.csv", &record(1.0, 3));
+        folder.write("descendant.csv", &pulses(1.0, 1));
+        folder.write("ascendant.csv", &pulses(-1.0, 2));
+        folder.write("again.csv", &pulses(1.0, 3));
         folder
     }
 
@@ -89,8 +89,8 @@ pub fn listing(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A pulse experiment on a leaf spring and a second-order system, from the satellite `satellite`, with a little noise.
-fn record(satellite: f64, seed: u64) -> String {
+/// The pulse experiment of the satellite `satellite` (1: descendant, −1: ascendant).
+fn pulses(satellite: f64, seed: u64) -> String {
     let levels = [-satellite, -0.5 * satellite, 0.0, 0.5 * satellite];
     let period = 14;
     let mut v = vec![-satellite];
@@ -99,20 +99,29 @@ fn record(satellite: f64, seed: u64) -> String {
         phase @ (8 | 10 | 12) => levels[(phase - 6) / 2],
         _ => satellite,
     }));
+    measured(&v, seed)
+}
+
+/// The step experiment at the satellite `satellite`.
+pub fn step(satellite: f64, seed: u64) -> String {
+    let mut v = vec![satellite; 400];
+    v[0] = -satellite;
+    measured(&v, seed)
+}
+
+/// What the rig answers: a leaf spring, a second-order system, a little noise.
+fn measured(v: &[f64], seed: u64) -> String {
     let mut noise = seed;
-    let (mut text, mut y, mut u) =
-        (String::from("t,v,y\n"), [0.6 * satellite, 0.6 * satellite], [0.3 * satellite; 2]);
+    let (mut text, mut y, mut u) = (String::from("t,v,y\n"), [-0.6 * v[1]; 2], [-0.3 * v[1]; 2]);
     for t in 0..v.len() {
         noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let white = (noise >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
         let now = 1.2 * y[0] - 0.5 * y[1] + 0.4 * u[0] + 0.2 * u[1] + 0.002 * white;
         let moved = if t > 0 { v[t] - v[t - 1] } else { 0.0 };
-        let held = if moved > 0.0 {
-            0.3 * v[t] + 0.2
-        } else if moved < 0.0 {
-            0.3 * v[t] - 0.2
-        } else {
-            u[0]
+        let held = match moved {
+            rise if rise > 0.0 => 0.3 * v[t] + 0.2,
+            fall if fall < 0.0 => 0.3 * v[t] - 0.2,
+            _ => u[0],
         };
         text.push_str(&format!("{:.2},{},{now}\n", 0.01 * t as f64, v[t]));
         (y, u) = ([now, y[0]], [held, u[0]]);

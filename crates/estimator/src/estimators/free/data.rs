@@ -1,10 +1,11 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
-use super::basis::{Basis, Cell, place_knots};
-use super::branch::{Branches, SensorNoise};
+use super::basis::{Basis, Cell, Spacing, place_knots};
+use super::branch::{Branches, ReversalRule};
 use super::error::FreeError;
 use super::model;
 use super::problem::{Segment, Structure};
+use super::sensor::SensorNoise;
 use super::settings::{InputMap, Settings};
 use crate::hysteresis::{Branch, Interval};
 use crate::record::Record;
@@ -14,7 +15,7 @@ use crate::record::Record;
 pub(super) struct Data<'a> {
     pub(super) records: Vec<(&'a Record, Branches)>,
     pub(super) interval: Interval,
-    pub(super) threshold: f64,
+    pub(super) rule: ReversalRule,
     pub(super) noise: SensorNoise,
 }
 
@@ -34,21 +35,27 @@ impl<'a> Data<'a> {
         let noise = records
             .iter()
             .map(|r| SensorNoise::of(r.v()))
-            .max_by(|x, y| x.threshold().total_cmp(&y.threshold()))
+            .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let threshold = settings.threshold.unwrap_or_else(|| noise.threshold());
-        let records: Vec<_> = records
-            .iter()
-            .filter_map(|&record| Some((record, Branches::of(record.v(), threshold)?)))
-            .collect();
+        let rule = noise.rules(settings.threshold, settings.timing)[0];
+        let records: Vec<_> =
+            records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
         let range =
             Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
+        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold: rule.threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
         }
-        Ok(Self { records, interval: settings.interval.unwrap_or(range), threshold, noise })
+        Ok(Self { records, interval: settings.interval.unwrap_or(range), rule, noise })
+    }
+
+    /// The same records with reversals by another rule.
+    pub(super) fn with_rule(&self, rule: ReversalRule) -> Self {
+        let again = |(record, branches): &(&'a Record, Branches)| {
+            (*record, Branches::of(record.v(), rule).unwrap_or_else(|| branches.clone()))
+        };
+        Self { records: self.records.iter().map(again).collect(), rule, ..*self }
     }
 
     /// A basis with `knots` knots a curve, placed by where the records go.
@@ -60,12 +67,14 @@ impl<'a> Data<'a> {
             };
             self.records.iter().flat_map(visited).collect()
         };
-        let place = |branch| place_knots(&values(branch), self.interval, knots);
+        let place = |branch, spacing| place_knots(&values(branch), self.interval, knots, spacing);
         match map {
             InputMap::Linear => Basis::linear(self.interval),
-            InputMap::Static => Basis::curve(place(None)),
+            InputMap::Static => Basis::curve(place(None, Spacing::Even)),
             InputMap::Borders => {
-                Basis::borders(place(Some(Branch::Descending)), place(Some(Branch::Ascending)))
+                let [descending, ascending] = [Branch::Descending, Branch::Ascending]
+                    .map(|branch| place(Some(branch), Spacing::DenseEnds));
+                Basis::borders(descending, ascending)
             }
         }
     }
@@ -82,8 +91,10 @@ impl<'a> Data<'a> {
 impl Featured<'_> {
     /// Everything that a structure can explain.
     pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
-        let whole =
-            self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
+        let whole = self
+            .records
+            .iter()
+            .map(|(r, known, cells)| Segment::usable(structure, r.y(), cells, *known..r.len()));
         whole.flatten().collect()
     }
 
@@ -98,23 +109,9 @@ impl Featured<'_> {
             let count = (record.len() as f64 / length as f64).round().max(1.0) as usize;
             for j in 0..count {
                 let (from, to) = (record.len() * j / count, record.len() * (j + 1) / count);
-                out.extend(usable(structure, record, *known, cells, from, to));
+                out.extend(Segment::usable(structure, record.y(), cells, from.max(*known)..to));
             }
         }
         out
     }
-}
-
-/// The part of `from..to` whose inputs and past outputs are all known and lie inside it.
-fn usable<'a>(
-    structure: Structure,
-    record: &'a Record,
-    known: usize,
-    cells: &'a [Cell],
-    from: usize,
-    to: usize,
-) -> Option<Segment<'a>> {
-    let from = from.max(known) + structure.memory();
-    let to = to.min(record.len());
-    (from < to).then_some(Segment { y: record.y(), cells, from, to })
 }

@@ -33,7 +33,7 @@ impl Moments {
                 fill_row(structure, width, segment, t, &mut row);
                 for (i, &(p, x)) in row.iter().enumerate() {
                     for &(q, z) in &row[..=i] {
-                        matrix[(p, q)] += x * z;
+                        matrix[(p.max(q), p.min(q))] += x * z;
                     }
                 }
             }
@@ -53,7 +53,7 @@ impl Moments {
     }
 }
 
-/// One row of the regression as (column, value), by increasing column.
+/// One row of the regression as (column, value).
 pub(super) fn fill_row(
     structure: Structure,
     width: usize,
@@ -65,7 +65,7 @@ pub(super) fn fill_row(
     row.clear();
     row.extend((0..n).map(|i| (i, -segment.y[t - 1 - i])));
     for i in 0..structure.numerator() {
-        let cell = segment.cells[t - structure.first_lag() - i];
+        let cell = segment.cells[structure.input(t, i)];
         row.extend(cell.features().map(|(k, x)| (n + i * width + k, x)));
     }
     let constant = n + structure.numerator() * width;

@@ -1,35 +1,49 @@
 //! Identification from any record: no designed experiment.
+//!
+//! Where the switched model holds, the branch at every sample is known from `v` alone ([`Branches`]). On a grid of knots ([`Basis`]) `u` is
+//! then linear in the border values, and `y` obeys a linear regression with one coefficient for every product `bᵢf_k`:
+//! least squares, then rank one ([`one_shot`]). On real records the equation error is not white and such a model
+//! simulates badly, so [`identify`] goes on to minimise the error of the free run, and chooses order, delay and
+//! knots by cross-validation on the records it is given.
+//!
+//! [`InputMap`] makes the same machinery fit what a user would otherwise pick: a straight line (`linear-arx`) or one
+//! static curve (`memoryless`), so that a comparison compares the models and not the effort.
+//!
+//! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
+//! on `v`, which fakes reversals; a model that needs `v` ahead of time. What no warning can tell: a static
+//! nonlinearity in series with `v` and a common offset look like other borders.
 
 mod basis;
 mod branch;
+mod cross_validation;
 mod data;
 mod equation_error;
 mod error;
 mod fit;
+mod identify;
 mod model;
+mod nesting;
+mod normalise;
+mod one_shot;
 mod problem;
 mod rank_one;
+mod selection;
+mod sensor;
 mod settings;
 mod simulation_error;
+mod warning;
 
 pub use basis::Basis;
-pub use branch::{Branches, SensorNoise};
+pub use branch::{Branches, ReversalRule, Timing};
 pub use error::FreeError;
+pub use identify::{Identified, identify};
 pub use model::{FreeRun, Model, fit_percent};
+pub use one_shot::{Grid, one_shot};
 pub use problem::Structure;
+pub use selection::{Candidate, Selection};
+pub use sensor::SensorNoise;
 pub use settings::{InputMap, Settings};
+pub use warning::Warning;
 
-use crate::record::Record;
-use data::Data;
-
-/// EXPERIMENT
-pub fn try_fit(records: &[&Record], settings: &Settings) -> Result<Model, FreeError> {
-    let data = Data::new(records, settings)?;
-    let basis = data.basis(settings.input_map, settings.knots.unwrap_or(7));
-    let featured = data.featured(basis);
-    let structure = Structure { order: settings.order.unwrap_or(1), delay: settings.delay.unwrap_or(0) };
-    let effort = settings.refine.then_some(fit::Effort::FINAL);
-    let parameters = fit::fit(&featured, structure, &featured.segments(structure), effort)
-        .ok_or(FreeError::Unstable { order: structure.order })?;
-    Ok(Model { basis: featured.basis, structure, parameters, threshold: data.threshold })
-}
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,7 @@
 //! An identified system that runs on its own.
 
 use super::basis::{Basis, Cell};
-use super::branch::Branches;
+use super::branch::{Branches, ReversalRule};
 use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::free_run;
 use crate::hysteresis::Branch;
@@ -17,7 +17,7 @@ pub struct Model {
     pub(super) basis: Basis,
     pub(super) structure: Structure,
     pub(super) parameters: Parameters,
-    pub(super) threshold: f64,
+    pub(super) rule: ReversalRule,
 }
 
 /// A free run over a record.
@@ -42,9 +42,9 @@ impl Model {
         self.structure
     }
 
-    /// Reversal threshold, input units.
-    pub fn threshold(&self) -> f64 {
-        self.threshold
+    /// What counts as a reversal.
+    pub fn rule(&self) -> ReversalRule {
+        self.rule
     }
 
     /// The output for an input, given the outputs measured before the simulation starts.
@@ -53,14 +53,15 @@ impl Model {
     /// its first value and `y` at the output this holds, or at the first of `y_before`. An input that never moves
     /// by more than the threshold counts as ascending.
     pub fn simulate(&self, v: &[f64], y_before: &[f64]) -> Vec<f64> {
-        let Some(&first) = self.cells(v).first() else { return Vec::new() };
+        let cells = self.cells(v);
+        let (Some(&first), Some(&last)) = (cells.first(), cells.last()) else { return Vec::new() };
         let memory = self.structure.memory();
-        let cells = [vec![first; memory], self.cells(v)].concat();
+        let cells = [vec![first; memory], cells, vec![last; self.structure.ahead()]].concat();
         let rest = y_before.first().copied().unwrap_or_else(|| self.rest(first.value(&self.parameters.f)));
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
-        y.resize(cells.len(), 0.0);
-        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: cells.len() };
+        y.resize(memory + v.len(), 0.0);
+        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: memory + v.len() };
         let run = free_run(self.structure, &self.parameters, &segment);
         y[memory..memory + given].iter().copied().chain(run).collect()
     }
@@ -71,7 +72,7 @@ impl Model {
     /// all known, the first move plus the memory of the model, are its initial state; all later ones are
     /// simulated from `v` alone.
     pub fn free_run(&self, record: &Record) -> FreeRun {
-        let known = Branches::of(record.v(), self.threshold).map_or(record.len(), |b| b.first_known());
+        let known = Branches::of(record.v(), self.rule).map_or(record.len(), |b| b.first_known());
         let start = (known + self.structure.memory()).min(record.len());
         let y = self.simulate(record.v(), &record.y()[..start]);
         let fit_percent = fit_percent(&record.y()[start..], &y[start..]);
@@ -86,16 +87,33 @@ impl Model {
 
     /// Hats of every sample.
     fn cells(&self, v: &[f64]) -> Vec<Cell> {
-        match Branches::of(v, self.threshold) {
+        match Branches::of(v, self.rule) {
             Some(branches) => cells(&self.basis, v, &branches),
-            None => v.iter().map(|&v| self.basis.cell(Branch::Ascending, v)).collect(),
+            None => {
+                let resting = |&v: &f64| Cell { main: self.basis.place(Branch::Ascending, v), next: None };
+                v.iter().map(resting).collect()
+            }
         }
     }
 }
 
 /// Hats of every sample of an input whose branches are known.
 pub(super) fn cells(basis: &Basis, v: &[f64], branches: &Branches) -> Vec<Cell> {
-    v.iter().zip(branches.labels()).map(|(&v, &branch)| basis.cell(branch, v)).collect()
+    let labelled = v.iter().zip(branches.labels()).enumerate();
+    let cell = |(t, (&v, &branch))| {
+        let turned = branches.turned(t).filter(|_| basis.is_switched());
+        let next = turned.map(|share| (basis.place(other(branch), v), share));
+        Cell { main: basis.place(branch, v), next }
+    };
+    labelled.map(cell).collect()
+}
+
+/// The branch that a reversal leads to.
+fn other(branch: Branch) -> Branch {
+    match branch {
+        Branch::Ascending => Branch::Descending,
+        Branch::Descending => Branch::Ascending,
+    }
 }
 
 /// `100·(1 − ‖y − ŷ‖ / ‖y − ȳ‖)`: 100 for a perfect prediction, 0 for the mean, negative for worse.

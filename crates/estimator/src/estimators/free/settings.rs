@@ -1,5 +1,7 @@
 //! What the user may fix, and what is otherwise chosen from the data.
 
+use super::branch::Timing;
+use super::error::FreeError;
 use crate::hysteresis::Interval;
 
 /// How the input enters the linear part.
@@ -26,6 +28,8 @@ pub struct Settings {
     pub knots: Option<usize>,
     /// Reversal threshold, input units.
     pub threshold: Option<f64>,
+    /// Whether reversals take effect at samples or between them.
+    pub timing: Option<Timing>,
     /// Working interval; the range of the records otherwise.
     pub interval: Option<Interval>,
     /// Whether to minimise the simulation error after the equation error.
@@ -41,8 +45,27 @@ impl Settings {
             delay: None,
             knots: None,
             threshold: None,
+            timing: None,
             interval: None,
             refine: true,
+        }
+    }
+
+    /// Refuses what makes no sense.
+    pub(super) fn check(&self) -> Result<(), FreeError> {
+        let refuse = |name, value, allowed| Err(FreeError::Setting { name, value, allowed });
+        match *self {
+            Self { order: Some(n), .. } if !(1..=20).contains(&n) => {
+                refuse("order", n as f64, "from 1 to 20")
+            }
+            Self { delay: Some(d), .. } if d < -20 => refuse("delay", d as f64, "-20 or more"),
+            Self { knots: Some(k), .. } if !(2..=200).contains(&k) => {
+                refuse("knots", k as f64, "from 2 to 200")
+            }
+            Self { threshold: Some(x), .. } if !(x.is_finite() && x >= 0.0) => {
+                refuse("threshold", x, "finite and not negative")
+            }
+            _ => Ok(()),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
+use super::fit::Effort;
 use super::problem::{Parameters, Segment, Structure};
+use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether all zeros of `1 + a₁z⁻¹ + … + aₙz⁻ⁿ` lie inside the unit circle (Schur–Cohn step-down).
@@ -26,7 +28,7 @@ pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segme
             now -= a * y[t - 1 - i];
         }
         for (i, b) in theta.b.iter().enumerate() {
-            now += b * u[t - structure.first_lag() - i];
+            now += b * u[structure.input(t, i)];
         }
         y.push(now);
     }
@@ -97,7 +99,7 @@ pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Se
                     present[i] -= before(now - 1 - i);
                 }
                 for (i, b) in theta.b.iter().enumerate() {
-                    let cell = segment.cells[now - structure.first_lag() - i];
+                    let cell = segment.cells[structure.input(now, i)];
                     present[n + i] += cell.value(&theta.f);
                     for (k, x) in cell.features() {
                         present[n + nb + k] += b * x;
@@ -124,9 +126,7 @@ pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Se
 /// When to stop, and how much to prefer smooth curves where the data say nothing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refinement<'a> {
-    pub(super) iterations: usize,
-    /// Relative decrease of the cost below which a step counts as the last.
-    pub(super) tolerance: f64,
+    pub(super) effort: Effort,
     /// Sizes of the curves, whose second differences the penalty sums.
     pub(super) curves: &'a [usize],
     /// Weight of the penalty, as a fraction of the output's energy.
@@ -167,7 +167,7 @@ impl Refinement<'_> {
         };
         let mut now = penalised(&theta);
         let mut damping = 1e-3;
-        for _ in 0..self.iterations {
+        for _ in 0..self.effort.iterations {
             let mut model = linearise(structure, &theta, segments);
             let f = DVector::from_column_slice(&theta.f);
             let mut block = model.information.view_mut((offset, offset), penalty.shape());
@@ -176,7 +176,8 @@ impl Refinement<'_> {
             pull -= &penalty * f;
             let before = now;
             while damping < 1e12 {
-                let next = damped_step(&model, damping).map(|step| theta.moved(step.as_slice()));
+                let next = solve_symmetric(&model.information, &model.gradient, damping + 1e-13);
+                let next = next.map(|step| theta.moved(step.as_slice()));
                 let cost = next.as_ref().map_or(f64::INFINITY, &penalised);
                 match next {
                     Some(next) if cost < now => {
@@ -188,7 +189,7 @@ impl Refinement<'_> {
                     _ => damping *= 8.0,
                 }
             }
-            if before - now <= self.tolerance * before {
+            if before - now <= self.effort.tolerance * before {
                 break;
             }
         }
@@ -201,25 +202,4 @@ fn output_energy(segments: &[Segment]) -> f64 {
     let values = || segments.iter().flat_map(|s| &s.y[s.from..s.to]);
     let mean = values().sum::<f64>() / values().count().max(1) as f64;
     values().map(|y| (y - mean) * (y - mean)).sum()
-}
-
-/// `(H + λ diag H)⁻¹ g`.
-fn damped_step(model: &Linearised, damping: f64) -> Option<DVector<f64>> {
-    let mut damped = model.information.clone();
-    let scale: Vec<f64> = damped.diagonal().iter().map(|d| d.sqrt().max(f64::MIN_POSITIVE)).collect();
-    let mut right = model.gradient.clone();
-    for i in 0..scale.len() {
-        for j in 0..scale.len() {
-            damped[(i, j)] /= scale[i] * scale[j];
-        }
-        right[i] /= scale[i];
-    }
-    for i in 0..scale.len() {
-        damped[(i, i)] += damping + 1e-13;
-    }
-    let mut step = damped.cholesky()?.solve(&right);
-    for i in 0..scale.len() {
-        step[i] /= scale[i];
-    }
-    Some(step)
 }

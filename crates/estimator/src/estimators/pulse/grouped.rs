@@ -137,6 +137,21 @@ impl GroupedStatistics {
         stacked
     }
 
+    /// The statistics of two records that share their groups.
+    ///
+    /// # Panics
+    /// If orders or groups differ.
+    pub fn merged(&self, other: &Self) -> Self {
+        assert_eq!((self.order, self.groups()), (other.order, other.groups()), "the same groups");
+        let add = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x + y).collect();
+        Self {
+            order: self.order,
+            counts: add(&self.counts, &other.counts),
+            sums: add(&self.sums, &other.sums),
+            products: add(&self.products, &other.products),
+        }
+    }
+
     fn width(&self) -> usize {
         self.order + 1
     }

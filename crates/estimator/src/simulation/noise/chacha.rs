@@ -35,12 +35,15 @@ macro_rules! double_round {
     };
 }
 
-/// Block number `counter` of each of `L` streams under one key: `out[w][l]` is word `w` of stream `streams[l]`.
+/// Block number `counter` of each of `L` streams under one key: `out[w][l]` is word `w` of stream
+/// `streams[l]`.
 ///
-/// The layout is the one of `rand_chacha`: words 12 and 13 count blocks, words 14 and 15 hold the stream, low word first
-/// (D. J. Bernstein, "ChaCha, a variant of Salsa20", 2008, with a 64-bit counter and a 64-bit nonce).
+/// The layout is the one of `rand_chacha`: words 12 and 13 count blocks, words 14 and 15 hold the stream, low
+/// word first (D. J. Bernstein, "ChaCha, a variant of Salsa20", 2008, with a 64-bit counter and a 64-bit
+/// nonce).
 ///
-/// The body of the lane loop is straight-line code on sixteen scalars, which the compiler turns into sixteen vector registers.
+/// The body of the lane loop is straight-line code on sixteen scalars, which the compiler turns into sixteen
+/// vector registers.
 #[inline(always)]
 pub(super) fn blocks<const L: usize>(
     key: &Key,
@@ -48,6 +51,10 @@ pub(super) fn blocks<const L: usize>(
     counter: u64,
     out: &mut [[u32; L]; WORDS],
 ) {
+    // Words of one size throughout: a 64-bit value in the loop would halve the lanes that the compiler puts
+    // in a register.
+    let low = streams.map(|stream| stream as u32);
+    let high = streams.map(|stream| (stream >> 32) as u32);
     for l in 0..L {
         let start = [
             SIGMA[0],
@@ -64,8 +71,8 @@ pub(super) fn blocks<const L: usize>(
             key[7],
             counter as u32,
             (counter >> 32) as u32,
-            streams[l] as u32,
-            (streams[l] >> 32) as u32,
+            low[l],
+            high[l],
         ];
         let mut x = start;
         double_round!(x);

@@ -1,9 +1,11 @@
 //! The noise of a study: unit white normals in lanes, and the one pass over them that serves every cell.
 //!
-//! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box and Muller's transform without a
-//! branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at each checkpoint, what the estimators need: lag products, folds and
-//! edges ([`NoiseRecord`]). [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
+//! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box
+//! and Muller's transform without a branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at
+//! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). [`samples`]
+//! gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
 
+mod aligned;
 mod chacha;
 mod kernels;
 mod normal;
@@ -19,7 +21,7 @@ mod width;
 
 pub use oracle::record_by_definition;
 pub use pass::NoisePass;
-pub use plan::{NoisePlan, NoisePlanError, settling_samples};
+pub use plan::{NoisePlan, NoisePlanError};
 pub use record::{Checkpoint, NoiseRecord};
 pub use samples::{NoiseSamples, samples, white_samples};
 pub use white::{BLOCK, StreamId, WhiteNoise};

@@ -2,17 +2,21 @@
 
 use std::ops::Range;
 
-use super::kernels::{AutoProducts, AutoRegression, Fold, MovingAverage};
+use super::aligned::Aligned;
+use super::kernels::{Advance, Fold, MovingAverage};
 use super::plan::{NoisePlan, NoisePlanError};
 use super::record::NoiseRecord;
 use super::white::{BLOCK, StreamId, WhiteNoise};
 use super::width::Width;
 
-/// Runs a [`NoisePlan`] over many replicates, a lane each, in memory of its own that grows with neither samples nor replicates.
+/// Runs a [`NoisePlan`] over many replicates, a lane each, in memory of its own that grows with neither
+/// samples nor replicates.
 ///
-/// Sums of products are taken over blocks of 64 samples and the blocks then added up, folds are added up in order, all in `f64`: at N = 10⁶
-/// the rounding error of a sum is of the order of 10⁻¹³ of the sum of its terms' moduli, far below the Monte-Carlo error. Results of
-/// one replicate are the same bits whatever the width, and whatever the other replicates of the call.
+/// Sums of products are taken over blocks of [`BLOCK`] samples and the blocks then added up, folds are added
+/// up in order, all in `f64`: at N = 10⁶ the rounding error of a sum is below 10⁻¹³ of the sum of its terms'
+/// moduli, far below the Monte-Carlo error. Results of one replicate are the same bits whatever the width,
+/// and whatever the other replicates of the call. Threads each take a pass of their own (a clone) and ranges
+/// of replicates.
 ///
 /// ```
 /// # use switchback_estimator::simulation::noise::{NoisePass, NoisePlan, Width};
@@ -32,12 +36,12 @@ pub struct NoisePass {
     plan: NoisePlan,
     width: Width,
     /// Rows of w: `ma.len()` past ones, then the block. Empty when there is no moving average.
-    w: Vec<f64>,
+    w: Aligned,
     /// Rows of e: `plan.history()` past ones, then the block.
-    e: Vec<f64>,
+    e: Aligned,
     /// Autoproducts of the whole blocks, and of the current one.
-    products: Vec<f64>,
-    block_products: Vec<f64>,
+    products: Aligned,
+    block_products: Aligned,
     /// Autoproducts of one replicate.
     autoproducts: Vec<f64>,
     folds: Vec<FoldSums>,
@@ -49,7 +53,7 @@ pub struct NoisePass {
 struct FoldSums {
     period: usize,
     phase: usize,
-    sums: Vec<f64>,
+    sums: Aligned,
 }
 
 impl NoisePass {
@@ -68,14 +72,18 @@ impl NoisePass {
         let folds = periods.iter().copied().filter(longest).map(|period| FoldSums {
             period,
             phase: 0,
-            sums: vec![0.0; period * lanes],
+            sums: Aligned::zeros(period * lanes),
         });
         Ok(Self {
             width,
-            w: if plan.ma.is_empty() { vec![] } else { vec![0.0; (plan.ma.len() + BLOCK) * lanes] },
-            e: vec![0.0; (plan.history() + BLOCK) * lanes],
-            products: vec![0.0; (plan.lags + 1) * lanes],
-            block_products: vec![0.0; (plan.lags + 1) * lanes],
+            w: if plan.ma.is_empty() {
+                Aligned::zeros(0)
+            } else {
+                Aligned::zeros((plan.ma.len() + BLOCK) * lanes)
+            },
+            e: Aligned::zeros((plan.history() + BLOCK) * lanes),
+            products: Aligned::zeros((plan.lags + 1) * lanes),
+            block_products: Aligned::zeros((plan.lags + 1) * lanes),
             autoproducts: vec![0.0; plan.lags + 1],
             folds: folds.collect(),
             records: vec![NoiseRecord::zeros(&plan); lanes],
@@ -85,7 +93,8 @@ impl NoisePass {
 
     /// Visits the record of every replicate, in order.
     ///
-    /// A range that is a multiple of [`Width::lanes`] wastes no lane.
+    /// A range that is a multiple of [`Width::lanes`] wastes no lane. Allocates nothing for the replicates
+    /// themselves; `visit` clones what it keeps.
     pub fn run(
         &mut self,
         seed: u64,
@@ -107,26 +116,28 @@ impl NoisePass {
     /// Fills the records, one a lane.
     fn run_lanes(&mut self, noise: &mut WhiteNoise) {
         self.rest();
-        // Samples from −burn_in; `origin` is t = 0.
-        let origin = self.plan.burn_in;
-        let mut start = 0;
-        let mut next = 0;
-        if origin == 0 {
-            self.record_head(self.plan.history());
-        }
-        while next < self.plan.checkpoints.len() {
-            self.filter(noise);
+        // Samples are counted from −burn_in; `origin` is t = 0. A block is cut where something has to be done
+        // between two samples.
+        let (origin, history) = (self.plan.burn_in, self.plan.history());
+        let (mut start, mut next) = (0, 0);
+        while let Some(last) = self.plan.checkpoints.last()
+            && start < origin + last
+        {
+            self.draw(noise);
             let end = start + BLOCK;
-            let mut t = start.max(origin.min(end));
-            if start < origin && origin <= end {
-                self.record_head(self.plan.history() + origin - start);
-            }
+            let mut t = start;
             while t < end && next < self.plan.checkpoints.len() {
-                let checkpoint = origin + self.plan.checkpoints[next];
-                let stop = checkpoint.min(end);
-                self.accumulate(self.plan.history() + t - start, self.plan.history() + stop - start);
-                if stop == checkpoint {
-                    self.record(next, self.plan.history() + stop - start);
+                let event = if t < origin { origin } else { origin + self.plan.checkpoints[next] };
+                let stop = event.min(end);
+                let rows = history + t - start..history + stop - start;
+                self.advance(rows.clone());
+                if t >= origin {
+                    self.fold(rows.clone());
+                }
+                if stop == origin {
+                    self.begin(rows.end);
+                } else if stop == event {
+                    self.record(next, rows.end);
                     next += 1;
                 }
                 t = stop;
@@ -147,36 +158,40 @@ impl NoisePass {
         }
     }
 
-    /// The next block of e.
-    fn filter(&mut self, noise: &mut WhiteNoise) {
+    /// The next block of w, and of C w in the rows of e.
+    fn draw(&mut self, noise: &mut WhiteNoise) {
         let lanes = self.width.lanes();
-        let history = self.plan.history();
-        let block = &mut self.e[history * lanes..];
+        let block = &mut self.e[self.plan.history() * lanes..];
         if self.plan.ma.is_empty() {
             noise.fill(block);
         } else {
             noise.fill(&mut self.w[self.plan.ma.len() * lanes..]);
             self.width.run(MovingAverage { ma: &self.plan.ma, w: &self.w, x: block });
         }
-        self.width.run(AutoRegression { ar: &self.plan.ar, history, e: &mut self.e });
     }
 
-    /// Adds rows `from..to` of e to the sums.
-    fn accumulate(&mut self, from: usize, to: usize) {
+    /// Turns C w into e over some rows, and adds up their products.
+    fn advance(&mut self, rows: Range<usize>) {
         let lanes = self.width.lanes();
-        let e = &self.e[(from - self.plan.lags) * lanes..to * lanes];
-        self.width.run(AutoProducts { e, sums: &mut self.block_products });
-        let e = &self.e[from * lanes..to * lanes];
+        let history = self.plan.history();
+        let e = &mut self.e[(rows.start - history) * lanes..rows.end * lanes];
+        self.width.run(Advance { ar: &self.plan.ar, history, e, sums: &mut self.block_products });
+    }
+
+    /// Adds some rows of e to the folds.
+    fn fold(&mut self, rows: Range<usize>) {
+        let lanes = self.width.lanes();
+        let e = &self.e[rows.start * lanes..rows.end * lanes];
         for fold in &mut self.folds {
             self.width.run(Fold { e, fold: &mut fold.sums, phase: fold.phase });
-            fold.phase = (fold.phase + to - from) % fold.period;
+            fold.phase = (fold.phase + rows.len()) % fold.period;
         }
     }
 
     /// Closes the block: its products join the total, its last rows become the past.
     fn end_block(&mut self) {
         let lanes = self.width.lanes();
-        for (total, block) in self.products.iter_mut().zip(&mut self.block_products) {
+        for (total, block) in self.products.iter_mut().zip(self.block_products.iter_mut()) {
             *total += *block;
             *block = 0.0;
         }
@@ -186,13 +201,15 @@ impl NoisePass {
         }
     }
 
-    /// Records the n rows of e before row `to` as the head.
-    fn record_head(&mut self, to: usize) {
-        let n = self.plan.lags;
-        let (e, lanes) = (&self.e, self.width.lanes());
+    /// Begins the sums at t = 0, which comes just before row `to`: forgets the products of the burn-in,
+    /// records the head.
+    fn begin(&mut self, to: usize) {
+        self.products.fill(0.0);
+        self.block_products.fill(0.0);
+        let (n, lanes) = (self.plan.lags, self.width.lanes());
         for (l, record) in self.records.iter_mut().enumerate() {
             for (i, head) in record.head.iter_mut().enumerate() {
-                *head = e[(to - n + i) * lanes + l];
+                *head = self.e[(to - n + i) * lanes + l];
             }
         }
     }

@@ -41,7 +41,8 @@ impl NoiseRecord {
 }
 
 impl Checkpoint {
-    /// Fills the lag products from the autoproducts `R_k = Σ_{t=0}^{N−1} e(t) e(t−k)`, `k = 0…n`, by moving both ends of the sum:
+    /// Fills the lag products from the autoproducts `R_k = Σ_{t=0}^{N−1} e(t) e(t−k)`, `k = 0…n`, by moving
+    /// both ends of the sum:
     ///
     /// ```text
     /// Σ_{t=0}^{N−1} e(t−i) e(t−i−k) = R_k + Σ_{u=−i}^{−1} e(u) e(u−k) − Σ_{u=N−i}^{N−1} e(u) e(u−k)

@@ -27,7 +27,8 @@ pub fn white_samples(stream: StreamId, count: usize) -> Vec<f64> {
     w
 }
 
-/// The very noise that [`NoisePass`](super::NoisePass) sums over for this replicate: the burn-in and `count` samples from `t = 0` on.
+/// The very noise that [`NoisePass`](super::NoisePass) sums over for this replicate: the burn-in and `count`
+/// samples from `t = 0` on.
 ///
 /// `w` is the same to the bit, `e` to rounding. The checkpoints, lags and periods of the plan play no part.
 ///

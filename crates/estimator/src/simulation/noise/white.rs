@@ -11,12 +11,12 @@ use super::width::{Kernel, Width};
 const PER_BLOCK: usize = WORDS / 2;
 
 /// Samples a replicate that [`WhiteNoise::fill`] gives at a time.
-pub const BLOCK: usize = 64;
+pub const BLOCK: usize = 128;
 
 /// Names the noise of one replicate of one experiment of one study.
 ///
-/// The noise is ChaCha8 under the key that `ChaCha8Rng::seed_from_u64(seed)` derives, on stream number [`Self::number`], from its first block.
-/// Different streams of one key do not overlap.
+/// The noise is ChaCha8 under the key that `ChaCha8Rng::seed_from_u64(seed)` derives, on stream number
+/// [`Self::number`], from its first block. Different streams of one key do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StreamId {
     /// Seed of the study.
@@ -36,8 +36,8 @@ impl StreamId {
 
 /// White normal noise of as many replicates as the width has lanes, in blocks of [`BLOCK`] samples.
 ///
-/// Lane `l` carries replicate `first.replicate + l` (modulo 2³²). Its noise depends on its own [`StreamId`] alone: not on the width, its neighbours
-/// or the thread.
+/// Lane `l` carries replicate `first.replicate + l` (modulo 2³²). Its noise depends on its own [`StreamId`]
+/// alone: not on the width, its neighbours or the thread.
 ///
 /// ```
 /// # use switchback_estimator::simulation::noise::{BLOCK, StreamId, WhiteNoise, Width};
@@ -99,6 +99,10 @@ impl WhiteNoise {
     }
 }
 
+/// One block of every lane, from the start of a cache line on.
+#[repr(align(64))]
+struct Words<const L: usize>([[u32; L]; WORDS]);
+
 /// Fills `out` with the blocks from `counter` on.
 struct Fill<'a> {
     key: &'a Key,
@@ -113,11 +117,11 @@ impl Kernel for Fill<'_> {
         let (rows, _) = self.out.as_chunks_mut::<L>();
         let (blocks, _) = rows.as_chunks_mut::<PER_BLOCK>();
         let streams: &[u64; L] = self.streams.try_into().expect("one stream a lane");
-        let mut words = [[0; L]; WORDS];
+        let mut words = Words([[0; L]; WORDS]);
         for (counter, rows) in (self.counter..).zip(blocks) {
-            chacha::blocks(self.key, streams, counter, &mut words);
+            chacha::blocks(self.key, streams, counter, &mut words.0);
             for q in 0..PER_BLOCK / 2 {
-                let (w, x) = (&words[4 * q..4 * q + 4], &mut rows[2 * q..2 * q + 2]);
+                let (w, x) = (&words.0[4 * q..4 * q + 4], &mut rows[2 * q..2 * q + 2]);
                 let mut first = [0.0; L];
                 let mut second = [0.0; L];
                 for l in 0..L {

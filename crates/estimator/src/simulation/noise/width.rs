@@ -2,8 +2,8 @@
 
 /// An instruction set the kernels are compiled for.
 ///
-/// All give the same bits: the source of a kernel is one, it is compiled once for each set, it never fuses a multiplication with an
-/// addition, and no operation crosses from one lane to another.
+/// All give the same bits: the source of a kernel is one, it is compiled once for each set, it never fuses a
+/// multiplication with an addition, and no operation crosses from one lane to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Width(Set);
 
@@ -17,9 +17,37 @@ enum Set {
     Avx512,
 }
 
+impl Set {
+    /// Narrowest first.
+    const ALL: &[Self] = &[
+        Self::Single,
+        Self::Portable,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx2,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx512,
+    ];
+
+    /// Whether this processor reports every feature that the set's kernels are compiled with.
+    fn is_supported(self) -> bool {
+        match self {
+            Self::Single | Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => std::is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                std::is_x86_feature_detected!("avx512f")
+                    && std::is_x86_feature_detected!("avx512dq")
+                    && std::is_x86_feature_detected!("avx512vl")
+            }
+        }
+    }
+}
+
 /// A piece of work that can be done for any number of lanes.
 pub(super) trait Kernel {
-    /// Does it for `L` lanes. Implementations are `#[inline(always)]`, so that they take on the instruction set of the caller.
+    /// Does it for `L` lanes. Implementations are `#[inline(always)]`, so that they take on the instruction
+    /// set of the caller.
     fn run<const L: usize>(self);
 }
 
@@ -37,17 +65,7 @@ impl Width {
 
     /// Every width that this processor runs, narrowest first.
     pub fn available() -> Vec<Self> {
-        let mut widths = vec![Self::SINGLE, Self::PORTABLE];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::is_x86_feature_detected!("avx2") {
-                widths.push(Self(Set::Avx2));
-            }
-            if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
-                widths.push(Self(Set::Avx512));
-            }
-        }
-        widths
+        Set::ALL.iter().copied().filter(|set| set.is_supported()).map(Self).collect()
     }
 
     /// Replicates abreast.
@@ -67,10 +85,10 @@ impl Width {
         match self.0 {
             Set::Single => kernel.run::<1>(),
             Set::Portable => kernel.run::<4>(),
-            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX2.
+            // SAFETY: `available` alone builds this variant, once `is_supported` has found AVX2.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { avx2(kernel) },
-            // SAFETY: this variant is built by `available` alone, after the processor has reported AVX-512 F and DQ.
+            // SAFETY: `available` alone builds this variant, once `is_supported` has found AVX-512 F, DQ and VL.
             #[cfg(target_arch = "x86_64")]
             Set::Avx512 => unsafe { avx512(kernel) },
         }
@@ -84,7 +102,7 @@ fn avx2(kernel: impl Kernel) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn avx512(kernel: impl Kernel) {
     kernel.run::<16>();
 }

@@ -1,6 +1,6 @@
 //! The two borders with their intervals.
 
-use super::style::{ASCENDING, DESCENDING, GRID, INK, PlotError, header, letters, range, tick};
+use super::style::{ASCENDING, BOTH, DESCENDING, GRID, INK, PlotError, header, letters, range, tick};
 use crate::identification::Identification;
 use plotters::prelude::*;
 use switchback_estimator::estimators::BorderPoint;
@@ -16,20 +16,16 @@ const Z95: f64 = 1.96;
 /// # Errors
 /// [`PlotError`] if drawing fails.
 pub fn borders(rig: &Rig, identification: &Identification) -> Result<Option<String>, PlotError> {
-    let estimate = &identification.estimate;
-    let series = [
-        ("descending border (v falls)", DESCENDING, &estimate.descending),
-        ("ascending border (v rises)", ASCENDING, &estimate.ascending),
-    ];
-    let drawn: Vec<_> = series.into_iter().filter(|(_, _, points)| !points.is_empty()).collect();
-    if drawn.is_empty() {
+    if !identification.has_borders() {
         return Ok(None);
     }
+    let drawn = series(identification);
     let points = || drawn.iter().flat_map(|(_, _, points)| points.iter());
     let input = range(points().map(|p| p.v));
-    let output = range(points().flat_map(|p| interval(p)));
+    let output = range(points().flat_map(interval));
     let names: Vec<_> = drawn.iter().map(|(name, colour, _)| (*name, *colour)).collect();
-    let title = format!("{}: borders found by {}, with 95 % intervals", rig.name, identification.method);
+    let found = if identification.has_one_curve() { "static curve" } else { "borders" };
+    let title = format!("{}: {found} by the method {}, with 95 % intervals", rig.name, identification.method);
 
     let mut svg = String::new();
     {
@@ -53,7 +49,7 @@ pub fn borders(rig: &Rig, identification: &Identification) -> Result<Option<Stri
             .label_style(letters(14))
             .axis_desc_style(letters(15))
             .x_desc(rig.input_label.as_str())
-            .y_desc("border value, in units of u_M − u_m")
+            .y_desc("value, in units of u_M − u_m")
             .x_label_formatter(&tick(input.end - input.start))
             .y_label_formatter(&tick(output.end - output.start))
             .draw()
@@ -70,6 +66,19 @@ pub fn borders(rig: &Rig, identification: &Identification) -> Result<Option<Stri
         canvas.present().map_err(PlotError::new)?;
     }
     Ok(Some(svg))
+}
+
+/// Name, colour and points of every curve: one border where only one was seen, one curve where both coincide.
+fn series(identification: &Identification) -> Vec<(&'static str, RGBColor, &[BorderPoint])> {
+    let (descending, ascending) = (&identification.estimate.descending, &identification.estimate.ascending);
+    if identification.has_one_curve() {
+        return vec![("both directions", BOTH, descending)];
+    }
+    let both = [
+        ("descending border (v falls)", DESCENDING, &descending[..]),
+        ("ascending border (v rises)", ASCENDING, ascending),
+    ];
+    both.into_iter().filter(|(_, _, points)| !points.is_empty()).collect()
 }
 
 /// The 95 % interval, or the bare value where no standard error is known.

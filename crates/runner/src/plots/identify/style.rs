@@ -28,7 +28,8 @@ pub(super) const MEASURED: RGBColor = RGBColor(0x99, 0x99, 0x99);
 pub(super) const SIMULATED: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 pub(super) const ERROR: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const DESCENDING: RGBColor = RGBColor(0x00, 0x72, 0xB2);
-pub(super) const ASCENDING: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+pub(super) const ASCENDING: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+pub(super) const BOTH: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const GRID: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
 
@@ -54,8 +55,8 @@ pub(super) fn header<'a>(
         let sample = PathElement::new([(x, 49), (x + 26, 49)], colour.stroke_width(3));
         head.draw(&sample).map_err(PlotError::new)?;
         head.draw(&Text::new((*name).to_owned(), (x + 33, 42), letters(15))).map_err(PlotError::new)?;
-        // A letter of this size takes about eight pixels.
-        x += 33 + 8 * name.chars().count() as i32 + 26;
+        // A letter of this size takes about seven pixels.
+        x += 33 + 7 * name.chars().count() as i32 + 26;
     }
     Ok(body)
 }

@@ -14,7 +14,8 @@ fn normal_moment(k: i32) -> f64 {
     if k % 2 == 1 { 0.0 } else { (1..k).step_by(2).map(f64::from).product() }
 }
 
-/// Moments one to eight, and the counts beyond one to five and a half standard deviations on either side, of a hundred million samples.
+/// Moments one to eight, and the counts beyond one to five and a half standard deviations on either side, of
+/// a hundred million samples.
 #[test]
 fn moments_and_tail_counts_are_normal() {
     let mut noise = WhiteNoise::new(Width::detect(), StreamId { seed: 42, experiment: 0, replicate: 0 });
@@ -79,8 +80,8 @@ fn correlation(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>() / (x.len() as f64).sqrt()
 }
 
-/// Between replicates, between experiments, between successive samples; and between the squares of the two normals of a pair,
-/// which share their radius.
+/// Between replicates, between experiments, between successive samples; and between the squares of the two
+/// normals of a pair, which share their radius.
 #[test]
 fn streams_and_samples_are_uncorrelated() {
     let n = 200_000;

@@ -1,8 +1,8 @@
 use proptest::prelude::*;
 
 use crate::simulation::noise::{
-    NoisePass, NoisePlan, NoisePlanError, NoiseRecord, StreamId, Width, record_by_definition,
-    settling_samples,
+    Checkpoint, NoisePass, NoisePlan, NoisePlanError, NoiseRecord, StreamId, Width, record_by_definition,
+    samples,
 };
 
 /// Coefficients of a stable A of any order up to six, from reflection coefficients (step-up recursion).
@@ -88,6 +88,22 @@ proptest! {
             }
         }
     }
+
+    /// Recursion and products give the same bits in one loop (as many lags as coefficients) and in two (any
+    /// other number).
+    #[test]
+    fn lags_do_not_disturb_each_other(mut plan in plan()) {
+        plan.lags = plan.ar.len();
+        let few = records(&plan, Width::detect(), 2);
+        let more = records(&NoisePlan { lags: plan.lags + 1, ..plan.clone() }, Width::detect(), 2);
+        for (few, more) in few.iter().zip(&more) {
+            for (few, more) in few.checkpoints.iter().zip(&more.checkpoints) {
+                let n = few.lag_products.nrows();
+                prop_assert_eq!(&few.lag_products, &more.lag_products.view((0, 0), (n, n)).into_owned());
+                prop_assert_eq!(&few.folds, &more.folds);
+            }
+        }
+    }
 }
 
 fn valid() -> NoisePlan {
@@ -98,6 +114,30 @@ fn valid() -> NoisePlan {
         periods: vec![22],
         checkpoints: vec![220],
         burn_in: 200,
+    }
+}
+
+/// A million samples: the sums against sums with their rounding errors carried along (Neumaier).
+#[test]
+fn long_sums_keep_their_digits() {
+    let plan = NoisePlan { checkpoints: vec![1_000_000], ..valid() };
+    let stream = StreamId { seed: 3, experiment: 1, replicate: 5 };
+    let noise = samples(&plan, stream, 1_000_000).unwrap();
+    let e = &noise.e[noise.burn_in..];
+    let fast = &records(&plan, Width::detect(), 1)[0].checkpoints[0];
+    let close = |fast: f64, terms: &mut dyn Iterator<Item = f64>| {
+        let (mut sum, mut lost, mut moduli) = (0.0_f64, 0.0, 0.0);
+        for x in terms {
+            let next = sum + x;
+            lost += if sum.abs() >= x.abs() { (sum - next) + x } else { (x - next) + sum };
+            sum = next;
+            moduli += x.abs();
+        }
+        assert!((fast - (sum + lost)).abs() < 1e-13 * moduli, "{fast} against {}", sum + lost);
+    };
+    close(fast.lag_products[(0, 0)], &mut e.iter().map(|x| x * x));
+    for p in 0..22 {
+        close(fast.folds[0][p], &mut e.iter().skip(p).step_by(22).copied());
     }
 }
 
@@ -130,7 +170,7 @@ fn a_plan_that_cannot_be_run_is_refused() {
 #[test]
 fn the_burn_in_makes_the_start_stationary() {
     let mut plan = valid();
-    plan.burn_in = settling_samples(&plan.ar, 1e-12).unwrap();
+    plan.burn_in = crate::linear::settling_samples(&plan.ar, 1e-12);
     assert!((100..300).contains(&plan.burn_in), "{}", plan.burn_in);
     // Variance of the second-order autoregression, from the Yule–Walker equations.
     let [a1, a2] = [-1.5, 0.7];
@@ -142,4 +182,15 @@ fn the_burn_in_makes_the_start_stationary() {
     let mean = sum / f64::from(count);
     let error = variance * (2.0 / f64::from(count)).sqrt();
     assert!((mean - variance).abs() < 4.0 * error, "{mean} against {variance} ± {error}");
+}
+
+#[test]
+fn value_stability() {
+    let record = &records(&valid(), Width::detect(), 1)[0];
+    let Checkpoint { lag_products, folds, tail, .. } = &record.checkpoints[0];
+    assert_eq!(
+        [lag_products[(0, 0)], lag_products[(1, 2)], folds[0][21]],
+        [2282.6098910597275, 2089.037229296324, 12.306832789242948]
+    );
+    assert_eq!([record.head[0], tail[1]], [4.966440648567698, -0.05523819090723414]);
 }

@@ -1,0 +1,123 @@
+//! The entry: records in, a system with its uncertainty out.
+
+use super::basis::Basis;
+use super::data::{Data, Featured};
+use super::equation_error::Moments;
+use super::error::FreeError;
+use super::fit::{Effort, Ladder};
+use super::model::Model;
+use super::normalise::{Covariance, Figures, normalise};
+use super::problem::{Parameters, Segment, Structure};
+use super::rank_one::{information, residual_energy};
+use super::selection::{Selection, select, with_best_rule};
+use super::settings::Settings;
+use super::simulation_error::{cost, linearise};
+use super::warning::{Examination, Warning};
+use crate::estimators::Estimate;
+use crate::record::Record;
+use nalgebra::DMatrix;
+
+/// What was identified, how it was chosen, and what speaks against it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// Coefficients and borders with their standard errors, in the paper's normalisation.
+    pub estimate: Estimate,
+    /// The same system as a simulator.
+    pub model: Model,
+    /// How order, delay and knots were chosen.
+    pub selection: Selection,
+    /// Weak points.
+    pub warnings: Vec<Warning>,
+}
+
+/// Identifies a Hammerstein system from any records.
+///
+/// 1. The branch at every sample is read off `v` ([`crate::estimators::free::Branches`]).
+/// 2. Whether reversals take effect at samples or between them is decided by the fit of a middling structure. Order, delay and knots are chosen by cross-validation where the settings leave them open.
+/// 3. Least squares with one coefficient for every product `bᵢf_k`, drawn to rank one.
+/// 4. With `refine`, Levenberg–Marquardt on the error of the free run.
+///
+/// Standard errors: without `refine` the equation error is taken as white; with it, each is the larger of the one for
+/// white output errors and the one that the scatter of the gradient over batches of 128 samples gives, which allows for residuals of
+/// any colour. Both take the structure as given and the branches as known.
+///
+/// # Errors
+/// [`FreeError`] if there is nothing to identify from, or too little for the settings.
+pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, FreeError> {
+    settings.check()?;
+    let data = with_best_rule(Data::new(records, settings)?, settings);
+    let selection = select(&data, settings)?;
+    let structure = selection.structure;
+    let ladder = Ladder::new(&data, settings.input_map, selection.knots);
+    let featured = ladder.top();
+    let segments = featured.segments(structure);
+    featured.basis.check_length(structure, &segments)?;
+    let fitted = if settings.refine {
+        ladder.climb_from_smaller(structure, Effort::FINAL)
+    } else {
+        ladder.one_shot(structure, &segments)
+    };
+    let theta = fitted.ok_or(FreeError::Unstable { order: structure.order })?.theta;
+    let warnings = examine(&data, featured, structure, &theta, &segments);
+    let moments = Moments::of(structure, featured.basis.features(), &segments);
+    let estimate = if settings.refine {
+        simulation_error_estimate(&moments, &featured.basis, &theta, &segments)
+    } else {
+        equation_error_estimate(&moments, &featured.basis, &theta)
+    };
+    let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
+    Ok(Identified { estimate, model, selection, warnings })
+}
+
+/// Normalised parameters of a refined fit and their standard errors.
+fn simulation_error_estimate(
+    moments: &Moments,
+    basis: &Basis,
+    theta: &Parameters,
+    segments: &[Segment],
+) -> Estimate {
+    let structure = moments.structure;
+    let model = linearise(structure, theta, segments);
+    let variance = cost(structure, theta, segments) / freedom(moments, theta);
+    let covariance =
+        Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
+    normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance))
+}
+
+/// Normalised parameters of an equation-error fit and their standard errors.
+pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
+    let variance = residual_energy(moments, theta) / freedom(moments, theta);
+    let covariance = Covariance::new(&information(moments, theta), theta, variance);
+    normalise(theta, moments.structure, basis, covariance.as_ref(), figures(moments, variance))
+}
+
+/// Samples less free parameters, at least 1; one parameter in `b` and `f` is the scale that they share.
+fn freedom(moments: &Moments, theta: &Parameters) -> f64 {
+    let parameters = theta.a.len() + theta.b.len() + theta.f.len();
+    moments.samples.saturating_sub(parameters).max(1) as f64
+}
+
+fn figures(moments: &Moments, variance: f64) -> Figures {
+    Figures { noise_sd: variance.sqrt(), excitation: smallest_eigenvalue(moments), samples: moments.samples }
+}
+
+/// λ_min of the over-parameterised regression's information matrix, per sample.
+fn smallest_eigenvalue(moments: &Moments) -> f64 {
+    let p = moments.constant() + 1;
+    let information: DMatrix<f64> = moments.matrix.view((0, 0), (p, p)) / moments.samples as f64;
+    information.symmetric_eigenvalues().min().max(0.0)
+}
+
+/// Collects the warnings.
+fn examine(
+    data: &Data,
+    featured: &Featured,
+    structure: Structure,
+    theta: &Parameters,
+    segments: &[Segment],
+) -> Vec<Warning> {
+    let visits = featured.basis.visits(segments);
+    let reversals = data.records.iter().map(|(_, b)| b.reversals()).sum();
+    let (noise, threshold) = (data.noise, data.rule.threshold);
+    Examination { basis: &featured.basis, structure, theta, noise, threshold, reversals, visits }.warnings()
+}

@@ -1,0 +1,178 @@
+//! From a fit in its own scale to the paper's normalisation, with standard errors.
+
+use super::basis::Basis;
+use super::problem::{Parameters, Structure};
+use crate::estimators::{BorderPoint, Estimate};
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// Covariance of `(a, b, f, c)` in the fit's own scale.
+///
+/// The scale shared by `b` and `f` is free, so the information matrix has the null direction `(0, b, −f, 0)`. Every normalised
+/// parameter is blind to it; giving that direction some information makes the matrix invertible and changes none of them.
+#[derive(Debug)]
+pub(super) struct Covariance {
+    factor: Cholesky<f64, nalgebra::Dyn>,
+    /// Columns are scaled to unit information before the factorisation.
+    scale: DVector<f64>,
+    noise_variance: f64,
+    /// `ΣgₖgₖᵀT` over batches of samples, for residuals that are not white.
+    meat: Option<DMatrix<f64>>,
+}
+
+impl Covariance {
+    /// From the information matrix per unit noise variance; `None` if a parameter has no information.
+    pub(super) fn new(information: &DMatrix<f64>, theta: &Parameters, noise_variance: f64) -> Option<Self> {
+        let p = information.nrows();
+        let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
+        if !scale.iter().all(|&s| s > 0.0) {
+            return None;
+        }
+        let mut gauge = DVector::zeros(p);
+        let (n, nb) = (theta.a.len(), theta.b.len());
+        for (i, b) in theta.b.iter().enumerate() {
+            gauge[n + i] = b * scale[n + i];
+        }
+        for (k, f) in theta.f.iter().enumerate() {
+            gauge[n + nb + k] = -f * scale[n + nb + k];
+        }
+        let gauge = gauge.normalize();
+        let mut scaled = DMatrix::from_fn(p, p, |i, j| information[(i, j)] / (scale[i] * scale[j]));
+        scaled.ger(1.0, &gauge, &gauge, 1.0);
+        for i in 0..p {
+            scaled[(i, i)] += 1e-13;
+        }
+        Some(Self { factor: scaled.cholesky()?, scale, noise_variance, meat: None })
+    }
+
+    /// Adds the scatter of the gradient over batches of samples (the "sandwich").
+    pub(super) fn with_batches(mut self, batches: &[DVector<f64>]) -> Self {
+        let p = self.scale.len();
+        let mut meat = DMatrix::zeros(p, p);
+        for g in batches {
+            let g = g.component_div(&self.scale);
+            meat.ger(1.0, &g, &g, 1.0);
+        }
+        self.meat = Some(meat);
+        self
+    }
+
+    /// Standard error of a parameter with the given derivatives: the larger of the two estimates.
+    fn standard_error(&self, derivative: &DVector<f64>) -> f64 {
+        let d = derivative.component_div(&self.scale);
+        let x = self.factor.solve(&d);
+        let white = self.noise_variance * d.dot(&x);
+        let coloured = self.meat.as_ref().map_or(0.0, |m| x.dot(&(m * &x)));
+        white.max(coloured).max(0.0).sqrt()
+    }
+}
+
+/// Which difference of knot values is set to one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Span {
+    /// Knot values counted from the reference knot, which is number 0.
+    low: usize,
+    high: usize,
+    pub(super) value: f64,
+    /// Whether this is the paper's `u_M − u_m`.
+    pub(super) is_papers: bool,
+}
+
+impl Span {
+    /// `u_M − u_m`, of either sign, unless it is lost in the range of the curves (below a thousandth); then that range.
+    pub(super) fn of(f: &[f64]) -> Self {
+        let value = |k: usize| if k == 0 { 0.0 } else { f[k - 1] };
+        let by_value = |x: &usize, y: &usize| value(*x).total_cmp(&value(*y));
+        let low = (0..=f.len()).min_by(by_value).unwrap_or(0);
+        let high = (0..=f.len()).max_by(by_value).unwrap_or(0);
+        let range = value(high) - value(low);
+        let papers = value(f.len());
+        if papers.abs() > 1e-3 * range {
+            Self { low: 0, high: f.len(), value: papers, is_papers: true }
+        } else {
+            Self { low, high, value: range, is_papers: false }
+        }
+    }
+}
+
+/// What else an [`Estimate`] reports.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Figures {
+    pub(super) noise_sd: f64,
+    pub(super) excitation: f64,
+    pub(super) samples: usize,
+}
+
+/// Below this share of `Σ|bᵢ|`, `B(1)` counts as zero and the level of `u` as unknown.
+const NO_GAIN: f64 = 1e-9;
+
+/// Whether `B(1)` tells the level of `u`.
+pub(super) fn has_gain(theta: &Parameters) -> bool {
+    theta.b.iter().sum::<f64>().abs() > NO_GAIN * theta.b.iter().map(|b| b.abs()).sum::<f64>()
+}
+
+/// The fit in the normalisation `u_M − u_m = 1`.
+///
+/// With `k = u_M − u_m` in the fit's scale: `b̂ = k b`, `F̂ = (f + c/B(1))/k`, so that `B̂(1)/Â(1)·F̂` is the stationary output.
+/// Standard errors by the delta method.
+pub(super) fn normalise(
+    theta: &Parameters,
+    structure: Structure,
+    basis: &Basis,
+    covariance: Option<&Covariance>,
+    figures: Figures,
+) -> Estimate {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let p = n + nb + m + 1;
+    let span = Span::of(&theta.f);
+    let knot = |k: usize| if k == 0 { 0.0 } else { theta.f[k - 1] };
+    let a_one: f64 = 1.0 + theta.a.iter().sum::<f64>();
+    let b_one: f64 = theta.b.iter().sum();
+    let level = if has_gain(theta) { theta.c / b_one } else { 0.0 };
+    let se = |derivative: DVector<f64>| covariance.map_or(f64::NAN, |c| c.standard_error(&derivative));
+    // Adds `x` times the derivative of knot value k.
+    let add_knot = |d: &mut DVector<f64>, k: usize, x: f64| {
+        if k > 0 {
+            d[n + nb + k - 1] += x;
+        }
+    };
+    let a_se = (0..n).map(|i| se(DVector::from_fn(p, |j, _| f64::from(u8::from(i == j))))).collect();
+    let b_se = (0..nb).map(|i| {
+        let mut d = DVector::zeros(p);
+        d[n + i] = span.value;
+        add_knot(&mut d, span.high, theta.b[i]);
+        add_knot(&mut d, span.low, -theta.b[i]);
+        se(d)
+    });
+    let point = |v: f64, k: usize| {
+        let f = (knot(k) + level) / span.value;
+        let mut d = DVector::zeros(p);
+        add_knot(&mut d, k, 1.0 / span.value);
+        add_knot(&mut d, span.high, -f / span.value);
+        add_knot(&mut d, span.low, f / span.value);
+        if has_gain(theta) {
+            d[p - 1] += 1.0 / (b_one * span.value);
+            for i in 0..nb {
+                d[n + i] -= level / (b_one * span.value);
+            }
+        }
+        BorderPoint { v, f, se: se(d) }
+    };
+    let descending = basis.descending().iter().enumerate().map(|(k, &v)| point(v, k)).collect();
+    let first = if basis.is_switched() { basis.descending().len() } else { 0 };
+    let ascending = basis.ascending().iter().enumerate().map(|(k, &v)| point(v, first + k)).collect();
+    Estimate {
+        a: theta.a.clone(),
+        a_se,
+        b_se: b_se.collect(),
+        b: theta.b.iter().map(|b| b * span.value).collect(),
+        delay: structure.delay,
+        noise_sd: figures.noise_sd,
+        gain: b_one * span.value / a_one,
+        y_high: (b_one * knot(m) + theta.c) / a_one,
+        y_low: theta.c / a_one,
+        descending,
+        ascending,
+        excitation: figures.excitation,
+        samples: figures.samples,
+    }
+}

@@ -1,0 +1,61 @@
+//! `switchback compare BASELINE NEW`
+
+use crate::compare::{self, Comparison};
+use crate::failure::{CommandResult, Outcome};
+use crate::output::{Artefacts, OutputFolder};
+use crate::plots;
+use crate::results::{self, Results};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Compare two results in units of their Monte-Carlo errors; exit code 1 where they differ beyond chance.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The results to compare with: a results.json or the report folder that holds one.
+    baseline: PathBuf,
+
+    /// The results to judge.
+    new: PathBuf,
+
+    /// Also write comparison.txt, comparison.svg and overlays of the curves into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Reads both, compares, prints, and writes the folder if one was asked for.
+///
+/// # Errors
+/// Files that are no results, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let baseline = results::read(&args.baseline)?;
+    let new = results::read(&args.new)?;
+    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
+    let comparison = compare::compare(&baseline, &new);
+    let summary = compare::summary(&comparison, &baseline, &new);
+    if let Some(folder) = folder {
+        folder.commit(&artefacts(&comparison, &summary, (&baseline, &new)))?;
+    }
+    print(&summary)?;
+    Ok(if comparison.agrees() { Outcome::Done } else { Outcome::Unmet })
+}
+
+fn artefacts(comparison: &Comparison, summary: &str, (baseline, new): (&Results, &Results)) -> Artefacts {
+    let mut artefacts = Artefacts::default();
+    artefacts.add("comparison.txt", summary);
+    let title = format!("{}: new results against the baseline", baseline.name);
+    artefacts.add("comparison.svg", compare::quantiles(comparison, &title));
+    for figure in plots::overlays(baseline, new) {
+        artefacts.add(format!("overlay-{}", figure.name), figure.svg);
+    }
+    artefacts
+}
+
+/// A reader that closed its end early (`| head`) has what it wanted.
+fn print(page: &str) -> miette::Result<()> {
+    match std::io::stdout().write_all(page.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(miette::miette!("cannot print the result: {error}"))
+        }
+        _ => Ok(()),
+    }
+}

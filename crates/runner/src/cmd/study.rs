@@ -1,0 +1,69 @@
+//! `switchback SCENARIO.toml`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::output::OutputFolder;
+use crate::progress::Meter;
+use crate::scenario::Scenario;
+use crate::{report, study};
+use miette::IntoDiagnostic;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Run the study that a scenario file describes, and write its report.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scenario file.
+    scenario: PathBuf,
+
+    /// Write the report into this folder [default: reports/NAME, NAME the scenario's file name]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Worker threads [default: one a core]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Neither progress nor table, only errors.
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Reads, claims the folder, runs, writes, prints.
+///
+/// # Errors
+/// A scenario that cannot be read or run, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let scenario = Scenario::read(&args.scenario)?;
+    let default = || Path::new("reports").join(scenario.name());
+    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
+    let workers = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .into_diagnostic()?;
+    let meter = Meter::new(args.quiet);
+    let results = workers.install(|| study::run(&scenario, command(&args.scenario), &meter));
+    meter.finish();
+    let results = results.into_diagnostic()?;
+    let place = folder.path().display().to_string();
+    folder.commit(&report::artefacts(&results))?;
+    if !args.quiet {
+        print(&format!("{}\nwritten to {place}\n", report::table(&results).trim_end()))?;
+    }
+    Ok(if results.as_expected() { Outcome::Done } else { Outcome::Unmet })
+}
+
+/// The command that makes the results again, without the place where this machine keeps the file.
+fn command(scenario: &Path) -> String {
+    let name = scenario.file_name().unwrap_or_default().to_string_lossy();
+    format!("switchback {name}")
+}
+
+/// A reader that closed its end early (`| head`) has what it wanted.
+fn print(page: &str) -> miette::Result<()> {
+    match std::io::stdout().write_all(page.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(miette::miette!("cannot print the result: {error}"))
+        }
+        _ => Ok(()),
+    }
+}

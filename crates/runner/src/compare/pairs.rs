@@ -1,0 +1,223 @@
+//! Matching measures and judging their differences.
+
+use crate::results::{Cell, Measured, Parameter, Results, Series};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// What two result tables have in common, and how far they differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Every measure found in both, in the order of the baseline.
+    pub differences: Vec<Difference>,
+    /// Cells and parameters of the baseline that the new table lacks.
+    pub only_baseline: Vec<String>,
+    /// Cells and parameters of the new table that the baseline lacks.
+    pub only_new: Vec<String>,
+    /// Largest |z| that chance explains among so many differences.
+    pub threshold: f64,
+}
+
+/// Where a measure stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// The curve.
+    pub series: Series,
+    /// `N`.
+    pub samples: usize,
+    /// `a1`, `F_desc(V3)`, …
+    pub parameter: String,
+    /// `bias`, `sd`, `mse`, `coverage`, …
+    pub measure: &'static str,
+}
+
+/// One measure in both tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Where it stands.
+    pub place: Place,
+    /// In the baseline.
+    pub baseline: Measured,
+    /// In the new table.
+    pub new: Measured,
+    /// `(new − baseline)/√(MCSE² + MCSE²)`; 0 where both agree to rounding, infinite where both are exact and differ.
+    pub z: f64,
+}
+
+/// Chance of calling any difference real when all are chance.
+const LEVEL: f64 = 0.01;
+
+/// Compares every measure that both tables hold.
+///
+/// The threshold is Šidák's: with K differences, `|z| ≤ Φ⁻¹(½ + ½(1 − 0.01)^(1/K))` for all of them with probability
+/// at least 99 % if nothing changed and both tables have independent noise. Differences of one cell are correlated, and so are cells that share their noise; the threshold
+/// then errs towards calling a change chance.
+pub fn compare(baseline: &Results, new: &Results) -> Comparison {
+    let mut differences = Vec::new();
+    let mut only_baseline = Vec::new();
+    for cell in &baseline.cells {
+        let Some(twin) = find(new, cell) else {
+            only_baseline.push(name(cell));
+            continue;
+        };
+        for parameter in &cell.parameters {
+            match twin.parameters.iter().find(|p| p.name == parameter.name) {
+                Some(other) => differences.extend(pair(cell, parameter, other)),
+                None => only_baseline.push(format!("{}: {}", name(cell), parameter.name)),
+            }
+        }
+    }
+    let only_new = lacking(new, baseline);
+    let threshold = sidak(differences.len());
+    Comparison { differences, only_baseline, only_new, threshold }
+}
+
+impl Comparison {
+    /// Differences beyond chance, the largest first.
+    pub fn beyond_chance(&self) -> Vec<&Difference> {
+        let mut beyond: Vec<&Difference> =
+            self.differences.iter().filter(|d| d.z.abs() > self.threshold).collect();
+        beyond.sort_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
+        beyond
+    }
+
+    /// Whether the tables hold the same cells and no difference is beyond chance.
+    pub fn agrees(&self) -> bool {
+        self.only_baseline.is_empty() && self.only_new.is_empty() && self.beyond_chance().is_empty()
+    }
+
+    /// Whether every measure is the same to the last digit.
+    pub fn identical(&self) -> bool {
+        self.differences.iter().all(|d| d.baseline == d.new)
+            && self.only_baseline.is_empty()
+            && self.only_new.is_empty()
+    }
+}
+
+fn find<'r>(results: &'r Results, cell: &Cell) -> Option<&'r Cell> {
+    results.cells.iter().find(|c| c.samples == cell.samples && c.series == cell.series)
+}
+
+fn name(cell: &Cell) -> String {
+    format!("{}, N = {}", cell.series, cell.samples)
+}
+
+/// Cells and parameters of one table that the other lacks.
+fn lacking(one: &Results, other: &Results) -> Vec<String> {
+    let mut names = Vec::new();
+    for cell in &one.cells {
+        match find(other, cell) {
+            None => names.push(name(cell)),
+            Some(twin) => names.extend(
+                cell.parameters
+                    .iter()
+                    .filter(|p| twin.parameters.iter().all(|q| q.name != p.name))
+                    .map(|p| format!("{}: {}", name(cell), p.name)),
+            ),
+        }
+    }
+    names
+}
+
+type Getter = fn(&Parameter) -> Option<Measured>;
+
+const MEASURES: [(&str, Getter); 7] = [
+    ("bias", |p| p.bias),
+    ("bias_controlled", |p| p.bias_controlled),
+    ("sd", |p| p.sd),
+    ("sd_controlled", |p| p.sd_controlled),
+    ("mse", |p| p.mse),
+    ("coverage", |p| p.coverage),
+    ("model_sd", |p| p.model_sd),
+];
+
+fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
+    MEASURES
+        .into_iter()
+        .filter_map(|(measure, get)| {
+            let (baseline_figure, new_figure) = (get(baseline)?, get(new)?);
+            let place = Place {
+                series: cell.series.clone(),
+                samples: cell.samples,
+                parameter: baseline.name.clone(),
+                measure,
+            };
+            let z = distance(baseline_figure, new_figure);
+            Some(Difference { place, baseline: baseline_figure, new: new_figure, z })
+        })
+        .collect()
+}
+
+/// Figures closer than this share of themselves are the same number, summed in another order or on another machine. It
+/// matters where a figure hardly varies, so that its own error is lost in rounding.
+const ROUNDING: f64 = 1e-8;
+
+fn distance(baseline: Measured, new: Measured) -> f64 {
+    let difference = new.value() - baseline.value();
+    if difference.abs() <= ROUNDING * baseline.value().abs().max(new.value().abs()) {
+        return 0.0;
+    }
+    difference / baseline.mcse().hypot(new.mcse())
+}
+
+/// Šidák's threshold for `count` differences; infinite for none.
+fn sidak(count: usize) -> f64 {
+    if count == 0 {
+        return f64::INFINITY;
+    }
+    // 1 − (1 − level)^(1/count), without cancellation.
+    let each = -f64::exp_m1(f64::ln_1p(-LEVEL) / count as f64);
+    -Normal::standard().inverse_cdf(each / 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::synthetic;
+
+    #[test]
+    fn identical_tables_differ_nowhere() {
+        let results = synthetic::results();
+        let comparison = compare(&results, &results);
+        assert!(comparison.identical() && comparison.agrees());
+        assert!(comparison.differences.iter().all(|d| d.z == 0.0));
+    }
+
+    #[test]
+    fn a_shift_of_ten_errors_is_found_where_it_is() {
+        let baseline = synthetic::results();
+        let mut new = baseline.clone();
+        let sd = &mut new.cells[3].parameters[1].sd;
+        *sd = sd.and_then(|m| Measured::new(m.value() + 20.0 * m.mcse(), m.mcse()));
+        let comparison = compare(&baseline, &new);
+        let beyond = comparison.beyond_chance();
+        assert_eq!(beyond.len(), 1);
+        assert_eq!((beyond[0].place.parameter.as_str(), beyond[0].place.measure), ("a2", "sd"));
+        assert!((beyond[0].z - 20.0 / 2f64.sqrt()).abs() < 0.01);
+        assert!(!comparison.agrees());
+    }
+
+    #[test]
+    fn cells_without_a_twin_are_listed_on_their_side() {
+        let baseline = synthetic::results();
+        let mut new = baseline.clone();
+        new.cells.remove(0);
+        new.cells[0].parameters.remove(0);
+        let comparison = compare(&baseline, &new);
+        assert_eq!((comparison.only_baseline.len(), comparison.only_new.len()), (2, 0));
+        let reverse = compare(&new, &baseline);
+        assert_eq!((reverse.only_baseline.len(), reverse.only_new.len()), (0, 2));
+    }
+
+    #[test]
+    fn exact_figures_that_differ_are_beyond_any_chance() {
+        let exact = |x| Measured::new(x, 0.0).expect("finite");
+        assert_eq!(distance(exact(1.0), exact(1.0)), 0.0);
+        assert_eq!(distance(exact(1.0), exact(1.0 + 1e-10)), 0.0);
+        assert_eq!(distance(exact(1.0), exact(2.0)), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_threshold_grows_with_the_number_of_differences() {
+        assert!((sidak(1) - 2.575_829).abs() < 1e-5);
+        assert!(sidak(100_000) > sidak(1_000) && sidak(100_000) < 6.0);
+    }
+}

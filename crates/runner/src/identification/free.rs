@@ -1,0 +1,47 @@
+//! Methods for any record of a rig, and the yardsticks.
+
+use super::{FreeRun, Identification, IdentificationError, Method};
+use switchback_estimator::Record;
+use switchback_estimator::estimators::free::{FreeError, InputMap, Model, Settings, identify as estimate};
+use switchback_estimator::rig::Rig;
+
+/// Identifies from all fit records, whatever drove them.
+pub(super) fn identify(
+    rig: &Rig,
+    method: Method,
+    input_map: InputMap,
+) -> Result<Identification, IdentificationError> {
+    let records: Vec<&Record> = rig.fit_records().map(|record| &record.record).collect();
+    let settings = Settings { order: rig.order, interval: rig.interval, ..Settings::new(input_map) };
+    let identified = estimate(&records, &settings).map_err(|error| IdentificationError::Refused {
+        rig: rig.name.clone(),
+        method,
+        remedy: remedy(&error).to_owned(),
+        reason: error.to_string(),
+    })?;
+    Ok(Identification {
+        method,
+        estimate: identified.estimate,
+        runs: rig.records.iter().map(|record| run(&identified.model, &record.record)).collect(),
+        warnings: identified.warnings.iter().map(ToString::to_string).collect(),
+    })
+}
+
+/// None where the input never moves beyond the reversal threshold, so that the branch is unknown all along.
+fn run(model: &Model, record: &Record) -> Option<FreeRun> {
+    let run = model.free_run(record);
+    (run.start < record.len()).then(|| FreeRun::new(record.y(), run.y, run.start))
+}
+
+/// What to change in the rig's files; the error itself says what is wrong with them.
+fn remedy(error: &FreeError) -> &'static str {
+    match error {
+        FreeError::TooShort { .. } => "give longer fit records, or a lower `order` in the rig file",
+        FreeError::NoMotion { .. } => {
+            "check that the column `v` holds the input, and drive it through its interval"
+        }
+        FreeError::ConstantOutput => "check that the column `y` holds the output",
+        FreeError::UnvisitedKnot { .. } => "narrow `interval` in the rig file to where the records go",
+        _ => "set another `order` in the rig file, or check the fit records for drift and faults",
+    }
+}

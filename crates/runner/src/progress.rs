@@ -1,0 +1,53 @@
+//! How far a study has come: a bar on a terminal, plain lines elsewhere.
+
+use crate::study::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Counts replicates and shows them on stderr.
+#[derive(Debug)]
+pub struct Meter {
+    bar: ProgressBar,
+    plain: bool,
+    planned: AtomicU64,
+    done: AtomicU64,
+}
+
+/// Plain lines come at every tenth of the work.
+const LINES: u64 = 10;
+
+impl Meter {
+    /// A meter at zero; `quiet` shows nothing.
+    pub fn new(quiet: bool) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let target =
+            if quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} replicates, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = ProgressBar::with_draw_target(Some(0), target).with_style(style);
+        Self { bar, plain: !quiet && !terminal, planned: AtomicU64::new(0), done: AtomicU64::new(0) }
+    }
+
+    /// Takes the bar off the screen.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Progress for Meter {
+    fn planned(&self, replicates: u64) {
+        self.planned.store(replicates, Ordering::Relaxed);
+        self.bar.set_length(replicates);
+    }
+
+    fn advanced(&self, replicates: u64) {
+        self.bar.inc(replicates);
+        let before = self.done.fetch_add(replicates, Ordering::Relaxed);
+        let planned = self.planned.load(Ordering::Relaxed).max(1);
+        let tenth = |done: u64| LINES * done / planned;
+        if self.plain && tenth(before + replicates) > tenth(before) {
+            eprintln!("{} of {planned} replicates", before + replicates);
+        }
+    }
+}

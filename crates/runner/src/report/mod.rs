@@ -1,0 +1,39 @@
+//! What a finished study shows: the table on the terminal, and the files of the report.
+//!
+//! Nothing is printed or written here; callers get text and [`Artefacts`].
+
+mod page;
+mod row;
+mod table;
+
+pub use table::table;
+
+use crate::output::Artefacts;
+use crate::plots;
+use crate::results::{Results, to_csv, to_json};
+
+/// The files of a report: `results.json`, `table.csv`, `report.md` and the figures.
+pub fn artefacts(results: &Results) -> Artefacts {
+    let figures = plots::consistency(results);
+    let mut artefacts = Artefacts::default();
+    artefacts.add("results.json", to_json(results));
+    artefacts.add("table.csv", to_csv(results));
+    artefacts.add("report.md", page::page(results, &figures));
+    for figure in figures {
+        artefacts.add(figure.name, figure.svg);
+    }
+    artefacts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::synthetic;
+
+    #[test]
+    fn a_report_holds_the_table_in_two_formats_a_page_and_the_figures() {
+        let artefacts = artefacts(&synthetic::results());
+        let names: Vec<&str> = artefacts.iter().map(|(name, _)| name).collect();
+        assert!(["results.json", "table.csv", "report.md", "sd-joint.svg"].iter().all(|n| names.contains(n)));
+    }
+}

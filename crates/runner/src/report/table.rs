@@ -1,0 +1,128 @@
+//! The table at the end of a run.
+
+use super::row::{Row, rows};
+use crate::results::{Fitted, Group, Results};
+
+/// The table that ends a run: slopes with intervals, coverage, efficiency and verdict, then what was expected, then failures.
+///
+/// A row gives the median over its curves (border shapes, m, noise levels; all parameter groups where a row each
+/// would not fit a screen). Text only, ends with a newline.
+pub fn table(results: &Results) -> String {
+    let rows = rows(results);
+    let several_cases = rows.iter().any(|r| r.case != rows[0].case);
+    let mut lines = vec![header()];
+    let mut case = None;
+    for row in &rows {
+        if several_cases && case != Some(row.case) {
+            lines.push(vec![format!("— {}", row.case)]);
+            case = Some(row.case);
+        }
+        lines.push(cells(row));
+    }
+    let mut text = align(&lines);
+    text.push_str("A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.\n");
+    text.push_str("sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound.\n");
+    text.push_str(&expectations(results));
+    text.push_str(&failures(results));
+    text
+}
+
+fn header() -> Vec<String> {
+    ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
+        .map(str::to_owned)
+        .to_vec()
+}
+
+fn cells(row: &Row<'_>) -> Vec<String> {
+    vec![
+        row.method.to_string(),
+        group(row.group).to_owned(),
+        slope(row.slope(|s| s.sd_slope), 3),
+        slope(row.slope(|s| s.bias_slope), 2),
+        row.median(|s| s.coverage.map(|c| c.value())).map_or_else(none, |c| format!("{:.1} %", 100.0 * c)),
+        row.median(|s| s.sd_over_theory.map(|r| r.value())).map_or_else(none, |r| format!("{r:.3}")),
+        row.median(|s| s.variance_over_bound.map(|r| r.value())).map_or_else(none, ratio),
+        row.verdict(),
+    ]
+}
+
+fn group(group: Option<Group>) -> &'static str {
+    match group {
+        Some(Group::A) => "a",
+        Some(Group::B) => "b",
+        Some(Group::Descending) => "descending",
+        Some(Group::Ascending) => "ascending",
+        None => "all",
+    }
+}
+
+fn slope(fitted: Option<Fitted>, decimals: usize) -> String {
+    fitted.map_or_else(none, |f| {
+        format!("{:.decimals$} [{:.decimals$}, {:.decimals$}]", f.estimate, f.ci.0, f.ci.1)
+    })
+}
+
+fn ratio(r: f64) -> String {
+    if r < 100.0 { format!("{r:.2}") } else { format!("{r:.0}") }
+}
+
+fn none() -> String {
+    "–".to_owned()
+}
+
+/// Columns as wide as their widest entry, two blanks apart; a line of one entry stands alone.
+fn align(lines: &[Vec<String>]) -> String {
+    let columns = lines.first().map_or(0, Vec::len);
+    let width = |c: usize| {
+        let entries = lines.iter().filter(|l| l.len() == columns).map(|l| l[c].chars().count());
+        entries.max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for line in lines {
+        let padded: Vec<String> = line.iter().zip(&widths).map(|(entry, &w)| format!("{entry:w$}")).collect();
+        let line = if line.len() == columns { padded.join("  ") } else { line.join("  ") };
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// One line an expectation, the broken ones last so that they are read.
+fn expectations(results: &Results) -> String {
+    let told = |held: bool| {
+        results.expectations.iter().filter(move |e| e.held == held).map(move |e| {
+            format!("{} {}: {}\n", if held { "as expected: " } else { "NOT expected:" }, e.what, e.detail)
+        })
+    };
+    told(true).chain(told(false)).collect()
+}
+
+fn failures(results: &Results) -> String {
+    let failed: Vec<_> = results.cells.iter().filter(|c| c.failures.count > 0).collect();
+    let Some(worst) = failed.iter().max_by_key(|c| c.failures.count) else { return String::new() };
+    format!(
+        "Replicates failed in {} of {} cells, at most {} of {} ({}, N = {}): {}. Their indices are in results.json.\n",
+        failed.len(),
+        results.cells.len(),
+        worst.failures.count,
+        worst.replicates,
+        worst.series,
+        worst.samples,
+        worst.failures.reason.as_deref().unwrap_or("no reason given"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::synthetic;
+
+    #[test]
+    fn the_table_fits_a_screen_and_says_what_came_out() {
+        let text = table(&synthetic::results());
+        assert!(text.lines().take(12).all(|l| l.chars().count() <= 120), "{text}");
+        assert!(text.lines().count() <= 40, "{text}");
+        insta::assert_snapshot!(text);
+    }
+}

@@ -1,0 +1,241 @@
+//! One system, hysteresis and number of points on the bench: everything about its experiments that noise does not touch.
+
+use super::StudyError;
+use crate::scenario::{Border, Case, Disturbance, Method};
+use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
+use switchback_estimator::excitation::{Direction, PulseExperiment};
+use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
+
+/// Descendant and ascendant experiment, in this order wherever there are two of anything.
+pub(super) const DIRECTIONS: [Direction; 2] = [Direction::Descendant, Direction::Ascendant];
+
+/// Samples of the expected statistics that stand for endless data: terms of order 1/N vanish beside 1e-9.
+const ENDLESS: f64 = 1e12;
+
+/// Both experiments on one hysteresis, unrolled.
+#[derive(Debug, Clone)]
+pub(super) struct Bench {
+    pub(super) points: usize,
+    designs: [PeriodicDesign; 2],
+    responses: [Vec<f64>; 2],
+    /// Noise-free outputs at the satellites.
+    satellites: [f64; 2],
+    truth: Truth,
+    noise: NoiseFilter,
+}
+
+/// The true parameters in the normalisation `u_M − u_m = 1`, as far as a regression of the assumed order names them.
+#[derive(Debug, Clone)]
+struct Truth {
+    a: Vec<f64>,
+    b: Vec<f64>,
+    borders: [Vec<f64>; 2],
+}
+
+/// The noise `e = C/A w` that is added to the noise-free response.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NoiseFilter {
+    pub(super) ar: Vec<f64>,
+    pub(super) ma: Vec<f64>,
+}
+
+impl NoiseFilter {
+    /// What a disturbance of the system `A` amounts to in the output.
+    pub(super) fn of(case: &Case) -> Self {
+        let a = case.system.a();
+        match &case.disturbance {
+            Disturbance::White => Self { ar: a.to_vec(), ma: Vec::new() },
+            Disturbance::Coloured { ar, ma } => Self { ar: product(a, ar), ma: ma.clone() },
+            Disturbance::Output => Self { ar: Vec::new(), ma: Vec::new() },
+        }
+    }
+}
+
+/// Coefficients `1…` of the product of two monic polynomials.
+fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
+    let coefficient = |c: &[f64], k: usize| if k == 0 { 1.0 } else { c.get(k - 1).copied().unwrap_or(0.0) };
+    (1..=p.len() + q.len())
+        .map(|k| (0..=k).map(|i| coefficient(p, i) * coefficient(q, k - i)).sum())
+        .collect()
+}
+
+impl Bench {
+    pub(super) fn new(case: &Case, border: &Border, points: usize) -> Result<Self, StudyError> {
+        let hysteresis = &border.hysteresis;
+        let experiment = |direction| {
+            PulseExperiment::evenly_spaced(hysteresis.interval(), direction, points, case.order)
+                .and_then(|e| e.with_spacing_unmasked(case.spacing))
+                .map_err(|error| StudyError::NoExperiment {
+                    case: case.name.clone(),
+                    points,
+                    reason: error.to_string(),
+                })
+        };
+        let [descendant, ascendant] = DIRECTIONS.map(experiment);
+        let designs = [descendant?, ascendant?].map(|e| PeriodicDesign::new(&e, hysteresis, case.order));
+        let responses = [0, 1].map(|k| periodic_response(&case.system, &designs[k].u));
+        let gain = case.system.static_gain();
+        let named = |c: &[f64]| (0..case.order).map(|i| c.get(i).copied().unwrap_or(0.0)).collect::<Vec<_>>();
+        let truth = Truth {
+            a: named(case.system.a()),
+            b: named(case.system.normalised(hysteresis.span()).b()),
+            borders: [0, 1].map(|k| {
+                let design: &PeriodicDesign = &designs[k];
+                design
+                    .levels
+                    .iter()
+                    .map(|v| hysteresis.border(design.branch, *v) / hysteresis.span())
+                    .collect()
+            }),
+        };
+        Ok(Self {
+            points,
+            responses,
+            satellites: [gain * hysteresis.u_high(), gain * hysteresis.u_low()],
+            truth,
+            noise: NoiseFilter::of(case),
+            designs,
+        })
+    }
+
+    pub(super) fn period(&self) -> usize {
+        self.designs[0].period()
+    }
+
+    /// `V₁…V_m` of an experiment.
+    pub(super) fn levels(&self, experiment: usize) -> &[f64] {
+        &self.designs[experiment].levels
+    }
+
+    /// The statistics of both experiments with the noise of one replicate.
+    pub(super) fn data(&self, sigma: f64, noise: [&NoiseMoments; 2]) -> [PulseData; 2] {
+        [0, 1].map(|k| superpose(&self.designs[k], &self.responses[k], sigma, noise[k]))
+    }
+
+    /// The mean outputs of the step experiments, given the mean of the unit noise in each.
+    pub(super) fn steps(&self, sigma: f64, noise_means: [f64; 2], samples: f64) -> [StepMean; 2] {
+        [0, 1].map(|k| StepMean { mean: self.satellites[k] + sigma * noise_means[k], samples })
+    }
+
+    /// The true values of a method's parameters, in its order.
+    pub(super) fn truth(&self, method: PulseKind) -> Vec<f64> {
+        let mut truth = [self.truth.a.as_slice(), self.truth.b.as_slice()].concat();
+        for &k in method.experiments() {
+            truth.extend(&self.truth.borders[k]);
+        }
+        truth
+    }
+
+    /// A method's limit with endless data.
+    pub(super) fn limit(&self, method: PulseKind, sigma: f64) -> Result<Limit, PulseFitError> {
+        let data = self.expected(sigma);
+        method.with_input(&data, self.steps(sigma, [0.0; 2], ENDLESS), Limit::of)
+    }
+
+    /// The Cramér–Rao bound, as standard deviations, for the data a method uses: the theory of the efficient estimate on them.
+    ///
+    /// The paper's methods use a step experiment of as many samples besides; they join those that see the satellite.
+    pub(super) fn bound(&self, method: PulseKind, sigma: f64) -> Result<Bound, PulseFitError> {
+        let data = self.expected(sigma);
+        match method.experiments() {
+            &[k] => {
+                let statistics = data[k].statistics.merged(&self.expected_step(k, sigma).statistics);
+                let PulseData { branch, satellite, ref levels, .. } = data[k];
+                let with_step = PulseData::from_statistics(branch, levels.clone(), satellite, statistics);
+                Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&with_step]))?, records: 2.0 })
+            }
+            _ => Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&data[0], &data[1]]))?, records: 1.0 }),
+        }
+    }
+
+    fn expected(&self, sigma: f64) -> [PulseData; 2] {
+        let order = self.designs[0].order;
+        let noise = NoiseMoments::expected(&self.noise.ar, &self.noise.ma, order, self.period(), ENDLESS);
+        self.data(sigma, [&noise, &noise])
+    }
+
+    /// The step experiment at the satellite of experiment `k` as one more pulse experiment without pulses.
+    fn expected_step(&self, k: usize, sigma: f64) -> PulseData {
+        let design = PeriodicDesign { u: vec![0.0], groups: vec![0], ..self.designs[k].clone() };
+        let noise = NoiseMoments::expected(&self.noise.ar, &self.noise.ma, design.order, 1, ENDLESS);
+        superpose(&design, &[self.satellites[k]], sigma, &noise)
+    }
+}
+
+/// The Cramér–Rao bound at any number of samples.
+#[derive(Debug, Clone)]
+pub(super) struct Bound {
+    limit: Limit,
+    /// Records of `N` samples that were taken for one experiment.
+    records: f64,
+}
+
+impl Bound {
+    /// The bound for `samples` samples of each experiment, a value a parameter.
+    pub(super) fn sd(&self, samples: f64) -> Vec<f64> {
+        self.limit.theory_se(self.records * samples)
+    }
+}
+
+/// A method for pulse experiments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PulseKind {
+    PaperDescendant,
+    PaperAscendant,
+    Joint,
+    Efficient,
+    LinearArx,
+    Memoryless,
+}
+
+impl PulseKind {
+    /// The pulse method of that name; `free` is none.
+    pub(super) fn of(method: Method) -> Option<Self> {
+        match method {
+            Method::PaperDescendant => Some(Self::PaperDescendant),
+            Method::PaperAscendant => Some(Self::PaperAscendant),
+            Method::Joint => Some(Self::Joint),
+            Method::Efficient => Some(Self::Efficient),
+            Method::LinearArx => Some(Self::LinearArx),
+            Method::Memoryless => Some(Self::Memoryless),
+            Method::Free => None,
+        }
+    }
+
+    /// The experiments it looks at, as indices into [`DIRECTIONS`].
+    pub(super) fn experiments(self) -> &'static [usize] {
+        match self {
+            Self::PaperDescendant => &[0],
+            Self::PaperAscendant => &[1],
+            _ => &[0, 1],
+        }
+    }
+
+    /// Whether it uses the mean of a step experiment.
+    pub(super) fn needs_step(self) -> bool {
+        matches!(self, Self::PaperDescendant | Self::PaperAscendant)
+    }
+
+    /// Whether the model it fits holds the truth, so that its asymptotic theory applies.
+    pub(super) fn models_hysteresis(self) -> bool {
+        !matches!(self, Self::LinearArx | Self::Memoryless)
+    }
+
+    /// Hands the method its part of the data.
+    pub(super) fn with_input<T>(
+        self,
+        data: &[PulseData; 2],
+        steps: [StepMean; 2],
+        run: impl FnOnce(PulseMethod<'_>) -> T,
+    ) -> T {
+        let both = [&data[0], &data[1]];
+        run(match self {
+            Self::PaperDescendant => PulseMethod::Paper { experiment: both[0], step: steps[0] },
+            Self::PaperAscendant => PulseMethod::Paper { experiment: both[1], step: steps[1] },
+            Self::Joint => PulseMethod::Joint { descendant: both[0], ascendant: both[1] },
+            Self::Efficient => PulseMethod::Efficient(&both),
+            Self::LinearArx => PulseMethod::LinearArx(&both),
+            Self::Memoryless => PulseMethod::Memoryless(&both),
+        })
+    }
+}

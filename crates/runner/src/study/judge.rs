@@ -1,0 +1,288 @@
+//! What the curves over N amount to: slopes, plateaus and a verdict, with jackknifed errors.
+
+use super::sections::{SECTIONS, Sections};
+use super::tabulate::series;
+use super::world::{Contender, World};
+use crate::results::{Fitted, Group, Measured, Series, Summary, Verdict};
+use crate::scenario::Scenario;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+use switchback_estimator::statistics::{Performance, jackknife_se, weighted_line};
+
+/// A bias counts as resolved at an N where it exceeds this many of its Monte-Carlo errors.
+const RESOLVED: f64 = 3.0;
+/// Chance that a bias of nothing is taken for one that stays, over all parameters of a group.
+const FALSE_PLATEAU: f64 = 1e-3;
+/// A consistent method's plateau is shown to be below this share of the standard deviation at the largest N: it could add
+/// less than a tenth to the mean squared error there.
+const IMMATERIAL: f64 = 0.3;
+/// A standard deviation that falls more slowly than this power of N does not fall as theory says.
+const SLOWEST_DECAY: f64 = -0.35;
+
+/// One entry a series and group of parameters.
+pub(super) fn summaries(scenario: &Scenario, worlds: &[World], sections: &Sections) -> Vec<Summary> {
+    let mut curves: Vec<Curve<'_>> = Vec::new();
+    for (index, (setting, samples, contender)) in worlds.iter().flat_map(World::cells).enumerate() {
+        let point = Point::new(samples, index, contender, sections);
+        let series = series(scenario, setting, contender);
+        match curves.iter_mut().find(|c| c.series == series) {
+            Some(curve) => curve.points.push(point),
+            None => curves.push(Curve { series, contender, points: vec![point] }),
+        }
+    }
+    curves.iter().flat_map(Curve::summaries).collect()
+}
+
+/// All cells of a series, by increasing N.
+struct Curve<'a> {
+    series: Series,
+    contender: &'a Contender,
+    points: Vec<Point>,
+}
+
+/// One cell: the performance of every parameter, over all replicates and over all but each section.
+struct Point {
+    samples: f64,
+    whole: Vec<Option<Performance>>,
+    without: Vec<Vec<Option<Performance>>>,
+    theory: Option<Vec<f64>>,
+    bound: Option<Vec<f64>>,
+}
+
+impl Point {
+    fn new(samples: usize, index: usize, contender: &Contender, sections: &Sections) -> Self {
+        let samples = samples as f64;
+        let theory = contender.theory.then(|| contender.limit.theory_se(samples));
+        let performance = |without| {
+            let sums = sections.cell(index, without);
+            sums.parameters.iter().map(|p| p.performance(None)).collect::<Vec<_>>()
+        };
+        Self {
+            samples,
+            whole: performance(None),
+            without: (0..SECTIONS).map(|section| performance(Some(section))).collect(),
+            theory,
+            bound: contender.bound.as_ref().map(|b| b.sd(samples)),
+        }
+    }
+
+    /// Performance of parameter `k` in one view: all replicates (`None`), or all but a section.
+    fn performance(&self, view: View, k: usize) -> Option<Performance> {
+        match view {
+            None => self.whole[k],
+            Some(section) => self.without[section][k],
+        }
+    }
+}
+
+/// All replicates, or all but one section.
+type View = Option<usize>;
+
+/// A figure of a curve with its jackknifed standard error.
+#[derive(Debug, Clone, Copy)]
+struct Jackknifed {
+    value: f64,
+    se: f64,
+}
+
+impl Jackknifed {
+    /// Computes a figure over all replicates and over all but each section.
+    fn of(figure: impl Fn(View) -> Option<f64>) -> Option<Self> {
+        let value = figure(None)?;
+        let leave_one_out: Vec<f64> = (0..SECTIONS).filter_map(|section| figure(Some(section))).collect();
+        Some(Self { value, se: jackknife_se(&leave_one_out)? })
+    }
+
+    fn interval(self, quantile: f64) -> Option<Fitted> {
+        Fitted::new(self.value, (self.value - quantile * self.se, self.value + quantile * self.se))
+    }
+
+    fn measured(self) -> Option<Measured> {
+        Measured::new(self.value, self.se)
+    }
+}
+
+/// Two-sided quantile of Student's t with the degrees of freedom of the jackknife.
+fn quantile(error: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, (SECTIONS - 1) as f64)
+        .map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - error / 2.0))
+}
+
+impl Curve<'_> {
+    fn summaries(&self) -> Vec<Summary> {
+        Group::ALL
+            .into_iter()
+            .map(|group| (group, self.parameters(group)))
+            .filter(|(_, parameters)| !parameters.is_empty())
+            .map(|(group, parameters)| self.summary(group, &parameters))
+            .collect()
+    }
+
+    fn parameters(&self, group: Group) -> Vec<usize> {
+        let names = self.contender.parameters.iter().enumerate();
+        names.filter(|(_, p)| p.group == group).map(|(k, _)| k).collect()
+    }
+
+    fn summary(&self, group: Group, parameters: &[usize]) -> Summary {
+        let usual = quantile(0.05);
+        let sd_slope = Jackknifed::of(|view| self.sd_slope(view, parameters));
+        let plateau = self.plateau(parameters);
+        let (verdict, reason) = self.verdict(sd_slope, plateau.as_ref());
+        Summary {
+            series: self.series.clone(),
+            group,
+            sd_slope: sd_slope.and_then(|s| s.interval(usual)),
+            bias_slope: self.bias_slope(parameters).and_then(|s| s.interval(usual)),
+            plateau: plateau.and_then(|p| p.jackknifed.interval(usual)),
+            coverage: Jackknifed::of(|view| self.last_mean(view, parameters, |p, _| Some(p.coverage.value)))
+                .and_then(Jackknifed::measured),
+            sd_over_theory: Jackknifed::of(|view| {
+                let theory = self.last()?.theory.as_ref()?;
+                self.last_mean(view, parameters, |p, k| Some((p.sd.value / theory[k]).powi(2))).map(f64::sqrt)
+            })
+            .and_then(Jackknifed::measured),
+            variance_over_bound: Jackknifed::of(|view| {
+                let bound = self.last()?.bound.as_ref()?;
+                self.last_mean(view, parameters, |p, k| Some((p.sd.value / bound[k]).powi(2)))
+            })
+            .and_then(Jackknifed::measured),
+            verdict,
+            reason,
+        }
+    }
+
+    fn last(&self) -> Option<&Point> {
+        self.points.last()
+    }
+
+    /// Mean over the group of a measure at the largest N.
+    fn last_mean(
+        &self,
+        view: View,
+        parameters: &[usize],
+        measure: impl Fn(&Performance, usize) -> Option<f64>,
+    ) -> Option<f64> {
+        let last = self.last()?;
+        let values: Option<Vec<f64>> =
+            parameters.iter().map(|&k| measure(&last.performance(view, k)?, k)).collect();
+        mean(&values?)
+    }
+
+    /// Slope of log root-mean-square sd against log N.
+    fn sd_slope(&self, view: View, parameters: &[usize]) -> Option<f64> {
+        let points: Option<Vec<_>> = self
+            .points
+            .iter()
+            .map(|point| {
+                let squares: Option<Vec<f64>> =
+                    parameters.iter().map(|&k| Some(point.performance(view, k)?.sd.value.powi(2))).collect();
+                Some((point.samples.ln(), mean(&squares?)?.sqrt().ln(), 1.0))
+            })
+            .collect();
+        weighted_line(&points?).map(|line| line.slope)
+    }
+
+    /// Slope of log root-mean-square bias against log N, over the N where the bias is resolved; needs two of them.
+    fn bias_slope(&self, parameters: &[usize]) -> Option<Jackknifed> {
+        let size = |point: &Point, view: View| -> Option<(f64, f64)> {
+            let biases: Option<Vec<_>> = parameters.iter().map(|&k| best_bias(point, view, k)).collect();
+            let biases = biases?;
+            let squares = mean(&biases.iter().map(|b| b.0 * b.0).collect::<Vec<_>>())?;
+            let errors = mean(&biases.iter().map(|b| b.1 * b.1).collect::<Vec<_>>())?;
+            Some((squares.sqrt(), errors.sqrt()))
+        };
+        let resolved: Vec<&Point> = self
+            .points
+            .iter()
+            .filter(|point| size(point, None).is_some_and(|(size, error)| size > RESOLVED * error))
+            .collect();
+        Jackknifed::of(|view| {
+            let points: Option<Vec<_>> = resolved
+                .iter()
+                .map(|point| {
+                    let (size, error) = size(point, view)?;
+                    Some((point.samples.ln(), size.ln(), (size / error).powi(2)))
+                })
+                .collect();
+            weighted_line(&points?).map(|line| line.slope)
+        })
+    }
+
+    /// What stays of the bias, fitted as `p + c/N` with each point weighted by its Monte-Carlo error: the parameter of the group whose `p` is
+    /// the most errors away from zero.
+    fn plateau(&self, parameters: &[usize]) -> Option<Plateau> {
+        let of = |k: usize| {
+            let jackknifed = Jackknifed::of(|view| {
+                let points: Option<Vec<_>> = self
+                    .points
+                    .iter()
+                    .map(|point| {
+                        let (bias, error) = best_bias(point, view, k)?;
+                        Some((1.0 / point.samples, bias, 1.0 / (error * error)))
+                    })
+                    .collect();
+                weighted_line(&points?).map(|line| line.intercept)
+            })?;
+            let sd = self.last()?.performance(None, k)?.sd.value;
+            Some(Plateau { parameter: k, jackknifed, sd, tested: 1 })
+        };
+        let found = parameters.iter().filter_map(|&k| of(k)).filter(|p| p.jackknifed.se > 0.0);
+        let worst = found.max_by(|p, q| p.distance().total_cmp(&q.distance()))?;
+        Some(Plateau { tested: parameters.len(), ..worst })
+    }
+
+    fn verdict(&self, sd_slope: Option<Jackknifed>, plateau: Option<&Plateau>) -> (Verdict, String) {
+        let (Some(slope), Some(plateau)) = (sd_slope, plateau) else {
+            return (Verdict::Undecided, "needs two numbers of samples and 20 replicates or more".to_owned());
+        };
+        let name = &self.contender.parameters[plateau.parameter].name;
+        let stays = plateau.jackknifed.value / plateau.sd;
+        let at_most = (plateau.jackknifed.value.abs() + quantile(0.05) * plateau.jackknifed.se) / plateau.sd;
+        let significant = plateau.distance() > quantile(FALSE_PLATEAU / plateau.tested as f64);
+        let falls = slope.value + quantile(0.05) * slope.se < SLOWEST_DECAY;
+        if at_most < IMMATERIAL && falls {
+            let reason =
+                format!("sd and bias fall; {at_most:.2} sd of bias at the most stay at the largest N");
+            (Verdict::Consistent, reason)
+        } else if significant && stays.abs() >= IMMATERIAL / 2.0 {
+            let value = plateau.jackknifed.value;
+            let reason =
+                format!("the bias of {name} stays at {value:.3e}, {:.1} sd at the largest N", stays.abs());
+            (Verdict::Inconsistent, reason)
+        } else if !falls {
+            (Verdict::Undecided, format!("the sd falls as N^{:.2} only", slope.value))
+        } else {
+            let reason =
+                format!("up to {at_most:.2} sd of bias may stay in {name}; run more replicates or larger N");
+            (Verdict::Undecided, reason)
+        }
+    }
+}
+
+/// The bias that stays in one parameter.
+#[derive(Debug, Clone, Copy)]
+struct Plateau {
+    parameter: usize,
+    jackknifed: Jackknifed,
+    /// The parameter's standard deviation at the largest N.
+    sd: f64,
+    /// Parameters it was picked from.
+    tested: usize,
+}
+
+impl Plateau {
+    /// In standard errors.
+    fn distance(&self) -> f64 {
+        (self.jackknifed.value / self.jackknifed.se).abs()
+    }
+}
+
+/// Bias and its error: controlled where there is a control variate.
+fn best_bias(point: &Point, view: View, k: usize) -> Option<(f64, f64)> {
+    let performance = point.performance(view, k)?;
+    let bias = performance.bias_controlled.unwrap_or(performance.bias);
+    (bias.mcse > 0.0).then_some((bias.value, bias.mcse))
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}

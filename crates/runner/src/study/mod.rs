@@ -1,0 +1,88 @@
+//! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
+//!
+//! One pass over the noise of a replicate serves every cell (`world`): the cells of a sweep share it by superposition. Sections of
+//! replicates run in parallel (`execute`) and are merged in order, so results depend on the scenario and its seed only.
+
+mod bench;
+mod execute;
+mod expectations;
+mod judge;
+mod moments;
+mod sections;
+mod tabulate;
+mod world;
+
+use crate::results::{BorderCurve, Engine, Results, SCHEMA};
+use crate::scenario::Scenario;
+use thiserror::Error;
+
+pub use execute::Progress;
+
+/// Why a study cannot be run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// A method has no limit on some cell: its information matrix is singular even with endless data.
+    #[error(
+        "{method} cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; drop the method, or change the case"
+    )]
+    NoLimit {
+        /// Name of the method.
+        method: &'static str,
+        /// Name of the case.
+        case: String,
+        /// Name of the border.
+        border: String,
+        /// Points `m`.
+        points: usize,
+        /// What the method says.
+        source: switchback_estimator::estimators::pulse::PulseFitError,
+    },
+    /// An experiment of the sweep cannot be built.
+    #[error("case `{case}`, m = {points}: {reason}")]
+    NoExperiment {
+        /// Name of the case.
+        case: String,
+        /// Points `m`.
+        points: usize,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Runs a scenario to its result table. `command` is what the results name as the command that makes them again.
+///
+/// # Errors
+/// [`StudyError`] if a method or an experiment does not exist for some cell.
+pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
+    let worlds = world::plan(scenario)?;
+    let sections = execute::run(scenario, &worlds, progress);
+    let cells = tabulate::cells(scenario, &worlds, &sections);
+    let summaries = judge::summaries(scenario, &worlds, &sections);
+    let expectations = expectations::check(scenario, &summaries);
+    Ok(Results {
+        schema: SCHEMA,
+        study: "consistency".to_owned(),
+        name: scenario.name().to_owned(),
+        question: scenario.question().to_owned(),
+        seed: scenario.seed(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        command,
+        engine: Engine::Superposed,
+        coupling: scenario.coupling(),
+        labels: scenario.labels().clone(),
+        scenario: scenario.source().clone(),
+        curves: curves(scenario),
+        expectations,
+        summaries,
+        cells,
+    })
+}
+
+fn curves(scenario: &Scenario) -> Vec<BorderCurve> {
+    scenario
+        .cases()
+        .iter()
+        .flat_map(|case| case.borders.iter().map(|b| BorderCurve::sample(&case.name, &b.name, &b.hysteresis)))
+        .collect()
+}
