@@ -23,7 +23,7 @@ pub use design::{Kind, Ticket, design};
 pub use examine::{Examiner, examine};
 pub use place::PlaceCheck;
 pub use report::{artefacts, summary};
-pub use scenario::{BlindError, Expect, Study, read};
+pub use scenario::{BlindError, Expect, Study, is_blind, read};
 pub use score::{
     AbstentionRow, AccuracyRow, BaselineRow, Bound, Calibration, CalibrationBin, ClosureRow, Confusion,
     Measure, PlaceRow, Scores, Share, SizeRow, TARGETS, score,
