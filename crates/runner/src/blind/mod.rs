@@ -4,7 +4,7 @@
 //! scenario → design → seal (make, hash the keys) → examine (diagnose, open, compare) → score → report
 //! ```
 //!
-//! The diagnosis is an argument: a function from a rig and settings. It gets a [`Rig`] rebuilt from its recipe, which
+//! The diagnosis is an argument: a function from a rig and settings. It gets a [`Rig`](switchback_estimator::rig::Rig) rebuilt from its recipe, which
 //! holds what a user's folder holds and nothing else. The key file is on disk, and its SHA-256 in the report, before the
 //! first diagnosis. Nothing depends on the number of threads.
 

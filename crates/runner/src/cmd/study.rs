@@ -1,12 +1,11 @@
 //! `switchback SCENARIO.toml`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::output::OutputFolder;
+use crate::output::{OutputFolder, print};
 use crate::progress::Meter;
 use crate::scenario::Scenario;
 use crate::{blind, report, study};
 use miette::IntoDiagnostic;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Run the study that a scenario file describes, and write its report.
@@ -59,14 +58,4 @@ pub fn run(args: &Args) -> CommandResult {
 fn command(scenario: &Path) -> String {
     let name = scenario.file_name().unwrap_or_default().to_string_lossy();
     format!("switchback {name}")
-}
-
-/// A reader that closed its end early (`| head`) has what it wanted.
-fn print(page: &str) -> miette::Result<()> {
-    match std::io::stdout().write_all(page.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(miette::miette!("cannot print the result: {error}"))
-        }
-        _ => Ok(()),
-    }
 }

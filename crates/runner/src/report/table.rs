@@ -21,14 +21,14 @@ pub fn table(results: &Results) -> String {
     }
     let mut text = align(&lines);
     text.push_str("A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.\n");
-    text.push_str("sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound.\n");
+    text.push_str("plateau: largest bias that stays where the verdict is inconsistent. sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound.\n");
     text.push_str(&expectations(results));
     text.push_str(&failures(results));
     text
 }
 
 fn header() -> Vec<String> {
-    ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
+    ["method", "of", "sd slope", "bias slope", "plateau", "coverage", "sd/theory", "var/CRB", "verdict"]
         .map(str::to_owned)
         .to_vec()
 }
@@ -39,6 +39,7 @@ fn cells(row: &Row<'_>) -> Vec<String> {
         group(row.group).to_owned(),
         slope(row.slope(|s| s.sd_slope), 3),
         slope(row.slope(|s| s.bias_slope), 2),
+        row.plateau().map_or_else(none, |p| format!("{p:.2e}")),
         row.median(|s| s.coverage.map(|c| c.value())).map_or_else(none, |c| format!("{:.1} %", 100.0 * c)),
         row.median(|s| s.sd_over_theory.map(|r| r.value())).map_or_else(none, |r| format!("{r:.3}")),
         row.median(|s| s.variance_over_bound.map(|r| r.value())).map_or_else(none, ratio),
@@ -57,9 +58,12 @@ fn group(group: Option<Group>) -> &'static str {
 }
 
 fn slope(fitted: Option<Fitted>, decimals: usize) -> String {
-    fitted.map_or_else(none, |f| {
-        format!("{:.decimals$} [{:.decimals$}, {:.decimals$}]", f.estimate, f.ci.0, f.ci.1)
-    })
+    let digits = |x: f64| {
+        let text = format!("{x:.decimals$}");
+        // No minus before what rounds to zero.
+        if text.trim_matches(['-', '0', '.']).is_empty() { text.replace('-', "") } else { text }
+    };
+    fitted.map_or_else(none, |f| format!("{} [{}, {}]", digits(f.estimate), digits(f.ci.0), digits(f.ci.1)))
 }
 
 fn ratio(r: f64) -> String {
