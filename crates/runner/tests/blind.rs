@@ -122,3 +122,14 @@ fn a_refused_rig_counts_as_failed() {
     let cases = blind::examine(&sealed, &refuse, &|| ()).unwrap();
     assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
 }
+
+#[test]
+fn the_shipped_scenarios_can_be_read_and_the_full_one_is_as_large_as_it_must_be() {
+    let scenarios = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let full = blind::design(&blind::read(&scenarios.join("blind.toml")).unwrap()).unwrap();
+    let count = |kind: Kind| full.iter().filter(|t| t.kind == kind).count();
+    assert_eq!(count(Kind::Single), 20 * 3 * 4 * 20);
+    assert_eq!([Kind::None, Kind::Outside, Kind::Pair].map(count), [300, 300, 200]);
+    let slice = blind::design(&blind::read(&scenarios.join("blind-slice.toml")).unwrap()).unwrap();
+    assert_eq!(slice.len(), 100);
+}
