@@ -63,8 +63,7 @@ fn slope(fitted: Option<Fitted>, decimals: usize) -> String {
         // No minus before what rounds to zero.
         if text.trim_matches(['-', '0', '.']).is_empty() { text.replace('-', "") } else { text }
     };
-    fitted
-        .map_or_else(none, |f| format!("{} [{}, {}]", digits(f.estimate), digits(f.ci.0), digits(f.ci.1)))
+    fitted.map_or_else(none, |f| format!("{} [{}, {}]", digits(f.estimate), digits(f.ci.0), digits(f.ci.1)))
 }
 
 fn ratio(r: f64) -> String {
