@@ -4,7 +4,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::output::{OutputFolder, print};
 use crate::progress::Meter;
 use crate::scenario::Scenario;
-use crate::{report, study};
+use crate::{blind, report, study};
 use miette::IntoDiagnostic;
 use std::path::{Path, PathBuf};
 
@@ -32,13 +32,16 @@ pub struct Args {
 /// # Errors
 /// A scenario that cannot be read or run, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let scenario = Scenario::read(&args.scenario)?;
-    let default = || Path::new("reports").join(scenario.name());
-    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
     let workers = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .into_diagnostic()?;
+    if blind::is_blind(&args.scenario) {
+        return workers.install(|| super::blind::run(&args.scenario, args.out.as_deref(), args.quiet));
+    }
+    let scenario = Scenario::read(&args.scenario)?;
+    let default = || Path::new("reports").join(scenario.name());
+    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
     let meter = Meter::new(args.quiet);
     let results = workers.install(|| study::run(&scenario, command(&args.scenario), &meter));
     meter.finish();
