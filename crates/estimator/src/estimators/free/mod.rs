@@ -11,6 +11,7 @@ mod identify;
 mod model;
 mod nesting;
 mod normalise;
+mod one_shot;
 mod problem;
 mod rank_one;
 mod selection;
@@ -24,8 +25,12 @@ pub use branch::{Branches, ReversalRule, Timing};
 pub use error::FreeError;
 pub use identify::{Identified, identify};
 pub use model::{FreeRun, Model, fit_percent};
+pub use one_shot::{Grid, one_shot};
 pub use problem::Structure;
 pub use selection::{Candidate, Selection};
 pub use sensor::SensorNoise;
 pub use settings::{InputMap, Settings};
 pub use warning::Warning;
+
+#[cfg(test)]
+mod tests;

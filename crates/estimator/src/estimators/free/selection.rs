@@ -1,11 +1,10 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::branch::Timing;
 use super::cross_validation::{Assessed, FOLDS, assess_all, assess_next};
 use super::data::Data;
 use super::error::FreeError;
 use super::fit::{Effort, FIRST_KNOTS, Ladder};
-use super::problem::Structure;
+use super::problem::{Segment, Structure};
 use super::settings::{InputMap, Settings};
 use super::simulation_error::cost;
 use std::ops::RangeInclusive;
@@ -88,25 +87,27 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     }
 }
 
-/// The data with the timing of reversals that fits better.
+/// The data with the reversal rule that fits best.
 ///
-/// The two timings have the same parameters, so the fit itself decides; a middling structure shows the difference.
-pub(super) fn with_best_timing<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
-    if settings.timing.is_some() || settings.input_map != InputMap::Borders {
+/// The rules have the same parameters, so the fit itself decides; a middling structure shows the difference. All are judged
+/// over the same samples but for a few at the very start.
+pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
+    let rules = data.noise.rules(data.rule.threshold, settings.timing);
+    if rules.len() == 1 || settings.input_map != InputMap::Borders {
         return data;
     }
     let structure = Structure { order: settings.order.unwrap_or(2), delay: settings.delay.unwrap_or(-1) };
     let knots = settings.knots.unwrap_or(FIRST_KNOTS);
-    let between = data.with_timing(Timing::BetweenSamples);
     let error = |data: &Data| {
         let ladder = Ladder::new(data, settings.input_map, knots);
+        let segments = ladder.top().segments(structure);
         let fitted = ladder.climb_from_smaller(structure, Effort::SEARCH)?;
-        Some(cost(structure, &fitted.theta, &ladder.top().segments(structure)))
+        let samples: usize = segments.iter().map(Segment::len).sum();
+        Some(cost(structure, &fitted.theta, &segments) / samples as f64)
     };
-    match (error(&data), error(&between)) {
-        (Some(at), Some(between_error)) if between_error < at => between,
-        _ => data,
-    }
+    let tried = rules.into_iter().map(|rule| data.with_rule(rule)).filter_map(|d| Some((error(&d)?, d)));
+    let best = tried.min_by(|x, y| x.0.total_cmp(&y.0));
+    best.map_or_else(|| data.with_rule(data.rule), |(_, best)| best)
 }
 
 /// Sets an assessment against the best one.

@@ -49,9 +49,13 @@ impl SensorNoise {
         Self { sd, small_pairs, threshold }
     }
 
-    /// The rule that goes with a threshold (this one, or the user's): a rest at an extremum extends three noise sds from it.
-    pub(super) fn rule(&self, threshold: f64) -> ReversalRule {
-        ReversalRule { threshold, band: (3.0 * self.sd).min(threshold / 2.0), timing: Timing::AtSamples }
+    /// The rules worth trying with a threshold (this one, or the user's), simplest first. On a noisy input the extremum of a
+    /// rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
+    pub(super) fn rules(&self, threshold: f64, timing: Option<Timing>) -> Vec<ReversalRule> {
+        let bands = [0.0, (3.0 * self.sd).min(threshold / 2.0)];
+        let bands = &bands[..if bands[1] > 0.0 { 2 } else { 1 }];
+        let timings = timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
+        timings.iter().flat_map(|&timing| bands.iter().map(move |&band| ReversalRule { threshold, band, timing })).collect()
     }
 }
 
