@@ -4,6 +4,7 @@
 //! replicates run in parallel (`execute`) and are merged in order, so results depend on the scenario and its seed only.
 
 mod bench;
+mod cell;
 mod execute;
 mod expectations;
 mod judge;
@@ -14,6 +15,7 @@ mod world;
 
 use crate::results::{BorderCurve, Engine, Results, SCHEMA};
 use crate::scenario::Scenario;
+use cell::{CellSpec, Workload};
 use thiserror::Error;
 
 pub use execute::Progress;
@@ -56,9 +58,11 @@ pub enum StudyError {
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
     let worlds = world::plan(scenario)?;
-    let sections = execute::run(scenario, &worlds, progress);
-    let cells = tabulate::cells(scenario, &worlds, &sections);
-    let summaries = judge::summaries(scenario, &worlds, &sections);
+    let specs: Vec<CellSpec> = worlds.iter().flat_map(|w| w.specs(scenario)).collect();
+    let workloads: Vec<&dyn Workload> = worlds.iter().map(|w| w as &dyn Workload).collect();
+    let sections = execute::run(scenario, &workloads, &specs, progress);
+    let cells = tabulate::cells(&specs, &sections);
+    let summaries = judge::summaries(&specs, &sections);
     let expectations = expectations::check(scenario, &summaries);
     Ok(Results {
         schema: SCHEMA,

@@ -2,7 +2,8 @@
 
 use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
-use crate::results::Group;
+use super::cell::{CellSpec, ParameterName};
+use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
 use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
 use switchback_estimator::linear::settling_samples;
@@ -50,14 +51,6 @@ pub(super) struct Contender {
     /// Whether the model holds: the limit is then the truth, its theory the asymptotic one, and the bound applies.
     pub(super) theory: bool,
     pub(super) bound: Option<Bound>,
-}
-
-/// What a parameter is called, and with whom it is judged.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ParameterName {
-    pub(super) name: String,
-    pub(super) group: Group,
-    pub(super) v: Option<f64>,
 }
 
 /// Lays out the worlds of a scenario.
@@ -116,6 +109,29 @@ impl World {
                 .iter()
                 .flat_map(move |&samples| setting.methods.iter().map(move |c| (setting, samples, c)))
         })
+    }
+
+    /// What tables and verdicts need of the cells, in the same order.
+    pub(super) fn specs(&self, scenario: &Scenario) -> Vec<CellSpec> {
+        self.cells()
+            .map(|(setting, samples, contender)| {
+                let case = &scenario.cases()[setting.case];
+                CellSpec {
+                    series: Series {
+                        case: case.name.clone(),
+                        border: case.borders[setting.border].name.clone(),
+                        method: contender.method,
+                        points: setting.bench.points,
+                        noise: setting.sigma,
+                    },
+                    samples,
+                    parameters: contender.parameters.clone(),
+                    truth: contender.truth.clone(),
+                    theory: contender.theory.then(|| contender.limit.theory_se(samples as f64)),
+                    bound: contender.bound.as_ref().map(|b| b.sd(samples as f64)),
+                }
+            })
+            .collect()
     }
 }
 
