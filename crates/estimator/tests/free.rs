@@ -57,7 +57,12 @@ fn added(x: &[f64], e: &[f64]) -> Vec<f64> {
 }
 
 fn known(order: usize, delay: isize, knots: usize) -> Settings {
-    Settings { order: Some(order), delay: Some(delay), knots: Some(knots), ..Settings::new(InputMap::Borders) }
+    Settings {
+        order: Some(order),
+        delay: Some(delay),
+        knots: Some(knots),
+        ..Settings::new(InputMap::Borders)
+    }
 }
 
 const A: [f64; 2] = [-1.1, 0.4];
@@ -110,7 +115,10 @@ fn one_shot_is_unbiased_and_its_intervals_cover_under_white_equation_error() {
         let variance = z.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
         // Four Monte-Carlo standard errors, and the bias of order 1/N beside them.
         assert!(mean.abs() < 4.0 / count.sqrt() + 0.1, "parameter {i}: mean z {mean}");
-        assert!((variance - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "parameter {i}: variance of z {variance}");
+        assert!(
+            (variance - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
+            "parameter {i}: variance of z {variance}"
+        );
     }
 }
 
@@ -120,7 +128,11 @@ fn identify_recovers_a_system_on_a_smooth_input_without_noise() {
     let y = simulate(SPRING, &A, &B, &v, &[]);
     let record = Record::new(v, y).unwrap();
     let found = identify(&[&record], &known(2, 0, 2)).unwrap();
-    assert!(found.model.free_run(&record).fit_percent > 99.99, "{}", found.model.free_run(&record).fit_percent);
+    assert!(
+        found.model.free_run(&record).fit_percent > 99.99,
+        "{}",
+        found.model.free_run(&record).fit_percent
+    );
     assert!(found.estimate.a.iter().zip(A).all(|(x, y)| (x - y).abs() < 1e-3), "{:?}", found.estimate.a);
     assert_eq!(found.model.rule().timing, Timing::AtSamples);
 }
@@ -177,7 +189,8 @@ fn motion_is_not_taken_for_noise() {
         walk[t] += walk[t - 1];
     }
     let steps: Vec<f64> = (0..2000).map(|t| if t % 20 < 10 { 0.0 } else { 1.0 }).collect();
-    let pulses: Vec<f64> = (0..2000).map(|t| if t % 2 == 0 { 1.0 } else { f64::from(t % 10) / 10.0 }).collect();
+    let pulses: Vec<f64> =
+        (0..2000).map(|t| if t % 2 == 0 { 1.0 } else { f64::from(t % 10) / 10.0 }).collect();
     for v in [random_levels(2, 2000), walk, steps, pulses] {
         assert_eq!(SensorNoise::of(&v).threshold, 0.0);
     }
@@ -187,8 +200,12 @@ fn motion_is_not_taken_for_noise() {
 fn a_noisy_rest_at_an_extremum_stays_on_its_border() {
     // Up, rest for 50 samples, down, rest, up again.
     let ramp = |from: f64, to: f64| (0..100).map(move |t| from + (to - from) * f64::from(t) / 100.0);
-    let clean: Vec<f64> =
-        ramp(0.0, 1.0).chain([1.0; 50]).chain(ramp(1.0, 0.0)).chain([0.0; 50]).chain(ramp(0.0, 1.0)).collect();
+    let clean: Vec<f64> = ramp(0.0, 1.0)
+        .chain([1.0; 50])
+        .chain(ramp(1.0, 0.0))
+        .chain([0.0; 50])
+        .chain(ramp(0.0, 1.0))
+        .collect();
     let exact = Branches::of(&clean, ReversalRule::EXACT).unwrap();
     let noisy = added(&clean, &normals(3, clean.len(), 0.002));
     let rule = ReversalRule { threshold: 0.012, band: 0.006, timing: Timing::AtSamples };
@@ -216,8 +233,13 @@ fn weak_points_are_reported() {
     assert!(found.warnings.iter().any(|w| matches!(w, Warning::SteepCell { .. })), "{:?}", found.warnings);
     let slope: Vec<f64> = (0..400).map(|t| f64::from(t) / 200.0 - 1.0).collect();
     let y = simulate(SPRING, &A, &B, &[&slope[..], &slope[..]].concat(), &[]);
-    let found = identify(&[&Record::new([&slope[..], &slope[..]].concat(), y).unwrap()], &known(1, 0, 3)).unwrap();
-    assert!(found.warnings.iter().any(|w| matches!(w, Warning::FewReversals { count: 2 })), "{:?}", found.warnings);
+    let found =
+        identify(&[&Record::new([&slope[..], &slope[..]].concat(), y).unwrap()], &known(1, 0, 3)).unwrap();
+    assert!(
+        found.warnings.iter().any(|w| matches!(w, Warning::FewReversals { count: 2 })),
+        "{:?}",
+        found.warnings
+    );
 }
 
 #[test]
@@ -237,7 +259,10 @@ fn what_cannot_be_identified_is_refused() {
     assert!(matches!(identify(&[&still], &order), Err(FreeError::Setting { name: "order", .. })));
     let far = Grid { basis: Basis::borders(vec![-1.0, 5.0, 6.0], vec![-1.0, 1.0]), ..leaf_grid() };
     let record = Record::new(random_levels(1, 200), random_levels(2, 200)).unwrap();
-    assert_eq!(one_shot(&[&record], &far).unwrap_err(), FreeError::UnvisitedKnot { curve: "descending", v: 6.0 });
+    assert_eq!(
+        one_shot(&[&record], &far).unwrap_err(),
+        FreeError::UnvisitedKnot { curve: "descending", v: 6.0 }
+    );
 }
 
 /// Reads `t,v,y`; `None` where the measured rigs are not at hand.
@@ -258,7 +283,8 @@ fn on_measured_friction_two_borders_beat_a_line_and_a_curve_on_the_held_out_reco
             println!("skipped: the measured rigs are not beside the workspace");
             return;
         };
-        let score = |map| identify(&[&fit], &Settings::new(map)).unwrap().model.free_run(&holdout).fit_percent;
+        let score =
+            |map| identify(&[&fit], &Settings::new(map)).unwrap().model.free_run(&holdout).fit_percent;
         let [line, curve, borders] = [InputMap::Linear, InputMap::Static, InputMap::Borders].map(score);
         println!("line {line:.1} %, curve {curve:.1} %, borders {borders:.1} %");
         assert!(borders > wanted && borders > curve && borders > line);

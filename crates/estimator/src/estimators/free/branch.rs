@@ -82,7 +82,8 @@ impl Branches {
     ///
     pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
         let ReversalRule { threshold, band, timing } = rule;
-        let (mut high, mut low) = (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
+        let (mut high, mut low) =
+            (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
         let mut labels = Vec::with_capacity(v.len());
         let (mut first_known, mut reversals, mut shares) = (0, 0, Vec::new());
@@ -90,8 +91,12 @@ impl Branches {
             high.push(1.0, now, t, band);
             low.push(-1.0, now, t, band);
             let turned = match direction {
-                None | Some(Branch::Ascending) if high.value - now > threshold => Some((Branch::Descending, high.turn)),
-                None | Some(Branch::Descending) if now - low.value > threshold => Some((Branch::Ascending, low.turn)),
+                None | Some(Branch::Ascending) if high.value - now > threshold => {
+                    Some((Branch::Descending, high.turn))
+                }
+                None | Some(Branch::Descending) if now - low.value > threshold => {
+                    Some((Branch::Ascending, low.turn))
+                }
                 _ => None,
             };
             labels.push(direction.unwrap_or(Branch::Ascending));

@@ -42,7 +42,8 @@ impl<'a> Data<'a> {
         let records: Vec<_> =
             records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
-        let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let range =
+            Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
@@ -91,7 +92,10 @@ impl<'a> Data<'a> {
 impl Featured<'_> {
     /// Everything that a structure can explain.
     pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
-        let whole = self.records.iter().map(|(r, known, cells)| Segment::usable(structure, r.y(), cells, *known..r.len()));
+        let whole = self
+            .records
+            .iter()
+            .map(|(r, known, cells)| Segment::usable(structure, r.y(), cells, *known..r.len()));
         whole.flatten().collect()
     }
 

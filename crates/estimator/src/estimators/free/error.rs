@@ -10,7 +10,9 @@ pub enum FreeError {
     #[error("no record to identify from; mark at least one record `use = \"fit\"`")]
     NoRecords,
     /// The input of every record stands still, within the reversal threshold.
-    #[error("the input never moves by more than the reversal threshold {threshold}; drive it, or lower the threshold")]
+    #[error(
+        "the input never moves by more than the reversal threshold {threshold}; drive it, or lower the threshold"
+    )]
     NoMotion {
         /// The threshold in force, input units.
         threshold: f64,
@@ -39,17 +41,34 @@ pub enum FreeError {
         parameters: usize,
     },
     /// No stable model fits.
-    #[error("no stable model of order {order} fits the records; try another order or delay, or check the records for drift")]
+    #[error(
+        "no stable model of order {order} fits the records; try another order or delay, or check the records for drift"
+    )]
     Unstable {
         /// The order tried last.
         order: usize,
     },
     /// A knot has no data around it.
-    #[error("no sample of the {curve} border lies near its knot {v}; give fewer knots, or a narrower interval")]
+    #[error(
+        "no sample of the {curve} border lies near its knot {v}; give fewer knots, or a narrower interval"
+    )]
     UnvisitedKnot {
         /// `ascending` or `descending`.
         curve: &'static str,
         /// Position of the knot, input units.
         v: f64,
     },
+    /// The input ends before the samples asked for.
+    #[error(
+        "the input leaves {available} regression samples where {wanted} are asked for; give a longer one"
+    )]
+    InputTooShort {
+        /// Samples that can be explained.
+        available: usize,
+        /// Samples of the last checkpoint.
+        wanted: usize,
+    },
+    /// A parameter has no information even with noise-free data.
+    #[error("the input leaves a parameter open; drive it over more of its range, or give fewer knots")]
+    NotExcited,
 }

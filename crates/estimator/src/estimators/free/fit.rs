@@ -127,7 +127,8 @@ impl<'a> Ladder<'a> {
         let fits = self.climb_all(&way, Effort::SEARCH, |rung, s| rung.segments(s));
         let start: Vec<Fitted> = fits.into_iter().flatten().filter(|f| f.structure == structure).collect();
         let top = self.top();
-        let theta = refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
+        let theta =
+            refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
         Some(Fitted { structure, basis: top.basis.clone(), theta })
     }
 
@@ -143,8 +144,10 @@ impl<'a> Ladder<'a> {
 /// and from alternation otherwise.
 pub(super) fn equation_error_fit(moments: &Moments) -> Option<Parameters> {
     let over = over_parameterised(moments).and_then(|x| nearest_rank_one(moments, &x));
-    let starts = over.into_iter().chain(numerators(moments.structure).filter_map(|b| alternate(moments, b, 5)));
-    let fits = starts.map(|start| gauss_newton(moments, start)).map(|fit| (residual_energy(moments, &fit), fit));
+    let starts =
+        over.into_iter().chain(numerators(moments.structure).filter_map(|b| alternate(moments, b, 5)));
+    let fits =
+        starts.map(|start| gauss_newton(moments, start)).map(|fit| (residual_energy(moments, &fit), fit));
     fits.filter(|(energy, _)| energy.is_finite()).min_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, fit)| fit)
 }
 

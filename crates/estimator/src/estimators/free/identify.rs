@@ -70,11 +70,17 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
 }
 
 /// Normalised parameters of a refined fit and their standard errors.
-fn simulation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters, segments: &[Segment]) -> Estimate {
+fn simulation_error_estimate(
+    moments: &Moments,
+    basis: &Basis,
+    theta: &Parameters,
+    segments: &[Segment],
+) -> Estimate {
     let structure = moments.structure;
     let model = linearise(structure, theta, segments);
     let variance = cost(structure, theta, segments) / freedom(moments, theta);
-    let covariance = Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
+    let covariance =
+        Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
     normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance))
 }
 

@@ -87,7 +87,12 @@ pub(super) struct Segment<'a> {
 
 impl<'a> Segment<'a> {
     /// The part of a range of a record whose inputs and past outputs are all known and lie inside it.
-    pub(super) fn usable(structure: Structure, y: &'a [f64], cells: &'a [Cell], range: Range<usize>) -> Option<Self> {
+    pub(super) fn usable(
+        structure: Structure,
+        y: &'a [f64],
+        cells: &'a [Cell],
+        range: Range<usize>,
+    ) -> Option<Self> {
         let from = range.start + structure.memory();
         let to = range.end.min(y.len() - structure.ahead().min(y.len()));
         (from < to).then_some(Self { y, cells, from, to })

@@ -52,7 +52,11 @@ fn solve(moments: &Reduced, ridge: f64) -> Option<DVector<f64>> {
 }
 
 /// Solves `(M + ridge·diag M) x = r` with columns scaled to one; a tiny ridge decides only what `M` leaves open.
-pub(super) fn solve_symmetric(matrix: &DMatrix<f64>, right: &DVector<f64>, ridge: f64) -> Option<DVector<f64>> {
+pub(super) fn solve_symmetric(
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+    ridge: f64,
+) -> Option<DVector<f64>> {
     let p = matrix.nrows();
     let scale = DVector::from_fn(p, |i, _| matrix[(i, i)].sqrt().max(f64::MIN_POSITIVE));
     let mut scaled = DMatrix::from_fn(p, p, |i, j| matrix[(i, j)] / (scale[i] * scale[j]));
@@ -102,10 +106,8 @@ pub(super) fn gauss_newton(moments: &Moments, start: Parameters) -> Parameters {
     // Near an exact fit the energy is lost in rounding, while the step still improves the parameters.
     let rounding = 1e-12 * moments.matrix[(p, p)];
     for _ in 0..MOST_STEPS {
-        let jacobian = jacobian(moments, &theta);
-        let residual = moments.matrix.view((0, p), (p, 1)) - moments.matrix.view((0, 0), (p, p)) * products(moments, &theta);
-        let gradient = jacobian.transpose() * residual;
-        let Some(step) = solve_symmetric(&information(moments, &theta), &gradient.column(0).into(), 1e-13) else {
+        let Some(step) = solve_symmetric(&information(moments, &theta), &score(moments, &theta), 1e-13)
+        else {
             break;
         };
         let shares = (0..12).map(|k| 0.5f64.powi(k));
@@ -155,6 +157,14 @@ fn products(moments: &Moments, theta: &Parameters) -> DVector<f64> {
 pub(super) fn residual_energy(moments: &Moments, theta: &Parameters) -> f64 {
     let x = products(moments, theta).push(-1.0);
     x.dot(&(&moments.matrix * &x)).max(0.0)
+}
+
+/// `Jᵀ Σ Φξ`: half the downhill gradient of the squared equation errors with respect to `(a, b, f, c)`.
+pub(super) fn score(moments: &Moments, theta: &Parameters) -> DVector<f64> {
+    let p = moments.constant() + 1;
+    let output: DVector<f64> = moments.matrix.view((0, p), (p, 1)).column(0).into();
+    let residual = output - moments.matrix.view((0, 0), (p, p)) * products(moments, theta);
+    jacobian(moments, theta).tr_mul(&residual)
 }
 
 /// `JᵀMJ`, with `J` the derivative of the over-parameterised coefficients with respect to `(a, b, f, c)`: the

@@ -63,8 +63,11 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     };
     let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
     // Smaller structures first: by falling delay, then by order.
-    let structures: Vec<Structure> =
-        delays.iter().rev().flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay })).collect();
+    let structures: Vec<Structure> = delays
+        .iter()
+        .rev()
+        .flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay }))
+        .collect();
     if let ([structure], [knots]) = (&structures[..], &knots[..]) {
         return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
     }
@@ -82,7 +85,9 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     let candidates: Vec<Candidate> = assessed.iter().map(|a| candidate(a, &assessed[0])).collect();
     let close = candidates.iter().filter(|c| c.behind <= 1.0);
     match close.min_by_key(|c| c.parameters) {
-        Some(&Candidate { structure, knots, .. }) => Ok(Selection { candidates, folds: FOLDS, structure, knots }),
+        Some(&Candidate { structure, knots, .. }) => {
+            Ok(Selection { candidates, folds: FOLDS, structure, knots })
+        }
         None => Err(FreeError::Unstable { order: structures[0].order }),
     }
 }

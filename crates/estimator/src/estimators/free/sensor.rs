@@ -41,7 +41,8 @@ const LARGEST_NOISE: f64 = 0.02;
 impl SensorNoise {
     /// Looks for noise on an input.
     pub fn of(v: &[f64]) -> Self {
-        let (low, high) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let (low, high) =
+            v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
         let limit = LARGEST_NOISE * (high - low);
         let small_pairs = small_cluster(&rainflow(v), limit).unwrap_or(0.0);
         let sd = (2..=4).find_map(|k| white_sd(v, k)).filter(|&sd| sd < limit).unwrap_or(0.0);
@@ -55,7 +56,10 @@ impl SensorNoise {
         let bands = [0.0, (3.0 * self.sd).min(threshold / 2.0)];
         let bands = &bands[..if bands[1] > 0.0 { 2 } else { 1 }];
         let timings = timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
-        timings.iter().flat_map(|&timing| bands.iter().map(move |&band| ReversalRule { threshold, band, timing })).collect()
+        timings
+            .iter()
+            .flat_map(|&timing| bands.iter().map(move |&band| ReversalRule { threshold, band, timing }))
+            .collect()
     }
 }
 

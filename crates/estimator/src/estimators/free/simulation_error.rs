@@ -1,8 +1,8 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
 use super::fit::Effort;
-use super::rank_one::solve_symmetric;
 use super::problem::{Parameters, Segment, Structure};
+use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether all zeros of `1 + a₁z⁻¹ + … + aₙz⁻ⁿ` lie inside the unit circle (Schur–Cohn step-down).
