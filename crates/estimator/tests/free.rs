@@ -1,4 +1,5 @@
 //! Identification from any record, on rigs simulated here and on measured ones.
+#![allow(clippy::disallowed_macros, reason = "a test tells what it measured, or that it was skipped")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -165,11 +166,12 @@ fn refinement_removes_the_bias_of_output_noise() {
 
 #[test]
 fn sensor_noise_on_the_input_is_found_and_does_not_fake_reversals() {
-    let clean = smooth(4000);
+    let wave = |t: f64| 0.8 * (0.041 * t).sin() + 0.15 * (0.0093 * t + 1.0).sin();
+    let clean: Vec<f64> = (0..4000).map(|t| wave(f64::from(t))).collect();
     let y = added(&simulate(SPRING, &A, &B, &clean, &[]), &normals(7, 4000, 0.01));
     let v = added(&clean, &normals(8, 4000, 0.004));
     let noise = SensorNoise::of(&v);
-    assert!(noise.threshold > 0.008 && noise.threshold < 0.05, "{noise:?}");
+    assert!(noise.threshold > 0.015 && noise.threshold < 0.05, "{noise:?}");
     assert_eq!(SensorNoise::of(&clean).threshold, 0.0);
     let record = Record::new(v, y).unwrap();
     let fit = |threshold| {
@@ -179,7 +181,9 @@ fn sensor_noise_on_the_input_is_found_and_does_not_fake_reversals() {
     let (with_threshold, warnings) = fit(None);
     assert!(with_threshold > 90.0, "{with_threshold}");
     assert!(warnings.iter().any(|w| matches!(w, Warning::SensorNoise { .. })));
-    assert!(fit(Some(0.0)).0 < with_threshold - 10.0);
+    let without = fit(Some(0.0)).0;
+    println!("{with_threshold:.1} % with, {without:.1} % without a threshold");
+    assert!(without < with_threshold - 5.0);
 }
 
 #[test]
@@ -252,7 +256,7 @@ fn what_cannot_be_identified_is_refused() {
     assert_eq!(identify(&[&flat], &settings).unwrap_err(), FreeError::ConstantOutput);
     let short = Record::new(random_levels(1, 20), random_levels(2, 20)).unwrap();
     assert!(matches!(identify(&[&short], &known(2, 0, 5)), Err(FreeError::TooShort { .. })));
-    assert!(identify(&[&short], &settings).is_err());
+    assert!(matches!(identify(&[&short], &settings), Err(FreeError::TooShort { .. })));
     let negative = Settings { threshold: Some(-1.0), ..settings };
     assert!(matches!(identify(&[&still], &negative), Err(FreeError::Setting { name: "threshold", .. })));
     let order = Settings { order: Some(0), ..settings };

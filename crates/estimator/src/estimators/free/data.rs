@@ -37,21 +37,20 @@ impl<'a> Data<'a> {
             .map(|r| SensorNoise::of(r.v()))
             .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let threshold = settings.threshold.unwrap_or(noise.threshold);
-        let rule = noise.rules(threshold, settings.timing)[0];
+        let rule = noise.rules(settings.threshold, settings.timing)[0];
         let records: Vec<_> =
             records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
         let range =
             Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
+        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold: rule.threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
         }
         Ok(Self { records, interval: settings.interval.unwrap_or(range), rule, noise })
     }
 
-    /// The same records with reversals by another rule of the same threshold.
+    /// The same records with reversals by another rule.
     pub(super) fn with_rule(&self, rule: ReversalRule) -> Self {
         let again = |(record, branches): &(&'a Record, Branches)| {
             (*record, Branches::of(record.v(), rule).unwrap_or_else(|| branches.clone()))

@@ -15,8 +15,6 @@ const ORDERS: RangeInclusive<usize> = 1..=4;
 const DELAYS: RangeInclusive<isize> = -2..=1;
 /// Knots a curve tried in the second stage; the first stage has [`FIRST_KNOTS`].
 const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
-/// Structures that reach the second stage.
-const FINALISTS: usize = 3;
 
 /// One candidate and what cross-validation says of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +46,8 @@ pub struct Selection {
 
 /// Chooses what the settings leave open.
 ///
-/// First every order and delay at a middling number of knots, then every number of knots at the best of
-/// these. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
+/// First every order and delay at a middling number of knots, then every number of knots at the best
+/// order of each delay. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
 /// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
 /// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
 /// smaller ones travel better to records that the fit has not seen.
@@ -77,8 +75,7 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     let mut second: Vec<Assessed> = Vec::new();
     for &k in knots.iter().filter(|&&k| k != first_knots) {
         let ladder = Ladder::last_step(data, settings.input_map, k);
-        let finalists = assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite());
-        second.extend(finalists.map(|a| assess_next(&ladder, a, settings.refine)));
+        second.extend(best_of_each_delay(&assessed).map(|a| assess_next(&ladder, a, settings.refine)));
     }
     assessed.extend(second);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
@@ -88,7 +85,14 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
         Some(&Candidate { structure, knots, .. }) => {
             Ok(Selection { candidates, folds: FOLDS, structure, knots })
         }
-        None => Err(FreeError::Unstable { order: structures[0].order }),
+        None => {
+            // Without a fold's share of the data the smallest structure must still have its two samples a parameter.
+            let smallest = structures[0];
+            let mut blocks = ladder.top().blocks(smallest, FOLDS);
+            blocks.pop();
+            ladder.top().basis.check_length(smallest, &blocks)?;
+            Err(FreeError::Unstable { order: smallest.order })
+        }
     }
 }
 
@@ -97,7 +101,7 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
 /// The rules have the same parameters, so the fit itself decides; a middling structure shows the difference. All are judged
 /// over the same samples but for a few at the very start.
 pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
-    let rules = data.noise.rules(data.rule.threshold, settings.timing);
+    let rules = data.noise.rules(settings.threshold, settings.timing);
     if rules.len() == 1 || settings.input_map != InputMap::Borders {
         return data;
     }
@@ -113,6 +117,12 @@ pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a
     let tried = rules.into_iter().map(|rule| data.with_rule(rule)).filter_map(|d| Some((error(&d)?, d)));
     let best = tried.min_by(|x, y| x.0.total_cmp(&y.0));
     best.map_or_else(|| data.with_rule(data.rule), |(_, best)| best)
+}
+
+/// The best order of each delay, from assessments sorted by fit. A coarse grid may favour a delay that a finer one does not.
+fn best_of_each_delay(sorted: &[Assessed]) -> impl Iterator<Item = &Assessed> {
+    let is_first = |i: usize| sorted[..i].iter().all(|a| a.structure.delay != sorted[i].structure.delay);
+    (0..sorted.len()).filter(move |&i| is_first(i) && sorted[i].fit_percent.is_finite()).map(|i| &sorted[i])
 }
 
 /// Sets an assessment against the best one.

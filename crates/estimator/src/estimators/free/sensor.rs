@@ -35,6 +35,9 @@ pub struct SensorNoise {
 /// √2 σ, so this is 4.2 of those: about one false reversal in 10⁵ samples at rest, and none on a slope.
 const THRESHOLD_IN_SD: f64 = 6.0;
 
+/// A lower threshold that the fit may prefer: one false reversal in some hundred samples at rest, but loops of half the size seen.
+const LOW_THRESHOLD_IN_SD: f64 = 3.5;
+
 /// Share of the range that noise may take up.
 const LARGEST_NOISE: f64 = 0.02;
 
@@ -50,16 +53,30 @@ impl SensorNoise {
         Self { sd, small_pairs, threshold }
     }
 
-    /// The rules worth trying with a threshold (this one, or the user's), simplest first. On a noisy input the extremum of a
-    /// rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
-    pub(super) fn rules(&self, threshold: f64, timing: Option<Timing>) -> Vec<ReversalRule> {
-        let bands = [0.0, (3.0 * self.sd).min(threshold / 2.0)];
-        let bands = &bands[..if bands[1] > 0.0 { 2 } else { 1 }];
+    /// The rules worth trying, simplest first; a threshold or timing that the user gives is kept.
+    ///
+    /// On a noisy input the extremum of a rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
+    /// Beside the safe threshold a lower one is tried, since real loops may be small.
+    pub(super) fn rules(&self, threshold: Option<f64>, timing: Option<Timing>) -> Vec<ReversalRule> {
+        let thresholds = match threshold {
+            Some(threshold) => vec![threshold],
+            None if self.small_pairs == 0.0 && self.sd > 0.0 => {
+                vec![self.threshold, LOW_THRESHOLD_IN_SD * self.sd]
+            }
+            None => vec![self.threshold],
+        };
         let timings = timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
-        timings
-            .iter()
-            .flat_map(|&timing| bands.iter().map(move |&band| ReversalRule { threshold, band, timing }))
-            .collect()
+        let mut rules = Vec::new();
+        for &threshold in &thresholds {
+            for &timing in &timings {
+                let band = (3.0 * self.sd).min(threshold / 2.0);
+                rules.push(ReversalRule { threshold, band: 0.0, timing });
+                if band > 0.0 {
+                    rules.push(ReversalRule { threshold, band, timing });
+                }
+            }
+        }
+        rules
     }
 }
 
