@@ -39,3 +39,21 @@ pub(super) trait Workload: Sync {
     /// The outcome depends on the seed and the replicate's number, not on what else is active or in the range.
     fn run(&self, seed: u64, replicates: Range<u32>, active: &[bool], sums: &mut [CellSums]);
 }
+
+impl ParameterName {
+    /// The names of `a₁…aₙ`, `b₁…bₙ` and of the points of the given borders, in this order.
+    pub(super) fn all(order: usize, borders: &[(Group, &[f64])]) -> Vec<Self> {
+        let coefficients = |letter: char, group| {
+            (1..=order).map(move |i| Self { name: format!("{letter}{i}"), group, v: None })
+        };
+        let points = borders.iter().flat_map(|&(group, positions)| {
+            let label = if group == Group::Descending { "desc" } else { "asc" };
+            positions.iter().enumerate().map(move |(j, &v)| Self {
+                name: format!("F_{label}(V{})", j + 1),
+                group,
+                v: Some(v),
+            })
+        });
+        coefficients('a', Group::A).chain(coefficients('b', Group::B)).chain(points).collect()
+    }
+}

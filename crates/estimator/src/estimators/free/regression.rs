@@ -4,7 +4,7 @@ use super::basis::Cell;
 use super::branch::Branches;
 use super::equation_error::Moments;
 use super::error::FreeError;
-use super::fit::equation_error_fit;
+use super::fit::quick_equation_error_fit;
 use super::identify::equation_error_estimate;
 use super::model;
 use super::one_shot::Grid;
@@ -128,11 +128,13 @@ impl Regression {
 
     /// Least squares and rank one: what [`one_shot`](super::one_shot) makes of the same samples.
     ///
+    /// Only where the samples leave a coefficient `bᵢf_k` all but open can the two differ: `one_shot` then tries other starts as well.
+    ///
     /// # Errors
     /// [`FreeError::Unstable`] if nothing fits.
     pub fn estimate(&self, moments: &Moments) -> Result<Estimate, FreeError> {
         let order = self.grid.structure.order;
-        let theta = equation_error_fit(moments).ok_or(FreeError::Unstable { order })?;
+        let theta = quick_equation_error_fit(moments).ok_or(FreeError::Unstable { order })?;
         Ok(equation_error_estimate(moments, &self.grid.basis, &theta))
     }
 
