@@ -53,6 +53,9 @@ pub(crate) struct Campaign {
 /// reaches further back, so that all are scored on the same samples.
 pub(crate) const WARM_UP: usize = 12;
 
+/// Positions of the input closer than this are the same, in strokes.
+const RESOLUTION: f64 = 1e-10;
+
 impl Campaign {
     /// Scales the records of a rig.
     ///
@@ -81,7 +84,13 @@ impl Campaign {
         let mut tracks = Vec::with_capacity(rig.records.len());
         let mut clock = 0;
         for r in &rig.records {
-            let v: Vec<f64> = r.record.v().iter().map(|v| (v - v_low) / v_width).collect();
+            // Rounded, so that a difference of rounding errors is no move and no reversal.
+            let v: Vec<f64> = r
+                .record
+                .v()
+                .iter()
+                .map(|v| ((v - v_low) / v_width / RESOLUTION).round() * RESOLUTION)
+                .collect();
             let y = r.record.y().iter().map(|y| (y - y_mean) / y_scale).collect();
             let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
             let period = period_of(&v);

@@ -10,6 +10,10 @@ use crate::settings::Settings;
 /// their laws and their own parameters.
 pub(crate) const SIGNIFICANT: f64 = 40.0;
 
+/// Deviance left in general that is still no gap worth a verdict: on ten thousand samples, a tenth of the noise's
+/// standard deviation.
+const IMMATERIAL: f64 = 100.0;
+
 /// Probabilities of the explanations, of none and of none of these.
 #[derive(Debug, Clone)]
 pub(crate) struct Odds {
@@ -47,7 +51,7 @@ pub(crate) fn odds(nominal_bic: f64, bics: &[f64], left: f64) -> Odds {
     let (middle, scale) = calibration::LEFT;
     let foreign = 1.0 / (1.0 + (-(fraction - middle) / scale).exp());
     let foreign = foreign.max(calibration::FOREIGN);
-    let none = if left > 0.0 && gain < SIGNIFICANT { none * (-left / 60.0).exp() } else { none };
+    let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let unexplained = (1.0 - none) * foreign;
     let rest = (1.0 - none - unexplained).max(0.0);
     Odds { effects: weights.iter().map(|w| rest * w / sum).collect(), none, unexplained }

@@ -93,6 +93,24 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
 /// A cell narrower than this may be a jump, in strokes.
 const NARROW: f64 = 0.008;
 
+/// Whether a cell up to [`WIDE`] rises or falls much faster than its border does elsewhere.
+fn is_steep(fit: &Fit, s: usize, cell: usize) -> bool {
+    let knots = &fit.grid.knots[s];
+    let offset = s * fit.grid.knots[0].len();
+    let slope = |i: usize| {
+        let width = knots[i + 1] - knots[i];
+        (width > 2.0 * TOUCHING)
+            .then(|| ((fit.linear.f[offset + i + 1] - fit.linear.f[offset + i]) / width).abs())
+    };
+    let mut slopes: Vec<f64> = (0..knots.len() - 1).filter_map(slope).collect();
+    slopes.sort_by(f64::total_cmp);
+    let median = slopes[slopes.len() / 2];
+    knots[cell + 1] - knots[cell] < WIDE && slope(cell).is_some_and(|x| x > 3.0 * median)
+}
+
+/// A cell wider than this is no candidate for a jump, in strokes.
+const WIDE: f64 = 0.12;
+
 /// Jumps moved until they rest.
 fn polished(campaign: &Campaign, mut fitted: Fit, build: &Build<'_>) -> Option<Fit> {
     for _ in 0..POLISHES {
@@ -115,22 +133,20 @@ fn collapsed(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
         while i + 1 < best.grid.knots[s].len() {
             let (l, r) = (best.grid.knots[s][i], best.grid.knots[s][i + 1]);
             i += 1;
-            if r - l <= 2.0 * TOUCHING || r - l > NARROW {
+            if r - l <= 2.0 * TOUCHING || !(r - l <= NARROW || is_steep(&best, s, i - 1)) {
                 continue;
             }
             let is_level = [l, r].map(|k| campaign.levels.contains(&k));
-            let options = [
-                Some(0.5 * (l + r)),
-                is_level[1].then_some(r - TOUCHING),
-                is_level[0].then_some(l + TOUCHING),
-            ];
+            let inner = [0.5 * (l + r), l + 1e-4, r - 1e-4];
+            let beside = [is_level[1].then_some(r - TOUCHING), is_level[0].then_some(l + TOUCHING)];
+            let options = inner.into_iter().filter(|x| *x > l && *x < r).chain(beside.into_iter().flatten());
             let price = (best.samples as f64).ln();
             let cost = |f: &Fit| f.deviance + price * f.grid.len() as f64;
-            let trials = options.into_iter().flatten().filter_map(|jump| {
+            let trials = options.filter_map(|jump| {
                 let mut grid = best.grid.clone();
                 // A level of the experiments keeps its own value.
                 grid.knots[s].retain(|k| (*k != l || is_level[0]) && (*k != r || is_level[1]));
-                let beside_level = is_level.contains(&true) && jump != 0.5 * (l + r);
+                let beside_level = beside.contains(&Some(jump));
                 grid.insert(s, jump, !beside_level);
                 polished(campaign, refitted(campaign, &best, &grid, build)?, build)
             });
@@ -160,7 +176,7 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     for s in 0..2 {
         for pair in best.grid.knots[s].windows(2).filter(|w| w[0] == w[1]) {
             let here = visits[s].partition_point(|&v| v < pair[0]) as isize;
-            for offset in [-12, -8, -5, -3, -2, -1, 1, 2, 3, 5, 8, 12] {
+            for offset in [-60, -35, -20, -12, -8, -5, -3, -2, -1, 1, 2, 3, 5, 8, 12, 20, 35, 60] {
                 let at = here + offset;
                 if at < 1 || at as usize >= visits[s].len() {
                     continue;

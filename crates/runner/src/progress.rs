@@ -5,11 +5,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Counts replicates and shows them on stderr.
+/// Counts units of work and shows them on stderr.
 #[derive(Debug)]
 pub struct Meter {
     bar: ProgressBar,
     plain: bool,
+    what: &'static str,
     planned: AtomicU64,
     done: AtomicU64,
 }
@@ -18,15 +19,20 @@ pub struct Meter {
 const LINES: u64 = 10;
 
 impl Meter {
-    /// A meter at zero; `quiet` shows nothing.
+    /// A meter of replicates at zero; `quiet` shows nothing.
     pub fn new(quiet: bool) -> Self {
+        Self::counting("replicates", quiet)
+    }
+
+    /// A meter of anything else.
+    pub fn counting(what: &'static str, quiet: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let target =
             if quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} replicates, {eta} left")
+        let style = ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left"))
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = ProgressBar::with_draw_target(Some(0), target).with_style(style);
-        Self { bar, plain: !quiet && !terminal, planned: AtomicU64::new(0), done: AtomicU64::new(0) }
+        Self { bar, plain: !quiet && !terminal, what, planned: AtomicU64::new(0), done: AtomicU64::new(0) }
     }
 
     /// Takes the bar off the screen.
@@ -47,7 +53,7 @@ impl Progress for Meter {
         let planned = self.planned.load(Ordering::Relaxed).max(1);
         let tenth = |done: u64| LINES * done / planned;
         if self.plain && tenth(before + replicates) > tenth(before) {
-            eprintln!("{} of {planned} replicates", before + replicates);
+            eprintln!("{} of {planned} {}", before + replicates, self.what);
         }
     }
 }

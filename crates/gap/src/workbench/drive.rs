@@ -64,7 +64,9 @@ fn wander(rng: &mut impl Rng, n: usize) -> Vec<f64> {
         v.extend((1..=samples).map(|k| from + (to - from) * k as f64 / samples as f64));
         if rng.random::<f64>() < 0.3 {
             let rest = rng.random_range(2..8);
-            v.extend(std::iter::repeat_n(to, rest));
+            // The last sample reached, not `to`: they may differ by rounding, and that would be a reversal.
+            let here = v[v.len() - 1];
+            v.extend(std::iter::repeat_n(here, rest));
         }
     }
     v.truncate(n);

@@ -4,7 +4,7 @@
 //! scenario → design → seal (make, hash the keys) → examine (diagnose, open, compare) → score → report
 //! ```
 //!
-//! The diagnosis is an argument: a function from a rig and settings. It gets a [`Rig`] rebuilt from its recipe, which
+//! The diagnosis is an argument: a function from a rig and settings. It gets a [`Rig`](switchback_estimator::rig::Rig) rebuilt from its recipe, which
 //! holds what a user's folder holds and nothing else. The key file is on disk, and its SHA-256 in the report, before the
 //! first diagnosis. Nothing depends on the number of threads.
 
@@ -23,7 +23,7 @@ pub use design::{Kind, Ticket, design};
 pub use examine::{Examiner, examine};
 pub use place::PlaceCheck;
 pub use report::{artefacts, summary};
-pub use scenario::{BlindError, Expect, Study, read};
+pub use scenario::{BlindError, Expect, Study, is_blind, read};
 pub use score::{
     AbstentionRow, AccuracyRow, BaselineRow, Bound, Calibration, CalibrationBin, ClosureRow, Confusion,
     Measure, PlaceRow, Scores, Share, SizeRow, TARGETS, score,

@@ -120,6 +120,13 @@ impl From<TomlError> for BlindError {
     }
 }
 
+/// Whether a file calls itself a blind study; one that cannot be read or parsed does not.
+pub fn is_blind(path: &Path) -> bool {
+    let Ok(file) = TomlFile::read(path) else { return false };
+    let table: Result<toml::Table, _> = file.parse();
+    table.is_ok_and(|t| t.get("study").and_then(toml::Value::as_str) == Some("blind"))
+}
+
 /// Reads and checks a scenario with `study = "blind"`.
 ///
 /// # Errors

@@ -3,10 +3,12 @@
 use crate::blind::{self, Examiner, Study};
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder};
-use indicatif::{ProgressBar, ProgressStyle};
-use miette::{Diagnostic, IntoDiagnostic};
+use crate::progress::Meter;
+use crate::study::Progress;
+use miette::Diagnostic;
 use std::path::Path;
 use std::time::Instant;
+use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
 use thiserror::Error;
 
@@ -18,41 +20,45 @@ pub struct StudyError(#[from] MakeError);
 
 /// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report into `out`, prints the summary.
 ///
+/// Runs on the rayon pool that it is called from. Only the printed time depends on it.
+///
 /// # Errors
 /// A scenario that cannot be used, or a folder that cannot be written.
-pub fn run(scenario: &Path, out: &Path, examiner: Examiner<'_>) -> CommandResult {
+pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let study = blind::read(scenario)?;
+    let default = Path::new("reports").join(&study.name);
+    let out = out.unwrap_or(&default);
+    let page = Page { quiet };
     let folder = OutputFolder::claim(out)?;
-    let tickets = blind::design(&study).map_err(StudyError)?;
-    let count = tickets.len();
-    println!("{}: {}", study.name, study.question);
+    page.say(&format!("{}: {}", study.name, study.question));
 
-    let bar = progress("making", count);
-    let sealed = blind::seal(tickets, &|| bar.inc(1)).map_err(StudyError)?;
-    bar.finish_and_clear();
+    let tickets = blind::design(&study).map_err(StudyError)?;
+    let meter = Meter::counting("rigs made", quiet);
+    meter.planned(tickets.len() as u64);
+    let sealed = blind::seal(tickets, &|| meter.advanced(1)).map_err(StudyError)?;
+    meter.finish();
     let key = blind::key_file(&sealed);
     let hash = blind::sha256(&key);
+    // On disk before the first diagnosis: whoever doubts the report can hash it.
     folder.commit(&only("key.jsonl", key))?;
-    println!(
-        "{count} rigs made; their keys are sealed in {}\nSHA-256 {hash}",
-        out.join("key.jsonl").display()
-    );
+    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join("key.jsonl").display()));
+    page.say(&format!("SHA-256 {hash}"));
 
-    let bar = progress("diagnosing", count);
+    let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
+    let meter = Meter::counting("rigs diagnosed", quiet);
+    meter.planned(sealed.len() as u64);
     let start = Instant::now();
-    let cases = blind::examine(&sealed, examiner, &|| bar.inc(1)).map_err(StudyError)?;
-    bar.finish_and_clear();
-    let spent = start.elapsed().as_secs_f64();
-    println!("diagnosed in {spent:.0} s, {:.2} s a rig in parallel\n", spent / count as f64);
+    let cases = blind::examine(&sealed, examiner, &|| meter.advanced(1)).map_err(StudyError)?;
+    meter.finish();
+    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()));
 
-    report(&study, &hash, &cases, out)
+    conclude(&study, &hash, &cases, out, page)
 }
 
-fn report(study: &Study, hash: &str, cases: &[blind::Case], out: &Path) -> CommandResult {
+fn conclude(study: &Study, hash: &str, cases: &[blind::Case], out: &Path, page: Page) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
     OutputFolder::claim(out)?.commit(&blind::artefacts(study, hash, cases, &scores)?)?;
-    print!("{}", blind::summary(&scores));
-    println!("\nreport: {}", out.display());
+    page.say(&format!("{}\nwritten to {}", blind::summary(&scores), out.display()));
     let broken = scores.measures.iter().any(blind::Measure::is_unexpected);
     Ok(if broken { Outcome::Unmet } else { Outcome::Done })
 }
@@ -63,12 +69,16 @@ fn only(name: &str, contents: String) -> Artefacts {
     artefacts
 }
 
-/// A bar on a terminal; elsewhere indicatif stays silent.
-fn progress(what: &'static str, count: usize) -> ProgressBar {
-    let bar = ProgressBar::new(count as u64).with_prefix(what);
-    let style = ProgressStyle::with_template("{prefix:>10} [{bar:40}] {pos}/{len} {eta}").into_diagnostic();
-    if let Ok(style) = style {
-        bar.set_style(style);
+/// Standard output, or silence.
+#[derive(Clone, Copy)]
+struct Page {
+    quiet: bool,
+}
+
+impl Page {
+    fn say(self, line: &str) {
+        if !self.quiet {
+            println!("{line}");
+        }
     }
-    bar
 }

@@ -2,10 +2,9 @@
 
 use crate::compare::{self, Comparison};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder};
+use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::results::{self, Results};
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Compare two results in units of their Monte-Carlo errors; exit code 1 where they differ beyond chance.
@@ -48,14 +47,4 @@ fn artefacts(comparison: &Comparison, summary: &str, (baseline, new): (&Results,
         artefacts.add(format!("overlay-{}", figure.name), figure.svg);
     }
     artefacts
-}
-
-/// A reader that closed its end early (`| head`) has what it wanted.
-fn print(page: &str) -> miette::Result<()> {
-    match std::io::stdout().write_all(page.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(miette::miette!("cannot print the result: {error}"))
-        }
-        _ => Ok(()),
-    }
 }

@@ -2,10 +2,9 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::{self, Identification, Method};
-use crate::output::{Artefacts, OutputFolder};
+use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::rig;
-use std::io::Write;
 use std::path::PathBuf;
 use switchback_estimator::rig::Rig;
 
@@ -41,11 +40,13 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
-    print(if args.json {
+    let page = if args.json {
         identification::json(&rig, &identification)
     } else {
         identification::table(&rig, &identification)
-    })
+    };
+    print(&page)?;
+    Ok(Outcome::Done)
 }
 
 fn method_by_name(name: &str) -> Result<Method, String> {
@@ -65,14 +66,4 @@ fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artef
         artefacts.add("borders.svg", svg);
     }
     Ok(artefacts)
-}
-
-/// A reader that closed its end early (`| head`) has what it wanted.
-fn print(page: String) -> CommandResult {
-    match std::io::stdout().write_all(page.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(miette::miette!("cannot print the result: {error}"))
-        }
-        _ => Ok(Outcome::Done),
-    }
 }

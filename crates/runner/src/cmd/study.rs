@@ -1,12 +1,11 @@
 //! `switchback SCENARIO.toml`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::output::OutputFolder;
+use crate::output::{OutputFolder, print};
 use crate::progress::Meter;
 use crate::scenario::Scenario;
-use crate::{report, study};
+use crate::{blind, report, study};
 use miette::IntoDiagnostic;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Run the study that a scenario file describes, and write its report.
@@ -33,13 +32,16 @@ pub struct Args {
 /// # Errors
 /// A scenario that cannot be read or run, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let scenario = Scenario::read(&args.scenario)?;
-    let default = || Path::new("reports").join(scenario.name());
-    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
     let workers = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .into_diagnostic()?;
+    if blind::is_blind(&args.scenario) {
+        return workers.install(|| super::blind::run(&args.scenario, args.out.as_deref(), args.quiet));
+    }
+    let scenario = Scenario::read(&args.scenario)?;
+    let default = || Path::new("reports").join(scenario.name());
+    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
     let meter = Meter::new(args.quiet);
     let results = workers.install(|| study::run(&scenario, command(&args.scenario), &meter));
     meter.finish();
@@ -56,14 +58,4 @@ pub fn run(args: &Args) -> CommandResult {
 fn command(scenario: &Path) -> String {
     let name = scenario.file_name().unwrap_or_default().to_string_lossy();
     format!("switchback {name}")
-}
-
-/// A reader that closed its end early (`| head`) has what it wanted.
-fn print(page: &str) -> miette::Result<()> {
-    match std::io::stdout().write_all(page.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(miette::miette!("cannot print the result: {error}"))
-        }
-        _ => Ok(()),
-    }
 }

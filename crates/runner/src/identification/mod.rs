@@ -16,6 +16,7 @@ pub use error::IdentificationError;
 pub use fit::fit_percent;
 pub use json::json;
 pub use method::default_method;
+pub(crate) use simulate::EstimatedSystem;
 pub use table::table;
 
 use switchback_estimator::estimators::Estimate;

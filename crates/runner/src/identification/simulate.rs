@@ -12,7 +12,7 @@ use switchback_estimator::linear::is_stable;
 /// last piece to there continues the one before it. An experiment that is missing leaves one known point of its border, the
 /// end of the interval that the other's satellite is.
 #[derive(Debug, Clone)]
-pub(super) struct EstimatedSystem<'a> {
+pub(crate) struct EstimatedSystem<'a> {
     estimate: &'a Estimate,
     interval: Interval,
     /// `(v, F)` by increasing `v`.
@@ -22,7 +22,7 @@ pub(super) struct EstimatedSystem<'a> {
 
 impl<'a> EstimatedSystem<'a> {
     /// Completes the borders over the working interval; `Err` says why the estimate cannot run.
-    pub(super) fn new(estimate: &'a Estimate, interval: Interval) -> Result<Self, &'static str> {
+    pub(crate) fn new(estimate: &'a Estimate, interval: Interval) -> Result<Self, &'static str> {
         if !is_stable(&estimate.a) {
             return Err("the estimated A is unstable");
         }
@@ -31,21 +31,32 @@ impl<'a> EstimatedSystem<'a> {
         let mut descending = points(&estimate.descending);
         match descending[..] {
             [] => descending.push((interval.low(), estimate.y_low / estimate.gain)),
-            _ => descending.push((interval.high(), continued(descending.iter().rev(), interval.high()))),
+            [.., last] if last.0 < interval.high() => {
+                descending.push((interval.high(), continued(descending.iter().rev(), interval.high())));
+            }
+            _ => {}
         }
         let mut ascending = points(&estimate.ascending);
         match ascending[..] {
             [] => ascending.push((interval.high(), estimate.y_high / estimate.gain)),
-            _ => ascending.insert(0, (interval.low(), continued(ascending.iter(), interval.low()))),
+            [first, ..] if first.0 > interval.low() => {
+                ascending.insert(0, (interval.low(), continued(ascending.iter(), interval.low())));
+            }
+            _ => {}
         }
         Ok(Self { estimate, interval, descending, ascending })
+    }
+
+    /// The completed borders, descending and ascending: `(v, F)` by increasing `v`.
+    pub(crate) fn borders(&self) -> [&[(f64, f64)]; 2] {
+        [&self.descending, &self.ascending]
     }
 
     /// Runs on a record's input; none where it moves along a border that was not estimated, or not at all.
     ///
     /// The outputs measured until the first sample whose inputs are all known (the first move and the memory of the
     /// system) are the initial state; all later ones are simulated from `v` alone.
-    pub(super) fn run(&self, record: &Record) -> Option<FreeRun> {
+    pub(crate) fn run(&self, record: &Record) -> Option<FreeRun> {
         let v = record.v();
         let n = self.estimate.a.len();
         let first_known = (1..v.len()).find(|&t| v[t] != v[t - 1])?;
@@ -57,11 +68,15 @@ impl<'a> EstimatedSystem<'a> {
                 std::cmp::Ordering::Equal => u[t - 1],
             };
         }
-        let start = (first_known + n).min(v.len());
+        let delay = self.estimate.delay;
+        let start = (first_known + n + delay.max(0) as usize).min(v.len());
         let mut y = record.y()[..start].to_vec();
         for t in start..v.len() {
             let (a, b) = (&self.estimate.a, &self.estimate.b);
-            y.push((0..n).map(|i| b[i] * u[t - 1 - i] - a[i] * y[t - 1 - i]).sum());
+            // A look ahead that leaves the record finds the input at rest where it ended.
+            let driven = |j: usize| b[j] * u[(t - j).saturating_add_signed(-1 - delay).min(v.len() - 1)];
+            let free = |i: usize| a[i] * y[t - 1 - i];
+            y.push((0..b.len()).map(driven).sum::<f64>() - (0..n).map(free).sum::<f64>());
         }
         Some(FreeRun::new(record.y(), y, start))
     }

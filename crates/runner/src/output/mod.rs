@@ -1,8 +1,10 @@
-//! Writing results: all of a command's files appear, or none does.
+//! Writing and printing results: all of a command's files appear, or none does.
 
 mod artefacts;
 mod folder;
+mod page;
 mod staging;
 
 pub use artefacts::Artefacts;
 pub use folder::{OutputError, OutputFolder};
+pub use page::print;

@@ -41,7 +41,7 @@ pub(super) fn figure(selection: &Selection<'_>, results: &Results) -> Option<Str
             height: 300.0,
             left: 78.0,
             between: 62.0,
-            above: 62.0,
+            above: 84.0,
         },
     };
     Some(sheet.render(|canvas, frames| {

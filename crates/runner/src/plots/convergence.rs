@@ -70,7 +70,11 @@ pub(super) fn figure(
                 }
                 for (k, &noise) in noises.iter().enumerate() {
                     let cells = selection.curve(row.border, row.points, noise);
-                    let aside = 5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0);
+                    let aside = if noises.len() == 1 {
+                        5.0
+                    } else {
+                        5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0)
+                    };
                     if let Some(baseline) = baseline {
                         let cells = baseline.curve(row.border, row.points, noise);
                         Curve { cells, group, colour: GREY, aside: -6.0, radius: 3.0 }

@@ -48,6 +48,12 @@ impl Row<'_> {
         median(self.summaries.iter().filter_map(|s| of(s)).collect())
     }
 
+    /// Largest bias that stays, over the curves that are inconsistent.
+    pub(super) fn plateau(&self) -> Option<f64> {
+        let inconsistent = self.summaries.iter().filter(|s| s.verdict == Verdict::Inconsistent);
+        inconsistent.filter_map(|s| Some(s.plateau?.estimate.abs())).max_by(f64::total_cmp)
+    }
+
     /// `consistent` where all curves agree, else how many say what: `inconsistent 17, undecided 1`.
     pub(super) fn verdict(&self) -> String {
         let kinds = [Verdict::Inconsistent, Verdict::Undecided, Verdict::Consistent];

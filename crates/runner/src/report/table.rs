@@ -20,12 +20,16 @@ pub fn table(results: &Results) -> String {
         lines.push(cells(row));
     }
     let mut text = align(&lines);
-    text.push_str("A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.\n");
-    text.push_str("sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound.\n");
+    text.push_str(LEGEND);
     text.push_str(&expectations(results));
     text.push_str(&failures(results));
     text
 }
+
+const LEGEND: &str = "\
+A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.
+sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound. A bias that stays: the largest.
+";
 
 fn header() -> Vec<String> {
     ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
@@ -38,12 +42,20 @@ fn cells(row: &Row<'_>) -> Vec<String> {
         row.method.to_string(),
         group(row.group).to_owned(),
         slope(row.slope(|s| s.sd_slope), 3),
-        slope(row.slope(|s| s.bias_slope), 2),
+        bias(row),
         row.median(|s| s.coverage.map(|c| c.value())).map_or_else(none, |c| format!("{:.1} %", 100.0 * c)),
         row.median(|s| s.sd_over_theory.map(|r| r.value())).map_or_else(none, |r| format!("{r:.3}")),
         row.median(|s| s.variance_over_bound.map(|r| r.value())).map_or_else(none, ratio),
         row.verdict(),
     ]
+}
+
+/// The bias falls with a slope, or it stays.
+fn bias(row: &Row<'_>) -> String {
+    match row.plateau() {
+        Some(plateau) => format!("none: stays at {plateau:.1e}"),
+        None => slope(row.slope(|s| s.bias_slope), 2),
+    }
 }
 
 fn group(group: Option<Group>) -> &'static str {
@@ -57,9 +69,12 @@ fn group(group: Option<Group>) -> &'static str {
 }
 
 fn slope(fitted: Option<Fitted>, decimals: usize) -> String {
-    fitted.map_or_else(none, |f| {
-        format!("{:.decimals$} [{:.decimals$}, {:.decimals$}]", f.estimate, f.ci.0, f.ci.1)
-    })
+    let digits = |x: f64| {
+        let text = format!("{x:.decimals$}");
+        // No minus before what rounds to zero.
+        if text.trim_matches(['-', '0', '.']).is_empty() { text.replace('-', "") } else { text }
+    };
+    fitted.map_or_else(none, |f| format!("{} [{}, {}]", digits(f.estimate), digits(f.ci.0), digits(f.ci.1)))
 }
 
 fn ratio(r: f64) -> String {

@@ -6,7 +6,8 @@ use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{alternate, gauss_newton, nearest_rank_one, over_parameterised, residual_energy};
 use super::settings::InputMap;
-use super::simulation_error::{Refinement, cost, is_stable};
+use super::simulation_error::{Refinement, cost};
+use crate::linear::is_stable;
 
 /// How hard a refinement tries.
 #[derive(Debug, Clone, Copy)]

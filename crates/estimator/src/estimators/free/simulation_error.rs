@@ -3,20 +3,8 @@
 use super::fit::Effort;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
+use crate::linear::is_stable;
 use nalgebra::{DMatrix, DVector};
-
-/// Whether all zeros of `1 + a₁z⁻¹ + … + aₙz⁻ⁿ` lie inside the unit circle (Schur–Cohn step-down).
-pub(super) fn is_stable(a: &[f64]) -> bool {
-    let mut a = a.to_vec();
-    while let Some(&k) = a.last() {
-        if k.is_nan() || k.abs() >= 1.0 {
-            return false;
-        }
-        let n = a.len() - 1;
-        a = (0..n).map(|i| (a[i] - k * a[n - 1 - i]) / (1.0 - k * k)).collect();
-    }
-    true
-}
 
 /// The free run over a stretch: measured outputs before it, simulated ones from there on.
 pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segment) -> Vec<f64> {

@@ -75,7 +75,12 @@ impl Measure {
     }
 }
 
+/// Takes a measure's bound out of a set of expectations.
 type Bounds = fn(&Expect) -> Option<Bound>;
+/// What was reached, and how many rigs tell.
+type Told = (Option<f64>, usize);
+/// Key, text, bound and figure of one measure.
+type Line = (&'static str, &'static str, Bounds, Told);
 
 pub(super) fn measures(
     cases: &[Case],
@@ -92,7 +97,7 @@ pub(super) fn measures(
     let place = places.iter().find(|p| p.axis == "all");
     let share = |s: Share| (s.value(), s.of);
     let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
-    let lines: [(&'static str, &'static str, Bounds, (Option<f64>, usize)); 12] = [
+    let lines: [Line; 12] = [
         (
             "exact",
             "exact effect named, surviving gap ≥ 1 sd",
@@ -155,9 +160,9 @@ pub(super) fn measures(
         ),
         (
             "pairs_exact",
-            "pairs found exactly, count unknown",
+            "pairs found exactly, count unknown, each ≥ 1 sd",
             |e| e.pairs_exact.map(Bound::AtLeast),
-            share(Share::over(of(Kind::Pair), Case::exact)),
+            share(Share::over(of(Kind::Pair).filter(|c| c.is_large()), Case::exact)),
         ),
         (
             "phantom",

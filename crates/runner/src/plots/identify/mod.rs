@@ -2,7 +2,7 @@
 
 mod borders;
 mod outputs;
-mod series;
+pub(in crate::plots) mod series;
 mod style;
 
 pub use borders::borders;

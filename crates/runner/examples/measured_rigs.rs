@@ -1,0 +1,44 @@
+//! Identifies measured rigs by `free` and by both yardsticks, and writes how well each simulates the held-out record.
+//!
+//! `cargo run --example measured_rigs -- ../shared/rigs`: the folder holds `mr-damper`, `pneumatic-seal` and `piezo-stage` (their public
+//! sources are in the README). Writes `reports/measured-rigs/fits.csv`.
+
+use std::path::Path;
+use switchback::identification::{Method, identify};
+use switchback::output::{Artefacts, OutputFolder};
+use switchback_estimator::rig::Usage;
+
+const RIGS: [&str; 3] = ["mr-damper", "pneumatic-seal", "piezo-stage"];
+const METHODS: [Method; 3] = [Method::Free, Method::Memoryless, Method::LinearArx];
+
+fn main() -> miette::Result<()> {
+    let folder = std::env::args().nth(1).unwrap_or_else(|| "../shared/rigs".to_owned());
+    let mut table = String::from("rig,record,method,order,delay,border_points,fit_percent\n");
+    for name in RIGS {
+        let path = Path::new(&folder).join(name).join("rig.toml");
+        if !path.is_file() {
+            println!("skipped {name}: there is no {}", path.display());
+            continue;
+        }
+        let rig = switchback::rig::read(&path)?;
+        for method in METHODS {
+            let found = identify(&rig, method)?;
+            let estimate = &found.estimate;
+            let points = estimate.descending.len() + estimate.ascending.len();
+            for (record, run) in rig.records.iter().zip(&found.runs) {
+                if let (Usage::Holdout, Some(run)) = (record.usage, run) {
+                    let (order, delay, fit) = (estimate.a.len(), estimate.delay, run.fit_percent);
+                    println!("{name} {method}: {fit:.1} %");
+                    table.push_str(&format!(
+                        "{name},{},{method},{order},{delay},{points},{fit:.1}\n",
+                        record.name
+                    ));
+                }
+            }
+        }
+    }
+    let mut artefacts = Artefacts::default();
+    artefacts.add("fits.csv", table);
+    OutputFolder::claim(Path::new("reports/measured-rigs"))?.commit(&artefacts)?;
+    Ok(())
+}

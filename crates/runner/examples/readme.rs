@@ -1,0 +1,83 @@
+//! Copies the figures that the README quotes out of `reports/`, between its markers.
+//!
+//! `cargo run --example readme` rewrites the README; with `-- --check` it only says whether it is up to date (exit code 1 if not).
+//!
+//! ```text
+//! <!-- begin leafspring -->
+//! …
+//! <!-- end leafspring -->
+//! ```
+
+use miette::{IntoDiagnostic, WrapErr, miette};
+use std::fmt::Write;
+use std::path::Path;
+use switchback::{report, results};
+
+const README: &str = "README.md";
+
+fn main() -> miette::Result<()> {
+    let old =
+        std::fs::read_to_string(README).into_diagnostic().wrap_err("run this in the workspace's root")?;
+    let mut new = old.clone();
+    for (name, section) in sections()? {
+        new = spliced(&new, name, &section)?;
+    }
+    if std::env::args().any(|a| a == "--check") {
+        if new != old {
+            return Err(miette!("README.md differs from reports/; run `cargo run --example readme`"));
+        }
+    } else if new != old {
+        std::fs::write(README, new).into_diagnostic()?;
+    }
+    Ok(())
+}
+
+/// Every section with its text.
+fn sections() -> miette::Result<Vec<(&'static str, String)>> {
+    Ok(vec![
+        ("leafspring", study("leafspring")?),
+        ("assumptions-broken", study("assumptions-broken")?),
+        ("measured-rigs", fits(Path::new("reports/measured-rigs/fits.csv"))?),
+    ])
+}
+
+/// The rows of a study's table, without the lines on expectations.
+fn study(name: &str) -> miette::Result<String> {
+    let results = results::read(&Path::new("reports").join(name))?;
+    let table = report::table(&results);
+    let rows: Vec<&str> =
+        table.lines().filter(|l| !l.starts_with("as expected:") && !l.starts_with("NOT expected:")).collect();
+    Ok(format!("```text\n{}\n```\n", rows.join("\n")))
+}
+
+/// Fit percentages as a table: a row a rig, a column a method.
+fn fits(path: &Path) -> miette::Result<String> {
+    let mut reader = csv::Reader::from_path(path).into_diagnostic()?;
+    let mut rigs: Vec<(String, Vec<(String, String)>)> = Vec::new();
+    for row in reader.records() {
+        let row = row.into_diagnostic()?;
+        let fit = (row[2].to_owned(), format!("{} % (n = {})", &row[6], &row[3]));
+        match rigs.iter_mut().find(|(rig, _)| *rig == row[0]) {
+            Some((_, fits)) => fits.push(fit),
+            None => rigs.push((row[0].to_owned(), vec![fit])),
+        }
+    }
+    let mut text = String::new();
+    let methods: Vec<&str> =
+        rigs.first().map(|(_, fits)| fits.iter().map(|f| f.0.as_str()).collect()).unwrap_or_default();
+    let _ = writeln!(text, "| rig | {} |", methods.join(" | "));
+    let _ = writeln!(text, "|---|{}", "---|".repeat(methods.len()));
+    for (rig, fits) in &rigs {
+        let cells: Vec<&str> = fits.iter().map(|f| f.1.as_str()).collect();
+        let _ = writeln!(text, "| {rig} | {} |", cells.join(" | "));
+    }
+    Ok(text)
+}
+
+fn spliced(text: &str, name: &str, section: &str) -> miette::Result<String> {
+    let (begin, end) = (format!("<!-- begin {name} -->\n"), format!("<!-- end {name} -->"));
+    let missing = || miette!("README.md has no section between {} and {end}", begin.trim_end());
+    let from = text.find(&begin).ok_or_else(missing)? + begin.len();
+    let to = from + text[from..].find(&end).ok_or_else(missing)?;
+    Ok(format!("{}{section}{}", &text[..from], &text[to..]))
+}

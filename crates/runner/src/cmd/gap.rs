@@ -1,0 +1,66 @@
+//! `switchback gap RIG.toml`
+
+use crate::diagnosis::{self, Report, Subject};
+use crate::failure::{CommandResult, Outcome};
+use crate::output::{Artefacts, OutputFolder};
+use crate::plots;
+use crate::rig;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The rig file; the CSV files it names lie beside it.
+    rig: PathBuf,
+
+    /// Diagnose this model, the output of `switchback identify --json` [default: the columns y_sim if the records have
+    /// them, else the model identified from the fit records]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Print one JSON object instead of words.
+    #[arg(long)]
+    json: bool,
+
+    /// Also write gap.json, the figures and the next experiment into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Reads, diagnoses, prints, and writes the folder if one was asked for.
+///
+/// # Errors
+/// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let rig = rig::read(&args.rig)?;
+    let subject = Subject::choose(rig, args.model.as_deref())?;
+    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
+    let report = diagnosis::examine(subject).map_err(|error| error.in_file(&args.rig))?;
+    if let Some(folder) = folder {
+        folder.commit(&artefacts(&report))?;
+    }
+    print(if args.json { diagnosis::json(&report) } else { diagnosis::words(&report, args.out.as_deref()) })
+}
+
+fn artefacts(report: &Report) -> Artefacts {
+    let mut artefacts = Artefacts::default();
+    artefacts.add("gap.json", diagnosis::json(report));
+    for figure in plots::gap::figures(report) {
+        artefacts.add(figure.name, figure.svg);
+    }
+    if let Some(csv) = diagnosis::next_experiment(report) {
+        artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
+    }
+    artefacts
+}
+
+/// A reader that closed its end early (`| head`) has what it wanted.
+fn print(page: String) -> CommandResult {
+    match std::io::stdout().write_all(page.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(miette::miette!("cannot print the result: {error}"))
+        }
+        _ => Ok(Outcome::Done),
+    }
+}

@@ -1,0 +1,19 @@
+//! The next experiment as a file that can be played.
+
+use super::Report;
+use std::fmt::Write;
+
+/// Name of the file.
+pub const NEXT_EXPERIMENT: &str = "next_experiment.csv";
+
+/// The columns `t` (s) and `v` (input units) of the record to take next; none where nothing is left to separate.
+pub fn next_experiment(report: &Report) -> Option<String> {
+    let next = report.diagnosis.next_experiment.as_ref()?;
+    let mut csv = String::from("t,v\n");
+    for (k, v) in next.v.iter().enumerate() {
+        // Twelve digits drop what rounding left of the products, and no meaning.
+        let stamp: f64 = format!("{:.11e}", k as f64 * report.rig.sample_time).parse().unwrap_or_default();
+        let _ = writeln!(csv, "{stamp},{v}");
+    }
+    Some(csv)
+}

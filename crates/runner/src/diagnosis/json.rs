@@ -1,0 +1,179 @@
+//! The diagnosis as one JSON object.
+
+use super::{Report, Units, told};
+use serde::Serialize;
+use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure};
+
+/// The object that `gap --json` prints; figures that do not exist are null.
+#[derive(Serialize)]
+struct Page<'a> {
+    rig: &'a str,
+    model: &'static str,
+    verdict: Verdict,
+    gap: Gap<'a>,
+    r#where: Vec<Place<'a>>,
+    candidates: Vec<Explanation>,
+    next_experiment: Option<Next<'a>>,
+    probability_none: f64,
+    probability_unexplained: f64,
+    limitations: &'a [String],
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+struct Verdict {
+    status: &'static str,
+    effects: Vec<&'static str>,
+    class: Vec<&'static str>,
+    stage: Option<&'static str>,
+    probability: f64,
+}
+
+#[derive(Serialize)]
+struct Gap<'a> {
+    before: Interval,
+    after: Interval,
+    closure: Option<Interval>,
+    noise_floor: f64,
+    predictive_gain: f64,
+    per_record: Vec<RecordGap<'a>>,
+}
+
+#[derive(Serialize)]
+struct Interval {
+    estimate: f64,
+    ci90: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct RecordGap<'a> {
+    record: &'a str,
+    before: f64,
+    after: f64,
+    fit_before: f64,
+    fit_after: f64,
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    axis: &'static str,
+    cell: &'a str,
+    share: f64,
+    q_value: f64,
+}
+
+#[derive(Serialize)]
+struct Explanation {
+    effect: &'static str,
+    stage: &'static str,
+    probability: f64,
+    parameters: Vec<Parameter>,
+    bic: f64,
+    heldout_log_score: f64,
+    closure: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Parameter {
+    name: String,
+    value: f64,
+    ci90: [f64; 2],
+    unit: String,
+}
+
+#[derive(Serialize)]
+struct Next<'a> {
+    experiment: &'static str,
+    separates: Vec<&'static str>,
+    distance: f64,
+    sample_time: f64,
+    v: &'a [f64],
+}
+
+/// One JSON object, indented, with a newline at its end.
+///
+/// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
+/// output units, `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
+/// `bic` relative to the nominal model.
+pub fn json(report: &Report) -> String {
+    let diagnosis = &report.diagnosis;
+    let units = Units::of(&report.rig);
+    let page = Page {
+        rig: &report.rig.name,
+        model: report.source.name(),
+        verdict: verdict(diagnosis),
+        gap: gap(diagnosis),
+        r#where: diagnosis.where_.iter().map(place).collect(),
+        candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
+        next_experiment: diagnosis.next_experiment.as_ref().map(|next| Next {
+            experiment: next.kind.name(),
+            separates: names(&next.separates),
+            distance: next.distance,
+            sample_time: report.rig.sample_time,
+            v: &next.v,
+        }),
+        probability_none: diagnosis.probability_none,
+        probability_unexplained: diagnosis.probability_unexplained,
+        limitations: &diagnosis.limitations,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    serde_json::to_string_pretty(&page).expect("numbers, strings and lists of them are JSON") + "\n"
+}
+
+fn verdict(diagnosis: &Diagnosis) -> Verdict {
+    let verdict = &diagnosis.verdict;
+    Verdict {
+        status: verdict.status.name(),
+        effects: names(&verdict.effects),
+        class: names(&verdict.class),
+        stage: verdict.stage.map(|stage| stage.name()),
+        probability: verdict.probability,
+    }
+}
+
+fn gap(diagnosis: &Diagnosis) -> Gap<'_> {
+    let gap = &diagnosis.gap;
+    let per_record = gap.per_record.iter().map(|record| RecordGap {
+        record: &record.record,
+        before: record.before,
+        after: record.after,
+        fit_before: record.fit_before,
+        fit_after: record.fit_after,
+    });
+    Gap {
+        before: interval(&gap.before),
+        after: interval(&gap.after),
+        closure: gap.closure.as_ref().map(interval),
+        noise_floor: gap.noise_floor,
+        predictive_gain: gap.predictive_gain,
+        per_record: per_record.collect(),
+    }
+}
+
+fn interval(figure: &Figure) -> Interval {
+    Interval { estimate: figure.estimate, ci90: figure.ci90 }
+}
+
+fn place(cell: &Cell) -> Place<'_> {
+    Place { axis: cell.axis, cell: &cell.cell, share: cell.share, q_value: cell.q_value }
+}
+
+fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
+    let parameters = candidate.parameters.iter().map(|parameter| {
+        let told = told(parameter, units);
+        Parameter { name: told.name, value: told.value, ci90: told.ci90, unit: told.unit }
+    });
+    Explanation {
+        effect: candidate.effect.name(),
+        stage: candidate.stage.name(),
+        probability: candidate.probability,
+        parameters: parameters.collect(),
+        bic: candidate.bic,
+        heldout_log_score: candidate.heldout_log_score,
+        closure: candidate.closure,
+    }
+}
+
+fn names(effects: &[Effect]) -> Vec<&'static str> {
+    effects.iter().map(|effect| effect.name()).collect()
+}

@@ -1,0 +1,28 @@
+//! A diagnosis as a command: which model meets which records, the run, and the result as JSON, words and a CSV.
+//!
+//! The diagnosis itself is the crate `switchback_gap`; here are files, threads, units and sentences.
+
+mod error;
+mod examine;
+mod experiment;
+mod json;
+mod model_file;
+mod number;
+mod parameter;
+mod place;
+mod sentences;
+mod subject;
+mod units;
+mod words;
+
+pub use error::DiagnosisError;
+pub use examine::{Report, examine};
+pub use experiment::{NEXT_EXPERIMENT, next_experiment};
+pub use json::json;
+pub use model_file::ModelError;
+pub use number::digits;
+pub use parameter::{Told, told};
+pub use place::{SIGNIFICANT, edges};
+pub use subject::{Source, Subject, SubjectError};
+pub use units::Units;
+pub use words::words;

@@ -1,0 +1,150 @@
+//! A model file: the output of `switchback identify --json`.
+
+use crate::input::{FileError, read_text};
+use miette::Diagnostic;
+use serde::Deserialize;
+use serde_json::error::Category;
+use std::path::Path;
+use switchback_estimator::estimators::{BorderPoint, Estimate};
+use switchback_estimator::linear::is_stable;
+use thiserror::Error;
+
+/// Why a file is no model.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The file cannot be read as text.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] FileError),
+    /// Its content is refused.
+    #[error("{place}: {message}")]
+    #[diagnostic(help("{remedy}"))]
+    Content {
+        /// The file, with line and column where these are known.
+        place: String,
+        /// What is wrong.
+        message: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
+
+/// How to get a file that is one.
+const MAKE_ONE: &str = "make one with `switchback identify RIG.toml --json > MODEL.json`";
+
+/// What of an identification makes the model. Standard errors, fits and warnings say nothing about it and may be missing.
+#[derive(Debug, Deserialize)]
+struct WireModel {
+    order: usize,
+    #[serde(default)]
+    delay: isize,
+    a: Vec<f64>,
+    b: Vec<f64>,
+    gain: f64,
+    descendant: Vec<WirePoint>,
+    ascendant: Vec<WirePoint>,
+}
+
+#[derive(Debug, Deserialize)]
+struct WirePoint {
+    v: f64,
+    f: f64,
+}
+
+/// Reads a model: order, `a`, `b`, `gain`, `delay` (0 where it is missing) and both borders.
+///
+/// # Errors
+/// [`ModelError`] if the file is no JSON, lacks a field, or its numbers contradict each other.
+pub(super) fn read(path: &Path) -> Result<Estimate, ModelError> {
+    let text = read_text(path)?;
+    let wire: WireModel = serde_json::from_str(&text).map_err(|error| refused(path, &text, &error))?;
+    check(&wire).map_err(|(message, remedy)| ModelError::Content {
+        place: path.display().to_string(),
+        message,
+        remedy: remedy.to_owned(),
+    })?;
+    Ok(estimate(wire))
+}
+
+/// What the reader of JSON stumbled over, in the words of somebody who writes JSON.
+fn refused(path: &Path, text: &str, error: &serde_json::Error) -> ModelError {
+    let told = error.to_string();
+    let message = told.rsplit_once(" at line ").map_or(told.as_str(), |(message, _)| message);
+    let (message, remedy) = match error.classify() {
+        _ if text.trim().is_empty() => ("the file is empty".to_owned(), MAKE_ONE.to_owned()),
+        Category::Data => (
+            message.replace("missing field", "there is no field").replace("f64", "a number"),
+            format!("a model has order, a, b, gain, descendant and ascendant; {MAKE_ONE}"),
+        ),
+        _ => (format!("this is no JSON: {message}"), MAKE_ONE.to_owned()),
+    };
+    let place = format!("{}:{}:{}", path.display(), error.line().max(1), error.column().max(1));
+    ModelError::Content { place, message, remedy }
+}
+
+fn check(wire: &WireModel) -> Result<(), (String, &'static str)> {
+    let n = wire.order;
+    let as_identified = "give the fields as `switchback identify --json` wrote them, all from one run";
+    if n == 0 {
+        return Err(("`order` is 0: a model needs a pole at least".to_owned(), MAKE_ONE));
+    }
+    if wire.a.len() != n {
+        return Err((format!("`a` has {} numbers, but `order` is {n}", wire.a.len()), as_identified));
+    }
+    // A direct term, or a look ahead, comes on top of b₁…bₙ.
+    let expected = n + wire.delay.min(0).unsigned_abs();
+    if wire.b.len() != expected {
+        let message = format!(
+            "`b` has {} numbers, but order {n} and delay {} make {expected}",
+            wire.b.len(),
+            wire.delay
+        );
+        return Err((message, as_identified));
+    }
+    for (name, border) in [("descendant", &wire.descendant), ("ascendant", &wire.ascendant)] {
+        if border.len() < 2 {
+            let remedy = "identify with both experiments, or with `--method free`, which sees both borders";
+            return Err((format!("`{name}` has {} points, but a border needs two", border.len()), remedy));
+        }
+        if let Some(k) = border.windows(2).position(|pair| pair[1].v < pair[0].v) {
+            let message =
+                format!("`{name}`: the point at v = {} comes after {}", border[k + 1].v, border[k].v);
+            return Err((message, "list the points of a border by increasing v"));
+        }
+    }
+    if !is_stable(&wire.a) {
+        return Err((
+            "`a` is unstable, so the model cannot be simulated".to_owned(),
+            "identify again from longer records, or with another order or method",
+        ));
+    }
+    let dc = wire.b.iter().sum::<f64>() / (1.0 + wire.a.iter().sum::<f64>());
+    if (dc - wire.gain).abs() > 1e-6 * wire.gain.abs().max(1e-300) {
+        let message = format!("B(1)/A(1) is {dc}, but `gain` is {}", wire.gain);
+        return Err((message, as_identified));
+    }
+    Ok(())
+}
+
+fn estimate(wire: WireModel) -> Estimate {
+    let points = |border: Vec<WirePoint>| -> Vec<BorderPoint> {
+        border.into_iter().map(|p| BorderPoint { v: p.v, f: p.f, se: f64::NAN }).collect()
+    };
+    let (descending, ascending) = (points(wire.descendant), points(wire.ascendant));
+    Estimate {
+        a_se: vec![f64::NAN; wire.a.len()],
+        b_se: vec![f64::NAN; wire.b.len()],
+        y_high: wire.gain * ascending[ascending.len() - 1].f,
+        y_low: wire.gain * descending[0].f,
+        a: wire.a,
+        b: wire.b,
+        delay: wire.delay,
+        noise_sd: f64::NAN,
+        gain: wire.gain,
+        descending,
+        ascending,
+        excitation: f64::NAN,
+        samples: 0,
+    }
+}

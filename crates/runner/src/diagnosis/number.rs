@@ -1,0 +1,77 @@
+//! Numbers for sentences.
+
+/// A number with `count` significant digits, trailing zeros kept, scientific only where plain digits would be many.
+///
+/// ```
+/// # use switchback::diagnosis::digits;
+/// assert_eq!(digits(0.12345, 2), "0.12");
+/// assert_eq!(digits(1234.5, 2), "1234");
+/// assert_eq!(digits(0.0, 3), "0");
+/// assert_eq!(digits(-0.0000012, 2), "−1.2e−6");
+/// ```
+pub fn digits(x: f64, count: usize) -> String {
+    if !x.is_finite() {
+        return "–".to_owned();
+    }
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = x.abs().log10().floor() as i32;
+    let text = if (-4..=6).contains(&magnitude) {
+        let decimals = (count as i32 - 1 - magnitude).max(0) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.*e}", count.saturating_sub(1))
+    };
+    text.replace('-', "−")
+}
+
+/// A number without trailing zeros, four significant digits at most: for the edges of cells.
+pub(super) fn edge(x: f64) -> String {
+    let text = digits(x, 4);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// An estimate with its 90 % interval: `0.12 ± 0.01` where the interval is symmetric, `0.5 [0.3, 0.9]` where it is not.
+pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
+    if !(low.is_finite() && high.is_finite()) {
+        return digits(value, 3);
+    }
+    let (below, above) = (value - low, high - value);
+    let half = 0.5 * (below + above);
+    if half <= 0.0 {
+        return digits(value, 3);
+    }
+    // One digit of the error decides how many of the value are worth telling; two where it begins with a one.
+    let first = half / 10f64.powf(half.log10().floor());
+    let decimals = (f64::from(u8::from(first < 2.0)) - half.log10().floor()).clamp(0.0, 9.0) as usize;
+    let fixed = |x: f64| format!("{x:.decimals$}").replace('-', "−");
+    if (above - below).abs() < 0.2 * half {
+        format!("{} ± {}", fixed(value), fixed(half))
+    } else {
+        format!("{} [{}, {}]", fixed(value), fixed(low), fixed(high))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_decides_the_digits() {
+        assert_eq!(with_interval(0.12345, [0.1134, 0.1334]), "0.123 ± 0.010");
+        assert_eq!(with_interval(0.12345, [0.0934, 0.1534]), "0.12 ± 0.03");
+        assert_eq!(with_interval(0.5, [0.3, 0.9]), "0.5 [0.3, 0.9]");
+        assert_eq!(with_interval(2.0, [f64::NAN, f64::NAN]), "2.00");
+    }
+
+    #[test]
+    fn edges_have_no_trailing_zeros() {
+        assert_eq!(edge(0.1), "0.1");
+        assert_eq!(edge(-20.0), "−20");
+        assert_eq!(edge(123.456), "123.5");
+    }
+}

@@ -1,0 +1,211 @@
+//! The verdict in sentences: where, which, how far, what remains.
+
+use super::number::{digits, with_interval};
+use super::{Report, Source, Units, place, told};
+use switchback_gap::{Candidate, Diagnosis, Effect, Status};
+
+/// Least gain of the prediction, nats per sample, that is worth a sentence.
+const WORTH_TELLING: f64 = 1e-4;
+
+/// The sentences of the verdict, in the order in which they are read.
+pub(super) fn verdict(report: &Report) -> Vec<String> {
+    let units = Units::of(&report.rig);
+    let diagnosis = &report.diagnosis;
+    let mut sentences = vec![size(report)];
+    if diagnosis.verdict.status != Status::None {
+        sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
+    }
+    sentences.push(cause(diagnosis, &units));
+    if !matches!(diagnosis.verdict.status, Status::None) {
+        sentences.extend(closure(report));
+        sentences.push(remainder(diagnosis, &units));
+    }
+    sentences
+}
+
+/// How large the gap is.
+fn size(report: &Report) -> String {
+    let gap = &report.diagnosis.gap;
+    let model = match report.source {
+        Source::Identified => "the model identified from the fit records",
+        Source::Given => "the given model",
+        Source::Predicted => "y_sim",
+    };
+    let percent = |x: f64| digits(100.0 * x, 2);
+    let [low, high] = gap.before.ci90;
+    let held_out = judged(report);
+    if gap.before.ci90[0] <= 0.0 {
+        let at_most = percent(high.max(0.0));
+        return format!(
+            "On {held_out} {model} misses no more than the noise does: any gap is below {at_most} % of the output's variance."
+        );
+    }
+    format!(
+        "On {held_out} {model} misses {} % [{}, {}] of the output's variance beyond the noise.",
+        percent(gap.before.estimate),
+        percent(low),
+        percent(high)
+    )
+}
+
+/// What the gap was measured on.
+fn judged(report: &Report) -> &'static str {
+    match report.rig.holdout_records().next() {
+        Some(_) => "held-out records",
+        None => "the fit records (none is held out)",
+    }
+}
+
+fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
+    let verdict = &diagnosis.verdict;
+    let p = probability(verdict.probability);
+    match verdict.status {
+        Status::None => format!("Nothing significant is missing from the model, probability {p}."),
+        Status::Named if verdict.effects.len() > 1 => {
+            let each: Vec<_> =
+                verdict.effects.iter().map(|effect| described(*effect, diagnosis, units)).collect();
+            format!(
+                "Causes, acting together: {}; probability {p}{}.",
+                each.join(" and "),
+                next_best(diagnosis)
+            )
+        }
+        Status::Named => {
+            let effect = verdict.effects.first().map(|effect| described(*effect, diagnosis, units));
+            format!("Cause: {}, probability {p}{}.", effect.unwrap_or_default(), next_best(diagnosis))
+        }
+        Status::Class => format!(
+            "Cause: one of {}, probability {p} together; no record here separates these twins.",
+            rivals(&verdict.class, diagnosis, units)
+        ),
+        Status::Ambiguous => format!(
+            "Cause: not settled between {}, probability {p} together.",
+            rivals(&verdict.class, diagnosis, units)
+        ),
+        Status::Unexplained => {
+            let stage = verdict
+                .stage
+                .map_or_else(String::new, |stage| format!("; what is left points at the {stage} stage"));
+            let best = diagnosis.candidates.first();
+            let best = best.map_or_else(String::new, |c| {
+                format!(". The nearest candidate, {}, does not explain it", c.effect)
+            });
+            format!("Cause: none of the candidates, probability {p}{stage}{best}.")
+        }
+    }
+}
+
+/// `backlash (play 0.12 ± 0.01 V)`
+fn described(effect: Effect, diagnosis: &Diagnosis, units: &Units) -> String {
+    let candidate = diagnosis.candidates.iter().find(|candidate| candidate.effect == effect);
+    match candidate.map(|candidate| parameters(candidate, units)).filter(|text| !text.is_empty()) {
+        Some(text) => format!("{effect} ({text})"),
+        None => effect.to_string(),
+    }
+}
+
+/// Parameters with their 90 % intervals; nothing for an effect without parameters of its own.
+pub(super) fn parameters(candidate: &Candidate, units: &Units) -> String {
+    let each = candidate.parameters.iter().map(|parameter| {
+        let told = told(parameter, units);
+        let text =
+            format!("{} {} {}", told.name.replace('_', " "), with_interval(told.value, told.ci90), told.unit);
+        text.trim_end().to_owned()
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
+fn rivals(class: &[Effect], diagnosis: &Diagnosis, units: &Units) -> String {
+    let one = |effect: &Effect| {
+        let p = diagnosis.candidates.iter().find(|c| c.effect == *effect).map_or(f64::NAN, |c| c.probability);
+        format!("{} {}", described(*effect, diagnosis, units), probability(p))
+    };
+    class.iter().map(one).collect::<Vec<_>>().join(" or ")
+}
+
+/// The likeliest rival of what was named, be it another effect, none of these, or nothing at all.
+fn next_best(diagnosis: &Diagnosis) -> String {
+    let named = &diagnosis.verdict.effects;
+    let others = diagnosis.candidates.iter().filter(|c| !named.contains(&c.effect));
+    let effects = others.map(|c| (c.effect.name(), c.probability));
+    let rest =
+        [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)];
+    let best = effects.chain(rest).max_by(|x, y| x.1.total_cmp(&y.1));
+    best.filter(|(_, p)| *p >= 0.005)
+        .map_or_else(String::new, |(name, p)| format!("; next best {name}, {}", probability(p)))
+}
+
+/// Two decimals; certainty is never printed.
+pub(super) fn probability(p: f64) -> String {
+    match p {
+        p if p.is_nan() => "–".to_owned(),
+        p if p > 0.99 => "> 0.99".to_owned(),
+        p if p < 0.01 => "< 0.01".to_owned(),
+        p => format!("{p:.2}"),
+    }
+}
+
+/// How far the gap closes, in simulation and in prediction.
+fn closure(report: &Report) -> Vec<String> {
+    let diagnosis = &report.diagnosis;
+    let gap = &diagnosis.gap;
+    let adding = match (diagnosis.verdict.status, diagnosis.verdict.effects.len()) {
+        (Status::Named, 2..) => "Adding them",
+        (Status::Named, _) => "Adding it",
+        _ => "Adding the best explanation",
+    };
+    let mut sentences = Vec::new();
+    let noise_only =
+        !diagnosis.verdict.effects.is_empty() && diagnosis.verdict.effects.iter().all(|e| e.is_noise());
+    match &gap.closure {
+        Some(_) if noise_only => sentences
+            .push("A cause in the noise moves no simulation error, so no closure is given.".to_owned()),
+        Some(closure) => {
+            let [low, high] = closure.ci90.map(|x| 100.0 * x);
+            let percent = |x: f64| format!("{x:.0}").replace('-', "−");
+            sentences.push(match closure.estimate {
+                c if c > 0.0 => format!(
+                    "{adding} closes {} % [{}, {}] of the gap on {}.",
+                    percent(100.0 * c),
+                    percent(low),
+                    percent(high),
+                    judged(report)
+                ),
+                c => format!(
+                    "{adding} closes nothing on {}: the simulation error grows by {} % [{}, {}].",
+                    judged(report),
+                    percent(-100.0 * c),
+                    percent(-high),
+                    percent(-low)
+                ),
+            });
+        }
+        None => sentences
+            .push("The gap's interval includes zero, so how far it closes is not resolvable.".to_owned()),
+    }
+    if gap.predictive_gain.abs() >= WORTH_TELLING {
+        let better = if gap.predictive_gain > 0.0 { "better" } else { "worse" };
+        sentences.push(format!(
+            "One-step predictions become {better} by {} nats per held-out sample.",
+            digits(gap.predictive_gain.abs(), 2)
+        ));
+    }
+    sentences
+}
+
+/// What remains after the augmentation.
+fn remainder(diagnosis: &Diagnosis, units: &Units) -> String {
+    let gap = &diagnosis.gap;
+    let floor = format!("sd {} {}", digits(gap.noise_floor, 2), units.output);
+    if gap.after.ci90[0] <= 0.0 {
+        format!("What remains is the noise floor ({floor}).")
+    } else {
+        let percent = |x: f64| digits(100.0 * x, 2);
+        format!(
+            "What remains, {} % [{}, {}] of the output's variance, lies above the noise floor ({floor}).",
+            percent(gap.after.estimate),
+            percent(gap.after.ci90[0]),
+            percent(gap.after.ci90[1])
+        )
+    }
+}

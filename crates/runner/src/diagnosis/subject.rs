@@ -1,0 +1,148 @@
+//! Whose model meets the records.
+
+use super::model_file::{self, ModelError};
+use crate::identification::EstimatedSystem;
+use miette::Diagnostic;
+use std::path::Path;
+use switchback_estimator::hysteresis::Interval;
+use switchback_estimator::rig::{Rig, RigRecord, Usage};
+use switchback_gap::{Model, NominalModel};
+use thiserror::Error;
+
+/// Whose model is diagnosed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// The nominal model identified from the fit records.
+    Identified,
+    /// The model file of the user.
+    Given,
+    /// Another simulator's predictions, the columns `y_sim`.
+    Predicted,
+}
+
+impl Source {
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Identified => "identified",
+            Self::Given => "given",
+            Self::Predicted => "y_sim",
+        }
+    }
+}
+
+/// A rig and the model that meets its records.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subject {
+    pub(super) rig: Rig,
+    pub(super) model: Model,
+    pub(super) source: Source,
+    /// What the reader of the report must know about the choice.
+    pub(super) notes: Vec<String>,
+}
+
+/// Why the model cannot meet the records.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum SubjectError {
+    /// The model file is none.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Model(#[from] ModelError),
+    /// The model is of another order than the rig declares.
+    #[error("{file}: the model has order {model}, but the rig declares `order = {rig}`")]
+    #[diagnostic(help(
+        "identify the model from this rig, or correct `order` in the rig file, or leave it out there"
+    ))]
+    Order {
+        /// The model file.
+        file: String,
+        /// Order of the model.
+        model: usize,
+        /// Order in the rig.
+        rig: usize,
+    },
+    /// Some records have predictions and some that must have them do not.
+    #[error("the record {record} has no column `y_sim`, but {other} has one")]
+    #[diagnostic(help(
+        "add the prediction to every record with `use = \"holdout\"`, or leave the column out of all to diagnose the model identified here"
+    ))]
+    Prediction {
+        /// The record without a prediction.
+        record: String,
+        /// One with it.
+        other: String,
+    },
+}
+
+impl Subject {
+    /// The model file if one is given, else the columns `y_sim` if the records have them, else what the fit records yield.
+    ///
+    /// # Errors
+    /// [`SubjectError`] if the file is no model, is one of another order, or hold-out records lack their predictions.
+    pub fn choose(rig: Rig, model: Option<&Path>) -> Result<Self, SubjectError> {
+        let predicted = rig.records.iter().find(|record| record.predicted.is_some());
+        match (model, predicted) {
+            (Some(file), other) => {
+                let notes = other
+                    .map(|_| "the columns y_sim were left aside, since a model file was given".to_owned());
+                Self::given(rig, file, notes.into_iter().collect())
+            }
+            (None, Some(other)) => {
+                let other = other.name.clone();
+                let missing = judged(&rig).find(|record| record.predicted.is_none());
+                if let Some(missing) = missing {
+                    return Err(SubjectError::Prediction { record: missing.name.clone(), other });
+                }
+                Ok(Self { rig, model: Model::Predicted, source: Source::Predicted, notes: Vec::new() })
+            }
+            (None, None) => {
+                Ok(Self { rig, model: Model::Identify, source: Source::Identified, notes: Vec::new() })
+            }
+        }
+    }
+
+    fn given(rig: Rig, file: &Path, notes: Vec<String>) -> Result<Self, SubjectError> {
+        let estimate = model_file::read(file)?;
+        let model = estimate.a.len();
+        if let Some(order) = rig.order.filter(|order| *order != model) {
+            return Err(SubjectError::Order { file: file.display().to_string(), model, rig: order });
+        }
+        let interval = working_interval(&rig);
+        let system = EstimatedSystem::new(&estimate, interval).map_err(|reason| ModelError::Content {
+            place: file.display().to_string(),
+            message: reason.to_owned(),
+            remedy: "identify again from longer records, or with another order or method".to_owned(),
+        })?;
+        // The paper's structure goes to the diagnosis as it is; one with another delay is simulated here.
+        let (rig, model) = if estimate.delay == 0 {
+            let [descending, ascending] = system.borders().map(<[_]>::to_vec);
+            let model = NominalModel { a: estimate.a.clone(), b: estimate.b.clone(), descending, ascending };
+            (rig, Model::Given(model))
+        } else {
+            (predicted_by(&system, rig), Model::Predicted)
+        };
+        Ok(Self { rig, model, source: Source::Given, notes })
+    }
+}
+
+/// The records a gap is measured on: the hold-outs, or all where there is none.
+fn judged(rig: &Rig) -> impl Iterator<Item = &RigRecord> {
+    let any = rig.holdout_records().next().is_some();
+    rig.records.iter().filter(move |record| !any || record.usage == Usage::Holdout)
+}
+
+fn working_interval(rig: &Rig) -> Interval {
+    let v = rig.fit_records().flat_map(|record| record.record.v());
+    let (low, high) = v.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)));
+    let moved = Interval::new(low, high).expect("a rig that was read moves in its fit records");
+    rig.interval.unwrap_or(moved)
+}
+
+/// The rig with the system's free run as the prediction of every record that moves.
+fn predicted_by(system: &EstimatedSystem<'_>, mut rig: Rig) -> Rig {
+    for record in &mut rig.records {
+        record.predicted = system.run(&record.record).map(|run| run.simulated);
+    }
+    rig
+}

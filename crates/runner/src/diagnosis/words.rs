@@ -1,0 +1,157 @@
+//! The diagnosis as a page for a person.
+
+use super::number::digits;
+use super::sentences::{parameters, probability};
+use super::{NEXT_EXPERIMENT, Report, Units, sentences};
+use std::fmt::Write;
+use std::path::Path;
+use switchback_gap::Candidate;
+
+/// Letters a line.
+const WIDTH: usize = 100;
+
+/// Explanations listed; the rest is in the JSON.
+const LISTED: usize = 6;
+
+/// The verdict in sentences, the hold-out records, the best explanations, what could not be judged, and what to do next.
+/// `out` is where the report's folder was written, if it was.
+pub fn words(report: &Report, out: Option<&Path>) -> String {
+    let units = Units::of(&report.rig);
+    let mut page = format!("{}\n\n", report.rig.name);
+    page.push_str(&wrapped(&sentences::verdict(report).join(" "), ""));
+    page.push('\n');
+    page.push_str(&records(report));
+    page.push('\n');
+    page.push_str(&explanations(report, &units));
+    if !report.diagnosis.limitations.is_empty() {
+        page.push_str("\nto be read with care:\n");
+        for limitation in &report.diagnosis.limitations {
+            page.push_str(&wrapped(&format!("- {limitation}"), "  "));
+        }
+    }
+    if let Some(text) = next(report, out) {
+        let _ = write!(page, "\n{}", wrapped(&text, ""));
+    }
+    if let Some(folder) = out {
+        let _ = write!(page, "\nreport: {}\n", folder.display());
+    }
+    page
+}
+
+fn records(report: &Report) -> String {
+    let head = ["record", "fit % before", "after", "gap % of var(y) before", "after"];
+    let mut rows = vec![head.map(str::to_owned)];
+    for record in &report.diagnosis.gap.per_record {
+        let fit =
+            |x: f64| if x.is_finite() { format!("{x:.1}").replace('-', "−") } else { "–".to_owned() };
+        let gap = |x: f64| digits(100.0 * x, 3);
+        rows.push([
+            record.record.clone(),
+            fit(record.fit_before),
+            fit(record.fit_after),
+            gap(record.before),
+            gap(record.after),
+        ]);
+    }
+    aligned(&rows)
+}
+
+fn explanations(report: &Report, units: &Units) -> String {
+    let diagnosis = &report.diagnosis;
+    let head = ["explanation", "probability", "ΔBIC", "nats/sample", "closure %"];
+    let mut rows = vec![head.map(str::to_owned)];
+    let listed = || diagnosis.candidates.iter().take(LISTED);
+    for candidate in listed() {
+        rows.push(row(candidate));
+    }
+    for (name, p) in
+        [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)]
+    {
+        let rest = ["", "", ""].map(str::to_owned);
+        let [a, b, c] = rest;
+        rows.push([name.to_owned(), probability(p), a, b, c]);
+    }
+    let table = aligned(&rows);
+    let told: Vec<String> = listed()
+        .map(|candidate| (candidate.effect, parameters(candidate, units)))
+        .filter(|(_, text)| !text.is_empty())
+        .map(|(effect, text)| format!("  {effect}: {text}\n"))
+        .collect();
+    if told.is_empty() {
+        table
+    } else {
+        format!("{table}\nparameters with 90 % intervals:\n{}", told.concat())
+    }
+}
+
+fn row(candidate: &Candidate) -> [String; 5] {
+    [
+        candidate.effect.to_string(),
+        probability(candidate.probability),
+        format!("{:.0}", candidate.bic).replace('-', "−"),
+        digits(candidate.heldout_log_score, 2),
+        candidate.closure.map_or_else(|| "–".to_owned(), |c| format!("{:.0}", 100.0 * c).replace('-', "−")),
+    ]
+}
+
+fn next(report: &Report, out: Option<&Path>) -> Option<String> {
+    let next = report.diagnosis.next_experiment.as_ref()?;
+    let seconds = digits(next.v.len() as f64 * report.rig.sample_time, 3);
+    let rivals = next.separates.iter().map(|effect| effect.name()).collect::<Vec<_>>().join(" and ");
+    let file = match out {
+        Some(folder) => format!("its input is ready in {}", folder.join(NEXT_EXPERIMENT).display()),
+        None => "`--out DIR` writes its input as a CSV".to_owned(),
+    };
+    Some(format!(
+        "next experiment: {} ({} samples, {seconds} s) sets the predictions of {rivals} apart by {} noise sd; {file}.",
+        next.kind.name(),
+        next.v.len(),
+        digits(next.distance, 2),
+    ))
+}
+
+/// Lines of at most [`WIDTH`] letters, all but the first begun with `indent`.
+fn wrapped(text: &str, indent: &str) -> String {
+    let mut page = String::new();
+    let mut line = String::new();
+    for word in text.split(' ') {
+        if !line.trim().is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            let _ = writeln!(page, "{line}");
+            line = indent.to_owned();
+        } else if !line.trim().is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    let _ = writeln!(page, "{line}");
+    page
+}
+
+/// Columns padded to their widest cell: the first to the left, the others to the right, no blanks at the line's end.
+fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..N).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = format!("{:<width$}", row[0], width = widths[0]);
+        for column in 1..N {
+            let _ = write!(line, "  {:>width$}", row[column], width = widths[column]);
+        }
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_texts_are_broken_between_words() {
+        let text = "word ".repeat(60);
+        let page = wrapped(text.trim_end(), "  ");
+        assert!(page.lines().all(|line| line.chars().count() <= WIDTH));
+        assert!(page.lines().skip(1).all(|line| line.starts_with("  word")));
+        assert_eq!(page.split_whitespace().count(), 60);
+    }
+}

@@ -1,0 +1,147 @@
+//! Measured, nominal and augmented output of one hold-out record.
+
+use crate::diagnosis::Report;
+use crate::plots::axis::Axis;
+use crate::plots::canvas::{Canvas, Pen};
+use crate::plots::identify::series::{thinned, worst_window};
+use crate::plots::legend::{Entry, Sample};
+use crate::plots::palette::{FAINT, GREY, OKABE_ITO};
+use crate::plots::panel::Panel;
+use crate::plots::sheet::{Frames, Grid, Sheet, WIDTH};
+use plotters::style::RGBColor;
+use std::ops::Range;
+use switchback_gap::HoldoutSeries;
+
+const BEFORE: RGBColor = OKABE_ITO[1];
+const AFTER: RGBColor = OKABE_ITO[0];
+
+/// Samples of the stretch that is drawn enlarged.
+const WINDOW: usize = 300;
+
+type Series = Vec<(f64, f64)>;
+
+/// Above, the errors over the whole record; in the middle, enlarged, the outputs where the nominal model misses most; below,
+/// the errors there.
+pub(super) fn figure(report: &Report, series: &HoldoutSeries) -> String {
+    let drawing = Drawing::new(report, series);
+    let sheet = Sheet {
+        title: drawing.title(),
+        notes: vec![format!(
+            "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the nominal model misses most, is enlarged below."
+        )],
+        legend: vec![
+            Entry::new(Sample::Line(Pen::new(GREY, 4.0)), "measured"),
+            Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), "nominal, and measured − nominal"),
+            Entry::new(Sample::Line(Pen::new(AFTER, 2.0)), "augmented, and measured − augmented"),
+        ],
+        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 58.0 },
+    };
+    sheet.render(|canvas, frames| {
+        drawing.errors(canvas, frames, 0, 0..series.measured.len());
+        drawing.outputs(canvas, frames, 1);
+        drawing.errors(canvas, frames, 2, drawing.window.clone());
+    })
+}
+
+struct Drawing<'a> {
+    report: &'a Report,
+    series: &'a HoldoutSeries,
+    window: Range<usize>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(report: &'a Report, series: &'a HoldoutSeries) -> Self {
+        let missed = |run: &[f64]| series.measured.iter().zip(run).map(|(y, s)| y - s).collect::<Vec<f64>>();
+        let (before, after) = (missed(&series.nominal), missed(&series.augmented));
+        let start = worst_window(&before, WINDOW);
+        let window = start..(start + WINDOW).min(before.len());
+        Self { report, series, window, before, after }
+    }
+
+    fn title(&self) -> String {
+        let fits = self.report.diagnosis.gap.per_record.iter().find(|r| r.record == self.series.record);
+        let fits = fits.map_or_else(String::new, |r| {
+            format!(": fit {:.1} % before, {:.1} % after", r.fit_before, r.fit_after).replace('-', "−")
+        });
+        format!("{}, record {}{fits}", self.report.rig.name, self.series.record)
+    }
+
+    fn timed(&self, values: &[f64], stretch: &Range<usize>) -> Series {
+        stretch.clone().map(|k| (k as f64 * self.report.rig.sample_time, values[k])).collect()
+    }
+
+    /// Errors over a stretch of samples; over the whole record the enlarged stretch is shaded.
+    fn errors(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize, stretch: Range<usize>) {
+        let (before, after) = (self.timed(&self.before, &stretch), self.timed(&self.after, &stretch));
+        let floor = 2.0 * self.report.diagnosis.gap.noise_floor;
+        let shown = before.iter().chain(&after).map(|p| p.1).chain([floor, -floor]);
+        let y = Axis::linear(shown);
+        let x = Axis::linear([before[0].0, before[before.len() - 1].0]);
+        let whole = stretch.len() > self.window.len();
+        let corner = frames.corner(row, 0);
+        let size = frames.size();
+        if whole {
+            let edge = |k: usize| {
+                let t = k as f64 * self.report.rig.sample_time;
+                corner.0 + size.0 * x.place(t).unwrap_or(0.0)
+            };
+            canvas.fill(
+                (edge(self.window.start), corner.1),
+                (edge(self.window.end - 1), corner.1 + size.1),
+                FAINT,
+            );
+        }
+        let panel = Panel::new(canvas, corner, size, (x, y));
+        for level in [floor, -floor] {
+            let line = [(x.low(), level), (x.high(), level)];
+            panel.dashes(&line, crate::plots::canvas::Dash::Dots, Pen::new(GREY, 1.2));
+        }
+        for (line, colour) in [(before, BEFORE), (after, AFTER)] {
+            panel.line(&thinned(&line, WIDTH as usize), Pen::new(colour, 1.4));
+        }
+        panel.title(if whole { "errors over the whole record" } else { "errors, enlarged" });
+        self.names(&panel, &format!("error{}", self.output_unit()));
+    }
+
+    fn outputs(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize) {
+        let lines = [
+            (&self.series.measured, GREY, 4.5),
+            (&self.series.nominal, BEFORE, 1.6),
+            (&self.series.augmented, AFTER, 1.6),
+        ];
+        let lines =
+            lines.map(|(values, colour, width)| (self.timed(values, &self.window), Pen::new(colour, width)));
+        let times = &lines[0].0;
+        let x = Axis::linear([times[0].0, times[times.len() - 1].0]);
+        let measured = lines[0].0.iter().map(|p| p.1);
+        let (low, high) = measured.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+        // A run that leaves every range must not flatten the measured output to a line.
+        let reach = (high - low).max(f64::MIN_POSITIVE);
+        let inside = |y: f64| y.clamp(low - reach, high + reach);
+        let y = Axis::linear(lines.iter().flat_map(|(line, _)| line.iter().map(|p| inside(p.1))));
+        let panel = Panel::new(canvas, frames.corner(row, 0), frames.size(), (x, y));
+        for (line, pen) in &lines {
+            panel.line(line, *pen);
+        }
+        panel.title(&format!(
+            "outputs, enlarged: the {} samples where the nominal model misses most",
+            self.window.len()
+        ));
+        self.names(&panel, &self.report.rig.output_label);
+    }
+
+    fn names(&self, panel: &Panel<'_, '_>, y: &str) {
+        panel.x_name("time since the record's start [s]");
+        panel.y_name(y, 74.0);
+    }
+
+    /// ` [N]`, or nothing where the rig names no unit.
+    fn output_unit(&self) -> String {
+        match crate::identification::unit(&self.report.rig.output_label) {
+            "" => String::new(),
+            unit => format!(" [{unit}]"),
+        }
+    }
+}
