@@ -1,0 +1,91 @@
+"""The table and its numbers, as Markdown and as JSON."""
+
+import json
+import os
+import platform
+import statistics
+from pathlib import Path
+
+
+def machine():
+    cpuinfo = Path("/proc/cpuinfo")
+    lines = cpuinfo.read_text().splitlines() if cpuinfo.exists() else []
+    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return {
+        "cpu": models[0] if models else platform.processor(),
+        "cores": os.cpu_count(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+    }
+
+
+def results(entries, missing, setting):
+    """Everything that was measured, for JSON."""
+    return {
+        **setting,
+        "machine": machine(),
+        "tools": [
+            {
+                "name": tool.name,
+                "how": tool.how,
+                "version": tool.version(),
+                "largest_samples_timed": tool.largest_samples,
+                "largest_difference": difference,
+                "seconds_a_replicate": statistics.median(times.tool),
+                "switchback_seconds_a_replicate": statistics.median(times.switchback),
+                "nanoseconds_a_sample": 1e9 * statistics.median(times.tool) / setting["grid_samples"],
+                "ratio": statistics.median(times.ratios),
+                "ratios": times.ratios,
+            }
+            for tool, times, difference in entries
+        ],
+        "not_available": missing,
+    }
+
+
+def table(page):
+    """The results as Markdown."""
+    machine = page["machine"]
+    lines = [
+        "# The leaf-spring grid in other tools",
+        "",
+        f"{page['cells']} cells of `scenarios/leafspring.toml`, {page['grid_samples']:,} samples a replicate; the paper's",
+        "descendant estimate of every cell. One thread, processor time, the median of",
+        f"{page['rounds']} rounds; `×` is the median over the rounds of the tool's time over Switchback's just before it.",
+        "",
+        "| tool | how | seconds a replicate | ns a sample | × | (least – most) | largest difference |",
+        "|---|---|--:|--:|--:|--:|--:|",
+    ]
+    for row in page["tools"]:
+        name = row["name"] + (" ¹" if row["largest_samples_timed"] else "")
+        lines.append(
+            f"| {name} | {row['how']} | {row['seconds_a_replicate']:.3g} | {row['nanoseconds_a_sample']:,.0f} "
+            f"| **{row['ratio']:,.0f}** | {min(row['ratios']):,.0f} – {max(row['ratios']):,.0f} "
+            f"| {row['largest_difference']:.0e} |"
+        )
+    lines += [f"| {name} | not available: {reason} | | | | | |" for name, reason in page["not_available"].items()]
+    seconds = statistics.median(row["switchback_seconds_a_replicate"] for row in page["tools"])
+    lines.append(f"| Switchback | {page['switchback']} | {seconds:.3g} | {1e9 * seconds / page['grid_samples']:.3g} | 1 | | |")
+    slow = [f"{row['name']} up to N = {row['largest_samples_timed']:,}" for row in page["tools"] if row["largest_samples_timed"]]
+    if slow:
+        lines += [
+            "",
+            f"¹ Too slow for the whole grid. Timed at one border and noise level ({'; '.join(slow)}), every m; taken as the",
+            "same for the others, and for larger N as the same a sample as at the largest N timed.",
+        ]
+    lines += [
+        "",
+        "The difference is the largest to `switchback identify` in any of a, b, F on the same records, over every border,",
+        f"noise level and m at N = {page['check_samples']:,}.",
+        "",
+        f"Machine: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, Python {machine['python']}.",
+        f"Versions: {'; '.join(dict.fromkeys(row['version'] for row in page['tools']))}.",
+        f"Command: `{page['command']}`.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def write(page, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "results.json").write_text(json.dumps(page, indent=2) + "\n")
+    (folder / "table.md").write_text(table(page))

@@ -1,0 +1,82 @@
+"""Switchback itself: its estimates for the check, its time for the grid."""
+
+import json
+import os
+import re
+import resource
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from grid import ROOT, SCENARIO
+
+BINARY = ROOT / "target" / "release" / "switchback"
+
+
+def identify(cell, y, y0):
+    """a, b and F by `switchback identify --method paper-descendant` from one record and the mean of its step."""
+    experiment = cell.experiment
+    low, high = experiment.interval
+    rig = f"""
+name = "peer check"
+sample_time = 1.0
+order = {experiment.order}
+[[record]]
+file = "pulses.csv"
+role = "descendant"
+use = "fit"
+[[record]]
+file = "step.csv"
+role = "step_high"
+use = "fit"
+"""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        (folder / "rig.toml").write_text(rig)
+        # Both records begin with the sample that loads the border, which no estimate uses. The step is given as its
+        # mean, so that ŷ₀ is the same whichever samples are taken for its transient.
+        write_record(folder / "pulses.csv", np.r_[low, cell.v], np.r_[y0, y])
+        write_record(folder / "step.csv", np.r_[low, np.full(400, high)], np.full(401, y0))
+        command = [BINARY, "identify", folder / "rig.toml", "--method", "paper-descendant", "--json"]
+        page = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    visited = [point["v"] for point in page["descendant"]]
+    if not np.allclose(visited, experiment.levels, rtol=0, atol=1e-9):
+        raise ValueError(f"identify found the levels {visited}, not {list(experiment.levels)}")
+    return np.r_[page["a"], page["b"], [point["f"] for point in page["descendant"]]]
+
+
+def write_record(path, v, y):
+    rows = (f"{t},{x!r},{z!r}" for t, (x, z) in enumerate(zip(v.tolist(), y.tolist())))
+    path.write_text("t,v,y\n" + "\n".join(rows) + "\n")
+
+
+class Grid:
+    """`switchback SCENARIO.toml` on the grid with the paper's method only, everything it reports included."""
+
+    how = "`switchback SCENARIO.toml`, with everything it reports"
+
+    def __init__(self, replicates):
+        self.replicates = replicates
+
+    def seconds(self):
+        """Processor time of one replicate of the whole grid, one thread."""
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = Path(folder, "leafspring.toml")
+            scenario.write_text(only_paper(SCENARIO.read_text(), self.replicates))
+            before = children_seconds()
+            environment = os.environ | {"RAYON_NUM_THREADS": "1"}
+            subprocess.run([BINARY, scenario], check=True, capture_output=True, cwd=folder, env=environment)
+            return (children_seconds() - before) / self.replicates
+
+
+def only_paper(text, replicates):
+    """The scenario with one method, another number of replicates and nothing expected."""
+    text = re.sub(r"(?m)^methods = .*$", 'methods = ["paper-descendant"]', text)
+    text = re.sub(r"(?m)^replicates = .*$", f"replicates = {replicates}", text)
+    return text.split("[expect]")[0]
+
+
+def children_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
