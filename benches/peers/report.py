@@ -76,7 +76,8 @@ def table(page):
     lines += [
         "",
         "The difference is the largest to `switchback identify` in any of a, b, F on the same records, over every border,",
-        f"noise level and m at N = {page['check_samples']:,}.",
+        f"noise level and m at N = {page['check_samples']:,}. Over replicates, means and standard deviations of the run that is",
+        f"timed lie within {page['largest_deviation_over_replicates']:.1f} standard errors of NumPy's.",
         "",
         f"Machine: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, Python {machine['python']}.",
         f"Versions: {'; '.join(dict.fromkeys(row['version'] for row in page['tools']))}.",

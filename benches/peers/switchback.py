@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from grid import ROOT, SCENARIO
+from grid import ROOT, SCENARIO, Border
 
 BINARY = ROOT / "target" / "release" / "switchback"
 
@@ -58,6 +58,8 @@ class Grid:
 
     def __init__(self, replicates):
         self.replicates = replicates
+        # The results.json of the last run: the same every time.
+        self.results = None
 
     def seconds(self):
         """Processor time of one replicate of the whole grid, one thread."""
@@ -67,7 +69,28 @@ class Grid:
             before = children_seconds()
             environment = os.environ | {"RAYON_NUM_THREADS": "1"}
             subprocess.run([BINARY, scenario], check=True, capture_output=True, cwd=folder, env=environment)
-            return (children_seconds() - before) / self.replicates
+            seconds = children_seconds() - before
+            self.results = json.loads(Path(folder, "reports", "leafspring", "results.json").read_text())
+        return seconds / self.replicates
+
+    def moments(self, cell):
+        """Mean and sd of a, b and F over the replicates of a cell, and the Monte-Carlo error of the sd."""
+        experiment = cell.experiment
+        for found in self.results["cells"]:
+            series = found["series"]
+            place = (self.border(series["border"]), series["points"], series["noise"], found["samples"])
+            if place == (experiment.border, experiment.points, cell.noise, cell.samples):
+                parameters = found["parameters"]
+                return tuple(
+                    np.array(column)
+                    for column in zip(*((p["mean_estimate"], p["sd"][0], p["sd"][1]) for p in parameters))
+                )
+        raise ValueError(f"the study has no {cell}")
+
+    def border(self, name):
+        """The border that a scenario calls so."""
+        found = next(b for b in self.results["scenario"]["border"] if b["name"] == name)
+        return Border(found["stiffness"], found.get("hardening", 0.0), found["friction"])
 
 
 def only_paper(text, replicates):
