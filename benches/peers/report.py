@@ -65,8 +65,14 @@ def table(page):
         )
     lines += [f"| {name} | not available: {reason} | | | | | |" for name, reason in page["not_available"].items()]
     seconds = statistics.median(row["switchback_seconds_a_replicate"] for row in page["tools"])
-    lines.append(f"| Switchback | {page['switchback']} | {seconds:.3g} | {1e9 * seconds / page['grid_samples']:.3g} | 1 | | |")
-    slow = [f"{row['name']} up to N = {row['largest_samples_timed']:,}" for row in page["tools"] if row["largest_samples_timed"]]
+    lines.append(
+        f"| Switchback | {page['switchback']} | {seconds:.3g} | {1e9 * seconds / page['grid_samples']:.3g} | 1 | | |"
+    )
+    slow = [
+        f"{row['name']} up to N = {row['largest_samples_timed']:,}"
+        for row in page["tools"]
+        if row["largest_samples_timed"]
+    ]
     if slow:
         lines += [
             "",

@@ -9,7 +9,7 @@ from .tool import Tool, Unavailable
 
 class SippyArx(Tool):
     name = "SIPPY `ARX`"
-    how = "`system_identification(…, \"ARX\")`, one input a level"
+    how = '`system_identification(…, "ARX")`, one input a level'
     largest_samples = 3000
 
     def __init__(self):
