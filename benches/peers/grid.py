@@ -21,6 +21,7 @@ SETTLING = 100
 class Border:
     """A leaf spring, C(x) = (k0 + k2 x²) x ± F_C: the ascending border takes the plus."""
 
+    name: str
     stiffness: float
     hardening: float
     friction: float
@@ -115,6 +116,10 @@ class Cell:
         before = SETTLING + self.experiment.order
         return over_time(self.experiment.forcing, -before, before + self.samples)
 
+    def prepare(self):
+        """Computes what a user computes once a cell, before the replicates."""
+        return self.drive, self.pulses
+
     def simulate(self, rng, replicates):
         """Records of `replicates` experiments (a row each) and the means of as many step experiments of N samples."""
         y = self._respond(self.drive, rng, replicates)
@@ -139,6 +144,6 @@ def leaf_spring_grid():
         scenario = tomllib.load(file)
     system, sweep = scenario["system"], scenario["sweep"]
     linear = (tuple(system["a"]), tuple(system["b"]), tuple(system["interval"]))
-    borders = [Border(b["stiffness"], b.get("hardening", 0.0), b["friction"]) for b in scenario["border"]]
+    borders = [Border(b["name"], b["stiffness"], b.get("hardening", 0.0), b["friction"]) for b in scenario["border"]]
     experiments = [Experiment(*linear, border, points) for border in borders for points in sweep["points"]]
     return [Cell(*cell) for cell in itertools.product(experiments, sweep["noise"], sweep["samples"])]

@@ -22,7 +22,8 @@ class Times:
 
 def alternate(tools, switchback, cells, rounds, say):
     """The times of every tool, by name."""
-    prepare(cells)
+    for cell in cells:
+        cell.prepare()
     rng = np.random.Generator(np.random.SFC64(SEED))
     times = {tool.name: Times() for tool in tools}
     for turn in range(rounds):
@@ -32,12 +33,6 @@ def alternate(tools, switchback, cells, rounds, say):
             times[tool.name].tool.append(theirs)
             say(f"  round {turn + 1} of {rounds}: {tool.name} {theirs:.3g} s, Switchback {ours:.3g} s a replicate")
     return times
-
-
-def prepare(cells):
-    """What a user computes once a cell, before the replicates."""
-    for cell in cells:
-        cell.drive, cell.pulses
 
 
 def grid_seconds(tool, cells, rng):

@@ -81,9 +81,8 @@ def table(page):
         ]
     lines += [
         "",
-        "The difference is the largest to `switchback identify` in any of a, b, F on the same records, over every border,",
-        f"noise level and m at N = {page['check_samples']:,}. Over replicates, means and standard deviations of the run that is",
-        f"timed lie within {page['largest_deviation_over_replicates']:.1f} standard errors of NumPy's.",
+        "The difference is the largest to Switchback's estimate in any of a, b, F on one of its own replicates, over all cells",
+        f"(¹ those of N = {page['slow_check_samples']:,}).",
         "",
         f"Machine: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, Python {machine['python']}.",
         f"Versions: {'; '.join(dict.fromkeys(row['version'] for row in page['tools']))}.",

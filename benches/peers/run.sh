@@ -29,5 +29,5 @@ for optional in sippy sysidentpy; do
         || echo "NOT AVAILABLE: pip could not install requirements-$optional.txt" >&2
 done
 
-cargo build --quiet --release --manifest-path "$root/Cargo.toml" -p switchback --bin switchback
+cargo build --quiet --release --manifest-path "$root/Cargo.toml" -p switchback-benches --bin leafspring_grid
 exec "$environment/bin/python" "$here/main.py" "${arguments[@]}"

@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+
 from grid import SETTLING
 
 from .tool import Tool, Unavailable
