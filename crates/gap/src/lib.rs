@@ -1,1 +1,44 @@
 //! The sim-to-real gap of a switched-hysteresis model.
+
+mod assembly;
+mod borders;
+mod campaign;
+mod closure;
+mod decide;
+mod design;
+mod diagnose;
+mod diagnosis;
+mod effect;
+mod effects;
+mod engine;
+mod error;
+mod experiments;
+mod explain;
+mod gains;
+mod given;
+mod knots;
+mod localise;
+mod motion;
+mod nominal;
+mod normal;
+mod omnibus;
+mod order;
+mod rows;
+mod score;
+mod settings;
+mod simulate;
+mod spectral;
+mod spectrum;
+mod weights;
+pub mod workbench;
+
+pub use diagnose::{CandidateFit, Plan, diagnose};
+pub use diagnosis::{
+    Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
+    RecordGap, ResidualPicture, Status, Verdict,
+};
+pub use effect::{Effect, Stage};
+pub use error::DiagnoseError;
+pub use settings::{Model, NominalModel, Settings};
+#[cfg(test)]
+mod testing;

@@ -29,6 +29,7 @@ pub struct Cli {
 enum Verb {
     Compare(cmd::compare::Args),
     Identify(cmd::identify::Args),
+    Rig(cmd::rig::Args),
 }
 
 impl Cli {
@@ -40,6 +41,7 @@ impl Cli {
         match (self.verb, self.study) {
             (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
+            (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {
                 Err(miette::miette!("nothing to do; name a scenario file, or see `switchback --help`"))

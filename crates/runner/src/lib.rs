@@ -1,5 +1,6 @@
 //! The `switchback` program: scenarios, rig files, Monte-Carlo execution, studies, plots and reports.
 
+pub mod blind;
 pub mod cli;
 pub mod cmd;
 pub mod compare;

@@ -1,5 +1,7 @@
 //! One file a verb: its arguments and what it does.
 
+pub mod blind;
 pub mod compare;
 pub mod identify;
+pub mod rig;
 pub mod study;

@@ -38,7 +38,7 @@ pub struct Difference {
     pub baseline: Measured,
     /// In the new table.
     pub new: Measured,
-    /// `(new − baseline)/√(MCSE² + MCSE²)`; 0 where both agree exactly, infinite where both are exact and differ.
+    /// `(new − baseline)/√(MCSE² + MCSE²)`; 0 where both agree to rounding, infinite where both are exact and differ.
     pub z: f64,
 }
 
@@ -48,7 +48,7 @@ const LEVEL: f64 = 0.01;
 /// Compares every measure that both tables hold.
 ///
 /// The threshold is Šidák's: with K differences, `|z| ≤ Φ⁻¹(½ + ½(1 − 0.01)^(1/K))` for all of them with probability
-/// at least 99 % if nothing changed. Differences of one cell are correlated, and so are cells that share their noise; the threshold
+/// at least 99 % if nothing changed and both tables have independent noise. Differences of one cell are correlated, and so are cells that share their noise; the threshold
 /// then errs towards calling a change chance.
 pub fn compare(baseline: &Results, new: &Results) -> Comparison {
     let mut differences = Vec::new();
@@ -146,9 +146,16 @@ fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
         .collect()
 }
 
+/// Figures closer than this share of themselves are the same number, summed in another order or on another machine. It
+/// matters where a figure hardly varies, so that its own error is lost in rounding.
+const ROUNDING: f64 = 1e-8;
+
 fn distance(baseline: Measured, new: Measured) -> f64 {
     let difference = new.value() - baseline.value();
-    if difference == 0.0 { 0.0 } else { difference / baseline.mcse().hypot(new.mcse()) }
+    if difference.abs() <= ROUNDING * baseline.value().abs().max(new.value().abs()) {
+        return 0.0;
+    }
+    difference / baseline.mcse().hypot(new.mcse())
 }
 
 /// Šidák's threshold for `count` differences; infinite for none.
@@ -204,6 +211,7 @@ mod tests {
     fn exact_figures_that_differ_are_beyond_any_chance() {
         let exact = |x| Measured::new(x, 0.0).expect("finite");
         assert_eq!(distance(exact(1.0), exact(1.0)), 0.0);
+        assert_eq!(distance(exact(1.0), exact(1.0 + 1e-10)), 0.0);
         assert_eq!(distance(exact(1.0), exact(2.0)), f64::INFINITY);
     }
 

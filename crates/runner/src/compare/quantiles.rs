@@ -113,9 +113,5 @@ mod tests {
         let svg = quantiles(&comparison, "synthetic against itself, moved");
         assert!(svg.contains("#D55E00"));
         assert_eq!(svg, quantiles(&comparison, "synthetic against itself, moved"));
-        if let Ok(folder) = std::env::var("SWITCHBACK_FIGURES") {
-            std::fs::write(std::path::Path::new(&folder).join("compare.svg"), svg)
-                .expect("a writable folder");
-        }
     }
 }

@@ -31,7 +31,7 @@ fn origin(results: &Results) -> String {
 fn told(d: &Difference) -> String {
     let (place, b, n) = (&d.place, d.baseline, d.new);
     format!(
-        "z = {:+.1}  {} of {}: {} ± {} → {} ± {}  ({}, N = {})",
+        "z = {:+.1}  {} of {}: {:.4e} ± {:.1e} → {:.4e} ± {:.1e}  ({}, N = {})",
         d.z,
         place.measure,
         place.parameter,

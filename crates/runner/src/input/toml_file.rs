@@ -46,6 +46,11 @@ impl TomlFile {
         Ok(Self { path: path.to_owned(), text: read_text(path)? })
     }
 
+    /// A file given as text; `path` is what messages call it.
+    pub fn from_text(path: &Path, text: &str) -> Self {
+        Self { path: path.to_owned(), text: text.to_owned() }
+    }
+
     /// Where the file lies.
     pub fn path(&self) -> &Path {
         &self.path
@@ -62,9 +67,14 @@ impl TomlFile {
     /// [`TomlError`] at the first thing that is no TOML or does not fit `T`.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
         toml::from_str(&self.text).map_err(|error| {
-            let remedy = self.remedy(error.message());
-            self.error(error.span().unwrap_or(0..0), in_toml_terms(error.message()), remedy)
+            let (message, remedy) = self.explain(&error);
+            self.error(error.span().unwrap_or(0..0), message, remedy)
         })
+    }
+
+    /// What the TOML reader's error means to the file's writer, and what to do about it.
+    pub(crate) fn explain(&self, error: &toml::de::Error) -> (String, String) {
+        (in_toml_terms(error.message()), self.remedy(error.message()))
     }
 
     /// An error at a place of this file. `message` says what is wrong there, `remedy` what to do about it.
@@ -116,6 +126,9 @@ fn in_toml_terms(message: &str) -> String {
         ("duplicate field", "duplicate key"),
         ("expected f64", "expected a number"),
         ("expected i64", "expected a whole number"),
+        ("expected usize", "expected a whole number, 0 or more"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected a tuple of size 2", "expected two numbers, [low, high]"),
         ("expected a sequence", "expected a list"),
     ];
     terms.iter().fold(message.trim_end().to_owned(), |told, (theirs, ours)| told.replace(theirs, ours))

@@ -71,8 +71,8 @@ impl Axis {
                     continue;
                 }
                 let label = match digit {
+                    1 | 2 | 5 if decades < 2 => Some(plain(at)),
                     1 if power.rem_euclid(every) == 0 => Some(power_of_ten(power)),
-                    2 | 5 if decades < 2 => Some(plain(at)),
                     _ => None,
                 };
                 if label.is_some() || digit == 1 || decades <= 4 {

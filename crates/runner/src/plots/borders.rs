@@ -41,7 +41,7 @@ pub(super) fn figure(selection: &Selection<'_>, results: &Results) -> Option<Str
             height: 300.0,
             left: 78.0,
             between: 62.0,
-            above: 62.0,
+            above: 84.0,
         },
     };
     Some(sheet.render(|canvas, frames| {
@@ -89,14 +89,22 @@ fn estimates(cell: &Cell, group: Group) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// The truth and the estimates at the largest `N` set the scale; wide bars of small `N` may leave the frame.
+/// The truth and the estimates at the largest `N` set the scale. Bars of the smallest `N` widen it by half its height to
+/// either side at most; beyond, they leave the frame.
 fn axes(curve: &[&Cell], truth: Option<&BorderCurve>) -> (Axis, Axis) {
     let points = truth.map_or(&[][..], |t| &t.points);
-    let last: Vec<(f64, f64, f64)> =
-        curve.last().map_or_else(Vec::new, |c| COLOURS.iter().flat_map(|(g, _)| estimates(c, *g)).collect());
-    let x = Axis::linear(points.iter().map(|p| p.v).chain(last.iter().map(|e| e.0)));
-    let y = points.iter().flat_map(|p| [p.descending, p.ascending]);
-    (x, Axis::linear(y.chain(last.iter().flat_map(|e| [e.1 - e.2, e.1 + e.2]))))
+    let all = |cell: Option<&&Cell>| -> Vec<(f64, f64, f64)> {
+        cell.map_or_else(Vec::new, |c| COLOURS.iter().flat_map(|(g, _)| estimates(c, *g)).collect())
+    };
+    let (first, last) = (all(curve.first()), all(curve.last()));
+    let ends = |e: &(f64, f64, f64)| [e.1 - e.2, e.1 + e.2];
+    let x = points.iter().map(|p| p.v).chain(last.iter().map(|e| e.0));
+    let tight = Axis::linear(
+        points.iter().flat_map(|p| [p.descending, p.ascending]).chain(last.iter().flat_map(ends)),
+    );
+    let half = (tight.high() - tight.low()) / 2.0;
+    let wide = first.iter().flat_map(ends).map(|y| y.clamp(tight.low() - half, tight.high() + half));
+    (Axis::linear(x), Axis::linear(wide.chain([tight.low(), tight.high()])))
 }
 
 fn contents(panel: &Panel<'_, '_>, curve: &[&Cell], truth: Option<&BorderCurve>) {

@@ -70,12 +70,18 @@ pub(super) fn figure(
                 }
                 for (k, &noise) in noises.iter().enumerate() {
                     let cells = selection.curve(row.border, row.points, noise);
-                    let aside = 5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0);
+                    let aside = if noises.len() == 1 {
+                        5.0
+                    } else {
+                        5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0)
+                    };
                     if let Some(baseline) = baseline {
                         let cells = baseline.curve(row.border, row.points, noise);
-                        Curve { cells, group, colour: GREY, aside: -6.0 }.draw_behind(&panel, measure);
+                        Curve { cells, group, colour: GREY, aside: -6.0, radius: 3.0 }
+                            .draw_behind(&panel, measure);
                     }
-                    let curve = Curve { cells, group, colour: OKABE_ITO[k], aside };
+                    let radius = 3.5 + 1.2 * (noises.len() - 1 - k) as f64;
+                    let curve = Curve { cells, group, colour: OKABE_ITO[k], aside, radius };
                     match measure {
                         Measure::Bias => curve.draw_bias(&panel),
                         Measure::Sd => curve.draw_sd(&panel),
@@ -195,6 +201,8 @@ struct Curve<'r> {
     colour: RGBColor,
     /// How far marks stand beside their place where they would cover others, pixels.
     aside: f64,
+    /// Of the discs, pixels; what is drawn later is smaller, so that equal values show as rings.
+    radius: f64,
 }
 
 impl Curve<'_> {
@@ -221,7 +229,7 @@ impl Curve<'_> {
         for (n, bias) in front {
             let filled = self.resolved(*n, bias);
             let aside = if filled { 0.0 } else { self.aside };
-            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled, aside };
+            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: self.radius, filled, aside };
             panel.mark(*n, bias.value(), bar(bias), mark);
         }
     }
@@ -231,7 +239,8 @@ impl Curve<'_> {
         panel.line(&self.exact(|p| p.theory_sd), pen);
         panel.dashes(&self.exact(|p| p.bound_sd), Dash::Dashes, pen);
         for (n, sd) in self.pooled(Parameter::best_sd) {
-            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: 4.0, filled: true, aside: 0.0 };
+            let mark =
+                Mark { pen: Pen::new(self.colour, 1.5), radius: self.radius, filled: true, aside: 0.0 };
             panel.mark(n, sd.value(), bar(&sd), mark);
         }
     }
@@ -242,7 +251,8 @@ impl Curve<'_> {
             Measure::Bias => self.pooled(Parameter::best_bias),
             Measure::Sd => self.pooled(Parameter::best_sd),
         };
-        let mark = Mark { pen: Pen::new(self.colour, 1.2), radius: 3.0, filled: true, aside: self.aside };
+        let mark =
+            Mark { pen: Pen::new(self.colour, 1.2), radius: self.radius, filled: true, aside: self.aside };
         for (n, figure) in figures {
             panel.mark(n, figure.value(), bar(&figure), mark);
         }

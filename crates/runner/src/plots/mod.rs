@@ -5,6 +5,7 @@
 //! consistency study.
 
 pub mod axis;
+pub mod blind;
 mod borders;
 pub mod canvas;
 mod convergence;
@@ -85,18 +86,13 @@ mod tests {
         }
     }
 
-    /// Writes the figures for a look at them: `SWITCHBACK_FIGURES=folder cargo test`.
     #[test]
-    fn figures_can_be_looked_at() {
-        let Ok(folder) = std::env::var("SWITCHBACK_FIGURES") else { return };
-        let folder = std::path::Path::new(&folder);
-        let results = synthetic::results();
-        for figure in consistency(&results) {
-            std::fs::write(folder.join(figure.name), figure.svg).expect("a writable folder");
-        }
-        for figure in overlays(&results, &results) {
-            std::fs::write(folder.join(format!("overlay-{}", figure.name)), figure.svg)
-                .expect("a writable folder");
-        }
+    fn overlays_show_what_both_tables_hold() {
+        let baseline = synthetic::results();
+        let mut new = baseline.clone();
+        new.cells.retain(|c| c.series.method != crate::scenario::Method::Memoryless);
+        let figures = overlays(&baseline, &new);
+        assert_eq!(figures.len(), 4);
+        assert!(figures.iter().all(|f| f.svg.contains("the baseline")));
     }
 }

@@ -75,22 +75,31 @@ impl<'c, 's> Panel<'c, 's> {
 
     /// A line through values, cut at the frame.
     pub fn line(&self, values: &[(f64, f64)], pen: Pen) {
-        for (from, to) in self.visible(values) {
-            self.canvas.line(&[from, to], pen);
+        for part in self.visible(values) {
+            self.canvas.line(&part, pen);
         }
     }
 
-    /// A dashed line through values, cut at the frame.
+    /// A broken line through values, cut at the frame.
     pub fn dashes(&self, values: &[(f64, f64)], dash: Dash, pen: Pen) {
-        for (from, to) in self.visible(values) {
-            self.canvas.dashes(&[from, to], dash, pen);
+        for part in self.visible(values) {
+            self.canvas.dashes(&part, dash, pen);
         }
     }
 
     /// The parts of a line inside the frame.
-    fn visible(&self, values: &[(f64, f64)]) -> Vec<(Point, Point)> {
+    fn visible(&self, values: &[(f64, f64)]) -> Vec<Vec<Point>> {
         let places: Vec<Option<Point>> = values.iter().map(|&(x, y)| self.place(x, y)).collect();
-        places.windows(2).filter_map(|pair| clip(pair[0]?, pair[1]?, self.corner, self.size)).collect()
+        let mut parts: Vec<Vec<Point>> = Vec::new();
+        for pair in places.windows(2) {
+            let (Some(a), Some(b)) = (pair[0], pair[1]) else { continue };
+            let Some((from, to)) = clip(a, b, self.corner, self.size) else { continue };
+            match parts.last_mut().filter(|part| part.last() == Some(&from)) {
+                Some(part) => part.push(to),
+                None => parts.push(vec![from, to]),
+            }
+        }
+        parts
     }
 
     /// A figure with its bar from `low` to `high`, both cut at the frame; the figure itself is left out beyond it.
@@ -162,7 +171,11 @@ fn clip(from: Point, to: Point, corner: Point, size: (f64, f64)) -> Option<(Poin
             leave = leave.min(room / direction);
         }
     }
-    let along = |t: f64| (from.0 + t * dx, from.1 + t * dy);
+    let along = |t: f64| match t {
+        0.0 => from,
+        1.0 => to,
+        _ => (from.0 + t * dx, from.1 + t * dy),
+    };
     (enter < leave).then(|| (along(enter), along(leave)))
 }
 

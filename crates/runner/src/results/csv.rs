@@ -1,67 +1,57 @@
-//! `table.csv`: the long format, one measure of one parameter of one cell a row.
+//! `table.csv`: the long format, one parameter of one cell a row.
 
 use super::{Cell, Measured, Parameter, Results};
 
-/// Columns of `table.csv`.
-const HEADER: [&str; 13] = [
-    "case",
-    "border",
-    "method",
-    "points",
-    "noise",
-    "samples",
-    "replicates",
-    "failures",
-    "parameter",
-    "v",
-    "measure",
-    "value",
-    "mcse",
+/// What places a row.
+const PLACE: [&str; 10] =
+    ["case", "border", "method", "points", "noise", "samples", "replicates", "failures", "parameter", "v"];
+
+/// A column's name and where its figure stands.
+type Column<T> = (&'static str, fn(&Parameter) -> Option<T>);
+
+/// Measures without an error.
+const EXACT: [Column<f64>; 4] = [
+    ("truth", |p| Some(p.truth)),
+    ("mean_estimate", |p| p.mean_estimate),
+    ("theory_sd", |p| p.theory_sd),
+    ("bound_sd", |p| p.bound_sd),
 ];
 
-/// The table in long format: a row for each measure that exists.
+/// Measures with their Monte-Carlo standard errors, a column each.
+const MEASURED: [Column<Measured>; 8] = [
+    ("bias", |p| p.bias),
+    ("bias_controlled", |p| p.bias_controlled),
+    ("sd", |p| p.sd),
+    ("sd_controlled", |p| p.sd_controlled),
+    ("mse", |p| p.mse),
+    ("coverage", |p| p.coverage),
+    ("model_sd", |p| p.model_sd),
+    ("model_sd_relative_error", |p| p.model_sd_relative_error),
+];
+
+/// The table in long format: a row for each parameter of each cell; a field is empty where a measure does not exist.
 pub fn to_csv(results: &Results) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(HEADER).expect("writing to memory");
+    writer.write_record(header()).expect("writing to memory");
     for cell in &results.cells {
         for parameter in &cell.parameters {
-            for (measure, figure) in measures(parameter) {
-                writer.write_record(row(cell, parameter, measure, figure)).expect("writing to memory");
-            }
+            writer.write_record(row(cell, parameter)).expect("writing to memory");
         }
     }
     String::from_utf8(writer.into_inner().expect("writing to memory")).expect("every field is UTF-8")
 }
 
-/// A figure, with or without an error.
-type Figure = (f64, Option<f64>);
-
-fn measures(p: &Parameter) -> Vec<(&'static str, Figure)> {
-    let measured = |m: Option<Measured>| m.map(|m| (m.value(), Some(m.mcse())));
-    let exact = |x: Option<f64>| x.map(|x| (x, None));
-    [
-        ("truth", Some((p.truth, None))),
-        ("mean_estimate", exact(p.mean_estimate)),
-        ("bias", measured(p.bias)),
-        ("bias_controlled", measured(p.bias_controlled)),
-        ("sd", measured(p.sd)),
-        ("sd_controlled", measured(p.sd_controlled)),
-        ("mse", measured(p.mse)),
-        ("coverage", measured(p.coverage)),
-        ("model_sd", measured(p.model_sd)),
-        ("model_sd_relative_error", measured(p.model_sd_relative_error)),
-        ("theory_sd", exact(p.theory_sd)),
-        ("bound_sd", exact(p.bound_sd)),
-    ]
-    .into_iter()
-    .filter_map(|(name, figure)| Some((name, figure?)))
-    .collect()
+fn header() -> Vec<String> {
+    let place = PLACE.iter().map(|&name| name.to_owned());
+    let exact = EXACT.iter().map(|(name, _)| (*name).to_owned());
+    let measured = MEASURED.iter().flat_map(|(name, _)| [(*name).to_owned(), format!("{name}_mcse")]);
+    place.chain(exact).chain(measured).collect()
 }
 
-fn row(cell: &Cell, parameter: &Parameter, measure: &str, (value, mcse): Figure) -> [String; 13] {
-    let optional = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+fn row(cell: &Cell, parameter: &Parameter) -> Vec<String> {
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     let series = &cell.series;
-    [
+    let mut fields = vec![
         series.case.clone(),
         series.border.clone(),
         series.method.to_string(),
@@ -71,11 +61,14 @@ fn row(cell: &Cell, parameter: &Parameter, measure: &str, (value, mcse): Figure)
         cell.replicates.to_string(),
         cell.failures.count.to_string(),
         parameter.name.clone(),
-        optional(parameter.v),
-        measure.to_owned(),
-        value.to_string(),
-        optional(mcse),
-    ]
+        number(parameter.v),
+    ];
+    fields.extend(EXACT.iter().map(|(_, get)| number(get(parameter))));
+    for (_, get) in MEASURED {
+        let figure = get(parameter);
+        fields.extend([number(figure.map(|m| m.value())), number(figure.map(|m| m.mcse()))]);
+    }
+    fields
 }
 
 #[cfg(test)]
@@ -88,10 +81,13 @@ mod tests {
         let results = synthetic::results();
         let text = to_csv(&results);
         let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let columns = reader.headers().expect("a header").clone();
+        let at = |name: &str| columns.iter().position(|c| c == name).expect("the column");
         let rows: Vec<csv::StringRecord> = reader.records().map(|r| r.expect("a whole row")).collect();
+        assert_eq!(rows.len(), results.cells.iter().map(|c| c.parameters.len()).sum::<usize>());
         let bias = results.cells[0].parameters[0].bias.expect("a bias");
-        let first = rows.iter().find(|r| &r[10] == "bias").expect("a row with a bias");
-        assert_eq!(first[11].parse::<f64>().expect("a number"), bias.value());
-        assert_eq!(first[12].parse::<f64>().expect("a number"), bias.mcse());
+        assert_eq!(rows[0][at("bias")].parse::<f64>().expect("a number"), bias.value());
+        assert_eq!(rows[0][at("bias_mcse")].parse::<f64>().expect("a number"), bias.mcse());
+        assert_eq!(&rows[0][at("bias_controlled")], "");
     }
 }

@@ -1,9 +1,8 @@
 //! Why a scenario is refused.
 
-use crate::input::closest;
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use crate::input::{FileError, TomlError, TomlFile};
+use miette::Diagnostic;
 use std::ops::Range;
-use std::path::PathBuf;
 use thiserror::Error;
 use toml::de::{DeTable, DeValue};
 
@@ -12,97 +11,51 @@ use toml::de::{DeTable, DeValue};
 #[non_exhaustive]
 pub enum ScenarioError {
     /// The file cannot be read.
-    #[error("cannot read the scenario {}: {source}", path.display())]
-    #[diagnostic(help("give the path of a scenario file, for example scenarios/leafspring.toml"))]
-    Unreadable {
-        /// The path given.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The content is refused.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Invalid(Box<Invalid>),
+    Unreadable(#[from] FileError),
+    /// Something in it is wrong; the message names the key, its value and why it cannot be.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Invalid(#[from] TomlError),
 }
 
-/// What is wrong with a scenario's content, and where.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{file}:{line}: {message}")]
-pub struct Invalid {
-    /// The file's name as the user gave it.
-    pub file: String,
-    /// Line of the fault, from 1.
-    pub line: usize,
-    /// What is wrong: the key, its value, and why it cannot be.
-    pub message: String,
-    /// What to write instead.
-    #[help]
-    pub remedy: Option<String>,
-    #[source_code]
-    text: NamedSource<String>,
-    #[label("here")]
-    span: SourceSpan,
-}
-
-/// A fault that knows its place in the text, but not yet the name of the key there.
+/// A fault that knows its place in the text, but not yet the file nor the name of the key there.
 #[derive(Debug)]
-pub(super) struct Fault {
-    span: Range<usize>,
-    message: String,
-    remedy: Option<String>,
+pub(super) enum Fault {
+    /// A value that cannot be: where, what is wrong with it, and what to write instead.
+    Value(Range<usize>, String, String),
+    /// No TOML, an unknown or missing key, or a wrong type.
+    Toml(toml::de::Error),
 }
 
 impl Fault {
     /// `message` says what is wrong with the value at `span`, `remedy` what to write instead.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { span, message: message.into(), remedy: Some(remedy.into()) }
+        Self::Value(span, message.into(), remedy.into())
     }
 
     /// Adds file, line, key and value.
-    pub(super) fn locate(self, file: &str, text: &str) -> ScenarioError {
-        let start = self.span.start.min(text.len());
-        let end = self.span.end.clamp(start, text.len());
-        let line = text.as_bytes()[..start].iter().filter(|&&b| b == b'\n').count() + 1;
-        let message = match subject(text, start..end) {
-            Some(subject) => format!("{subject}: {}", self.message),
-            None => self.message,
+    pub(super) fn locate(self, file: &TomlFile) -> ScenarioError {
+        let (span, message, remedy) = match self {
+            Self::Value(span, message, remedy) => (span, message, remedy),
+            Self::Toml(error) => {
+                let (message, remedy) = file.explain(&error);
+                (error.span().unwrap_or(0..0), message, remedy)
+            }
         };
-        ScenarioError::Invalid(Box::new(Invalid {
-            file: file.to_owned(),
-            line,
-            message,
-            remedy: self.remedy,
-            text: NamedSource::new(file, text.to_owned()),
-            span: (start..end).into(),
-        }))
+        let message = match subject(file.text(), span.clone()) {
+            Some(subject) => format!("{subject}: {message}"),
+            None => message,
+        };
+        file.error(span, message, remedy).into()
     }
 }
 
 impl From<toml::de::Error> for Fault {
     fn from(error: toml::de::Error) -> Self {
-        // serde speaks of Rust's types; the reader of a TOML file has numbers and whole numbers.
-        let message = error
-            .message()
-            .replace("expected usize", "expected a whole number, 0 or more")
-            .replace("expected u64", "expected a whole number, 0 or more")
-            .replace("expected f64", "expected a number")
-            .replace("expected a tuple of size 2", "expected two numbers: [low, high]")
-            .replace("tuple of size 2", "two numbers: [low, high]");
-        let remedy = remedy_for(&message);
-        Self { span: error.span().unwrap_or(0..0), message, remedy }
+        Self::Toml(error)
     }
-}
-
-/// For an unknown key, the nearest of the keys that would be right.
-fn remedy_for(message: &str) -> Option<String> {
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let unknown = message.starts_with("unknown field").then(|| quoted.next()).flatten()?;
-    let known: Vec<&str> = quoted.collect();
-    Some(match closest(unknown, known.iter().copied()) {
-        Some(guess) => format!("did you mean `{guess}`?"),
-        None => "remove it, or use one of the keys listed".to_owned(),
-    })
 }
 
 /// `key = value` for the value at `span`, `key` alone for a table or a key, `None` outside any.

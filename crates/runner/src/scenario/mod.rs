@@ -14,10 +14,11 @@ mod read;
 mod tests;
 mod wire;
 
-pub use error::{Invalid, ScenarioError};
+pub use error::ScenarioError;
 pub use expect::{Check, Expect};
 pub use method::Method;
 
+use crate::input::TomlFile;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
@@ -147,7 +148,7 @@ impl Scenario {
     /// # Errors
     /// [`ScenarioError`] if the file cannot be read or holds anything that is not a valid scenario.
     pub fn read(path: &Path) -> Result<Self, ScenarioError> {
-        read::from_file(path)
+        read::scenario(&TomlFile::read(path)?)
     }
 
     /// Checks a scenario given as text. `file` is what messages call it; its stem becomes the scenario's name.
@@ -155,7 +156,7 @@ impl Scenario {
     /// # Errors
     /// [`ScenarioError::Invalid`] if the text is not a valid scenario.
     pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
-        read::from_text(file, text)
+        read::scenario(&TomlFile::from_text(Path::new(file), text))
     }
 
     /// The file's stem; names the report folder.

@@ -4,24 +4,18 @@ use super::border::{self, WireBorder};
 use super::error::Fault;
 use super::wire::WireScenario;
 use super::{Scenario, ScenarioError, convert};
+use crate::input::TomlFile;
 use serde::Deserialize;
-use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-pub(super) fn from_file(path: &Path) -> Result<Scenario, ScenarioError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })?;
-    from_text(&path.display().to_string(), &text)
+/// Reads a scenario; its name is the file's stem.
+pub(super) fn scenario(file: &TomlFile) -> Result<Scenario, ScenarioError> {
+    let name = file.path().file_stem().unwrap_or(file.path().as_os_str()).to_string_lossy().into_owned();
+    checked(name, file.text()).map_err(|fault| fault.locate(file))
 }
 
-pub(super) fn from_text(file: &str, text: &str) -> Result<Scenario, ScenarioError> {
-    let name =
-        Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
-    convert_text(name, text).map_err(|fault| fault.locate(file, text))
-}
-
-fn convert_text(name: String, text: &str) -> Result<Scenario, Fault> {
+fn checked(name: String, text: &str) -> Result<Scenario, Fault> {
     let mut document = DeTable::parse(text)?;
     let borders = take_borders(document.get_mut())?;
     let wire = WireScenario::deserialize(Deserializer::from(document))?;

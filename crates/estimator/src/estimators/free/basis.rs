@@ -54,7 +54,9 @@ impl Cell {
     /// The non-zero hats as (feature, height).
     pub(super) fn features(self) -> impl Iterator<Item = (usize, f64)> {
         let share = self.next.map_or(1.0, |(_, share)| 1.0 - share);
-        self.main.features(share).chain(self.next.into_iter().flat_map(|(place, share)| place.features(share)))
+        self.main
+            .features(share)
+            .chain(self.next.into_iter().flat_map(|(place, share)| place.features(share)))
     }
 
     /// `u`, for knot values `f₁…`, relative to the reference knot.

@@ -7,8 +7,9 @@ use crate::hysteresis::Branch;
 pub enum Timing {
     /// As in (2.3): the turning sample is on the old border, the next one on the new.
     AtSamples,
-    /// At the vertex of the parabola through the turning sample and its neighbours. The turning sample is then shared between the
-    /// borders, by the part of its interval `[t−½, t+½]` that follows the vertex: what a rig that knows no samples does.
+    /// At the vertex of the parabola through the turning sample and its neighbours or, where the rule has a band, in the middle of the
+    /// time spent within the band (on a noisy input the extremum itself is a poor mark). The sample there is shared between the
+    /// borders, by the part of its interval `[t−½, t+½]` that follows: what a rig that knows no samples does.
     BetweenSamples,
 }
 
@@ -81,20 +82,31 @@ impl Branches {
     ///
     pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
         let ReversalRule { threshold, band, timing } = rule;
-        let (mut high, mut low) = (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
+        let (mut high, mut low) =
+            (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
         let mut labels = Vec::with_capacity(v.len());
-        let (mut first_known, mut reversals) = (0, 0);
+        let (mut first_known, mut reversals, mut shares) = (0, 0, Vec::new());
         for (t, &now) in v.iter().enumerate() {
             high.push(1.0, now, t, band);
             low.push(-1.0, now, t, band);
             let turned = match direction {
-                None | Some(Branch::Ascending) if high.value - now > threshold => Some((Branch::Descending, high.turn)),
-                None | Some(Branch::Descending) if now - low.value > threshold => Some((Branch::Ascending, low.turn)),
+                None | Some(Branch::Ascending) if high.value - now > threshold => {
+                    Some((Branch::Descending, high.turn))
+                }
+                None | Some(Branch::Descending) if now - low.value > threshold => {
+                    Some((Branch::Ascending, low.turn))
+                }
                 _ => None,
             };
             labels.push(direction.unwrap_or(Branch::Ascending));
-            if let Some((branch, turn)) = turned {
+            if let Some((branch, last)) = turned {
+                let mut turn = last;
+                if timing == Timing::BetweenSamples && direction.is_some() {
+                    let instant = if band > 0.0 { middle_of_rest(v, last, rule) } else { vertex(v, last) };
+                    turn = instant.round() as usize;
+                    shares.push((turn, 0.5 - (instant - turn as f64)));
+                }
                 let from = if direction.is_some() { turn + 1 } else { 0 };
                 labels[from..].fill(branch);
                 match direction {
@@ -107,10 +119,12 @@ impl Branches {
             }
         }
         direction?;
-        let turns = (first_known.max(1)..v.len() - 1).filter(|&t| labels[t] != labels[t + 1]);
         let mut turned = vec![0.0; v.len()];
-        if timing == Timing::BetweenSamples {
-            turns.for_each(|t| turned[t] = share_after_vertex([v[t - 1], v[t], v[t + 1]]));
+        // A share only makes sense where the label really changes; on a noisy rest two turns may fall together.
+        for (t, share) in shares {
+            if t + 1 < v.len() && labels[t] != labels[t + 1] {
+                turned[t] = share;
+            }
         }
         Some(Self { labels, turned, first_known, reversals })
     }
@@ -136,9 +150,18 @@ impl Branches {
     }
 }
 
-/// Part of the middle sample's interval that follows the vertex of the parabola through three samples.
-fn share_after_vertex([before, turn, after]: [f64; 3]) -> f64 {
-    let vertex = 0.5 * (before - after) / (before - 2.0 * turn + after);
-    // Three samples in line have no vertex: the reversal then counts from the next sample on.
-    if vertex.is_finite() { 0.5 - vertex.clamp(-0.5, 0.5) } else { 0.0 }
+/// Instant at which the parabola through the turning sample and its neighbours turns.
+fn vertex(v: &[f64], turn: usize) -> f64 {
+    let [before, at, after] = [v[turn - 1], v[turn], v[turn + 1]];
+    let offset = 0.5 * (before - after) / (before - 2.0 * at + after);
+    // Three samples in line have no vertex: the reversal then takes effect as at samples.
+    turn as f64 + if offset.is_finite() { offset.clamp(-0.5, 0.5) } else { 0.5 }
+}
+
+/// Middle of the time spent within the band of the extremum that ends at sample `last`.
+fn middle_of_rest(v: &[f64], last: usize, rule: ReversalRule) -> f64 {
+    let near = |t: &usize, distance: f64| (v[*t] - v[last]).abs() <= distance;
+    let stay = (0..=last).rev().take_while(|t| near(t, rule.threshold));
+    let first = stay.filter(|t| near(t, rule.band)).last().unwrap_or(last);
+    0.5 * (first + last) as f64
 }

@@ -16,7 +16,7 @@ pub(super) struct Assessed {
     pub(super) knots: usize,
     /// Free parameters.
     pub(super) parameters: usize,
-    /// Fit over all left-out blocks; negative infinity if no stable model fits.
+    /// Fit over all left-out blocks; negative infinity if no stable model fits, or the rest of a fold is too short for it.
     pub(super) fit_percent: f64,
     /// Squared simulation error over each left-out block, as a share of the energy of all.
     pub(super) losses: Vec<f64>,
@@ -64,7 +64,9 @@ fn judge(ladder: &Ladder, structure: Structure, fits: Vec<Option<Fitted>>) -> As
         losses: Vec::with_capacity(FOLDS),
         fits: fits.into_iter().flatten().collect(),
     };
-    if assessed.fits.len() < FOLDS {
+    let long_enough =
+        |fold| basis.check_length(structure, &blocks(ladder.top(), structure, fold, false)).is_ok();
+    if assessed.fits.len() < FOLDS || !(0..FOLDS).all(long_enough) {
         return assessed;
     }
     let mut energy = 0.0;

@@ -1,7 +1,7 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
 use super::basis::{Basis, Cell, Spacing, place_knots};
-use super::branch::{Branches, ReversalRule, Timing};
+use super::branch::{Branches, ReversalRule};
 use super::error::FreeError;
 use super::model;
 use super::problem::{Segment, Structure};
@@ -37,22 +37,21 @@ impl<'a> Data<'a> {
             .map(|r| SensorNoise::of(r.v()))
             .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let threshold = settings.threshold.unwrap_or(noise.threshold);
-        let rule = ReversalRule { timing: settings.timing.unwrap_or(Timing::AtSamples), ..noise.rule(threshold) };
+        let rule = noise.rules(settings.threshold, settings.timing)[0];
         let records: Vec<_> =
             records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
-        let range = Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold }) };
+        let range =
+            Interval::new(values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let Ok(range) = range else { return Err(FreeError::NoMotion { threshold: rule.threshold }) };
         if records.iter().all(|(r, _)| r.y().iter().all(|y| *y == r.y()[0])) {
             return Err(FreeError::ConstantOutput);
         }
         Ok(Self { records, interval: settings.interval.unwrap_or(range), rule, noise })
     }
 
-    /// The same records with another timing of the reversals.
-    pub(super) fn with_timing(&self, timing: Timing) -> Self {
-        let rule = ReversalRule { timing, ..self.rule };
+    /// The same records with reversals by another rule.
+    pub(super) fn with_rule(&self, rule: ReversalRule) -> Self {
         let again = |(record, branches): &(&'a Record, Branches)| {
             (*record, Branches::of(record.v(), rule).unwrap_or_else(|| branches.clone()))
         };
@@ -92,7 +91,10 @@ impl<'a> Data<'a> {
 impl Featured<'_> {
     /// Everything that a structure can explain.
     pub(super) fn segments(&self, structure: Structure) -> Vec<Segment<'_>> {
-        let whole = self.records.iter().map(|(r, known, cells)| usable(structure, r, *known, cells, 0, r.len()));
+        let whole = self
+            .records
+            .iter()
+            .map(|(r, known, cells)| Segment::usable(structure, r.y(), cells, *known..r.len()));
         whole.flatten().collect()
     }
 
@@ -107,23 +109,9 @@ impl Featured<'_> {
             let count = (record.len() as f64 / length as f64).round().max(1.0) as usize;
             for j in 0..count {
                 let (from, to) = (record.len() * j / count, record.len() * (j + 1) / count);
-                out.extend(usable(structure, record, *known, cells, from, to));
+                out.extend(Segment::usable(structure, record.y(), cells, from.max(*known)..to));
             }
         }
         out
     }
-}
-
-/// The part of `from..to` whose inputs and past outputs are all known and lie inside it.
-fn usable<'a>(
-    structure: Structure,
-    record: &'a Record,
-    known: usize,
-    cells: &'a [Cell],
-    from: usize,
-    to: usize,
-) -> Option<Segment<'a>> {
-    let from = from.max(known) + structure.memory();
-    let to = to.min(record.len() - structure.ahead());
-    (from < to).then_some(Segment { y: record.y(), cells, from, to })
 }

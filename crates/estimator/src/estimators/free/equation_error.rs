@@ -33,7 +33,7 @@ impl Moments {
                 fill_row(structure, width, segment, t, &mut row);
                 for (i, &(p, x)) in row.iter().enumerate() {
                     for &(q, z) in &row[..=i] {
-                        matrix[(p, q)] += x * z;
+                        matrix[(p.max(q), p.min(q))] += x * z;
                     }
                 }
             }
@@ -53,7 +53,7 @@ impl Moments {
     }
 }
 
-/// One row of the regression as (column, value), by increasing column.
+/// One row of the regression as (column, value).
 pub(super) fn fill_row(
     structure: Structure,
     width: usize,

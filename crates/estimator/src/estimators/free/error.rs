@@ -10,7 +10,9 @@ pub enum FreeError {
     #[error("no record to identify from; mark at least one record `use = \"fit\"`")]
     NoRecords,
     /// The input of every record stands still, within the reversal threshold.
-    #[error("the input never moves by more than the reversal threshold {threshold}; drive it, or lower the threshold")]
+    #[error(
+        "the input never moves by more than the reversal threshold {threshold}; drive it, or lower the threshold"
+    )]
     NoMotion {
         /// The threshold in force, input units.
         threshold: f64,
@@ -39,13 +41,17 @@ pub enum FreeError {
         parameters: usize,
     },
     /// No stable model fits.
-    #[error("no stable model of order {order} fits the records; try another order or delay, or check the records for drift")]
+    #[error(
+        "no stable model of order {order} fits the records; try another order or delay, or check the records for drift"
+    )]
     Unstable {
         /// The order tried last.
         order: usize,
     },
     /// A knot has no data around it.
-    #[error("no sample of the {curve} border lies near its knot {v}; give fewer knots, or a narrower interval")]
+    #[error(
+        "no sample of the {curve} border lies near its knot {v}; give fewer knots, or a narrower interval"
+    )]
     UnvisitedKnot {
         /// `ascending` or `descending`.
         curve: &'static str,

@@ -4,7 +4,7 @@ use super::basis::Basis;
 use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
-use super::rank_one::alternate;
+use super::rank_one::{alternate, gauss_newton, nearest_rank_one, over_parameterised, residual_energy};
 use super::settings::InputMap;
 use super::simulation_error::{Refinement, cost, is_stable};
 
@@ -127,32 +127,47 @@ impl<'a> Ladder<'a> {
         let fits = self.climb_all(&way, Effort::SEARCH, |rung, s| rung.segments(s));
         let start: Vec<Fitted> = fits.into_iter().flatten().filter(|f| f.structure == structure).collect();
         let top = self.top();
-        let theta = refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
+        let theta =
+            refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
         Some(Fitted { structure, basis: top.basis.clone(), theta })
     }
 
     /// The equation-error fit at the top, without refinement.
     pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
-        let starts = equation_error_starts(self.top(), structure, segments);
-        let theta = starts.into_iter().next()?;
+        let moments = Moments::of(structure, self.top().basis.features(), segments);
+        let theta = equation_error_fit(&moments)?;
         Some(Fitted { structure, basis: self.top().basis.clone(), theta })
     }
+}
+
+/// The rank-one fit of least equation error: from the over-parameterised estimate where the records allow it,
+/// and from alternation otherwise.
+pub(super) fn equation_error_fit(moments: &Moments) -> Option<Parameters> {
+    let over = over_parameterised(moments).and_then(|x| nearest_rank_one(moments, &x));
+    let starts =
+        over.into_iter().chain(numerators(moments.structure).filter_map(|b| alternate(moments, b, 5)));
+    let fits =
+        starts.map(|start| gauss_newton(moments, start)).map(|fit| (residual_energy(moments, &fit), fit));
+    fits.filter(|(energy, _)| energy.is_finite()).min_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, fit)| fit)
+}
+
+/// Numerators to start an alternation from: a mean, a pure delay, and nearly a difference.
+fn numerators(structure: Structure) -> impl Iterator<Item = Vec<f64>> {
+    let nb = structure.numerator();
+    let mut delay = vec![0.0; nb];
+    delay[0] = 1.0;
+    let mut difference = delay.clone();
+    if nb > 1 {
+        difference[1] = -0.95;
+    }
+    [vec![1.0 / nb as f64; nb], delay, difference].into_iter()
 }
 
 /// Fits of the equation error, best in simulation first: the alternation may end in different places from different
 /// numerators.
 fn equation_error_starts(featured: &Featured, structure: Structure, segments: &[Segment]) -> Vec<Parameters> {
     let moments = Moments::of(structure, featured.basis.features(), segments);
-    let nb = structure.numerator();
-    let uniform = vec![1.0 / nb as f64; nb];
-    let mut first = vec![0.0; nb];
-    first[0] = 1.0;
-    let mut difference = first.clone();
-    if nb > 1 {
-        difference[1] = -0.95;
-    }
-    let starts = [uniform, first, difference].into_iter();
-    let fits = starts.filter_map(|b| alternate(&moments, b, 10)).map(stabilised).collect();
+    let fits = numerators(structure).filter_map(|b| alternate(&moments, b, 10)).map(stabilised).collect();
     ranked(structure, fits, segments)
 }
 

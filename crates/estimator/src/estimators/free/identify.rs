@@ -1,5 +1,6 @@
 //! The entry: records in, a system with its uncertainty out.
 
+use super::basis::Basis;
 use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::error::FreeError;
@@ -8,7 +9,7 @@ use super::model::Model;
 use super::normalise::{Covariance, Figures, normalise};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{information, residual_energy};
-use super::selection::{Selection, select, with_best_timing};
+use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
 use super::simulation_error::{cost, linearise};
 use super::warning::{Examination, Warning};
@@ -44,13 +45,13 @@ pub struct Identified {
 /// [`FreeError`] if there is nothing to identify from, or too little for the settings.
 pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, FreeError> {
     settings.check()?;
-    let data = with_best_timing(Data::new(records, settings)?, settings);
+    let data = with_best_rule(Data::new(records, settings)?, settings);
     let selection = select(&data, settings)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
     let featured = ladder.top();
     let segments = featured.segments(structure);
-    check_length(featured, structure, &segments)?;
+    featured.basis.check_length(structure, &segments)?;
     let fitted = if settings.refine {
         ladder.climb_from_smaller(structure, Effort::FINAL)
     } else {
@@ -58,45 +59,46 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     };
     let theta = fitted.ok_or(FreeError::Unstable { order: structure.order })?.theta;
     let warnings = examine(&data, featured, structure, &theta, &segments);
-    let estimate = estimate(featured, structure, &theta, &segments, settings.refine);
+    let moments = Moments::of(structure, featured.basis.features(), &segments);
+    let estimate = if settings.refine {
+        simulation_error_estimate(&moments, &featured.basis, &theta, &segments)
+    } else {
+        equation_error_estimate(&moments, &featured.basis, &theta)
+    };
     let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
     Ok(Identified { estimate, model, selection, warnings })
 }
 
-/// At least two samples a parameter.
-fn check_length(featured: &Featured, structure: Structure, segments: &[Segment]) -> Result<(), FreeError> {
-    let samples = segments.iter().map(Segment::len).sum();
-    let parameters = structure.order + structure.numerator() + featured.basis.features();
-    if samples < 2 * parameters {
-        return Err(FreeError::TooShort { samples, parameters });
-    }
-    Ok(())
-}
-
-/// Normalised parameters and their standard errors.
-fn estimate(
-    featured: &Featured,
-    structure: Structure,
+/// Normalised parameters of a refined fit and their standard errors.
+fn simulation_error_estimate(
+    moments: &Moments,
+    basis: &Basis,
     theta: &Parameters,
     segments: &[Segment],
-    refined: bool,
 ) -> Estimate {
-    let moments = Moments::of(structure, featured.basis.features(), segments);
-    let samples = moments.samples;
+    let structure = moments.structure;
+    let model = linearise(structure, theta, segments);
+    let variance = cost(structure, theta, segments) / freedom(moments, theta);
+    let covariance =
+        Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
+    normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance))
+}
+
+/// Normalised parameters of an equation-error fit and their standard errors.
+pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
+    let variance = residual_energy(moments, theta) / freedom(moments, theta);
+    let covariance = Covariance::new(&information(moments, theta), theta, variance);
+    normalise(theta, moments.structure, basis, covariance.as_ref(), figures(moments, variance))
+}
+
+/// Samples less free parameters, at least 1; one parameter in `b` and `f` is the scale that they share.
+fn freedom(moments: &Moments, theta: &Parameters) -> f64 {
     let parameters = theta.a.len() + theta.b.len() + theta.f.len();
-    let freedom = (samples - parameters.min(samples - 1)) as f64;
-    let (energy, covariance) = if refined {
-        let energy = cost(structure, theta, segments);
-        let model = linearise(structure, theta, segments);
-        let covariance = Covariance::new(&model.information, theta, energy / freedom);
-        (energy, covariance.map(|c| c.with_batches(&model.batches)))
-    } else {
-        let energy = residual_energy(&moments, theta);
-        (energy, Covariance::new(&information(&moments, theta), theta, energy / freedom))
-    };
-    let figures =
-        Figures { noise_sd: (energy / freedom).sqrt(), excitation: smallest_eigenvalue(&moments), samples };
-    normalise(theta, structure, &featured.basis, covariance.as_ref(), figures)
+    moments.samples.saturating_sub(parameters).max(1) as f64
+}
+
+fn figures(moments: &Moments, variance: f64) -> Figures {
+    Figures { noise_sd: variance.sqrt(), excitation: smallest_eigenvalue(moments), samples: moments.samples }
 }
 
 /// λ_min of the over-parameterised regression's information matrix, per sample.
@@ -114,11 +116,7 @@ fn examine(
     theta: &Parameters,
     segments: &[Segment],
 ) -> Vec<Warning> {
-    let mut visits = vec![0; featured.basis.features() + 1];
-    for cell in segments.iter().flat_map(|s| &s.cells[s.from..s.to]) {
-        visits[cell.main.knot] += 1;
-        visits[cell.main.knot + 1] += 1;
-    }
+    let visits = featured.basis.visits(segments);
     let reversals = data.records.iter().map(|(_, b)| b.reversals()).sum();
     let (noise, threshold) = (data.noise, data.rule.threshold);
     Examination { basis: &featured.basis, structure, theta, noise, threshold, reversals, visits }.warnings()

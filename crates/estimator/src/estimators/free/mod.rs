@@ -1,4 +1,17 @@
 //! Identification from any record: no designed experiment.
+//!
+//! Where the switched model holds, the branch at every sample is known from `v` alone ([`Branches`]). On a grid of knots ([`Basis`]) `u` is
+//! then linear in the border values, and `y` obeys a linear regression with one coefficient for every product `bᵢf_k`:
+//! least squares, then rank one ([`one_shot`]). On real records the equation error is not white and such a model
+//! simulates badly, so [`identify`] goes on to minimise the error of the free run, and chooses order, delay and
+//! knots by cross-validation on the records it is given.
+//!
+//! [`InputMap`] makes the same machinery fit what a user would otherwise pick: a straight line (`linear-arx`) or one
+//! static curve (`memoryless`), so that a comparison compares the models and not the effort.
+//!
+//! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
+//! on `v`, which fakes reversals; a model that needs `v` ahead of time. What no warning can tell: a static
+//! nonlinearity in series with `v` and a common offset look like other borders.
 
 mod basis;
 mod branch;
@@ -11,6 +24,7 @@ mod identify;
 mod model;
 mod nesting;
 mod normalise;
+mod one_shot;
 mod problem;
 mod rank_one;
 mod selection;
@@ -24,8 +38,12 @@ pub use branch::{Branches, ReversalRule, Timing};
 pub use error::FreeError;
 pub use identify::{Identified, identify};
 pub use model::{FreeRun, Model, fit_percent};
+pub use one_shot::{Grid, one_shot};
 pub use problem::Structure;
 pub use selection::{Candidate, Selection};
 pub use sensor::SensorNoise;
 pub use settings::{InputMap, Settings};
 pub use warning::Warning;
+
+#[cfg(test)]
+mod tests;

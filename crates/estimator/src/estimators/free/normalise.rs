@@ -24,7 +24,7 @@ impl Covariance {
     pub(super) fn new(information: &DMatrix<f64>, theta: &Parameters, noise_variance: f64) -> Option<Self> {
         let p = information.nrows();
         let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
-        if scale.iter().any(|s| !(*s > 0.0)) {
+        if !scale.iter().all(|&s| s > 0.0) {
             return None;
         }
         let mut gauge = DVector::zeros(p);

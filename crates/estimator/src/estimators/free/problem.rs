@@ -1,6 +1,8 @@
 //! The regression behind every fit: parameters, structure, and the stretches of data they meet.
 
-use super::basis::Cell;
+use super::basis::{Basis, Cell};
+use super::error::FreeError;
+use std::ops::Range;
 
 /// Orders and delay of the linear part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,11 +56,6 @@ pub(super) struct Parameters {
 }
 
 impl Parameters {
-    /// All parameters in the order a, b, f, c.
-    pub(super) fn to_vec(&self) -> Vec<f64> {
-        [&self.a[..], &self.b, &self.f, &[self.c]].concat()
-    }
-
     /// This point moved by a step in the order a, b, f, c.
     pub(super) fn moved(&self, step: &[f64]) -> Self {
         let add = |x: &[f64], d: &[f64]| x.iter().zip(d).map(|(x, d)| x + d).collect();
@@ -88,7 +85,19 @@ pub(super) struct Segment<'a> {
     pub(super) to: usize,
 }
 
-impl Segment<'_> {
+impl<'a> Segment<'a> {
+    /// The part of a range of a record whose inputs and past outputs are all known and lie inside it.
+    pub(super) fn usable(
+        structure: Structure,
+        y: &'a [f64],
+        cells: &'a [Cell],
+        range: Range<usize>,
+    ) -> Option<Self> {
+        let from = range.start + structure.memory();
+        let to = range.end.min(y.len() - structure.ahead().min(y.len()));
+        (from < to).then_some(Self { y, cells, from, to })
+    }
+
     pub(super) fn len(&self) -> usize {
         self.to - self.from
     }
@@ -98,5 +107,34 @@ impl Segment<'_> {
         let y = &self.y[self.from..self.to];
         let mean = y.iter().sum::<f64>() / y.len() as f64;
         y.iter().map(|y| (y - mean) * (y - mean)).sum()
+    }
+}
+
+impl Basis {
+    /// Samples beside each knot.
+    pub(super) fn visits(&self, segments: &[Segment]) -> Vec<usize> {
+        let mut visits = vec![0; self.features() + 1];
+        for cell in segments.iter().flat_map(|s| &s.cells[s.from..s.to]) {
+            visits[cell.main.knot] += 1;
+            visits[cell.main.knot + 1] += 1;
+        }
+        visits
+    }
+
+    /// Refuses a knot that no sample tells anything about.
+    pub(super) fn check_visits(&self, segments: &[Segment]) -> Result<(), FreeError> {
+        let Some(knot) = self.visits(segments).iter().position(|&count| count == 0) else { return Ok(()) };
+        let descending = self.descending();
+        Err(match knot.checked_sub(descending.len()) {
+            None => FreeError::UnvisitedKnot { curve: "descending", v: descending[knot] },
+            Some(knot) => FreeError::UnvisitedKnot { curve: "ascending", v: self.ascending()[knot] },
+        })
+    }
+
+    /// Refuses fewer than two samples a parameter.
+    pub(super) fn check_length(&self, structure: Structure, segments: &[Segment]) -> Result<(), FreeError> {
+        let samples = segments.iter().map(Segment::len).sum();
+        let parameters = structure.order + structure.numerator() + self.features();
+        if samples < 2 * parameters { Err(FreeError::TooShort { samples, parameters }) } else { Ok(()) }
     }
 }

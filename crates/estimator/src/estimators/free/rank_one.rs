@@ -44,21 +44,27 @@ fn combine(moments: &Moments, width: usize, target: impl Fn(usize) -> Option<(us
     reduced
 }
 
-/// Solves a regression given as moments (output last), with columns scaled to one and a ridge so small that it
-/// only decides directions the data leave open.
-pub(super) fn solve(moments: &Reduced, ridge: f64) -> Option<DVector<f64>> {
+/// Solves a regression given as moments (output last).
+fn solve(moments: &Reduced, ridge: f64) -> Option<DVector<f64>> {
     let p = moments.nrows() - 1;
-    let scale: Vec<f64> = (0..p).map(|i| moments[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
-    let mut normal = DMatrix::from_fn(p, p, |i, j| moments[(i, j)] / (scale[i] * scale[j]));
-    let right = DVector::from_fn(p, |i, _| moments[(i, p)] / scale[i]);
+    let right = DVector::from_fn(p, |i, _| moments[(i, p)]);
+    solve_symmetric(&moments.view((0, 0), (p, p)).into(), &right, ridge)
+}
+
+/// Solves `(M + ridge·diag M) x = r` with columns scaled to one; a tiny ridge decides only what `M` leaves open.
+pub(super) fn solve_symmetric(
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+    ridge: f64,
+) -> Option<DVector<f64>> {
+    let p = matrix.nrows();
+    let scale = DVector::from_fn(p, |i, _| matrix[(i, i)].sqrt().max(f64::MIN_POSITIVE));
+    let mut scaled = DMatrix::from_fn(p, p, |i, j| matrix[(i, j)] / (scale[i] * scale[j]));
     for i in 0..p {
-        normal[(i, i)] += ridge;
+        scaled[(i, i)] += ridge;
     }
-    let mut x = normal.cholesky()?.solve(&right);
-    for i in 0..p {
-        x[i] /= scale[i];
-    }
-    Some(x)
+    let x = scaled.cholesky()?.solve(&right.component_div(&scale));
+    Some(x.component_div(&scale))
 }
 
 /// Least-squares fit of `(a, b, f, c)` by alternation: `f` for given `b`, then `b` for given `f`; `a` and `c` both times.
@@ -80,6 +86,68 @@ pub(super) fn alternate(moments: &Moments, start: Vec<f64>, rounds: usize) -> Op
         result = Some(fitted);
     }
     result
+}
+
+/// Coefficients of the over-parameterised regression itself, in its own order: unbiased and blind to the rank.
+///
+/// `None` if the records do not excite every column.
+pub(super) fn over_parameterised(moments: &Moments) -> Option<DVector<f64>> {
+    solve(&moments.matrix, 0.0)
+}
+
+/// Least-squares fit of `(a, b, f, c)` to the end: from a start, Gauss–Newton steps, halved while they do not help.
+///
+/// Under white equation error this is the maximum-likelihood estimate, so it is consistent and attains the Cramér–Rao bound of
+/// the rank-one regression; the first step from the over-parameterised estimate already does, to first order.
+pub(super) fn gauss_newton(moments: &Moments, start: Parameters) -> Parameters {
+    let mut theta = start.balanced();
+    let mut energy = residual_energy(moments, &theta);
+    let p = moments.constant() + 1;
+    // Near an exact fit the energy is lost in rounding, while the step still improves the parameters.
+    let rounding = 1e-12 * moments.matrix[(p, p)];
+    for _ in 0..MOST_STEPS {
+        let jacobian = jacobian(moments, &theta);
+        let residual = moments.matrix.view((0, p), (p, 1))
+            - moments.matrix.view((0, 0), (p, p)) * products(moments, &theta);
+        let gradient = jacobian.transpose() * residual;
+        let Some(step) = solve_symmetric(&information(moments, &theta), &gradient.column(0).into(), 1e-13)
+        else {
+            break;
+        };
+        let shares = (0..12).map(|k| 0.5f64.powi(k));
+        let better = shares.map(|share| theta.moved((&step * share).as_slice())).find_map(|next| {
+            let next_energy = residual_energy(moments, &next);
+            (next_energy <= energy + rounding).then_some((next, next_energy))
+        });
+        let Some((next, next_energy)) = better else { break };
+        let size = products(moments, &theta);
+        let change = (products(moments, &next) - &size).norm() / size.norm();
+        (theta, energy) = (next.balanced(), next_energy);
+        if change < 1e-14 {
+            break;
+        }
+    }
+    theta
+}
+
+/// Gauss–Newton converges in a handful of steps; this only bounds a crawl along a flat valley.
+const MOST_STEPS: usize = 30;
+
+/// `b` and `f` of unit size that come nearest to a matrix of their products: its leading singular vectors.
+pub(super) fn nearest_rank_one(moments: &Moments, coefficients: &DVector<f64>) -> Option<Parameters> {
+    let (n, nb, m) = (moments.structure.order, moments.structure.numerator(), moments.width);
+    let products = DMatrix::from_fn(nb, m, |i, k| coefficients[moments.product(i, k)]);
+    let svd = products.svd(true, true);
+    let (u, vt) = (svd.u?, svd.v_t?);
+    let leading = svd.singular_values.imax();
+    let b = u.column(leading) * svd.singular_values[leading];
+    let f = vt.row(leading);
+    Some(Parameters {
+        a: coefficients.as_slice()[..n].to_vec(),
+        b: b.iter().copied().collect(),
+        f: f.iter().copied().collect(),
+        c: coefficients[moments.constant()],
+    })
 }
 
 /// Where `(a, b, f, c)` lies in the over-parameterised regression: `a`, every `bᵢf_k`, `c`.

@@ -1,11 +1,10 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::branch::Timing;
 use super::cross_validation::{Assessed, FOLDS, assess_all, assess_next};
 use super::data::Data;
 use super::error::FreeError;
 use super::fit::{Effort, FIRST_KNOTS, Ladder};
-use super::problem::Structure;
+use super::problem::{Segment, Structure};
 use super::settings::{InputMap, Settings};
 use super::simulation_error::cost;
 use std::ops::RangeInclusive;
@@ -16,8 +15,6 @@ const ORDERS: RangeInclusive<usize> = 1..=4;
 const DELAYS: RangeInclusive<isize> = -2..=1;
 /// Knots a curve tried in the second stage; the first stage has [`FIRST_KNOTS`].
 const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
-/// Structures that reach the second stage.
-const FINALISTS: usize = 3;
 
 /// One candidate and what cross-validation says of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +46,8 @@ pub struct Selection {
 
 /// Chooses what the settings leave open.
 ///
-/// First every order and delay at a middling number of knots, then every number of knots at the best of
-/// these. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
+/// First every order and delay at a middling number of knots, then every number of knots at the best
+/// order of each delay. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
 /// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
 /// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
 /// smaller ones travel better to records that the fit has not seen.
@@ -64,8 +61,11 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     };
     let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
     // Smaller structures first: by falling delay, then by order.
-    let structures: Vec<Structure> =
-        delays.iter().rev().flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay })).collect();
+    let structures: Vec<Structure> = delays
+        .iter()
+        .rev()
+        .flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay }))
+        .collect();
     if let ([structure], [knots]) = (&structures[..], &knots[..]) {
         return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
     }
@@ -75,38 +75,54 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
     let mut second: Vec<Assessed> = Vec::new();
     for &k in knots.iter().filter(|&&k| k != first_knots) {
         let ladder = Ladder::last_step(data, settings.input_map, k);
-        let finalists = assessed.iter().take(FINALISTS).filter(|a| a.fit_percent.is_finite());
-        second.extend(finalists.map(|a| assess_next(&ladder, a, settings.refine)));
+        second.extend(best_of_each_delay(&assessed).map(|a| assess_next(&ladder, a, settings.refine)));
     }
     assessed.extend(second);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
     let candidates: Vec<Candidate> = assessed.iter().map(|a| candidate(a, &assessed[0])).collect();
     let close = candidates.iter().filter(|c| c.behind <= 1.0);
     match close.min_by_key(|c| c.parameters) {
-        Some(&Candidate { structure, knots, .. }) => Ok(Selection { candidates, folds: FOLDS, structure, knots }),
-        None => Err(FreeError::Unstable { order: structures[0].order }),
+        Some(&Candidate { structure, knots, .. }) => {
+            Ok(Selection { candidates, folds: FOLDS, structure, knots })
+        }
+        None => {
+            // Without a fold's share of the data the smallest structure must still have its two samples a parameter.
+            let smallest = structures[0];
+            let mut blocks = ladder.top().blocks(smallest, FOLDS);
+            blocks.pop();
+            ladder.top().basis.check_length(smallest, &blocks)?;
+            Err(FreeError::Unstable { order: smallest.order })
+        }
     }
 }
 
-/// The data with the timing of reversals that fits better.
+/// The data with the reversal rule that fits best.
 ///
-/// The two timings have the same parameters, so the fit itself decides; a middling structure shows the difference.
-pub(super) fn with_best_timing<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
-    if settings.timing.is_some() || settings.input_map != InputMap::Borders {
+/// The rules have the same parameters, so the fit itself decides; a middling structure shows the difference. All are judged
+/// over the same samples but for a few at the very start.
+pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
+    let rules = data.noise.rules(settings.threshold, settings.timing);
+    if rules.len() == 1 || settings.input_map != InputMap::Borders {
         return data;
     }
     let structure = Structure { order: settings.order.unwrap_or(2), delay: settings.delay.unwrap_or(-1) };
     let knots = settings.knots.unwrap_or(FIRST_KNOTS);
-    let between = data.with_timing(Timing::BetweenSamples);
     let error = |data: &Data| {
         let ladder = Ladder::new(data, settings.input_map, knots);
+        let segments = ladder.top().segments(structure);
         let fitted = ladder.climb_from_smaller(structure, Effort::SEARCH)?;
-        Some(cost(structure, &fitted.theta, &ladder.top().segments(structure)))
+        let samples: usize = segments.iter().map(Segment::len).sum();
+        Some(cost(structure, &fitted.theta, &segments) / samples as f64)
     };
-    match (error(&data), error(&between)) {
-        (Some(at), Some(between_error)) if between_error < at => between,
-        _ => data,
-    }
+    let tried = rules.into_iter().map(|rule| data.with_rule(rule)).filter_map(|d| Some((error(&d)?, d)));
+    let best = tried.min_by(|x, y| x.0.total_cmp(&y.0));
+    best.map_or_else(|| data.with_rule(data.rule), |(_, best)| best)
+}
+
+/// The best order of each delay, from assessments sorted by fit. A coarse grid may favour a delay that a finer one does not.
+fn best_of_each_delay(sorted: &[Assessed]) -> impl Iterator<Item = &Assessed> {
+    let is_first = |i: usize| sorted[..i].iter().all(|a| a.structure.delay != sorted[i].structure.delay);
+    (0..sorted.len()).filter(move |&i| is_first(i) && sorted[i].fit_percent.is_finite()).map(|i| &sorted[i])
 }
 
 /// Sets an assessment against the best one.

@@ -35,13 +35,17 @@ pub struct SensorNoise {
 /// √2 σ, so this is 4.2 of those: about one false reversal in 10⁵ samples at rest, and none on a slope.
 const THRESHOLD_IN_SD: f64 = 6.0;
 
+/// A lower threshold that the fit may prefer: one false reversal in some hundred samples at rest, but loops of half the size seen.
+const LOW_THRESHOLD_IN_SD: f64 = 3.5;
+
 /// Share of the range that noise may take up.
 const LARGEST_NOISE: f64 = 0.02;
 
 impl SensorNoise {
     /// Looks for noise on an input.
     pub fn of(v: &[f64]) -> Self {
-        let (low, high) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let (low, high) =
+            v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
         let limit = LARGEST_NOISE * (high - low);
         let small_pairs = small_cluster(&rainflow(v), limit).unwrap_or(0.0);
         let sd = (2..=4).find_map(|k| white_sd(v, k)).filter(|&sd| sd < limit).unwrap_or(0.0);
@@ -49,9 +53,30 @@ impl SensorNoise {
         Self { sd, small_pairs, threshold }
     }
 
-    /// The rule that goes with a threshold (this one, or the user's): a rest at an extremum extends three noise sds from it.
-    pub(super) fn rule(&self, threshold: f64) -> ReversalRule {
-        ReversalRule { threshold, band: (3.0 * self.sd).min(threshold / 2.0), timing: Timing::AtSamples }
+    /// The rules worth trying, simplest first; a threshold or timing that the user gives is kept.
+    ///
+    /// On a noisy input the extremum of a rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
+    /// Beside the safe threshold a lower one is tried, since real loops may be small.
+    pub(super) fn rules(&self, threshold: Option<f64>, timing: Option<Timing>) -> Vec<ReversalRule> {
+        let thresholds = match threshold {
+            Some(threshold) => vec![threshold],
+            None if self.small_pairs == 0.0 && self.sd > 0.0 => {
+                vec![self.threshold, LOW_THRESHOLD_IN_SD * self.sd]
+            }
+            None => vec![self.threshold],
+        };
+        let timings = timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
+        let mut rules = Vec::new();
+        for &threshold in &thresholds {
+            for &timing in &timings {
+                let band = (3.0 * self.sd).min(threshold / 2.0);
+                rules.push(ReversalRule { threshold, band: 0.0, timing });
+                if band > 0.0 {
+                    rules.push(ReversalRule { threshold, band, timing });
+                }
+            }
+        }
+        rules
     }
 }
 

@@ -39,16 +39,29 @@ pub struct Settings {
 impl Settings {
     /// Everything left to the data, with refinement.
     pub fn new(input_map: InputMap) -> Self {
-        Self { input_map, order: None, delay: None, knots: None, threshold: None, timing: None, interval: None, refine: true }
+        Self {
+            input_map,
+            order: None,
+            delay: None,
+            knots: None,
+            threshold: None,
+            timing: None,
+            interval: None,
+            refine: true,
+        }
     }
 
     /// Refuses what makes no sense.
     pub(super) fn check(&self) -> Result<(), FreeError> {
         let refuse = |name, value, allowed| Err(FreeError::Setting { name, value, allowed });
         match *self {
-            Self { order: Some(n), .. } if !(1..=20).contains(&n) => refuse("order", n as f64, "from 1 to 20"),
+            Self { order: Some(n), .. } if !(1..=20).contains(&n) => {
+                refuse("order", n as f64, "from 1 to 20")
+            }
             Self { delay: Some(d), .. } if d < -20 => refuse("delay", d as f64, "-20 or more"),
-            Self { knots: Some(k), .. } if !(2..=200).contains(&k) => refuse("knots", k as f64, "from 2 to 200"),
+            Self { knots: Some(k), .. } if !(2..=200).contains(&k) => {
+                refuse("knots", k as f64, "from 2 to 200")
+            }
             Self { threshold: Some(x), .. } if !(x.is_finite() && x >= 0.0) => {
                 refuse("threshold", x, "finite and not negative")
             }

@@ -2,6 +2,7 @@
 
 use super::fit::Effort;
 use super::problem::{Parameters, Segment, Structure};
+use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether all zeros of `1 + a₁z⁻¹ + … + aₙz⁻ⁿ` lie inside the unit circle (Schur–Cohn step-down).
@@ -175,7 +176,8 @@ impl Refinement<'_> {
             pull -= &penalty * f;
             let before = now;
             while damping < 1e12 {
-                let next = damped_step(&model, damping).map(|step| theta.moved(step.as_slice()));
+                let next = solve_symmetric(&model.information, &model.gradient, damping + 1e-13);
+                let next = next.map(|step| theta.moved(step.as_slice()));
                 let cost = next.as_ref().map_or(f64::INFINITY, &penalised);
                 match next {
                     Some(next) if cost < now => {
@@ -200,25 +202,4 @@ fn output_energy(segments: &[Segment]) -> f64 {
     let values = || segments.iter().flat_map(|s| &s.y[s.from..s.to]);
     let mean = values().sum::<f64>() / values().count().max(1) as f64;
     values().map(|y| (y - mean) * (y - mean)).sum()
-}
-
-/// `(H + λ diag H)⁻¹ g`.
-fn damped_step(model: &Linearised, damping: f64) -> Option<DVector<f64>> {
-    let mut damped = model.information.clone();
-    let scale: Vec<f64> = damped.diagonal().iter().map(|d| d.sqrt().max(f64::MIN_POSITIVE)).collect();
-    let mut right = model.gradient.clone();
-    for i in 0..scale.len() {
-        for j in 0..scale.len() {
-            damped[(i, j)] /= scale[i] * scale[j];
-        }
-        right[i] /= scale[i];
-    }
-    for i in 0..scale.len() {
-        damped[(i, i)] += damping + 1e-13;
-    }
-    let mut step = damped.cholesky()?.solve(&right);
-    for i in 0..scale.len() {
-        step[i] /= scale[i];
-    }
-    Some(step)
 }

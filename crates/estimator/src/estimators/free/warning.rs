@@ -73,14 +73,22 @@ impl fmt::Display for Warning {
                 write!(out, "only {samples} samples lie beside the knot {v:.4} of the {} border", name(curve))
             }
             Self::SpanIllDefined => {
-                write!(out, "u_M and u_m coincide; the range of the curves is set to one instead of their difference")
+                write!(
+                    out,
+                    "u_M and u_m coincide; the range of the curves is set to one instead of their difference"
+                )
             }
-            Self::NegativeGain => write!(out, "the stationary output falls from h_m to h_M: the gain is negative"),
+            Self::NegativeGain => {
+                write!(out, "the stationary output falls from h_m to h_M: the gain is negative")
+            }
             Self::NoStationaryGain => {
                 write!(out, "B(1) vanishes: border values count from u_m, their common level is unknown")
             }
             Self::LooksAhead { samples } => {
-                write!(out, "the output leads the input by {samples} sample(s): the sensor of v lags, or y is filtered both ways")
+                write!(
+                    out,
+                    "the output leads the input by {samples} sample(s): the sensor of v lags, or y is filtered both ways"
+                )
             }
         }
     }
@@ -132,11 +140,13 @@ impl Examination<'_> {
     /// Steep cells and rarely visited knots, curve by curve. A straight line has neither.
     fn curves(&self, found: &mut Vec<Warning>) {
         let value = |k: usize| if k == 0 { 0.0 } else { self.theta.f[k - 1] };
-        let curves = [(Branch::Descending, self.basis.descending()), (Branch::Ascending, self.basis.ascending())];
+        let curves =
+            [(Branch::Descending, self.basis.descending()), (Branch::Ascending, self.basis.ascending())];
         let mut first = 0;
         for (curve, knots) in curves.into_iter().take(self.basis.sizes().count()) {
             let values: Vec<f64> = (first..first + knots.len()).map(value).collect();
-            let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+            let (low, high) =
+                values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
             for j in 1..knots.len() {
                 let share = (values[j] - values[j - 1]).abs() / (high - low).max(f64::MIN_POSITIVE);
                 if knots.len() > 4 && share > 0.5 {

@@ -74,8 +74,10 @@ fn recursion_with_products<const L: usize, const P: usize>(
 ) {
     let (start, rows) = rows.split_at_mut(P);
     let mut past: [[f64; L]; P] = std::array::from_fn(|i| start[P - 1 - i]);
-    let mut square = sums[0];
-    let mut products: [[f64; L]; P] = std::array::from_fn(|i| sums[i + 1]);
+    // Whole arrays in and out: an index that varies would keep them in memory.
+    let (square_sum, product_sums) = sums.split_first_mut().expect("lag zero is always summed");
+    let product_sums = product_sums.first_chunk_mut::<P>().expect("as many lags as coefficients");
+    let (mut square, mut products) = (*square_sum, *product_sums);
     for row in rows {
         let mut e = *row;
         for i in (0..P).rev() {
@@ -86,19 +88,19 @@ fn recursion_with_products<const L: usize, const P: usize>(
         for l in 0..L {
             square[l] += e[l] * e[l];
         }
+        let mut newer = e;
         for i in 0..P {
+            let now = past[i];
             for l in 0..L {
-                products[i][l] += e[l] * past[i][l];
+                products[i][l] += e[l] * now[l];
             }
+            past[i] = newer;
+            newer = now;
         }
-        for i in (1..P).rev() {
-            past[i] = past[i - 1];
-        }
-        past[0] = e;
         *row = e;
     }
-    sums[0] = square;
-    sums[1..].copy_from_slice(&products);
+    *square_sum = square;
+    *product_sums = products;
 }
 
 /// The recursion of any order, from memory.
@@ -134,7 +136,8 @@ fn auto_products<const L: usize>(e: &[[f64; L]], sums: &mut [[f64; L]]) {
 /// The products at lags `first … first + G − 1`.
 #[inline(always)]
 fn products<const L: usize, const G: usize>(e: &[[f64; L]], n: usize, first: usize, sums: &mut [[f64; L]]) {
-    let mut sum: [[f64; L]; G] = std::array::from_fn(|g| sums[g]);
+    let sums = sums.first_chunk_mut::<G>().expect("a group of G lags");
+    let mut sum = *sums;
     let now = &e[n..];
     let past: [&[[f64; L]]; G] = std::array::from_fn(|g| &e[n - first - g..][..now.len()]);
     for t in 0..now.len() {
@@ -144,7 +147,7 @@ fn products<const L: usize, const G: usize>(e: &[[f64; L]], n: usize, first: usi
             }
         }
     }
-    sums.copy_from_slice(&sum);
+    *sums = sum;
 }
 
 /// Adds the rows of `e` to `fold`, one row a phase, cyclically from `phase` on.

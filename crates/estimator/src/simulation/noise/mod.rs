@@ -21,7 +21,7 @@ mod width;
 
 pub use oracle::record_by_definition;
 pub use pass::NoisePass;
-pub use plan::{NoisePlan, NoisePlanError, settling_samples};
+pub use plan::{NoisePlan, NoisePlanError};
 pub use record::{Checkpoint, NoiseRecord};
 pub use samples::{NoiseSamples, samples, white_samples};
 pub use white::{BLOCK, StreamId, WhiteNoise};

@@ -1,5 +1,6 @@
 //! What a pass over the noise must record.
 
+use crate::linear::is_stable;
 use thiserror::Error;
 
 /// Why a [`NoisePlan`] cannot be run.
@@ -45,7 +46,7 @@ pub enum NoisePlanError {
 /// ```
 ///
 /// The filter starts at rest (w = e = 0) at `t = −burn_in`, so that `e` is stationary at `t = 0` to within
-/// what is left of the impulse response of C/A after `burn_in` samples; [`settling_samples`] gives a number
+/// what is left of the impulse response of C/A after `burn_in` samples; [`settling_samples`](crate::linear::settling_samples) gives a number
 /// after which nothing is left in double precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoisePlan {
@@ -97,57 +98,4 @@ impl NoisePlan {
     pub(super) fn history(&self) -> usize {
         self.ar.len().max(self.lags)
     }
-}
-
-/// Whether every root of `1 + a₁q⁻¹ + … + a_p q⁻ᵖ` (in q) lies strictly inside the unit circle.
-///
-/// The step-down (Schur–Cohn) recursion: stable when every reflection coefficient is below one in modulus.
-fn is_stable(a: &[f64]) -> bool {
-    let mut a = a.to_vec();
-    while let Some(k) = a.pop() {
-        if k.abs() >= 1.0 {
-            return false;
-        }
-        let p = a.len();
-        a = (0..p).map(|i| (a[i] - k * a[p - 1 - i]) / (1.0 - k * k)).collect();
-    }
-    true
-}
-
-/// Samples after which the impulse response of `1/A` has died out: the first of p successive values that are
-/// each below `tolerance` times the root of the energy before them, p the order of A.
-///
-/// For a stationary start choose a `tolerance` of 10⁻¹² or so; add the length of C for a filter C/A. `None`
-/// when `ar` is not stable, or needs more than ten million samples.
-///
-/// ```
-/// # use switchback_estimator::simulation::noise::settling_samples;
-/// // 0.5ᵗ falls below 10⁻³ after ten samples.
-/// assert_eq!(settling_samples(&[-0.5], 1e-3), Some(10));
-/// assert_eq!(settling_samples(&[-1.0], 1e-3), None);
-/// ```
-pub fn settling_samples(ar: &[f64], tolerance: f64) -> Option<usize> {
-    const LONGEST: usize = 10_000_000;
-    if !is_stable(ar) {
-        return None;
-    }
-    // The state of the filter is its last p values; when all of them are small, what follows is.
-    let mut past = vec![0.0; ar.len()];
-    let (mut energy, mut quiet) = (0.0, 0);
-    for k in 0..LONGEST {
-        let mut h = if k == 0 { 1.0 } else { 0.0 };
-        for (a, x) in ar.iter().zip(&past) {
-            h -= a * x;
-        }
-        energy += h * h;
-        quiet = if h * h <= tolerance * tolerance * energy { quiet + 1 } else { 0 };
-        if quiet >= ar.len().max(1) {
-            return Some(k + 1 - quiet);
-        }
-        if !past.is_empty() {
-            past.rotate_right(1);
-            past[0] = h;
-        }
-    }
-    None
 }

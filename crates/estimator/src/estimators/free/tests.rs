@@ -1,0 +1,115 @@
+//! The fast paths against slow and obvious ones.
+
+use super::basis::Basis;
+use super::branch::{Branches, ReversalRule, Timing};
+use super::equation_error::{Moments, fill_row};
+use super::model::cells;
+use super::problem::{Parameters, Segment, Structure};
+use super::rank_one::over_parameterised;
+use super::simulation_error::{free_run, is_stable, linearise};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+fn uniform(rng: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
+    (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()
+}
+
+/// Random input and output with the hats of two borders of three knots.
+fn random_data(seed: u64, timing: Timing) -> (Vec<f64>, Basis, Vec<super::basis::Cell>, usize) {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let (v, y) = (uniform(&mut rng, 200), uniform(&mut rng, 200));
+    let basis = Basis::borders(vec![-1.0, 0.2, 1.0], vec![-1.0, -0.3, 1.0]);
+    let branches = Branches::of(&v, ReversalRule { timing, ..ReversalRule::EXACT }).unwrap();
+    let cells = cells(&basis, &v, &branches);
+    (y, basis, cells, branches.first_known())
+}
+
+fn structures() -> impl Strategy<Value = Structure> {
+    (1usize..4, -3isize..3).prop_map(|(order, delay)| Structure { order, delay })
+}
+
+fn timings() -> impl Strategy<Value = Timing> {
+    prop_oneof![Just(Timing::AtSamples), Just(Timing::BetweenSamples)]
+}
+
+proptest! {
+    #[test]
+    fn moments_give_the_least_squares_of_a_dense_qr(seed: u64, structure in structures(), timing in timings()) {
+        let (y, basis, cells, known) = random_data(seed, timing);
+        let segment = Segment::usable(structure, &y, &cells, known..y.len()).unwrap();
+        let moments = Moments::of(structure, basis.features(), &[segment]);
+        let p = moments.constant() + 1;
+        let (mut design, mut output) = (DMatrix::zeros(segment.len(), p), DVector::zeros(segment.len()));
+        let mut row = Vec::new();
+        for t in segment.from..segment.to {
+            fill_row(structure, basis.features(), &segment, t, &mut row);
+            for &(column, x) in &row {
+                if column < p { design[(t - segment.from, column)] += x } else { output[t - segment.from] = x }
+            }
+        }
+        let qr = design.qr();
+        let dense = qr.r().solve_upper_triangular(&(qr.q().transpose() * output)).unwrap();
+        let fast = over_parameterised(&moments).unwrap();
+        prop_assert!((fast - dense).amax() < 1e-9);
+    }
+
+    #[test]
+    fn the_linearised_free_run_has_the_derivatives_of_finite_differences(
+        seed: u64, structure in structures(), timing in timings(),
+    ) {
+        let (y, basis, cells, known) = random_data(seed, timing);
+        let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 1);
+        let small = |x: Vec<f64>| x.into_iter().map(|x| 0.3 * x).collect::<Vec<f64>>();
+        let theta = Parameters {
+            a: small(uniform(&mut rng, structure.order)),
+            b: uniform(&mut rng, structure.numerator()),
+            f: uniform(&mut rng, basis.features()),
+            c: 0.3,
+        };
+        let segment = Segment::usable(structure, &y, &cells, known..y.len()).unwrap();
+        let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
+        let run = |i: usize, h: f64| {
+            let mut step = vec![0.0; p];
+            step[i] = h;
+            DVector::from_vec(free_run(structure, &theta.moved(&step), &segment))
+        };
+        let jacobian: Vec<DVector<f64>> = (0..p).map(|i| (run(i, 1e-6) - run(i, -1e-6)) / 2e-6).collect();
+        let error = DVector::from_column_slice(&y[segment.from..segment.to]) - run(0, 0.0);
+        let fast = linearise(structure, &theta, &[segment]);
+        for i in 0..p {
+            let scale = 1.0 + jacobian[i].norm_squared();
+            prop_assert!((fast.gradient[i] - jacobian[i].dot(&error)).abs() < 1e-6 * scale * (1.0 + error.norm()));
+            for j in 0..p {
+                let dense = jacobian[i].dot(&jacobian[j]);
+                prop_assert!((fast.information[(i, j)] - dense).abs() < 1e-6 * scale * (1.0 + jacobian[j].norm()));
+            }
+        }
+        let batched = fast.batches.iter().fold(DVector::zeros(p), |sum, g| sum + g);
+        prop_assert!((batched - fast.gradient).amax() < 1e-9);
+    }
+
+    #[test]
+    fn stability_agrees_with_the_roots(roots in prop::collection::vec(-1.5f64..1.5, 1..5)) {
+        prop_assume!(roots.iter().all(|r| (r.abs() - 1.0).abs() > 1e-3));
+        let mut a = vec![1.0];
+        for r in &roots {
+            a.push(0.0);
+            for i in (1..a.len()).rev() { a[i] -= r * a[i - 1] }
+        }
+        prop_assert_eq!(is_stable(&a[1..]), roots.iter().all(|r| r.abs() < 1.0));
+    }
+
+    #[test]
+    fn hats_add_up_to_one_and_interpolate(v in -2.0f64..2.0, values in prop::collection::vec(-5.0f64..5.0, 5)) {
+        let basis = Basis::borders(vec![-1.0, 0.2, 1.0], vec![-1.0, -0.3, 1.0]);
+        let cell = |branch| super::basis::Cell { main: basis.place(branch, v), next: None };
+        for (branch, first) in [(crate::hysteresis::Branch::Descending, 0), (crate::hysteresis::Branch::Ascending, 3)] {
+            let flat = cell(branch).value(&[1.0; 5]);
+            prop_assert!(first == 0 || (flat - 1.0).abs() < 1e-12);
+            let sum: f64 = cell(branch).features().map(|(k, x)| x * values[k]).sum();
+            prop_assert!((sum - cell(branch).value(&values)).abs() < 1e-12);
+        }
+    }
+}

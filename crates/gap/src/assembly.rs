@@ -1,0 +1,199 @@
+//! A composition of effects as plain data: what the fit and the simulation both interpret.
+//!
+//! ```text
+//! v → delay → play → borders (transition, wear) + border columns → gain → num/den → B/A → + disturbances → sensor → y
+//! ```
+
+/// How the working point passes from one border to the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Transition {
+    /// Travel over which it passes, in strokes.
+    pub(crate) length: f64,
+    /// Shape `s` of the envelope `φ(x) = exp(−(x/length)^s)`.
+    pub(crate) shape: f64,
+    /// What fades.
+    pub(crate) law: TransitionLaw,
+}
+
+/// What fades during a transition with envelope `φ`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TransitionLaw {
+    /// `u = C(v) + φ·(u_rev − C(v_rev))`: the distance to the border at the reversal fades.
+    Offset,
+    /// `u = (1−φ)·C(v) + φ·u_rev`: the value at the reversal fades.
+    Held,
+    /// `u = (1−φ)·C(v) + φ·C_old(v)`: the other border fades.
+    OldBorder,
+}
+
+/// A clock that slow changes follow, from 0 to about 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Clock {
+    /// Samples of the whole campaign.
+    Campaign,
+    /// Samples of each record anew.
+    Record,
+    /// Travel of each record anew.
+    Travel,
+}
+
+/// A slow change `Σ_k c_k·s_k(t)` of a clock.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slow {
+    pub(crate) clock: Clock,
+    /// Coefficients of the shifted Legendre polynomials of degree 1, 2, … of the clock.
+    pub(crate) coefficients: Vec<f64>,
+    /// Angular rate over the clock and phase of an added sinusoid, `(rate, sine, cosine)`.
+    pub(crate) wave: Option<(f64, f64, f64)>,
+}
+
+impl Slow {
+    /// The change at clock `s`.
+    pub(crate) fn at(&self, s: f64) -> f64 {
+        let x = 2.0 * s - 1.0;
+        let basis = [x + 1.0, x * x - 1.0, x * x * x - x];
+        let mut sum: f64 = self.coefficients.iter().zip(basis).map(|(c, b)| c * b).sum();
+        if let Some((rate, sine, cosine)) = self.wave {
+            sum += sine * (rate * s).sin() + cosine * ((rate * s).cos() - 1.0);
+        }
+        sum
+    }
+}
+
+/// A column beside the border values: its coefficient is estimated with them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum BorderColumn {
+    /// `branch·r^power`, `r` the speed in strokes per sample over `scale`.
+    Speed { power: f64, scale: f64, while_resting: Resting },
+    /// `branch·exp(−(r/scale)^power)`.
+    LowSpeed { power: f64, scale: f64, while_resting: Resting },
+    /// `branch·ln(1 + rest/scale)` while the input rests.
+    RestingLog { scale: f64 },
+    /// `branch·s(clock)`.
+    BranchSlow { clock: Clock },
+}
+
+/// What a speed-dependent term does while the input rests.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Resting {
+    /// It keeps its last value, as `u` does.
+    Held,
+    /// It takes its value at speed zero.
+    Zero,
+}
+
+/// A disturbance column of the equation, `A y = B u + Σ d·ψ`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum EquationColumn {
+    /// Cosine and sine at a frequency (radians per sample) on one track, or on all with the campaign's clock.
+    Line { frequency: f64, track: Option<usize>, sine: bool },
+    /// A polynomial of a clock, of the given degree.
+    Trend { clock: Clock, degree: usize },
+    /// A bump function of a track: linear interpolation between `pieces` equal pieces.
+    Local { track: usize, piece: usize, pieces: usize },
+}
+
+/// The sensor's characteristic as its inverse `x = y + Σ θ_k p_k(y)`, `p` the powers 2, 3, ….
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct SensorCurve {
+    /// Coefficients of `y²`, `y³`, ….
+    pub(crate) powers: Vec<f64>,
+}
+
+/// The sensor's range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Saturation {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+/// The law of the equation error.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct NoiseLaw {
+    /// `D(q⁻¹) e = w`: coefficients d₁, d₂, ….
+    pub(crate) ar: Vec<f64>,
+    /// Moving average `e = C(q⁻¹) w`: coefficients c₁, c₂, ….
+    pub(crate) ma: Vec<f64>,
+    /// Variance of white output noise over that of the equation error.
+    pub(crate) output_ratio: f64,
+    /// Variance of the noise on `v` over that of the equation error, while moving and while resting.
+    pub(crate) input_ratio: Option<[f64; 2]>,
+    /// Share and standard deviation ratio of the wide component of a normal mixture.
+    pub(crate) mixture: Option<(f64, f64)>,
+}
+
+/// A composition of effects.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Assembly {
+    /// Extra lags of A and of B beyond the nominal order.
+    pub(crate) extra_a: usize,
+    pub(crate) extra_b: usize,
+    /// Delay of the input, samples.
+    pub(crate) delay: f64,
+    /// Full width of the play, strokes.
+    pub(crate) play: f64,
+    pub(crate) transition: Option<Transition>,
+    /// Narrowing of the loop.
+    pub(crate) wear: Option<Slow>,
+    pub(crate) border_columns: Vec<BorderColumn>,
+    /// Relative change of the gain.
+    pub(crate) gain: Option<Slow>,
+    /// Filter between `u` and `B/A`, numerator and denominator, leading ones included.
+    pub(crate) numerator: Vec<f64>,
+    pub(crate) denominator: Vec<f64>,
+    pub(crate) equation_columns: Vec<EquationColumn>,
+    pub(crate) curve: SensorCurve,
+    pub(crate) saturation: Option<Saturation>,
+    pub(crate) noise: NoiseLaw,
+}
+
+impl Assembly {
+    /// Whether both give the same design, so that only the law of the noise differs.
+    pub(crate) fn same_design(&self, other: &Self) -> bool {
+        self.noise.input_ratio.is_some() == other.noise.input_ratio.is_some()
+            && Self { noise: NoiseLaw::default(), ..self.clone() }
+                == Self { noise: NoiseLaw::default(), ..other.clone() }
+    }
+
+    /// Puts a filter in series with those present.
+    pub(crate) fn filter(&mut self, numerator: &[f64], denominator: &[f64]) {
+        self.numerator = convolve(&leading_one(&self.numerator), numerator);
+        self.denominator = convolve(&leading_one(&self.denominator), denominator);
+    }
+
+    /// The taps between the filtered `u` and `B`: the numerator and the delay, linear between samples.
+    pub(crate) fn taps(&self) -> Vec<f64> {
+        let whole = self.delay.floor();
+        let part = self.delay - whole;
+        let mut taps = vec![0.0; whole as usize];
+        taps.push(1.0 - part);
+        if part > 0.0 {
+            taps.push(part);
+        }
+        convolve(&leading_one(&self.numerator), &taps)
+    }
+}
+
+fn leading_one(filter: &[f64]) -> Vec<f64> {
+    if filter.is_empty() { vec![1.0] } else { filter.to_vec() }
+}
+
+/// Product of two polynomials in `q⁻¹`.
+pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
+    if a.is_empty() || b.is_empty() {
+        return Vec::new();
+    }
+    let mut out = vec![0.0; a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            out[i + j] += x * y;
+        }
+    }
+    out
+}
+
+/// Coefficients beyond the leading one of the product of two monic polynomials given without it.
+pub(crate) fn times_monic(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let monic = |x: &[f64]| std::iter::once(1.0).chain(x.iter().copied()).collect::<Vec<f64>>();
+    convolve(&monic(a), &monic(b)).split_off(1)
+}

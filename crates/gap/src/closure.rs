@@ -1,0 +1,109 @@
+//! How far the gap closes on held-out records.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::campaign::Campaign;
+use crate::diagnosis::{Figure, Gap, RecordGap};
+
+/// Simulations of one record, dimensionless.
+pub(crate) struct Simulated {
+    pub(crate) number: usize,
+    pub(crate) before: Vec<f64>,
+    pub(crate) after: Vec<f64>,
+}
+
+/// Samples of one block of the bootstrap: longer than the memory of the errors.
+const BLOCK: usize = 60;
+
+/// Sums over one block.
+#[derive(Clone, Copy)]
+struct Block {
+    before: f64,
+    after: f64,
+    energy: f64,
+    count: f64,
+}
+
+/// `G²` before and after, closure, and their intervals from a bootstrap over blocks of time.
+///
+/// `noise` is the variance of the noise in the output and its relative standard error.
+pub(crate) fn measure(
+    campaign: &Campaign,
+    runs: &[Simulated],
+    noise: (f64, f64),
+    draws: (u64, usize),
+) -> Gap {
+    let mut blocks = Vec::new();
+    let mut per_record = Vec::new();
+    for run in runs {
+        let track = &campaign.tracks[run.number];
+        let from = track.from;
+        let n = (track.y.len() - from).max(1) as f64;
+        let mean = track.y[from..].iter().sum::<f64>() / n;
+        let square = |x: f64| x * x;
+        let (mut before, mut after, mut energy) = (0.0, 0.0, 0.0);
+        for start in (from..track.y.len()).step_by(BLOCK) {
+            let mut b = Block { before: 0.0, after: 0.0, energy: 0.0, count: 0.0 };
+            for t in start..(start + BLOCK).min(track.y.len()) {
+                b.before += square(track.y[t] - run.before[t]);
+                b.after += square(track.y[t] - run.after[t]);
+                b.energy += square(track.y[t] - mean);
+                b.count += 1.0;
+            }
+            before += b.before;
+            after += b.after;
+            energy += b.energy;
+            blocks.push(b);
+        }
+        let energy = energy.max(1e-300);
+        per_record.push(RecordGap {
+            record: track.name.clone(),
+            before: (before - n * noise.0) / energy,
+            after: (after - n * noise.0) / energy,
+            fit_before: 100.0 * (1.0 - (before / energy).sqrt()),
+            fit_after: 100.0 * (1.0 - (after / energy).sqrt()),
+        });
+    }
+    let figures = |blocks: &mut dyn Iterator<Item = Block>, noise: f64| {
+        let sum = blocks.fold(Block { before: 0.0, after: 0.0, energy: 1e-300, count: 0.0 }, |s, b| Block {
+            before: s.before + b.before,
+            after: s.after + b.after,
+            energy: s.energy + b.energy,
+            count: s.count + b.count,
+        });
+        let before = (sum.before - sum.count * noise) / sum.energy;
+        let after = (sum.after - sum.count * noise) / sum.energy;
+        [before, after, 1.0 - after / before]
+    };
+    let [before, after, closure] = figures(&mut blocks.iter().copied(), noise.0);
+    let mut rng = ChaCha8Rng::seed_from_u64(draws.0);
+    let mut samples: [Vec<f64>; 3] = Default::default();
+    for _ in 0..draws.1 {
+        let drawn: Vec<Block> =
+            (0..blocks.len()).map(|_| blocks[rng.random_range(0..blocks.len())]).collect();
+        // Twelve uniforms make a normal deviate well enough for the error of the noise floor.
+        let normal: f64 = (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
+        let values = figures(&mut drawn.into_iter(), noise.0 * (1.0 + noise.1 * normal));
+        samples.iter_mut().zip(values).for_each(|(s, v)| s.push(v));
+    }
+    let figure = |estimate: f64, mut draws: Vec<f64>| {
+        draws.retain(|x| x.is_finite());
+        draws.sort_by(f64::total_cmp);
+        let at = |q: f64| match draws.len() {
+            0 => estimate,
+            n => draws[((n - 1) as f64 * q).round() as usize],
+        };
+        Figure { estimate, ci90: [at(0.05).min(estimate), at(0.95).max(estimate)] }
+    };
+    let [drawn_before, drawn_after, drawn_closure] = samples;
+    let before = figure(before, drawn_before);
+    Gap {
+        before,
+        after: figure(after, drawn_after),
+        closure: (before.ci90[0] > 0.0).then(|| figure(closure, drawn_closure)),
+        noise_floor: noise.0.max(0.0).sqrt() * campaign.y_scale,
+        predictive_gain: 0.0,
+        per_record,
+    }
+}

@@ -1,0 +1,397 @@
+//! The diagnosis itself: plan, candidate fits, conclusion.
+
+use switchback_estimator::rig::Rig;
+
+use crate::campaign::Campaign;
+use crate::closure::{Simulated, measure};
+use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
+use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
+use crate::effect::Effect;
+use crate::effects::Scene;
+use crate::engine::Fit;
+use crate::error::DiagnoseError;
+use crate::explain::{Explanation, explain};
+use crate::localise::localise;
+use crate::nominal::identify;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::score::{heldout_log_score, innovations, picture};
+use crate::settings::{Model, Settings};
+use crate::simulate::{free_run, noise_gain, repeat_variance};
+
+/// Diagnoses the gap between a model and a rig.
+///
+/// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
+/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. The same as
+/// [`Plan::new`], [`Plan::fit_candidate`] for each effect, and [`Plan::conclude`].
+///
+/// # Errors
+/// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
+/// [limitation](Diagnosis::limitations).
+pub fn diagnose(rig: &Rig, model: Model, settings: &Settings) -> Result<Diagnosis, DiagnoseError> {
+    let plan = Plan::new(rig, model, settings)?;
+    let fits = plan.effects().iter().map(|&e| plan.fit_candidate(e)).collect();
+    Ok(plan.conclude(fits))
+}
+
+/// A diagnosis split into independent units of work, so that a caller may fit the candidates in parallel.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    settings: Settings,
+    campaign: Campaign,
+    /// The nominal model as identified here.
+    nominal: Explanation,
+    nominal_innovations: Vec<Vec<f64>>,
+    /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
+    foreign: Option<Vec<Vec<f64>>>,
+    /// Tracks the gap is measured on.
+    judged: Vec<usize>,
+    limitations: Vec<String>,
+}
+
+/// One fitted candidate, to be handed back to [`Plan::conclude`].
+#[derive(Debug, Clone)]
+pub struct CandidateFit {
+    effect: Effect,
+    explanation: Option<Explanation>,
+}
+
+impl CandidateFit {
+    /// The effect that was fitted.
+    pub fn effect(&self) -> Effect {
+        self.effect
+    }
+
+    /// Whether the records allow the effect at all (without ties, no saturation; without a lattice, no rounding).
+    pub fn is_possible(&self) -> bool {
+        self.explanation.is_some()
+    }
+}
+
+impl Plan {
+    /// Identifies the nominal model and prepares the candidates.
+    ///
+    /// # Errors
+    /// As [`diagnose`].
+    pub fn new(rig: &Rig, model: Model, settings: &Settings) -> Result<Self, DiagnoseError> {
+        let campaign = Campaign::new(rig)?;
+        let mut limitations = Vec::new();
+        let order = match (&model, rig.order) {
+            (Model::Given(m), Some(n)) if m.a.len() != n => {
+                return Err(DiagnoseError::Order { model: m.a.len(), rig: n });
+            }
+            (Model::Given(m), _) => Some(m.a.len()),
+            (_, order) => order,
+        };
+        let nominal = match order {
+            Some(n) => identify(&campaign, n.max(1))?,
+            None => {
+                let chosen = crate::order::choose(&campaign, settings.max_order)?;
+                limitations.push(format!(
+                    "the rig declares no order: {} was chosen from the fit records",
+                    chosen.linear.a.len()
+                ));
+                chosen
+            }
+        };
+        let judged = judged_tracks(&campaign, &mut limitations);
+        let foreign = match &model {
+            Model::Identify => None,
+            Model::Given(m) => {
+                let given = crate::given::scaled(&campaign, m)?;
+                Some(judged.iter().map(|&k| free_run(&campaign, &given, k, &campaign.tracks[k])).collect())
+            }
+            Model::Predicted => Some(predictions(rig, &campaign, &judged)?),
+        };
+        note_what_the_records_lack(&campaign, &mut limitations);
+        let nominal_innovations = innovations(&campaign, &nominal, |t| t.is_fit());
+        Ok(Self {
+            settings: settings.clone(),
+            campaign,
+            nominal: Explanation::nominal(nominal),
+            nominal_innovations,
+            foreign,
+            judged,
+            limitations,
+        })
+    }
+
+    /// The effects to fit.
+    pub fn effects(&self) -> &[Effect] {
+        &self.settings.effects
+    }
+
+    /// Fits one effect together with the nominal model. Pure and independent of the other candidates.
+    pub fn fit_candidate(&self, effect: Effect) -> CandidateFit {
+        let scene = Scene {
+            campaign: &self.campaign,
+            fit: &self.nominal.fit,
+            innovations: &self.nominal_innovations,
+        };
+        CandidateFit { effect, explanation: explain(&scene, &self.nominal, effect) }
+    }
+
+    /// Ranks the candidates and draws the conclusions. The order of `fits` does not matter.
+    pub fn conclude(self, fits: Vec<CandidateFit>) -> Diagnosis {
+        let mut singles: Vec<Explanation> = fits.into_iter().filter_map(|f| f.explanation).collect();
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
+        if significant {
+            for single in singles.iter_mut().take(REFINED) {
+                *single = single.clone().with_knots_refined(&self.campaign);
+            }
+            singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        }
+        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
+        let mut tests = omnibus(&self.campaign, &best.fit);
+        let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
+        let mut joint = None;
+        if significant
+            && left > SECOND
+            && self.settings.max_effects > 1
+            && let Some(pair) = self.second_effect(&singles, left)
+        {
+            tests = omnibus(&self.campaign, &pair.fit);
+            left = tests.as_ref().map_or(0.0, Omnibus::excess);
+            joint = Some(pair);
+        }
+        let bics: Vec<f64> = singles.iter().map(Explanation::bic).collect();
+        let odds = match &joint {
+            // With two effects named together the singles are no rivals any more.
+            Some(pair) => {
+                let mut o = odds(self.nominal.bic(), &[pair.bic()], left);
+                let together = o.effects[0];
+                let members = pair.effects();
+                o.effects = singles
+                    .iter()
+                    .map(|s| if members.contains(&s.parts[0].effect) { together } else { 0.0 })
+                    .collect();
+                o
+            }
+            None => odds(self.nominal.bic(), &bics, left),
+        };
+        let mut ranked: Vec<(Effect, f64)> =
+            singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
+        ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
+        let verdict = verdict(&ranked, &odds, joint.as_ref(), tests.as_ref(), &self.settings);
+        let augmented = match verdict.status {
+            Status::None => self.nominal.clone(),
+            _ => joint.clone().unwrap_or(best),
+        };
+        self.report(Conclusion { singles, odds, verdict, augmented })
+    }
+
+    /// A second effect on top of the likeliest ones, where it explains most of what they leave.
+    fn second_effect(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
+        let first = singles.first()?;
+        let w = innovations(&self.campaign, &first.fit, |t| t.is_fit());
+        let scene = Scene { campaign: &self.campaign, fit: &first.fit, innovations: &w };
+        let present = first.parts[0].effect;
+        let pair = self
+            .effects()
+            .iter()
+            .filter(|e| **e != present)
+            .filter_map(|&e| explain(&scene, first, e))
+            .min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
+        let pair = pair.with_knots_refined(&self.campaign);
+        let gained = first.bic() - pair.bic();
+        let after = omnibus(&self.campaign, &pair.fit).map_or(left, |o| o.excess());
+        (gained > SECOND && after < 0.3 * left).then_some(pair)
+    }
+
+    fn report(self, c: Conclusion) -> Diagnosis {
+        let campaign = &self.campaign;
+        let floor = self.noise_floor(&c.augmented.fit);
+        let runs = self.simulations(&c.augmented.fit);
+        let mut limitations = self.limitations.clone();
+        let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        let score = |fit: &Fit| heldout_log_score(campaign, fit);
+        let nominal_score = score(&self.nominal.fit);
+        gap.predictive_gain =
+            score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+        if gap.closure.is_none() {
+            limitations.push(
+                "the interval of the gap on the judged records includes zero: not resolvable, so no closure is given"
+                    .into(),
+            );
+        }
+        if matches!(c.verdict.status, Status::None) {
+            gap.closure = None;
+        }
+        let candidates = c
+            .singles
+            .iter()
+            .zip(&c.odds.effects)
+            .map(|(s, p)| self.candidate(s, *p, floor, nominal_score))
+            .collect::<Vec<_>>();
+        let mut candidates = candidates;
+        candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
+        let variance = self.innovation_floor(&c.augmented.fit);
+        let before = picture(campaign, &self.nominal_innovations);
+        let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
+        let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
+        Diagnosis {
+            where_: localise(campaign, &self.nominal.fit, variance),
+            verdict: c.verdict,
+            gap,
+            candidates,
+            probability_none: c.odds.none,
+            probability_unexplained: c.odds.unexplained,
+            next_experiment,
+            series: self.series(&runs),
+            residuals_before: before,
+            residuals_after: after,
+            limitations,
+        }
+    }
+
+    /// Variance of the noise in the output and its relative standard error.
+    ///
+    /// Repetition within periodic records needs no model; the augmented model's own floor is the other estimate. Effects
+    /// that do not repeat with the input inflate the first, effects left out the second: the smaller one holds.
+    fn noise_floor(&self, fit: &Fit) -> (f64, f64) {
+        let model = fit.power * noise_gain(fit);
+        let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
+        match repeat_variance(&self.campaign, |_| true) {
+            Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
+            _ => (model, relative(fit.samples as f64)),
+        }
+    }
+
+    /// Variance of the innovations without the gap.
+    fn innovation_floor(&self, fit: &Fit) -> f64 {
+        fit.power.min(self.nominal.fit.power).max(1e-300)
+    }
+
+    fn simulations(&self, fit: &Fit) -> Vec<Simulated> {
+        self.judged
+            .iter()
+            .enumerate()
+            .map(|(i, &number)| {
+                let track = &self.campaign.tracks[number];
+                let before = match &self.foreign {
+                    Some(runs) => runs[i].clone(),
+                    None => free_run(&self.campaign, &self.nominal.fit, number, track),
+                };
+                Simulated { number, before, after: free_run(&self.campaign, fit, number, track) }
+            })
+            .collect()
+    }
+
+    fn candidate(&self, s: &Explanation, p: f64, floor: (f64, f64), nominal: Option<f64>) -> Candidate {
+        let effect = s.parts[0].effect;
+        let runs = self.simulations(&s.fit);
+        let Gap { before, closure, after, .. } =
+            measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
+        let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
+        Candidate {
+            effect,
+            stage: effect.stage(),
+            probability: p,
+            parameters: s
+                .fit
+                .own
+                .iter()
+                .zip(&s.fit.own_se)
+                .map(|(o, se)| FittedParameter { name: o.name, unit: o.unit, value: o.value, se: *se })
+                .collect(),
+            bic: s.bic() - self.nominal.bic(),
+            heldout_log_score: heldout_log_score(&self.campaign, &s.fit)
+                .zip(nominal)
+                .map_or(0.0, |(a, b)| a - b),
+            closure,
+        }
+    }
+
+    fn series(&self, runs: &[Simulated]) -> Vec<HoldoutSeries> {
+        let c = &self.campaign;
+        let physical = |y: &[f64]| y.iter().map(|y| c.y_mean + c.y_scale * y).collect::<Vec<f64>>();
+        runs.iter()
+            .map(|run| HoldoutSeries {
+                record: c.tracks[run.number].name.clone(),
+                measured: physical(&c.tracks[run.number].y),
+                nominal: physical(&run.before),
+                augmented: physical(&run.after),
+            })
+            .collect()
+    }
+}
+
+/// What the report is made of.
+struct Conclusion {
+    singles: Vec<Explanation>,
+    odds: Odds,
+    verdict: crate::diagnosis::Verdict,
+    augmented: Explanation,
+}
+
+/// Candidates whose knots are placed anew before the final ranking.
+const REFINED: usize = 4;
+/// Deviance that must be left before a second effect is looked for, and that it must gain.
+const SECOND: f64 = 60.0;
+
+/// The hold-out records; without any, the fit records, with a word about it.
+fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {
+    let numbers = |fit: bool| {
+        campaign
+            .tracks
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| t.is_fit() == fit && t.from + 20 < t.v.len())
+            .map(|(i, _)| i)
+            .collect::<Vec<usize>>()
+    };
+    let held_out = numbers(false);
+    if held_out.is_empty() {
+        limitations.push(
+            "no record with use = \"holdout\" is long enough: gap and closure are measured on the records the models were \
+             fitted to, which flatters them; hold a record out"
+                .into(),
+        );
+        return numbers(true);
+    }
+    held_out
+}
+
+/// The `y_sim` of the judged records, dimensionless.
+fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
+    judged
+        .iter()
+        .map(|&k| {
+            let r = &rig.records[k];
+            let found = r.predicted.as_deref().unwrap_or_default();
+            if found.len() != r.record.len() {
+                return Err(DiagnoseError::Prediction {
+                    record: r.name.clone(),
+                    found: found.len(),
+                    expected: r.record.len(),
+                });
+            }
+            if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
+                return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
+            }
+            Ok(found.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect())
+        })
+        .collect()
+}
+
+fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {
+    if campaign.fit().all(|t| t.is_pulsed()) {
+        limitations.push(
+            "no free record among the fit records: pulse experiments cannot see backlash or gradual transition, and hardly \
+             rate dependence; add a free record with reversals of many sizes"
+                .into(),
+        );
+    }
+    if campaign.tracks.iter().all(|t| t.period.is_none()) {
+        limitations.push(
+            "no record repeats its input three times: noise is told from the systematic part by the model's floor alone"
+                .into(),
+        );
+    }
+    if campaign.threshold > 0.0 {
+        limitations.push(format!(
+            "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
+            campaign.threshold * campaign.v_width
+        ));
+    }
+}

@@ -1,0 +1,235 @@
+//! What a diagnosis says, field by field as the JSON contract has it.
+
+use crate::effect::{Effect, Stage};
+
+/// How far the verdict goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// Nothing significant.
+    None,
+    /// The effects found.
+    Named,
+    /// One of several twins that no record here separates.
+    Class,
+    /// Several explanations that the next experiment would separate.
+    Ambiguous,
+    /// A gap whose cause is none of the candidates.
+    Unexplained,
+}
+
+impl Status {
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Named => "named",
+            Self::Class => "class",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// How far it goes.
+    pub status: Status,
+    /// The effects named (status `named`: all of them act; `class`: the likeliest member). Empty otherwise.
+    pub effects: Vec<Effect>,
+    /// The twins or rivals left standing (status `class` or `ambiguous`), likeliest first.
+    pub class: Vec<Effect>,
+    /// The stage that the gap points at, also when unexplained.
+    pub stage: Option<Stage>,
+    /// Probability that the verdict holds (for `class`: that one of its members is the cause).
+    pub probability: f64,
+}
+
+/// A figure with its 90 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// The estimate.
+    pub estimate: f64,
+    /// Lower and upper end of the 90 % interval.
+    pub ci90: [f64; 2],
+}
+
+/// The gap `G²` (noise-corrected mean square simulation error over the variance of `y`) on one hold-out record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordGap {
+    /// The record's name.
+    pub record: String,
+    /// `G²` of the model as it was.
+    pub before: f64,
+    /// `G²` of the augmented model.
+    pub after: f64,
+    /// Fit in free-run simulation, `100·(1 − ‖y−ŷ‖/‖y−ȳ‖)`, of the model as it was.
+    pub fit_before: f64,
+    /// The same of the augmented model.
+    pub fit_after: f64,
+}
+
+/// How large the gap is and how far it closes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap {
+    /// `G²` of the model as it was, over all hold-out records.
+    pub before: Figure,
+    /// `G²` of the augmented model.
+    pub after: Figure,
+    /// `C = 1 − G²after/G²before`; absent where the gap's interval includes zero or nothing was added.
+    pub closure: Option<Figure>,
+    /// Standard deviation of the noise in the output, output units.
+    pub noise_floor: f64,
+    /// Predictive gain of the augmentation, nats per hold-out sample.
+    pub predictive_gain: f64,
+    /// A hold-out record at a time.
+    pub per_record: Vec<RecordGap>,
+}
+
+/// One cell of the localisation map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// What the map runs over, e.g. `travel_since_reversal`.
+    pub axis: &'static str,
+    /// The cell, e.g. `0.00..0.10`.
+    pub cell: String,
+    /// Its share of the excess energy on this axis.
+    pub share: f64,
+    /// False-discovery-controlled significance (Benjamini–Hochberg).
+    pub q_value: f64,
+}
+
+/// One fitted parameter of an effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedParameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit in words, e.g. `samples` or `input units`.
+    pub unit: &'static str,
+    /// The estimate.
+    pub value: f64,
+    /// Its standard error; NaN where the likelihood gives none.
+    pub se: f64,
+}
+
+/// One effect as an explanation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// The effect.
+    pub effect: Effect,
+    /// Its stage.
+    pub stage: Stage,
+    /// Calibrated probability that it is the cause.
+    pub probability: f64,
+    /// Its fitted parameters.
+    pub parameters: Vec<FittedParameter>,
+    /// Bayesian information criterion of the augmented model minus that of the nominal one; negative is better.
+    pub bic: f64,
+    /// Gain in log predictive score over the nominal model, nats per hold-out sample.
+    pub heldout_log_score: f64,
+    /// Closure on the hold-out records with this effect alone.
+    pub closure: Option<f64>,
+}
+
+/// A kind of record that could be taken next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ExperimentKind {
+    /// Reversals inside reversals, of shrinking amplitude.
+    NestedReversals,
+    /// Moves between random levels.
+    RandomLevels,
+    /// A sine of rising frequency.
+    Sweep,
+    /// The same triangle at several speeds.
+    SeveralRates,
+    /// A pseudo-random binary sequence between two levels.
+    Prbs,
+    /// Moves followed by long rests.
+    Rest,
+    /// Triangles of rising amplitude.
+    AmplitudeSeries,
+    /// The first record once more.
+    RepeatOfFirst,
+}
+
+impl ExperimentKind {
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NestedReversals => "nested_reversals",
+            Self::RandomLevels => "random_levels",
+            Self::Sweep => "sweep",
+            Self::SeveralRates => "several_rates",
+            Self::Prbs => "prbs",
+            Self::Rest => "rest",
+            Self::AmplitudeSeries => "amplitude_series",
+            Self::RepeatOfFirst => "repeat_of_first",
+        }
+    }
+}
+
+/// The record that would separate the rivals best.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextExperiment {
+    /// Its kind.
+    pub kind: ExperimentKind,
+    /// The input to apply, one value a sample, input units.
+    pub v: Vec<f64>,
+    /// The rivals it separates.
+    pub separates: Vec<Effect>,
+    /// Least distance between the rivals' predictions, root mean square over the noise floor.
+    pub distance: f64,
+}
+
+/// Measured and simulated outputs of one hold-out record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldoutSeries {
+    /// The record's name.
+    pub record: String,
+    /// Measured output.
+    pub measured: Vec<f64>,
+    /// Free-run simulation of the model as it was.
+    pub nominal: Vec<f64>,
+    /// Free-run simulation of the augmented model.
+    pub augmented: Vec<f64>,
+}
+
+/// Autocorrelation and spectrum of one-step residuals.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ResidualPicture {
+    /// Autocorrelation at lags 0, 1, ….
+    pub autocorrelation: Vec<f64>,
+    /// Frequencies in cycles per sample.
+    pub frequency: Vec<f64>,
+    /// Power density at these, squared output units per unit frequency, averaged over segments.
+    pub spectrum: Vec<f64>,
+    /// Half-width of the 95 % band of the autocorrelation of white noise.
+    pub band: f64,
+}
+
+/// Everything [`diagnose`](crate::diagnose) finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// The answer.
+    pub verdict: Verdict,
+    /// How large the gap is and how far it closes.
+    pub gap: Gap,
+    /// Where the gap lies.
+    pub where_: Vec<Cell>,
+    /// The effects as explanations, best first.
+    pub candidates: Vec<Candidate>,
+    /// Probability that nothing is missing from the nominal model.
+    pub probability_none: f64,
+    /// Probability that the cause is none of the candidates.
+    pub probability_unexplained: f64,
+    /// The record that would separate the rivals, where there are rivals.
+    pub next_experiment: Option<NextExperiment>,
+    /// Hold-out records: measured, nominal, augmented.
+    pub series: Vec<HoldoutSeries>,
+    /// Residuals of the nominal model on the fit records.
+    pub residuals_before: ResidualPicture,
+    /// Residuals of the augmented model on the fit records.
+    pub residuals_after: ResidualPicture,
+    /// What could not be judged, and why.
+    pub limitations: Vec<String>,
+}

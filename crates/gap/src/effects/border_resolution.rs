@@ -1,0 +1,24 @@
+//! The borders have more detail than the grid they are tabulated on.
+//!
+//! The nominal model already places its knots from the data ([`crate::knots`]); what remains for this effect is detail finer than
+//! that placement resolves. Law: three times the knots. Stage: operator. Confused with: outliers, sensor effects.
+
+use super::{Scene, Variant};
+use crate::borders::Grid;
+
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    let knots = scene.fit.grid.knots.clone().map(|knots| {
+        let mut fine = Vec::with_capacity(3 * knots.len());
+        for w in knots.windows(2) {
+            fine.push(w[0]);
+            if w[1] - w[0] > 0.015 {
+                fine.extend([1.0, 2.0].map(|k| w[0] + (w[1] - w[0]) * k / 3.0));
+            }
+        }
+        fine.extend(knots.last());
+        fine
+    });
+    let mut variant = Variant::new(vec![Vec::new()], |_, _| {});
+    variant.grid = Some(Grid { knots });
+    vec![variant]
+}

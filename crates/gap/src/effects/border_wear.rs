@@ -1,0 +1,31 @@
+//! The loop between the borders narrows or widens as the rig works.
+//!
+//! ```text
+//! u = (1 − w/2)·C(v) + (w/2)·C_other(v),   w = Σ cₖ sₖ(clock)         the loop narrows in proportion
+//! u = C(v) + c·branch·clock                                          both borders move apart evenly
+//! ```
+//!
+//! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel. Stage: operator.
+//! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
+
+use super::{Variant, own};
+use crate::assembly::{BorderColumn, Clock, Slow};
+
+pub(super) fn variants() -> Vec<Variant> {
+    let mut out = Vec::new();
+    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
+        for degree in [1, 2] {
+            if degree == 2 && clock == Clock::Travel {
+                continue;
+            }
+            let start = (0..degree).map(|_| own("narrowing", "1", 0.0, (-1.5, 1.5), 0.002)).collect();
+            out.push(Variant::new(vec![start], move |p, assembly| {
+                assembly.wear = Some(Slow { clock, coefficients: p.to_vec(), wave: None });
+            }));
+        }
+        out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
+            assembly.border_columns.push(BorderColumn::BranchSlow { clock });
+        }));
+    }
+    out
+}

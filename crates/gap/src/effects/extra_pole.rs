@@ -1,0 +1,26 @@
+//! A lag that the order of the model has no room for.
+//!
+//! ```text
+//! ũ = (1−p)/(1−p q⁻¹) u            an actuator: the equation error does not pass it
+//! (1−p q⁻¹) A y = B u + ξ          a lag of the plant: the equation error passes it
+//! ```
+//!
+//! Parameter: `pole` (0.02…0.98). Stage: dynamics. Confused with: input delay, resonance.
+
+use super::{Variant, own};
+
+pub(super) fn variants() -> Vec<Variant> {
+    [false, true]
+        .into_iter()
+        .map(|passes| {
+            let starts =
+                [0.2, 0.5, 0.8].iter().map(|&p| vec![own("pole", "1", p, (0.02, 0.98), 0.003)]).collect();
+            Variant::new(starts, move |p, assembly| {
+                assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
+                if passes {
+                    assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
+                }
+            })
+        })
+        .collect()
+}

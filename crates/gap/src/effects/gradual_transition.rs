@@ -1,0 +1,35 @@
+//! The working point needs travel to pass from one border to the other.
+//!
+//! ```text
+//! φ(x) = exp(−(x/length)^shape),  x the travel since the reversal
+//! u = C(v) + φ·(u_rev − C(v_rev))      the distance to the border fades
+//! u = (1−φ)·C(v) + φ·u_rev             the value at the reversal fades
+//! u = (1−φ)·C(v) + φ·C_old(v)          the other border fades
+//! ```
+//!
+//! Parameters: `length` in strokes (0.002…1), `shape` (0.4…6). Stage: operator. It rounds the loop after every reversal,
+//! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
+//! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
+
+use super::{Variant, own};
+use crate::assembly::{Transition, TransitionLaw};
+
+pub(super) fn variants() -> Vec<Variant> {
+    [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::OldBorder]
+        .into_iter()
+        .map(|law| {
+            let starts = [(0.012, 1.0), (0.04, 1.0), (0.12, 1.0), (0.12, 2.5), (0.35, 1.0)]
+                .iter()
+                .map(|&(length, shape)| {
+                    vec![
+                        own("length", "strokes", length, (0.002, 1.0), 0.02 * length),
+                        own("shape", "1", shape, (0.4, 6.0), 0.02),
+                    ]
+                })
+                .collect();
+            Variant::new(starts, move |p, assembly| {
+                assembly.transition = Some(Transition { length: p[0], shape: p[1], law });
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,17 @@
+//! The input acts later than recorded.
+//!
+//! ```text
+//! ũ(t) = (1−δ)·u(t−k) + δ·u(t−k−1),   delay = k + δ
+//! ```
+//!
+//! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
+
+use super::{Variant, own};
+
+pub(super) fn variants() -> Vec<Variant> {
+    let starts = [0.3, 1.2, 2.2, 3.2, 5.0]
+        .iter()
+        .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
+        .collect();
+    vec![Variant::new(starts, |p, assembly| assembly.delay = p[0])]
+}

@@ -1,0 +1,120 @@
+//! The library of effects: one file an effect, each with its law, its parameters, what it leaves in the data and what it
+//! is confused with.
+//!
+//! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from own
+//! parameters to changes of an [`Assembly`]. The same assembly is fitted ([`crate::engine`]) and simulated
+//! ([`crate::simulate`]), and effects compose by being applied one after the other.
+
+mod backlash;
+mod border_resolution;
+mod border_wear;
+mod coloured_noise;
+mod creep;
+mod extra_pole;
+mod gain_drift;
+mod gradual_transition;
+mod input_delay;
+mod input_noise;
+mod outliers;
+mod output_noise;
+mod periodic_disturbance;
+mod rate_dependence;
+mod resonance;
+mod sensor_drift;
+mod sensor_nonlinearity;
+mod sensor_quantisation;
+mod sensor_saturation;
+mod stribeck;
+
+use std::sync::Arc;
+
+use crate::assembly::Assembly;
+use crate::borders::Grid;
+use crate::campaign::Campaign;
+use crate::effect::Effect;
+use crate::engine::{Fit, Own};
+
+/// How the own parameters are searched after the starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Search {
+    /// Gauss–Newton together with everything else.
+    Smooth,
+    /// A profile refined around its best point: the likelihood has corners.
+    Profile,
+}
+
+/// The change an effect makes to an assembly, given its own parameters.
+pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
+
+/// One law of an effect.
+pub(crate) struct Variant {
+    /// Points the search starts from; all hold the same parameters.
+    pub(crate) starts: Vec<Vec<Own>>,
+    pub(crate) search: Search,
+    pub(crate) apply: Apply,
+    /// A finer border grid that comes with the law.
+    pub(crate) grid: Option<Grid>,
+    /// Added to the deviance: evidence that the innovations do not show, or a penalty.
+    pub(crate) handicap: f64,
+}
+
+impl Variant {
+    fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
+        Self { starts, search: Search::Smooth, apply: Arc::new(apply), grid: None, handicap: 0.0 }
+    }
+}
+
+/// What an effect may look at when it proposes its variants.
+pub(crate) struct Scene<'a> {
+    pub(crate) campaign: &'a Campaign,
+    /// The best model so far.
+    pub(crate) fit: &'a Fit,
+    /// Its innovations on the fit records.
+    pub(crate) innovations: &'a [Vec<f64>],
+}
+
+/// The variants of an effect that make sense on these records; empty where the records rule it out.
+pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
+    match effect {
+        Effect::InputDelay => input_delay::variants(),
+        Effect::InputNoise => input_noise::variants(),
+        Effect::Backlash => backlash::variants(),
+        Effect::GradualTransition => gradual_transition::variants(),
+        Effect::RateDependence => rate_dependence::variants(scene),
+        Effect::Creep => creep::variants(),
+        Effect::BorderWear => border_wear::variants(),
+        Effect::Stribeck => stribeck::variants(scene),
+        Effect::ExtraPole => extra_pole::variants(),
+        Effect::Resonance => resonance::variants(),
+        Effect::GainDrift => gain_drift::variants(),
+        Effect::ColouredNoise => coloured_noise::variants(),
+        Effect::OutputNoise => output_noise::variants(),
+        Effect::Outliers => outliers::variants(),
+        Effect::PeriodicDisturbance => periodic_disturbance::variants(scene),
+        Effect::SensorDrift => sensor_drift::variants(scene),
+        Effect::SensorSaturation => sensor_saturation::variants(scene),
+        Effect::SensorQuantisation => sensor_quantisation::variants(scene),
+        Effect::SensorNonlinearity => sensor_nonlinearity::variants(),
+        Effect::BorderResolution => border_resolution::variants(scene),
+    }
+}
+
+/// Typical speed of the free records, strokes per sample: the median of the moves.
+fn typical_speed(campaign: &Campaign) -> f64 {
+    let mut speeds: Vec<f64> = campaign
+        .fit()
+        .filter(|t| !t.is_pulsed())
+        .flat_map(|t| t.v.windows(2).map(|w| (w[1] - w[0]).abs()))
+        .filter(|s| *s > 0.0)
+        .collect();
+    if speeds.is_empty() {
+        return 0.1;
+    }
+    let middle = speeds.len() / 2;
+    *speeds.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// A parameter with its bounds; the derivative step is a thousandth of the range unless told.
+fn own(name: &'static str, unit: &'static str, value: f64, bounds: (f64, f64), step: f64) -> Own {
+    Own { name, unit, value, low: bounds.0, high: bounds.1, step }
+}

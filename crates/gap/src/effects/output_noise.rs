@@ -1,0 +1,18 @@
+//! White noise on the output besides the equation error.
+//!
+//! ```text
+//! y = x + n,  A x = B u + ξ   ⇒   A y = B u + ξ + A n = B u + C w,   |C|² ∝ 1 + ratio·|A|²
+//! ```
+//!
+//! Parameter: `ratio = var n / var ξ`. Stage: disturbance. It biases least-squares estimates of `A` towards zero. Confused with:
+//! coloured equation noise; told from it because one ratio fixes all of `C`.
+
+use super::{Variant, own};
+
+pub(super) fn variants() -> Vec<Variant> {
+    let starts = [-1.0, 1.5]
+        .iter()
+        .map(|&r| vec![own("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])
+        .collect();
+    vec![Variant::new(starts, |p, assembly| assembly.noise.output_ratio = p[0].exp())]
+}

@@ -1,0 +1,273 @@
+//! Maximum likelihood of a nominal model together with an assembly of effects.
+//!
+//! Gauss–Newton on everything at once; the effects' own parameters get numerical derivatives. With concentrated noise
+//! variance the deviance (minus twice the log-likelihood, constants dropped) is
+//!
+//! ```text
+//! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
+//! ```
+
+use crate::assembly::Assembly;
+use crate::borders::Grid;
+use crate::campaign::Campaign;
+use crate::design::{Around, Design, Linear, Whitener};
+use crate::normal::Normal;
+use crate::weights::{Weights, weigh};
+
+/// One own parameter of an effect: its value and how it may move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Own {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) value: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Step of the numerical derivative.
+    pub(crate) step: f64,
+}
+
+/// From own parameters to an assembly.
+pub(crate) type Build<'a> = dyn Fn(&[f64]) -> Assembly + 'a;
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    pub(crate) assembly: Assembly,
+    pub(crate) grid: Grid,
+    pub(crate) linear: Linear,
+    pub(crate) own: Vec<Own>,
+    /// Standard errors of the own parameters.
+    pub(crate) own_se: Vec<f64>,
+    pub(crate) deviance: f64,
+    /// Variance of the innovations, where they are weighted that of the weighted ones.
+    pub(crate) variance: f64,
+    /// Mean square of the counted innovations without weights.
+    pub(crate) power: f64,
+    pub(crate) samples: usize,
+    /// Effective number of parameters.
+    pub(crate) parameters: f64,
+}
+
+/// Where the fit is done.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) grid: &'a Grid,
+}
+
+/// Weight of the prior that ties border values nobody visits to their neighbours, in units of one sample's information.
+const SMOOTHNESS: f64 = 1e-3;
+
+/// The state of a fit at given parameters.
+struct State {
+    assembly: Assembly,
+    whitener: Whitener,
+    innovations: Vec<Vec<f64>>,
+    weights: Weights,
+    deviance: f64,
+    variance: f64,
+}
+
+/// Evaluates the model; `None` where it is not finite.
+fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
+    let whitener = Whitener::new(&assembly.noise, &p.a);
+    let innovations = design.innovations(p, &whitener);
+    let weights = weigh(design, &assembly.noise, p, &innovations);
+    let n = design.samples() as f64;
+    let mut sum = 0.0;
+    for (number, w) in innovations.iter().enumerate() {
+        match &weights.scale {
+            Some(s) => sum += w.iter().zip(&s[number]).map(|(w, s)| w * w * s * s).sum::<f64>(),
+            None => sum += w.iter().map(|w| w * w).sum::<f64>(),
+        }
+    }
+    let variance = sum / (n - weights.left_out as f64).max(1.0);
+    let deviance = match weights.deviance {
+        Some(direct) => direct - 2.0 * design.log_slope(),
+        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope(),
+    };
+    deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
+}
+
+/// Fits everything from a start; at most `rounds` Gauss–Newton steps.
+pub(crate) fn fit(
+    ground: Ground<'_>,
+    build: &Build<'_>,
+    own: &[Own],
+    start: &Linear,
+    rounds: usize,
+) -> Option<Fit> {
+    let design_of = |assembly: &Assembly| Design::new(ground.campaign, ground.grid, assembly, |t| t.is_fit());
+    let mut own = own.to_vec();
+    let mut p = start.clone().gauged();
+    let values = |own: &[Own]| own.iter().map(|o| o.value).collect::<Vec<f64>>();
+    let assembly = build(&values(&own));
+    let mut design = design_of(&assembly);
+    let mut state = evaluate(&design, assembly, &p)?;
+    let mut own_se = vec![f64::NAN; own.len()];
+    let mut damping = 1e-9;
+    for _ in 0..rounds {
+        let extra = derivatives(&ground, build, &own, &design, &state, &p);
+        let around = Around {
+            innovations: &state.innovations,
+            weights: state.weights.scale.as_deref(),
+            extra: &extra,
+        };
+        let mut normal = design.normal(&p, &state.whitener, &around);
+        priors(&mut normal, ground.grid, &p, &state.assembly);
+        let mut better = None;
+        let mut step_norm = 0.0;
+        for _ in 0..4 {
+            let Some(factor) = normal.factor(damping) else {
+                damping = (damping * 100.0).max(1e-8);
+                continue;
+            };
+            let step = factor.solve(&normal.gradient);
+            for (j, se) in own_se.iter_mut().enumerate() {
+                let mut unit = vec![0.0; normal.size];
+                unit[p.len() + j] = 1.0;
+                *se = (factor.solve(&unit)[p.len() + j].max(0.0) * state.variance).sqrt();
+            }
+            if step.iter().any(|x| !x.is_finite()) {
+                damping = (damping * 100.0).max(1e-8);
+                continue;
+            }
+            let mut share = 1.0;
+            for _ in 0..5 {
+                let moved = p.moved(&step, -share);
+                let mut next = own.clone();
+                for (o, s) in next.iter_mut().zip(&step[p.len()..]) {
+                    o.value = (o.value - share * s).clamp(o.low, o.high);
+                }
+                let assembly = build(&values(&next));
+                let redesign =
+                    if assembly.same_design(&state.assembly) { None } else { Some(design_of(&assembly)) };
+                let candidate = evaluate(redesign.as_ref().unwrap_or(&design), assembly, &moved);
+                if let Some(s) = candidate
+                    && s.deviance < state.deviance
+                {
+                    step_norm = state.deviance - s.deviance;
+                    better = Some((moved, next, redesign, s));
+                    break;
+                }
+                share *= 0.35;
+            }
+            if better.is_some() {
+                damping = (damping * 0.1).max(1e-9);
+                break;
+            }
+            damping = (damping * 1000.0).max(1e-6);
+            if damping > 1.0 {
+                break;
+            }
+        }
+        let Some((moved, next, redesign, s)) = better else { break };
+        p = moved.gauged();
+        own = next;
+        if let Some(d) = redesign {
+            design = d;
+        }
+        state = s;
+        if step_norm < 0.02 {
+            break;
+        }
+    }
+    let samples = design.samples();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (number, w) in state.innovations.iter().enumerate() {
+        for (k, w) in w.iter().enumerate() {
+            if state.weights.scale.as_ref().is_none_or(|s| s[number][k] > 0.0) {
+                sum += w * w;
+                count += 1.0;
+            }
+        }
+    }
+    let power = sum / f64::max(count, 1.0);
+    // One direction of (b, f) is fixed by the gauge.
+    let parameters = p.len() as f64 - 1.0 + own.len() as f64;
+    let mut assembly = state.assembly;
+    if let Some(mixture) = state.weights.mixture {
+        assembly.noise.mixture = Some(mixture);
+    }
+    Some(Fit {
+        assembly,
+        grid: ground.grid.clone(),
+        linear: p,
+        own,
+        own_se,
+        deviance: state.deviance,
+        variance: state.variance,
+        power,
+        samples,
+        parameters,
+    })
+}
+
+/// Numerical derivatives of the innovations with respect to the own parameters, one set of tracks a parameter.
+///
+/// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
+/// squares monotone in the deviance.
+fn derivatives(
+    ground: &Ground<'_>,
+    build: &Build<'_>,
+    own: &[Own],
+    design: &Design,
+    state: &State,
+    p: &Linear,
+) -> Vec<Vec<Vec<f64>>> {
+    let n = design.samples() as f64;
+    (0..own.len())
+        .map(|j| {
+            let mut values: Vec<f64> = own.iter().map(|o| o.value).collect();
+            let mut h = own[j].step;
+            if values[j] + h > own[j].high {
+                h = -h;
+            }
+            values[j] += h;
+            let assembly = build(&values);
+            let redesign;
+            let there = if assembly.same_design(&state.assembly) {
+                design
+            } else {
+                redesign = Design::new(ground.campaign, ground.grid, &assembly, |t| t.is_fit());
+                &redesign
+            };
+            let whitener = Whitener::new(&assembly.noise, &p.a);
+            let moved = there.innovations(p, &whitener);
+            let factor = (-(there.log_slope() - design.log_slope()) / n).exp();
+            moved
+                .iter()
+                .zip(&state.innovations)
+                .map(|(m, w)| m.iter().zip(w).map(|(m, w)| (m * factor - w) / h).collect())
+                .collect()
+        })
+        .collect()
+}
+
+/// The prior on border values: neighbours on a straight line, jumps free.
+fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
+    let present = p.flat();
+    // The gauge: no step may trade the scale of b for that of f, which the data cannot see.
+    let gauge: Vec<(usize, f64)> = p.b.iter().enumerate().map(|(j, b)| (p.a.len() + j, *b)).collect();
+    let weight = gauge.iter().map(|&(i, _)| normal.entry(i, i)).sum::<f64>().max(1.0);
+    normal.hold(&gauge, weight);
+    let base = p.a.len() + p.b.len();
+    let mut offset = base;
+    for knots in &grid.knots {
+        for i in 1..knots.len().saturating_sub(1) {
+            let (l, r) = (knots[i] - knots[i - 1], knots[i + 1] - knots[i]);
+            if l > 0.0 && r > 0.0 {
+                let terms =
+                    [(offset + i - 1, r / (l + r)), (offset + i, -1.0), (offset + i + 1, l / (l + r))];
+                normal.add_prior(&terms, SMOOTHNESS, &present);
+            }
+        }
+        for i in 0..knots.len() - 1 {
+            normal.add_prior(&[(offset + i, 1.0), (offset + i + 1, -1.0)], 1e-2 * SMOOTHNESS, &present);
+        }
+        offset += knots.len();
+    }
+    for j in 0..assembly.border_columns.len() {
+        normal.add_prior(&[(offset + j, 1.0)], 1e-6, &present);
+    }
+}

@@ -1,0 +1,173 @@
+//! Where the gap lies: excess energy of the one-step residuals over cells of several axes.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::campaign::Campaign;
+use crate::design::{Design, Whitener};
+use crate::diagnosis::Cell;
+use crate::engine::Fit;
+use crate::motion::{Motion, motions};
+
+/// Residual and circumstances of one sample.
+struct Sample {
+    record: usize,
+    motion: Motion,
+    v: f64,
+    y: f64,
+    time: f64,
+    excess: f64,
+}
+
+/// The map of the model's residuals on all records over a noise floor `variance` (innovations, dimensionless).
+///
+/// A cell's statistic is its sum of `w²/σ² − 1` over the standard deviation of that sum, taken from sums over short blocks of
+/// time so that neighbours may be dependent, and no smaller than white normal noise gives. q-values are Benjamini–Hochberg
+/// over all cells of all axes.
+pub(crate) fn localise(campaign: &Campaign, fit: &Fit, variance: f64) -> Vec<Cell> {
+    let design = Design::new(campaign, &fit.grid, &fit.assembly, |_| true);
+    let whitener = Whitener::new(&fit.assembly.noise, &fit.linear.a);
+    let innovations = design.innovations(&fit.linear, &whitener);
+    let mut samples = Vec::new();
+    for (record, (track, w)) in campaign.tracks.iter().zip(&innovations).enumerate() {
+        let moves = motions(&track.v, 0.0, campaign.threshold);
+        for (k, w) in w.iter().enumerate() {
+            // The innovation at t answers to the input one sample before.
+            let t = track.from + k - 1;
+            samples.push(Sample {
+                record,
+                motion: moves[t],
+                v: track.v[t],
+                y: track.y[t],
+                time: (track.clock + t) as f64 / campaign.total as f64,
+                excess: w * w / variance - 1.0,
+            });
+        }
+    }
+    let mut cells = Vec::new();
+    let names: Vec<String> = campaign.tracks.iter().map(|t| t.name.clone()).collect();
+    map(&mut cells, &samples, "record", &names, |s| Some(s.record));
+    let branches = ["descending", "ascending", "holding"].map(String::from);
+    map(&mut cells, &samples, "branch", &branches, |s| {
+        Some(if s.motion.step == 0.0 { 2 } else { usize::from(s.motion.branch > 0.0) })
+    });
+    let low = campaign.v_low;
+    let ends: Vec<f64> = (0..=10).map(|i| i as f64 / 10.0).collect();
+    let levels = labels(&ends.iter().map(|e| low + e * campaign.v_width).collect::<Vec<_>>());
+    map(&mut cells, &samples, "v", &levels, |s| bin(&ends, s.v));
+    let since = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, f64::INFINITY];
+    map(&mut cells, &samples, "rest_samples", &labels(&since), |s| bin(&since, s.motion.rest as f64));
+    let travel = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, f64::INFINITY];
+    let scaled: Vec<f64> = travel.iter().map(|x| x * campaign.v_width).collect();
+    map(&mut cells, &samples, "travel_since_reversal", &labels(&scaled), |s| bin(&travel, s.motion.travel));
+    let sizes = [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, f64::INFINITY];
+    let scaled: Vec<f64> = sizes.iter().map(|x| x * campaign.v_width).collect();
+    map(&mut cells, &samples, "loop_size", &labels(&scaled), |s| bin(&sizes, s.motion.loop_size));
+    let speeds = [1e-12, 0.01, 0.02, 0.05, 0.1, 0.2, f64::INFINITY];
+    let scaled: Vec<f64> =
+        speeds.iter().map(|x| if *x < 1e-9 { 0.0 } else { x * campaign.v_width }).collect();
+    map(&mut cells, &samples, "speed", &labels(&scaled), |s| bin(&speeds, s.motion.step.abs()));
+    map(&mut cells, &samples, "time", &labels(&ends), |s| bin(&ends, s.time));
+    let outputs = [f64::NEG_INFINITY, -1.5, -0.75, 0.0, 0.75, 1.5, f64::INFINITY];
+    let scaled: Vec<f64> = outputs.iter().map(|x| campaign.y_mean + x * campaign.y_scale).collect();
+    map(&mut cells, &samples, "y", &labels(&scaled), |s| bin(&outputs, s.y));
+    spectrum_cells(&mut cells, &innovations, variance);
+    control_false_discoveries(&mut cells);
+    cells
+}
+
+fn labels(edges: &[f64]) -> Vec<String> {
+    edges.windows(2).map(|w| format!("{:.4}..{:.4}", w[0], w[1])).collect()
+}
+
+fn bin(edges: &[f64], x: f64) -> Option<usize> {
+    let at = edges.partition_point(|e| *e <= x);
+    (at > 0).then(|| (at - 1).min(edges.len() - 2))
+}
+
+/// Samples of one block.
+const BLOCK: usize = 25;
+
+/// Adds the cells of one axis.
+fn map(
+    cells: &mut Vec<Cell>,
+    samples: &[Sample],
+    axis: &'static str,
+    names: &[String],
+    cell_of: impl Fn(&Sample) -> Option<usize>,
+) {
+    let mut sums = vec![0.0; names.len()];
+    let mut counts = vec![0usize; names.len()];
+    let mut spreads = vec![0.0; names.len()];
+    for block in samples.chunks(BLOCK) {
+        let mut here = vec![(0.0, 0usize); names.len()];
+        for s in block {
+            if let Some(k) = cell_of(s) {
+                here[k].0 += s.excess;
+                here[k].1 += 1;
+            }
+        }
+        for (k, (sum, count)) in here.iter().enumerate() {
+            sums[k] += sum;
+            counts[k] += count;
+            spreads[k] += sum * sum;
+        }
+    }
+    let total: f64 = sums.iter().filter(|s| **s > 0.0).sum::<f64>().max(1e-12);
+    for (k, name) in names.iter().enumerate() {
+        if counts[k] < 10 {
+            continue;
+        }
+        let spread = spreads[k].max(2.0 * counts[k] as f64).sqrt();
+        cells.push(Cell {
+            axis,
+            cell: name.clone(),
+            share: sums[k].max(0.0) / total,
+            q_value: upper_tail(sums[k] / spread),
+        });
+    }
+}
+
+/// Excess power of the residuals by frequency, cycles per sample.
+fn spectrum_cells(cells: &mut Vec<Cell>, innovations: &[Vec<f64>], variance: f64) {
+    const SEGMENT: usize = 256;
+    const BANDS: usize = 8;
+    let mut sums = [0.0; BANDS];
+    let mut count = 0.0;
+    for segment in innovations.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
+        let power = crate::spectrum::power(segment, SEGMENT);
+        for (k, p) in power.iter().enumerate().skip(1).take(SEGMENT / 2 - 1) {
+            sums[k * BANDS / (SEGMENT / 2)] += p / (SEGMENT as f64 * variance) - 1.0;
+        }
+        count += 1.0;
+    }
+    if count < 1.0 {
+        return;
+    }
+    let total: f64 = sums.iter().filter(|s| **s > 0.0).sum::<f64>().max(1e-12);
+    let ordinates = count * (SEGMENT / 2 / BANDS) as f64;
+    for (band, sum) in sums.iter().enumerate() {
+        let edge = |k: usize| k as f64 * 0.5 / BANDS as f64;
+        cells.push(Cell {
+            axis: "frequency",
+            cell: format!("{:.4}..{:.4}", edge(band), edge(band + 1)),
+            share: sum.max(0.0) / total,
+            q_value: upper_tail(sum / ordinates.sqrt()),
+        });
+    }
+}
+
+fn upper_tail(z: f64) -> f64 {
+    Normal::standard().sf(z)
+}
+
+/// Benjamini–Hochberg: p-values in `q_value` become q-values.
+fn control_false_discoveries(cells: &mut [Cell]) {
+    let m = cells.len() as f64;
+    let mut order: Vec<usize> = (0..cells.len()).collect();
+    order.sort_by(|&i, &j| cells[j].q_value.total_cmp(&cells[i].q_value));
+    let mut least = 1.0_f64;
+    for (k, &i) in order.iter().enumerate() {
+        least = least.min(cells[i].q_value * m / (m - k as f64));
+        cells[i].q_value = least;
+    }
+}

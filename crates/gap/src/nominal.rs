@@ -1,0 +1,78 @@
+//! The nominal model: `A`, `B` and two borders, identified from all fit records at once.
+
+use nalgebra::DMatrix;
+
+use crate::assembly::Assembly;
+use crate::borders::Grid;
+use crate::campaign::Campaign;
+use crate::design::{Design, Linear};
+use crate::engine::{Fit, Ground, fit};
+use crate::error::DiagnoseError;
+use crate::knots::{first_grid, refine};
+use crate::normal::Normal;
+
+/// Identifies the nominal model of a given order and places the border knots.
+pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
+    let grid = first_grid(campaign);
+    let needed = 2 * (2 * order + grid.len());
+    if campaign.fit_samples() < needed {
+        return Err(DiagnoseError::TooShort {
+            samples: campaign.fit_samples(),
+            order,
+            knots: grid.len(),
+            needed,
+        });
+    }
+    let start = first_guess(campaign, &grid, order)?;
+    let ground = Ground { campaign, grid: &grid };
+    let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 12)
+        .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })?;
+    Ok(refine(campaign, nominal, &|_| Assembly::default()))
+}
+
+/// Over-parameterised least squares `y(t) = −Σ aᵢ y(t−i) + Σ_ik g_ik h_k(t−i)`, then the best rank one of `g`.
+///
+/// The hats of a row sum to one, so each lag's `g` is known up to a constant shared among lags: rows of `g` are
+/// centred before the decomposition.
+pub(crate) fn first_guess(campaign: &Campaign, grid: &Grid, n: usize) -> Result<Linear, DiagnoseError> {
+    let design = Design::new(campaign, grid, &Assembly::default(), |t| t.is_fit());
+    let k = grid.len();
+    let size = n + n * k;
+    let mut normal = Normal::new(size);
+    let mut row = vec![0.0; size];
+    for track in &design.tracks {
+        for t in track.from..track.x.len() {
+            row.fill(0.0);
+            for i in 0..n {
+                row[i] = -track.x[t - i - 1];
+                let (index, value) = track.rows.row(t - i - 1);
+                for (&j, x) in index.iter().zip(value) {
+                    row[n + i * k + j as usize] += x;
+                }
+            }
+            normal.add(&row, track.x[t]);
+        }
+    }
+    let factor = normal.factor(1e-7).ok_or_else(|| DiagnoseError::Singular {
+        reason: "the lagged outputs and border features are linearly dependent".into(),
+    })?;
+    let theta = factor.solve(&normal.gradient);
+    let visited: Vec<bool> = (0..k).map(|j| normal.entry(n + j, n + j) > 1e-9).collect();
+    let count = visited.iter().filter(|v| **v).count().max(1) as f64;
+    let mut g = DMatrix::zeros(n, k);
+    for i in 0..n {
+        let block = &theta[n + i * k..n + (i + 1) * k];
+        let mean = block.iter().zip(&visited).filter(|(_, v)| **v).map(|(x, _)| x).sum::<f64>() / count;
+        for j in 0..k {
+            g[(i, j)] = if visited[j] { block[j] - mean } else { 0.0 };
+        }
+    }
+    let svd = g.clone().svd(true, true);
+    let (Some(u), Some(vt)) = (svd.u, svd.v_t) else {
+        return Err(DiagnoseError::Singular { reason: "the border table has no leading component".into() });
+    };
+    let lead = svd.singular_values.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1)).map_or(0, |x| x.0);
+    let b: Vec<f64> = (0..n).map(|i| u[(i, lead)]).collect();
+    let f: Vec<f64> = (0..k).map(|j| vt[(lead, j)] * svd.singular_values[lead]).collect();
+    Ok(Linear { a: theta[..n].to_vec(), b, f, d: Vec::new() })
+}

@@ -1,0 +1,151 @@
+//! Normal equations accumulated from sparse or dense rows, and their damped solution.
+
+use nalgebra::{DMatrix, DVector};
+
+/// `Σ x xᵀ` (upper triangle) and `Σ x w` over rows `x` with right-hand sides `w`.
+#[derive(Debug, Clone)]
+pub(crate) struct Normal {
+    pub(crate) size: usize,
+    /// Row-major, upper triangle filled.
+    matrix: Vec<f64>,
+    pub(crate) gradient: Vec<f64>,
+    index: Vec<u32>,
+    value: Vec<f64>,
+}
+
+impl Normal {
+    pub(crate) fn new(size: usize) -> Self {
+        Self {
+            size,
+            matrix: vec![0.0; size * size],
+            gradient: vec![0.0; size],
+            index: Vec::with_capacity(size),
+            value: Vec::with_capacity(size),
+        }
+    }
+
+    /// Adds one row. Zeros cost a comparison only, so sparse rows are cheap.
+    pub(crate) fn add(&mut self, row: &[f64], w: f64) {
+        self.index.clear();
+        self.value.clear();
+        for (i, &x) in row.iter().enumerate() {
+            if x != 0.0 {
+                self.index.push(i as u32);
+                self.value.push(x);
+            }
+        }
+        if 2 * self.index.len() > self.size {
+            for i in 0..self.size {
+                let x = row[i];
+                self.gradient[i] += x * w;
+                let target = &mut self.matrix[i * self.size + i..(i + 1) * self.size];
+                for (m, y) in target.iter_mut().zip(&row[i..]) {
+                    *m += x * y;
+                }
+            }
+            return;
+        }
+        for (k, (&i, &x)) in self.index.iter().zip(&self.value).enumerate() {
+            self.gradient[i as usize] += x * w;
+            let base = i as usize * self.size;
+            for (&j, &y) in self.index[k..].iter().zip(&self.value[k..]) {
+                self.matrix[base + j as usize] += x * y;
+            }
+        }
+    }
+
+    /// Adds `weight·(row·θ)²` given the present `θ`: a prior.
+    pub(crate) fn add_prior(&mut self, terms: &[(usize, f64)], weight: f64, present: &[f64]) {
+        let value: f64 = terms.iter().map(|&(i, c)| c * present[i]).sum();
+        for &(i, c) in terms {
+            self.gradient[i] += weight * c * value;
+        }
+        self.hold(terms, weight);
+    }
+
+    /// Keeps a step from moving along a direction.
+    pub(crate) fn hold(&mut self, terms: &[(usize, f64)], weight: f64) {
+        for &(i, c) in terms {
+            for &(j, d) in terms {
+                if j >= i {
+                    self.matrix[i * self.size + j] += weight * c * d;
+                }
+            }
+        }
+    }
+
+    /// Sets an entry of the symmetric matrix.
+    pub(crate) fn set(&mut self, i: usize, j: usize, x: f64) {
+        self.matrix[i.min(j) * self.size + i.max(j)] = x;
+    }
+
+    /// The equations of the first `size` parameters alone.
+    pub(crate) fn leading(&self, size: usize) -> Self {
+        let mut out = Self::new(size);
+        for i in 0..size {
+            out.gradient[i] = self.gradient[i];
+            for j in i..size {
+                out.set(i, j, self.entry(i, j));
+            }
+        }
+        out
+    }
+
+    /// Entry of the symmetric matrix.
+    pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
+        self.matrix[i.min(j) * self.size + i.max(j)]
+    }
+
+    /// Cholesky factor of the matrix with relative damping of its diagonal; `None` if it is not positive definite.
+    pub(crate) fn factor(&self, damping: f64) -> Option<Factor> {
+        let n = self.size;
+        let scale: Vec<f64> = (0..n)
+            .map(|i| {
+                let d = self.entry(i, i);
+                if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 }
+            })
+            .collect();
+        let m = DMatrix::from_fn(n, n, |i, j| {
+            let x = self.entry(i, j) * scale[i] * scale[j];
+            if i == j { x + damping + 1e-12 } else { x }
+        });
+        Some(Factor { cholesky: m.cholesky()?, scale })
+    }
+}
+
+/// A scaled Cholesky factor.
+#[derive(Debug, Clone)]
+pub(crate) struct Factor {
+    cholesky: nalgebra::Cholesky<f64, nalgebra::Dyn>,
+    scale: Vec<f64>,
+}
+
+impl Factor {
+    /// Solves `M x = g`.
+    pub(crate) fn solve(&self, g: &[f64]) -> Vec<f64> {
+        let rhs = DVector::from_iterator(g.len(), g.iter().zip(&self.scale).map(|(x, s)| x * s));
+        let x = self.cholesky.solve(&rhs);
+        x.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sparse_and_dense_rows_give_the_same_normal_equations() {
+        let rows = [[1.0, 0.0, 0.0, 2.0, 0.0, 0.0], [0.5, 1.0, 3.0, -1.0, 0.2, 4.0]];
+        let mut n = Normal::new(6);
+        n.add(&rows[0], 1.0);
+        n.add(&rows[1], -2.0);
+        for i in 0..6 {
+            let g: f64 = rows[0][i] - 2.0 * rows[1][i];
+            assert!((n.gradient[i] - g).abs() < 1e-15);
+            for j in 0..6 {
+                let m: f64 = rows.iter().map(|r| r[i] * r[j]).sum();
+                assert!((n.entry(i, j) - m).abs() < 1e-15);
+            }
+        }
+    }
+}

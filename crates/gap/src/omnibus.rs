@@ -1,0 +1,194 @@
+//! Is anything left? Tests of the residual against causes in general, not against any candidate.
+
+use crate::assembly::convolve;
+use crate::campaign::Campaign;
+use crate::design::{Around, Design, Whitener};
+use crate::effect::Stage;
+use crate::engine::Fit;
+use crate::gains::Gains;
+use crate::motion::motions;
+
+/// What the tests found.
+#[derive(Debug, Clone)]
+pub(crate) struct Omnibus {
+    /// Score-test gain in deviance of each group of columns, with its degrees of freedom.
+    pub(crate) groups: Vec<(Group, f64, usize)>,
+    /// Gain of all columns together, and their number.
+    pub(crate) regressors: (f64, usize),
+    /// Ljung–Box statistic over [`LAGS`] lags.
+    pub(crate) ljung_box: f64,
+    /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
+    pub(crate) period: (f64, usize),
+}
+
+/// What a group of columns stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Group {
+    Lags,
+    Motion,
+    Reversal,
+    Time,
+    Level,
+}
+
+impl Group {
+    /// The stage that a gain of this group points at.
+    pub(crate) fn stage(self) -> Stage {
+        match self {
+            Self::Lags => Stage::Dynamics,
+            Self::Motion | Self::Reversal => Stage::Operator,
+            Self::Time => Stage::Sensor,
+            Self::Level => Stage::Sensor,
+        }
+    }
+}
+
+/// Lags of the Ljung–Box statistic.
+pub(crate) const LAGS: usize = 20;
+
+impl Omnibus {
+    /// Deviance that causes in general would still gain, beyond what chance gives them.
+    pub(crate) fn excess(&self) -> f64 {
+        let over = |gain: f64, dof: usize| {
+            let dof = dof as f64;
+            if gain > dof + 4.0 * (2.0 * dof).sqrt() + 8.0 { gain - dof } else { 0.0 }
+        };
+        let regressors = over(self.regressors.0, self.regressors.1);
+        let period = over(self.period.0, self.period.1);
+        let colour = over(self.ljung_box, LAGS);
+        regressors.max(period) + colour
+    }
+
+    /// The stage that the residual points at.
+    pub(crate) fn stage(&self) -> Option<Stage> {
+        let best = self
+            .groups
+            .iter()
+            .map(|&(g, gain, dof)| (g, gain - dof as f64))
+            .max_by(|x, y| x.1.total_cmp(&y.1))?;
+        if self.ljung_box > best.1 && self.regressors.0 < 0.3 * self.ljung_box {
+            return Some(Stage::Disturbance);
+        }
+        Some(best.0.stage())
+    }
+}
+
+/// Runs the tests on the fit records.
+pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
+    let design = Design::new(campaign, &fit.grid, &fit.assembly, |t| t.is_fit());
+    let whitener = Whitener::new(&fit.assembly.noise, &fit.linear.a);
+    let innovations = design.innovations(&fit.linear, &whitener);
+    let weights = crate::weights::weigh(&design, &fit.assembly.noise, &fit.linear, &innovations);
+    let b = convolve(&fit.linear.b, &design.taps);
+    let n = fit.linear.a.len();
+    let mut names: Vec<Group> = Vec::new();
+    let mut extra: Vec<Vec<Vec<f64>>> = Vec::new();
+    for (number, (track, part)) in campaign.fit().zip(&design.tracks).enumerate() {
+        let u = design.input(part, &fit.linear.f);
+        let raw: Vec<f64> = (0..u.len()).map(|t| part.rows.dot(t, &fit.linear.f)).collect();
+        let moves = motions(&track.v, 0.0, campaign.threshold);
+        let mut columns: Vec<(Group, Vec<f64>)> = Vec::new();
+        // Columns beside u: they pass B.
+        let through = |g: Vec<f64>| whitener.column(&g, &b, part.from);
+        // Columns of the equation.
+        let direct = |g: Vec<f64>| whitener.column(&g, &[-1.0], part.from);
+        let at = |x: &[f64], t: usize, lag: usize| x[t.saturating_sub(lag)];
+        let range = 0..u.len();
+        for lag in [n + 1, n + 2] {
+            columns.push((Group::Lags, direct(range.clone().map(|t| at(&part.x, t, lag)).collect())));
+            columns
+                .push((Group::Lags, direct(range.clone().map(|t| at(&u, t, b.len() + lag - n)).collect())));
+        }
+        // B of each branch on its own.
+        for lag in 1..=b.len().min(2) {
+            columns.push((
+                Group::Motion,
+                direct(
+                    range.clone().map(|t| at(&raw, t, lag) * moves[t.saturating_sub(lag)].branch).collect(),
+                ),
+            ));
+        }
+        let typical = 0.05;
+        columns.push((Group::Motion, through(moves.iter().map(|m| m.step / typical).collect())));
+        columns.push((
+            Group::Motion,
+            through(moves.iter().map(|m| m.branch * (m.step.abs() / typical).sqrt()).collect()),
+        ));
+        columns.push((Group::Motion, through(moves.iter().map(|m| m.step.abs() / typical).collect())));
+        columns.push((
+            Group::Motion,
+            through(moves.iter().map(|m| m.branch * (m.rest as f64).ln_1p()).collect()),
+        ));
+        for length in [0.02_f64, 0.08, 0.25] {
+            let fade = |m: &crate::motion::Motion| {
+                if m.branch == 0.0 { 0.0 } else { m.branch * (-m.travel / length).exp() }
+            };
+            columns.push((Group::Reversal, through(moves.iter().map(fade).collect())));
+        }
+        let clock = |t: usize| (track.clock + t) as f64 / campaign.total as f64 - 0.5;
+        let own = |t: usize| t as f64 / u.len() as f64 - 0.5;
+        columns.push((Group::Time, direct(range.clone().map(clock).collect())));
+        columns.push((Group::Time, direct(range.clone().map(own).collect())));
+        columns.push((Group::Time, through(range.clone().map(|t| clock(t) * raw[t]).collect())));
+        columns.push((Group::Time, through(range.clone().map(|t| clock(t) * moves[t].branch).collect())));
+        columns.push((Group::Time, through(range.clone().map(|t| own(t) * raw[t]).collect())));
+        for power in [2, 3] {
+            columns
+                .push((Group::Level, direct(range.clone().map(|t| at(&part.x, t, 1).powi(power)).collect())));
+        }
+        if number == 0 {
+            names = columns.iter().map(|c| c.0).collect();
+            extra = vec![Vec::new(); columns.len()];
+        }
+        for (j, (_, column)) in columns.into_iter().enumerate() {
+            extra[j].push(column);
+        }
+    }
+    let around = Around { innovations: &innovations, weights: weights.scale.as_deref(), extra: &extra };
+    let normal = design.normal(&fit.linear, &whitener, &around);
+    let gains = Gains::new(&normal, fit.linear.len(), fit.variance)?;
+    let all: Vec<usize> = (0..names.len()).collect();
+    let mut groups = Vec::new();
+    for group in [Group::Lags, Group::Motion, Group::Reversal, Group::Time, Group::Level] {
+        let members: Vec<usize> = all.iter().copied().filter(|&j| names[j] == group).collect();
+        groups.push((group, gains.of(&members), members.len()));
+    }
+    let scaled: Vec<Vec<f64>> = match &weights.scale {
+        Some(scale) => innovations
+            .iter()
+            .zip(scale)
+            .map(|(w, s)| w.iter().zip(s).map(|(w, s)| w * s).collect())
+            .collect(),
+        None => innovations,
+    };
+    let count: usize = scaled.iter().map(Vec::len).sum();
+    let r = crate::spectrum::autocorrelation(&scaled, LAGS);
+    let ljung_box = r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
+    let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
+    Some(Omnibus {
+        groups,
+        regressors: (gains.of(&all), all.len()),
+        ljung_box,
+        period: period_lack(campaign, &scaled, second),
+    })
+}
+
+/// Chi-square of the period means of the innovations.
+fn period_lack(campaign: &Campaign, innovations: &[Vec<f64>], variance: f64) -> (f64, usize) {
+    let (mut sum, mut dof) = (0.0, 0);
+    for (track, w) in campaign.fit().zip(innovations) {
+        let Some(period) = track.period else { continue };
+        let start = period.saturating_sub(track.from);
+        if w.len() < start + 8 * period {
+            continue;
+        }
+        for phase in 0..period {
+            let values: Vec<f64> = w[start + phase..].iter().copied().step_by(period).collect();
+            let n = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / n;
+            sum += mean * mean * n / variance;
+            dof += 1;
+        }
+    }
+    (sum, dof)
+}

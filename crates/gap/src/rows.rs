@@ -1,0 +1,260 @@
+//! Border features: `u(t)` as a sparse combination of border values.
+
+use std::f64::consts::PI;
+
+use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
+use crate::borders::{Grid, side};
+use crate::campaign::{Campaign, Track};
+use crate::motion::{Motion, motions};
+
+/// Sparse rows, one a sample.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    start: Vec<u32>,
+    index: Vec<u32>,
+    value: Vec<f64>,
+}
+
+impl Rows {
+    fn with_capacity(samples: usize) -> Self {
+        let mut start = Vec::with_capacity(samples + 1);
+        start.push(0);
+        Self { start, index: Vec::with_capacity(2 * samples), value: Vec::with_capacity(2 * samples) }
+    }
+
+    fn push(&mut self, row: &[(u32, f64)], scale: f64) {
+        for &(i, x) in row {
+            if x != 0.0 {
+                self.index.push(i);
+                self.value.push(x * scale);
+            }
+        }
+        self.start.push(self.index.len() as u32);
+    }
+
+    /// Non-zeros of row `t`.
+    pub(crate) fn row(&self, t: usize) -> (&[u32], &[f64]) {
+        let range = self.start[t] as usize..self.start[t + 1] as usize;
+        (&self.index[range.clone()], &self.value[range])
+    }
+
+    /// `u(t)` for border values (and column coefficients) `f`.
+    pub(crate) fn dot(&self, t: usize, f: &[f64]) -> f64 {
+        let (index, value) = self.row(t);
+        index.iter().zip(value).map(|(&i, x)| x * f[i as usize]).sum()
+    }
+}
+
+/// Weight below which a fading border value is dropped from a row.
+const NEGLIGIBLE: f64 = 1e-5;
+
+/// The value of a clock at a sample.
+pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, path: f64) -> f64 {
+    match clock {
+        Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
+        Clock::Record => t as f64 / track.v.len() as f64,
+        // A hundred strokes of travel count as one, so that the clock is about as long as the others.
+        Clock::Travel => path / 100.0,
+    }
+}
+
+/// The rows of one track: first the border values of `grid`, then the assembly's border columns.
+pub(crate) fn rows(campaign: &Campaign, track: &Track, grid: &Grid, assembly: &Assembly) -> Rows {
+    let moves = motions(&track.v, assembly.play, campaign.threshold);
+    let columns = grid.len() as u32;
+    let mut out = Rows::with_capacity(track.v.len());
+    let mut builder = Builder::new(grid, assembly, track.v[0]);
+    let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
+    let mut row: Vec<(u32, f64)> = Vec::new();
+    for (t, m) in moves.iter().enumerate() {
+        let slow = |s: &Slow| s.at(clock(s.clock, campaign, track, t, m.path));
+        if m.reversal {
+            builder.turn(m);
+        }
+        if m.moves {
+            let narrowing = assembly.wear.as_ref().map_or(0.0, slow);
+            builder.step(m, track.v[t], narrowing);
+        }
+        row.clear();
+        row.extend_from_slice(&builder.current);
+        for (j, column) in assembly.border_columns.iter().enumerate() {
+            let s = match column {
+                BorderColumn::BranchSlow { clock: c } => clock(*c, campaign, track, t, m.path),
+                _ => 0.0,
+            };
+            held[j] = column_value(column, m, s, held[j]);
+            row.push((columns + j as u32, held[j]));
+        }
+        let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
+        out.push(&row, gain);
+    }
+    out
+}
+
+fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
+    let speed = m.step.abs();
+    match *column {
+        BorderColumn::Speed { power, scale, while_resting } => match (m.step == 0.0, while_resting) {
+            (true, Resting::Held) => held,
+            (true, Resting::Zero) => 0.0,
+            _ => m.branch * (speed / scale).powf(power),
+        },
+        BorderColumn::LowSpeed { power, scale, while_resting } => match (m.step == 0.0, while_resting) {
+            (true, Resting::Held) => held,
+            (true, Resting::Zero) => m.branch,
+            _ => m.branch * (-(speed / scale).powf(power)).exp(),
+        },
+        BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
+        BorderColumn::BranchSlow { .. } => {
+            if m.moves {
+                m.branch * s
+            } else {
+                held
+            }
+        }
+    }
+}
+
+/// Follows the working point.
+struct Builder<'a> {
+    grid: &'a Grid,
+    assembly: &'a Assembly,
+    current: Vec<(u32, f64)>,
+    /// What fades during the present transition.
+    fading: Vec<(u32, f64)>,
+    scratch: Vec<f64>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64) -> Self {
+        // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
+        let start = grid.hat(usize::from(v >= 0.5), v);
+        let current = start.iter().map(|&(i, w)| (i as u32, w)).collect();
+        Self { grid, assembly, current, fading: Vec::new(), scratch: vec![0.0; grid.len()] }
+    }
+
+    /// A reversal: notes what will fade.
+    fn turn(&mut self, m: &Motion) {
+        let Some(transition) = self.assembly.transition else { return };
+        match transition.law {
+            TransitionLaw::Held => self.fading.clone_from(&self.current),
+            TransitionLaw::OldBorder => self.fading.clear(),
+            TransitionLaw::Offset => {
+                let mut terms = self.current.clone();
+                for (i, w) in self.grid.hat(side(m.branch), m.turn) {
+                    terms.push((i as u32, -w));
+                }
+                self.fading = self.merged(&terms);
+            }
+        }
+    }
+
+    /// A move on a border.
+    fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
+        let own = self.grid.hat(side(m.branch), v);
+        let mut terms: Vec<(u32, f64)> = own.iter().map(|&(i, w)| (i as u32, w)).collect();
+        if narrowing != 0.0 {
+            let half = 0.5 * narrowing;
+            terms.iter_mut().for_each(|(_, w)| *w *= 1.0 - half);
+            terms.extend(self.grid.hat(side(-m.branch), v).iter().map(|&(i, w)| (i as u32, w * half)));
+        }
+        if let Some(transition) = self.assembly.transition {
+            let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
+            if fade > NEGLIGIBLE {
+                match transition.law {
+                    TransitionLaw::Offset => terms.extend(self.fading.iter().map(|&(i, w)| (i, w * fade))),
+                    TransitionLaw::Held => {
+                        terms.iter_mut().for_each(|(_, w)| *w *= 1.0 - fade);
+                        terms.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
+                    }
+                    TransitionLaw::OldBorder => {
+                        terms.iter_mut().for_each(|(_, w)| *w *= 1.0 - fade);
+                        let old = self.grid.hat(side(-m.branch), v);
+                        terms.extend(old.iter().map(|&(i, w)| (i as u32, w * fade)));
+                    }
+                }
+            }
+        }
+        self.current = if terms.len() > 2 { self.merged(&terms) } else { terms };
+    }
+
+    /// Sums repeated indices and drops negligible weights.
+    fn merged(&mut self, terms: &[(u32, f64)]) -> Vec<(u32, f64)> {
+        for &(i, w) in terms {
+            self.scratch[i as usize] += w;
+        }
+        let mut out = Vec::with_capacity(terms.len());
+        for &(i, _) in terms {
+            let w = std::mem::take(&mut self.scratch[i as usize]);
+            if w.abs() > NEGLIGIBLE {
+                out.push((i, w));
+            }
+        }
+        out
+    }
+}
+
+/// How `u` answers to a small change of `v`, as rows: per unit of `v` while moving (over a fiftieth of the stroke, so
+/// that a jump counts as a steep slope), and by a switch to the other border while resting.
+pub(crate) fn sensitivity_rows(campaign: &Campaign, track: &Track, grid: &Grid) -> [Rows; 2] {
+    const HALF: f64 = 0.01;
+    let mut moving = Rows::with_capacity(track.v.len());
+    let mut resting = Rows::with_capacity(track.v.len());
+    for (m, &v) in motions(&track.v, 0.0, campaign.threshold).iter().zip(&track.v) {
+        let mut slope = Vec::new();
+        let mut gap = Vec::new();
+        let own = side(m.branch);
+        if m.moves {
+            slope.extend(grid.hat(own, v + HALF).map(|(i, w)| (i as u32, w / (2.0 * HALF))));
+            slope.extend(grid.hat(own, v - HALF).map(|(i, w)| (i as u32, -w / (2.0 * HALF))));
+        } else {
+            gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, w)));
+            gap.extend(grid.hat(0, v).map(|(i, w)| (i as u32, -w)));
+        }
+        moving.push(&slope, 1.0);
+        resting.push(&gap, 1.0);
+    }
+    [moving, resting]
+}
+
+/// The equation columns of one track, row-major, `columns` a sample.
+pub(crate) fn equation_columns(
+    campaign: &Campaign,
+    tracks: (usize, &Track),
+    assembly: &Assembly,
+) -> Vec<f64> {
+    let (number, track) = tracks;
+    let columns = &assembly.equation_columns;
+    let mut out = Vec::with_capacity(track.v.len() * columns.len());
+    if columns.is_empty() {
+        return out;
+    }
+    let mut path = 0.0;
+    for t in 0..track.v.len() {
+        if t > 0 {
+            path += (track.v[t] - track.v[t - 1]).abs();
+        }
+        out.extend(columns.iter().map(|column| match *column {
+            EquationColumn::Line { frequency, track: only, sine } => {
+                let at = match only {
+                    Some(n) if n != number => return 0.0,
+                    Some(_) => t,
+                    None => track.clock + t,
+                };
+                let angle = (frequency * at as f64) % (2.0 * PI);
+                if sine { angle.sin() } else { angle.cos() }
+            }
+            EquationColumn::Trend { clock: c, degree } => {
+                (2.0 * clock(c, campaign, track, t, path) - 1.0).powi(degree as i32)
+            }
+            EquationColumn::Local { track: only, piece, pieces } => {
+                if only != number {
+                    return 0.0;
+                }
+                let at = t as f64 / track.v.len() as f64 * pieces as f64;
+                (1.0 - (at - piece as f64).abs()).max(0.0)
+            }
+        }));
+    }
+    out
+}

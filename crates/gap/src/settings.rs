@@ -1,0 +1,58 @@
+//! What is diagnosed, and how.
+
+use crate::effect::Effect;
+
+/// Knobs of a diagnosis; the defaults are the calibrated ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The effects to consider.
+    pub effects: Vec<Effect>,
+    /// Largest order tried where the rig declares none.
+    pub max_order: usize,
+    /// Most effects named together.
+    pub max_effects: usize,
+    /// A cause is named when its calibrated probability reaches this.
+    pub name_at: f64,
+    /// Seed of the block bootstrap.
+    pub seed: u64,
+    /// Resamples of the block bootstrap.
+    pub resamples: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            effects: Effect::ALL.to_vec(),
+            max_order: 4,
+            max_effects: 2,
+            name_at: 0.9,
+            seed: 1,
+            resamples: 400,
+        }
+    }
+}
+
+/// A model somebody else identified: `A(q⁻¹) y = B(q⁻¹) u` with `u` on two tabulated borders, linear in between.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NominalModel {
+    /// `a₁…aₙ`.
+    pub a: Vec<f64>,
+    /// `b₁…bₙ`.
+    pub b: Vec<f64>,
+    /// Points `(v, C_d(v))`, by increasing `v`; at least two.
+    pub descending: Vec<(f64, f64)>,
+    /// Points `(v, C_a(v))`, by increasing `v`; at least two.
+    pub ascending: Vec<(f64, f64)>,
+}
+
+/// Which model meets the records.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Model {
+    /// The nominal model is identified from the fit records.
+    #[default]
+    Identify,
+    /// This model, as it is.
+    Given(NominalModel),
+    /// The records' `y_sim`: the prediction of any other simulator.
+    Predicted,
+}

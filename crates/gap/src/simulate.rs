@@ -1,0 +1,107 @@
+//! Free-run simulation of a fitted model over a record.
+
+use crate::assembly::convolve;
+use crate::campaign::{Campaign, Track};
+use crate::design::Design;
+use crate::engine::Fit;
+
+/// The output that the model predicts from the input alone; the samples before the first counted one are the measured ones
+/// and set the initial state. Dimensionless units.
+pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Track) -> Vec<f64> {
+    let design = Design::of(campaign, &fit.grid, &fit.assembly, &[(number, track)]);
+    let part = &design.tracks[0];
+    let u = design.input(part, &fit.linear.f);
+    let b = convolve(&fit.linear.b, &design.taps);
+    let m = fit.linear.d.len();
+    let mut x = part.x[..part.from].to_vec();
+    let limit = 1e6;
+    for t in part.from..track.v.len() {
+        let mut now = 0.0;
+        for (i, a) in fit.linear.a.iter().enumerate() {
+            now -= a * x[t - i - 1];
+        }
+        for (j, b) in b.iter().enumerate() {
+            now += b * u[t.saturating_sub(j + 1)];
+        }
+        for (k, d) in fit.linear.d.iter().enumerate() {
+            now += d * part.columns[t * m + k];
+        }
+        // An unstable model leaves every range; the bound keeps its error finite.
+        x.push(now.clamp(-limit, limit));
+    }
+    let sensed = |x: f64| {
+        let y = sense(&fit.assembly.curve.powers, x);
+        match fit.assembly.saturation {
+            Some(s) => y.clamp(s.low, s.high),
+            None => y,
+        }
+    };
+    let mut y = track.y[..part.from].to_vec();
+    y.extend(x[part.from..].iter().map(|x| sensed(*x)));
+    y
+}
+
+/// Solves `x = y + Σ θₖ y^(k+2)` for the `y` that continues from small outputs, by Newton's method.
+fn sense(powers: &[f64], x: f64) -> f64 {
+    if powers.is_empty() {
+        return x;
+    }
+    let mut y = x;
+    for _ in 0..30 {
+        let (mut value, mut slope, mut power) = (y, 1.0, y);
+        for (k, c) in powers.iter().enumerate() {
+            slope += c * (k + 2) as f64 * power;
+            power *= y;
+            value += c * power;
+        }
+        let step = (value - x) / slope.max(0.05);
+        y -= step.clamp(-1.0, 1.0);
+        if step.abs() < 1e-12 {
+            break;
+        }
+    }
+    y
+}
+
+/// Output variance that one unit of innovation variance makes: `Σ h²` of `C/(A·D)`.
+pub(crate) fn noise_gain(fit: &Fit) -> f64 {
+    let law = &fit.assembly.noise;
+    let poles = crate::assembly::times_monic(&fit.linear.a, &law.ar);
+    let zeros = if law.output_ratio > 0.0 {
+        crate::spectral::factor_of_sum(law.output_ratio, &fit.linear.a)
+    } else {
+        law.ma.clone()
+    };
+    let mut h: Vec<f64> = Vec::with_capacity(4000);
+    let mut sum = 0.0;
+    for t in 0..4000_usize {
+        let mut now = if t == 0 { 1.0 } else { zeros.get(t - 1).copied().unwrap_or(0.0) };
+        for (i, a) in poles.iter().enumerate() {
+            if t > i {
+                now -= a * h[t - i - 1];
+            }
+        }
+        sum += now * now;
+        h.push(now);
+        if sum > 1e9 || (t > 50 && h[t - 20..].iter().all(|x| x.abs() < 1e-9)) {
+            break;
+        }
+    }
+    sum
+}
+
+/// Variance of the output about its mean over periods, pooled over the periodic records; drift slower than a few
+/// periods is taken out by differencing neighbouring periods. Absent without periodic records.
+pub(crate) fn repeat_variance(campaign: &Campaign, counted: impl Fn(&Track) -> bool) -> Option<(f64, usize)> {
+    let (mut sum, mut count) = (0.0, 0);
+    for track in campaign.tracks.iter().filter(|t| counted(t)) {
+        let Some(period) = track.period else { continue };
+        let start = (track.from + period).max(2 * period);
+        for t in start..track.y.len() {
+            let d = track.y[t] - track.y[t - period];
+            sum += 0.5 * d * d;
+            count += 1;
+        }
+    }
+    (count > 200).then(|| (sum / count as f64, count))
+}

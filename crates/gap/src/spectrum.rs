@@ -1,0 +1,115 @@
+//! Periodograms and autocorrelations of residuals.
+
+use std::f64::consts::PI;
+
+/// In-place radix-2 fast Fourier transform.
+///
+/// # Panics
+/// If the lengths differ or are no power of two.
+pub(crate) fn fft(re: &mut [f64], im: &mut [f64]) {
+    let n = re.len();
+    assert!(n.is_power_of_two() && im.len() == n, "the transform needs two arrays of one power of two");
+    let mut j = 0;
+    for i in 1..n {
+        let mut bit = n >> 1;
+        while j & bit != 0 {
+            j ^= bit;
+            bit >>= 1;
+        }
+        j |= bit;
+        if i < j {
+            re.swap(i, j);
+            im.swap(i, j);
+        }
+    }
+    let mut length = 2;
+    while length <= n {
+        let angle = -2.0 * PI / length as f64;
+        let half = length / 2;
+        let twiddles: Vec<(f64, f64)> = (0..half).map(|k| (angle * k as f64).sin_cos()).collect();
+        for start in (0..n).step_by(length) {
+            for (k, (sin, cos)) in twiddles.iter().enumerate() {
+                let (a, b) = (start + k, start + k + half);
+                let (x, y) = (re[b] * cos - im[b] * sin, re[b] * sin + im[b] * cos);
+                (re[b], im[b]) = (re[a] - x, im[a] - y);
+                (re[a], im[a]) = (re[a] + x, im[a] + y);
+            }
+        }
+        length *= 2;
+    }
+}
+
+/// Squared magnitudes of the transform of a zero-padded signal at frequencies `k/padded`, `k = 0…padded/2`.
+pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
+    let mut re = signal.to_vec();
+    re.resize(padded, 0.0);
+    let mut im = vec![0.0; padded];
+    fft(&mut re, &mut im);
+    (0..=padded / 2).map(|k| re[k] * re[k] + im[k] * im[k]).collect()
+}
+
+/// The strongest lines over all tracks, radians per sample: peaks of the summed periodograms, each over its own local level.
+pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64> {
+    let longest = innovations.iter().map(Vec::len).max().unwrap_or(0);
+    if longest < 64 {
+        return Vec::new();
+    }
+    let padded = (2 * longest).next_power_of_two();
+    let mut sum = vec![0.0; padded / 2 + 1];
+    for w in innovations.iter().filter(|w| w.len() >= 64) {
+        let mean = w.iter().sum::<f64>() / w.len() as f64;
+        let centred: Vec<f64> = w.iter().map(|x| x - mean).collect();
+        let energy: f64 = centred.iter().map(|x| x * x).sum::<f64>().max(1e-300);
+        for (s, p) in sum.iter_mut().zip(power(&centred, padded)) {
+            *s += p / energy * w.len() as f64;
+        }
+    }
+    let mut order: Vec<usize> = (2..sum.len() - 1).collect();
+    order.sort_by(|&i, &j| sum[j].total_cmp(&sum[i]));
+    let mut lines: Vec<f64> = Vec::new();
+    let apart = 4.0 * 2.0 * PI / longest as f64;
+    for k in order {
+        let omega = 2.0 * PI * k as f64 / padded as f64;
+        if lines.iter().all(|l| (l - omega).abs() > apart) {
+            lines.push(omega);
+            if lines.len() == count {
+                break;
+            }
+        }
+    }
+    lines
+}
+
+/// Autocorrelation at lags `0…most`, pooled over tracks.
+pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
+    let energy: f64 = tracks.iter().flatten().map(|x| x * x).sum::<f64>().max(1e-300);
+    (0..=most)
+        .map(|lag| {
+            tracks
+                .iter()
+                .map(|w| w.iter().zip(w.iter().skip(lag)).map(|(x, y)| x * y).sum::<f64>())
+                .sum::<f64>()
+                / energy
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fast_transform_agrees_with_the_sum() {
+        let x: Vec<f64> = (0..16).map(|i| ((i * i) as f64 * 0.37).sin()).collect();
+        let p = power(&x, 16);
+        for (k, value) in p.iter().enumerate() {
+            let (mut re, mut im) = (0.0, 0.0);
+            for (t, x) in x.iter().enumerate() {
+                let angle = -2.0 * PI * (k * t) as f64 / 16.0;
+                re += x * angle.cos();
+                im += x * angle.sin();
+            }
+            assert!((value - (re * re + im * im)).abs() < 1e-10);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Small records for tests.
+
+use switchback_estimator::Record;
+use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+
+use crate::borders::Grid;
+use crate::campaign::Campaign;
+
+/// A short free record with rests and reversals of many sizes, and a grid with a jump.
+pub(crate) fn small_campaign() -> (Campaign, Grid) {
+    let v: Vec<f64> = (0..240)
+        .map(|t| {
+            let t = if t % 40 > 33 { t - t % 40 + 33 } else { t } as f64;
+            0.5 + 0.3 * (0.21 * t).sin() + 0.2 * (0.057 * t).sin()
+        })
+        .collect();
+    let y: Vec<f64> = (0..240).map(|t| (t as f64 * 0.3).sin() + 0.2 * (t as f64 * 1.7).cos()).collect();
+    let rig = Rig {
+        name: "small".into(),
+        sample_time: 1.0,
+        order: Some(2),
+        interval: None,
+        input_label: "v".into(),
+        output_label: "y".into(),
+        records: vec![RigRecord {
+            name: "free".into(),
+            role: Role::Free,
+            usage: Usage::Fit,
+            record: Record::new(v, y).expect("finite and equally long"),
+            predicted: None,
+        }],
+    };
+    let campaign = Campaign::new(&rig).expect("a usable rig");
+    (campaign, Grid { knots: [vec![0.0, 0.4, 1.0], vec![0.0, 0.5, 0.5, 1.0]] })
+}

@@ -1,0 +1,61 @@
+//! What was put into a rig: the key that stays sealed until the diagnosis is done.
+
+use crate::law::{Nature, Stage};
+
+/// One effect that a rig was made with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrueEffect {
+    /// Its name.
+    pub effect: &'static str,
+    /// Its law.
+    pub law: &'static str,
+    /// Whether this is the plain law (the first of the effect's).
+    pub plain: bool,
+    /// Where it acts.
+    pub stage: Stage,
+    /// Whether it moves the expected output.
+    pub nature: Nature,
+    /// Magnitude, in `unit`.
+    pub magnitude: f64,
+    /// What magnitude 1 means.
+    pub unit: &'static str,
+    /// Size that was asked for.
+    pub wanted: f64,
+    /// Size that it has by itself: what survives the best nominal re-fit, in noise sd.
+    pub size: f64,
+}
+
+/// Everything withheld about a rig.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// Seed that the rig came from.
+    pub seed: u64,
+    /// Order of the linear part.
+    pub order: usize,
+    /// `a₁…aₙ`.
+    pub a: Vec<f64>,
+    /// `b₁…bₙ`.
+    pub b: Vec<f64>,
+    /// Shape of the borders.
+    pub borders: &'static str,
+    /// Standard deviation of the white equation error.
+    pub noise_sd: f64,
+    /// The effects; none, one or more.
+    pub effects: Vec<TrueEffect>,
+    /// Size of all effects together.
+    pub size: f64,
+}
+
+/// What is true of one record, sample by sample: by this a diagnosis of *where* and *how far* is judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Name of the record.
+    pub record: String,
+    /// Output without noise, systematic effects included.
+    pub repeating: Vec<f64>,
+    /// What survives the best nominal re-fit, one step ahead, in noise sd: residual less the white equation error. Zero
+    /// before [`Truth::first`].
+    pub surviving: Vec<f64>,
+    /// First sample that the re-fit predicts.
+    pub first: usize,
+}

@@ -1,0 +1,190 @@
+//! Making a rig.
+
+use crate::campaign::{Plan, campaign};
+use crate::effects::laws_of;
+use crate::key::{Key, TrueEffect, Truth};
+use crate::law::Law;
+use crate::plant::{Family, Plant};
+use crate::refit::Refit;
+use crate::simulate::Active;
+use crate::stream::{Purpose, stream};
+use crate::workshop::Workshop;
+use switchback_estimator::record::RecordError;
+use switchback_estimator::rig::Rig;
+use thiserror::Error;
+
+/// Why no rig could be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MakeError {
+    /// The effect's name is unknown.
+    #[error("`{name}` is no effect; known are {known}")]
+    UnknownEffect {
+        /// The name given.
+        name: String,
+        /// All names, comma-separated.
+        known: String,
+    },
+    /// The effect has fewer laws.
+    #[error("`{effect}` has {laws} laws, numbered from 0; law {law} does not exist")]
+    UnknownLaw {
+        /// The effect.
+        effect: String,
+        /// Laws it has.
+        laws: usize,
+        /// The law asked for.
+        law: usize,
+    },
+    /// The size is no size.
+    #[error(
+        "an effect of size {0} cannot be made; the size is a number of noise standard deviations above 0"
+    )]
+    Size(f64),
+    /// The key belongs to another recipe.
+    #[error("the key is of the rig with seed {key} and its effects, not of this recipe with seed {recipe}")]
+    ForeignKey {
+        /// Seed of the recipe.
+        recipe: u64,
+        /// Seed in the key.
+        key: u64,
+    },
+    /// A simulated signal was no record.
+    #[error("the drawn system and effect gave no finite record ({0}); take another seed")]
+    Record(#[from] RecordError),
+}
+
+/// An effect to be put into a rig.
+#[derive(Debug, Clone, Copy)]
+pub struct Ingredient {
+    pub(crate) law: &'static dyn Law,
+    pub(crate) plain: bool,
+    pub(crate) size: f64,
+}
+
+impl Ingredient {
+    /// The plain law of an effect, at a size in noise standard deviations.
+    ///
+    /// # Errors
+    /// [`MakeError::UnknownEffect`] or [`MakeError::Size`].
+    pub fn plain(effect: &str, size: f64) -> Result<Self, MakeError> {
+        Self::with_law(effect, 0, size)
+    }
+
+    /// The `law`-th law of an effect (0 is the plain one).
+    ///
+    /// # Errors
+    /// [`MakeError::UnknownEffect`], [`MakeError::UnknownLaw`] or [`MakeError::Size`].
+    pub fn with_law(effect: &str, law: usize, size: f64) -> Result<Self, MakeError> {
+        let laws = laws_of(effect);
+        if laws.is_empty() {
+            let known = crate::EFFECTS.iter().chain(&crate::FOREIGN).copied().collect::<Vec<_>>().join(", ");
+            return Err(MakeError::UnknownEffect { name: effect.to_owned(), known });
+        }
+        if !(size.is_finite() && size > 0.0) {
+            return Err(MakeError::Size(size));
+        }
+        let chosen = laws.get(law).ok_or_else(|| MakeError::UnknownLaw {
+            effect: effect.to_owned(),
+            laws: laws.len(),
+            law,
+        })?;
+        Ok(Self { law: *chosen, plain: law == 0, size })
+    }
+}
+
+/// A recipe: everything else about the rig is drawn from the seed.
+#[derive(Debug, Clone)]
+pub struct MakeRig {
+    seed: u64,
+    family: Family,
+    plan: Plan,
+    ingredients: Vec<Ingredient>,
+}
+
+/// A rig and, apart from it, its key.
+#[derive(Debug)]
+pub struct MadeRig {
+    /// What a user's folder would hold.
+    pub rig: Rig,
+    /// What is withheld.
+    pub key: Key,
+    /// What is true of each record, in the rig's order.
+    pub truth: Vec<Truth>,
+}
+
+impl MakeRig {
+    /// A rig without any effect, of the default plan and of no particular family.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            family: Family { order: None, shape: None },
+            plan: Plan::default(),
+            ingredients: Vec::new(),
+        }
+    }
+
+    /// Fixes order or border shape.
+    #[must_use]
+    pub fn family(mut self, family: Family) -> Self {
+        self.family = family;
+        self
+    }
+
+    /// Another plan of records.
+    #[must_use]
+    pub fn plan(mut self, plan: Plan) -> Self {
+        self.plan = plan;
+        self
+    }
+
+    /// Adds an effect.
+    #[must_use]
+    pub fn with(mut self, ingredient: Ingredient) -> Self {
+        self.ingredients.push(ingredient);
+        self
+    }
+
+    /// Draws the system and the inputs, sizes each effect by itself, and takes the records.
+    ///
+    /// # Errors
+    /// [`MakeError::Record`] if the output is not finite.
+    pub fn make(&self) -> Result<MadeRig, MakeError> {
+        let mut workshop = self.workshop();
+        let (mut active, mut effects): (Vec<_>, Vec<_>) =
+            self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
+        if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
+            workshop.tune_noise(one, entry);
+        }
+        workshop.assemble(&active, effects)
+    }
+
+    /// The same rig once more from its key, without searching for the magnitudes: equal to the bit, and much faster.
+    ///
+    /// # Errors
+    /// [`MakeError::ForeignKey`] if the key belongs to another recipe, [`MakeError::Record`] as in [`MakeRig::make`].
+    pub fn again(&self, key: &Key) -> Result<MadeRig, MakeError> {
+        let same_effect =
+            |(i, e): (&Ingredient, &TrueEffect)| i.law.effect() == e.effect && i.law.name() == e.law;
+        let same_count = self.ingredients.len() == key.effects.len();
+        if self.seed != key.seed || !same_count || !self.ingredients.iter().zip(&key.effects).all(same_effect)
+        {
+            return Err(MakeError::ForeignKey { recipe: self.seed, key: key.seed });
+        }
+        let mut workshop = self.workshop();
+        workshop.plant.noise_sd = key.noise_sd;
+        let sized = self.ingredients.iter().zip(&key.effects).enumerate();
+        let active: Vec<Active> =
+            sized.map(|(slot, (i, e))| workshop.active(slot, i.law, e.magnitude)).collect();
+        workshop.assemble(&active, key.effects.clone())
+    }
+
+    /// The system and the campaign of the recipe.
+    fn workshop(&self) -> Workshop {
+        let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
+        let passages = campaign(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
+        let refit = Refit::new(&plant, &passages);
+        let mut workshop = Workshop { plant, passages, refit, seed: self.seed };
+        workshop.measure_reach();
+        workshop
+    }
+}

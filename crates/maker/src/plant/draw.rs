@@ -1,0 +1,183 @@
+//! Drawing a nominal system.
+
+use super::{Plant, Table};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use switchback_estimator::hysteresis::{Interval, SwitchedHysteresis};
+
+/// What all systems of a family share; everything else is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Family {
+    /// Order `n` of the linear part, 1 to 3; drawn if none.
+    pub order: Option<usize>,
+    /// Shape of the borders; drawn if none.
+    pub shape: Option<Shape>,
+}
+
+/// The shape that a rig's borders follow at the levels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// Two parallel lines, `k·x ± F_C`.
+    LeafSpring,
+    /// A spring that stiffens, `k(x)·x ± F_C`.
+    HardeningSpring,
+    /// Two steps, one a border.
+    Relay,
+    /// Two different smooth curves, as in the paper's Fig. 3; the loop closes at its ends.
+    General,
+    /// Lines with a jump between two levels.
+    Discontinuous,
+    /// Borders that rise and fall.
+    NonMonotone,
+}
+
+impl Shape {
+    /// All shapes.
+    pub const ALL: [Self; 6] = [
+        Self::LeafSpring,
+        Self::HardeningSpring,
+        Self::Relay,
+        Self::General,
+        Self::Discontinuous,
+        Self::NonMonotone,
+    ];
+
+    /// The shape's name in a key.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LeafSpring => "leaf spring",
+            Self::HardeningSpring => "hardening spring",
+            Self::Relay => "relay",
+            Self::General => "general",
+            Self::Discontinuous => "discontinuous",
+            Self::NonMonotone => "non-monotone",
+        }
+    }
+}
+
+impl Plant {
+    /// Draws a system: order, poles, zeros, interval, levels, borders, units, noise.
+    pub(crate) fn draw(family: Family, rng: &mut ChaCha8Rng) -> Self {
+        let order = family.order.unwrap_or_else(|| rng.random_range(1..=3));
+        let shape = family.shape.unwrap_or_else(|| Shape::ALL[rng.random_range(0..Shape::ALL.len())]);
+        let interval = draw_interval(rng);
+        let m = rng.random_range(7..=11);
+        let levels: Vec<f64> =
+            (0..=m).map(|j| interval.low() + interval.width() * f64::from(j) / f64::from(m)).collect();
+        let table = draw_borders(shape, &levels, rng);
+        let hysteresis =
+            SwitchedHysteresis::new(interval, Box::new(table)).expect("drawn borders span exactly one");
+        let a = draw_poles(order, rng);
+        let span = rng.random_range(-0.5..2.0_f64).exp2() * 10.0_f64.powi(rng.random_range(-1..=2));
+        let b = draw_numerator(&a, span, rng);
+        let mut plant = Self {
+            a,
+            b,
+            hysteresis,
+            interval,
+            levels,
+            noise_sd: 0.0,
+            reach: 0.0,
+            sample_time: [1e-4, 1e-3, 0.01, 0.05][rng.random_range(0..4)],
+            shape,
+        };
+        plant.reach = plant.y_half();
+        // The output's noise, not the equation's, is what an engineer sees: 0.1 % to 2 % of the stationary span.
+        plant.noise_sd =
+            2.0 * plant.y_half() * 10.0_f64.powf(rng.random_range(-3.0..-1.7)) / plant.noise_amplification();
+        plant
+    }
+}
+
+fn draw_interval(rng: &mut ChaCha8Rng) -> Interval {
+    let scale = 10.0_f64.powi(rng.random_range(-1..=1));
+    let (low, high) = if rng.random_bool(0.4) {
+        (-1.0, 1.0)
+    } else {
+        let low: f64 = rng.random_range(-2.0..1.0);
+        (low, low + rng.random_range(0.5..4.0))
+    };
+    Interval::new(low * scale, high * scale).expect("the second end lies above the first")
+}
+
+/// Borders at the levels, scaled to `u_m = C_d(h_m)`, `u_M = C_a(h_M) = u_m + 1`.
+fn draw_borders(shape: Shape, levels: &[f64], rng: &mut ChaCha8Rng) -> Table {
+    let m = levels.len() - 1;
+    let gap = rng.random_range(0.1..0.6); // distance of the borders, in units of the drawn curves
+    let jump = rng.random_range(1..m); // the cell that a jump falls into
+    let (centre_a, centre_d) = (rng.random_range(0.5..0.8), rng.random_range(0.2..0.5));
+    let steep = rng.random_range(3.0..12.0);
+    let waves = rng.random_range(0.8..1.6);
+    let curve = |x: f64, j: usize, rising: bool| -> f64 {
+        let side = if rising { gap } else { -gap };
+        let s = 2.0 * x - 1.0;
+        let centre = if rising { centre_a } else { centre_d };
+        match shape {
+            Shape::LeafSpring => s + side,
+            Shape::HardeningSpring => (0.5 + 0.5 * s * s) * s + side,
+            Shape::Relay => 0.1 * s + if x > centre { 1.0 } else { -1.0 },
+            Shape::General => (steep * (x - centre)).tanh() + 0.3 * x * x,
+            Shape::Discontinuous => 0.7 * s + side + if j > jump { 0.8 } else { 0.0 },
+            Shape::NonMonotone => s + side + 0.5 * (waves * std::f64::consts::TAU * x).sin(),
+        }
+    };
+    let at = |rising: bool| -> Vec<f64> {
+        levels.iter().enumerate().map(|(j, _)| curve(j as f64 / m as f64, j, rising)).collect()
+    };
+    let (mut ascending, mut descending) = (at(true), at(false));
+    if matches!(shape, Shape::General) {
+        // A loop that closes: beyond its ends both curves would meet.
+        let (low, high) = (0.5 * (ascending[0] + descending[0]), 0.5 * (ascending[m] + descending[m]));
+        for values in [&mut ascending, &mut descending] {
+            values[0] = low;
+            values[m] = high;
+        }
+    }
+    let (low, span) = (descending[0], ascending[m] - descending[0]);
+    let offset = rng.random_range(-1.0..0.0);
+    for values in [&mut ascending, &mut descending] {
+        values.iter_mut().for_each(|u| *u = offset + (*u - low) / span);
+    }
+    Table { levels: levels.to_vec(), ascending, descending }
+}
+
+/// A stable denominator of the given order: real poles and complex pairs, radius 0.3 to 0.93.
+fn draw_poles(order: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    let mut polynomial = vec![1.0];
+    let mut left = order;
+    while left > 0 {
+        let radius: f64 = rng.random_range(0.3..0.93);
+        let factor = if left >= 2 && rng.random_bool(0.6) {
+            left -= 2;
+            let angle = rng.random_range(0.05..0.6) * std::f64::consts::PI;
+            vec![1.0, -2.0 * radius * f64::cos(angle), radius * radius]
+        } else {
+            left -= 1;
+            vec![1.0, -radius]
+        };
+        polynomial = multiply(&polynomial, &factor);
+    }
+    polynomial[1..].to_vec()
+}
+
+/// A numerator with stationary gain `span`, clear of cancelling: `B(1)` carries at least 0.4 of `Σ|bᵢ|`.
+fn draw_numerator(a: &[f64], span: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    loop {
+        let b: Vec<f64> = a.iter().map(|_| rng.random_range(-0.6..1.0_f64)).collect();
+        let (sum, size) = (b.iter().sum::<f64>(), b.iter().map(|x| x.abs()).sum::<f64>());
+        if sum > 0.4 * size && b[0].abs() > 0.2 * size {
+            let scale = span * (1.0 + a.iter().sum::<f64>()) / sum;
+            return b.iter().map(|x| x * scale).collect();
+        }
+    }
+}
+
+fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; p.len() + q.len() - 1];
+    for (i, x) in p.iter().enumerate() {
+        for (j, y) in q.iter().enumerate() {
+            product[i + j] += x * y;
+        }
+    }
+    product
+}

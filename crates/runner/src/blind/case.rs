@@ -1,0 +1,217 @@
+//! One rig after its key was opened: what was put in, what was said, and how both compare.
+
+use super::design::{Kind, Ticket};
+use super::place::{PlaceCheck, check};
+use super::twins::same_class;
+use switchback_gap::{Diagnosis, Status};
+use switchback_maker::{MadeRig, Nature};
+
+/// What a diagnosis said, in the words of its JSON.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reply {
+    /// `none`, `named`, `class`, `ambiguous`, `unexplained`, or `failed` where the rig was refused.
+    pub status: &'static str,
+    /// Effects named; empty unless `named`.
+    pub effects: Vec<&'static str>,
+    /// Effects left standing (`class`, `ambiguous`).
+    pub class: Vec<&'static str>,
+    /// Stage pointed at.
+    pub stage: Option<&'static str>,
+    /// Probability that the verdict holds.
+    pub probability: f64,
+    /// The likeliest explanation (an effect, `none` or `unexplained`) and its probability.
+    pub top: (&'static str, f64),
+}
+
+/// What simpler rules would have named from the same fits; none where they see no gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Baseline {
+    /// The candidate that leaves the least simulation error on the hold-out records.
+    pub lowest_rmse: Option<&'static str>,
+    /// The candidate with the best held-out log score.
+    pub heldout_winner: Option<&'static str>,
+    /// The candidate with the lowest BIC.
+    pub plain_bic: Option<&'static str>,
+}
+
+/// The closure stated against the closure that the stated models really have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosureCheck {
+    /// Stated.
+    pub estimate: f64,
+    /// Stated 90 % interval.
+    pub ci90: [f64; 2],
+    /// `1 − Σ(ȳ − ŷ_augmented)²/Σ(ȳ − ŷ_nominal)²` over the hold-out records, `ȳ` the output without noise.
+    pub actual: f64,
+}
+
+/// One rig, judged.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Position in the design.
+    pub id: usize,
+    /// What the rig is for.
+    pub kind: Kind,
+    /// System family.
+    pub system: usize,
+    /// Effects put in.
+    pub truth: Vec<&'static str>,
+    /// Name of the first effect's law.
+    pub law: &'static str,
+    /// Whether all laws are plain.
+    pub plain: bool,
+    /// Size asked for, of the first effect; 0 without effect.
+    pub wanted: f64,
+    /// Size that the rig has; of pairs the smaller of both.
+    pub size: f64,
+    /// What was said.
+    pub reply: Reply,
+    /// What simpler rules would have said.
+    pub baseline: Baseline,
+    /// How far the gap closes, where that was stated and the effects move the simulation.
+    pub closure: Option<ClosureCheck>,
+    /// Where, an axis at a time; only for rigs with an effect and a reply.
+    pub places: Vec<PlaceCheck>,
+}
+
+/// An answer of more effects than this is no class.
+const WIDEST_CLASS: usize = 3;
+
+impl Case {
+    /// Compares a diagnosis with an opened key. A rig that was refused has no diagnosis.
+    pub(super) fn judge(ticket: &Ticket, diagnosis: Option<&Diagnosis>, made: &MadeRig) -> Self {
+        let effects = &made.key.effects;
+        let least = effects.iter().map(|e| e.size).fold(f64::INFINITY, f64::min);
+        Self {
+            id: ticket.id,
+            kind: ticket.kind,
+            system: ticket.system,
+            truth: effects.iter().map(|e| e.effect).collect(),
+            law: effects.first().map_or("", |e| e.law),
+            plain: effects.iter().all(|e| e.plain),
+            wanted: effects.first().map_or(0.0, |e| e.wanted),
+            size: if effects.is_empty() { 0.0 } else { least },
+            reply: diagnosis.map_or_else(Reply::refused, Reply::of),
+            baseline: diagnosis.map_or(Baseline::SILENT, Baseline::of),
+            closure: diagnosis.and_then(|d| closure(d, made)),
+            places: match diagnosis {
+                Some(d) if !effects.is_empty() => check(&d.where_, &made.rig, &made.truth),
+                _ => Vec::new(),
+            },
+        }
+    }
+
+    /// Whether the size reached is at least 1 noise sd, as near as sizes are met.
+    pub fn is_large(&self) -> bool {
+        self.size >= 0.95
+    }
+
+    /// Whether exactly the effects put in are named.
+    pub fn exact(&self) -> bool {
+        let mut named = self.reply.effects.clone();
+        let mut truth = self.truth.clone();
+        named.sort_unstable();
+        truth.sort_unstable();
+        self.reply.status == "named" && named == truth
+    }
+
+    /// Whether one effect or one class is given and the single effect put in is that or a twin of it.
+    pub fn class_right(&self) -> bool {
+        let [truth] = self.truth.as_slice() else { return false };
+        match self.reply.status {
+            "named" => matches!(self.reply.effects.as_slice(), [named] if same_class(named, truth)),
+            "class" | "ambiguous" => {
+                self.reply.class.len() <= WIDEST_CLASS && self.reply.class.contains(truth)
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a cause is named, alone or as a class or rivals.
+    pub fn names_a_cause(&self) -> bool {
+        matches!(self.reply.status, "named" | "class" | "ambiguous")
+    }
+
+    /// Whether every effect named was put in.
+    pub fn all_named_are_true(&self) -> bool {
+        self.reply.status == "named" && self.reply.effects.iter().all(|e| self.truth.contains(e))
+    }
+
+    /// Whether the verdict, as far as it goes, holds: what its probability claims.
+    pub fn verdict_holds(&self) -> bool {
+        match self.reply.status {
+            "none" => self.kind == Kind::None,
+            "unexplained" => self.kind == Kind::Outside,
+            "named" => self.exact(),
+            "class" | "ambiguous" => self.truth.iter().any(|t| self.reply.class.contains(t)),
+            _ => false,
+        }
+    }
+
+    /// Whether the likeliest explanation is the true one.
+    pub fn top_is_true(&self) -> bool {
+        match self.reply.top.0 {
+            "none" => self.kind == Kind::None,
+            "unexplained" => self.kind == Kind::Outside,
+            effect => self.truth == [effect],
+        }
+    }
+}
+
+impl Reply {
+    fn refused() -> Self {
+        let (effects, class) = (Vec::new(), Vec::new());
+        Self { status: "failed", effects, class, stage: None, probability: 0.0, top: ("failed", 0.0) }
+    }
+
+    fn of(d: &Diagnosis) -> Self {
+        let named = if d.verdict.status == Status::Named { d.verdict.effects.as_slice() } else { &[] };
+        let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
+        let effects = d.candidates.iter().map(|c| (c.effect.name(), c.probability));
+        let top = effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best });
+        Self {
+            status: d.verdict.status.name(),
+            effects: named.iter().map(|e| e.name()).collect(),
+            class: d.verdict.class.iter().map(|e| e.name()).collect(),
+            stage: d.verdict.stage.map(|s| s.name()),
+            probability: d.verdict.probability,
+            top,
+        }
+    }
+}
+
+impl Baseline {
+    const SILENT: Self = Self { lowest_rmse: None, heldout_winner: None, plain_bic: None };
+
+    fn of(d: &Diagnosis) -> Self {
+        let best = |score: fn(&switchback_gap::Candidate) -> f64| {
+            let scored = d.candidates.iter().map(|c| (c.effect.name(), score(c)));
+            scored.filter(|(_, s)| *s > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(name, _)| name)
+        };
+        Self {
+            lowest_rmse: best(|c| c.closure.unwrap_or(0.0)),
+            heldout_winner: best(|c| c.heldout_log_score),
+            plain_bic: best(|c| -c.bic),
+        }
+    }
+}
+
+fn closure(d: &Diagnosis, made: &MadeRig) -> Option<ClosureCheck> {
+    let stated = d.gap.closure?;
+    if made.key.effects.iter().all(|e| e.nature == Nature::Noise) {
+        return None;
+    }
+    let (mut before, mut after) = (0.0, 0.0);
+    for series in &d.series {
+        let truth = made.truth.iter().find(|t| t.record == series.record)?;
+        for (t, y) in truth.repeating.iter().enumerate() {
+            before += (y - series.nominal.get(t)?).powi(2);
+            after += (y - series.augmented.get(t)?).powi(2);
+        }
+    }
+    (before > 0.0).then(|| ClosureCheck {
+        estimate: stated.estimate,
+        ci90: stated.ci90,
+        actual: 1.0 - after / before,
+    })
+}

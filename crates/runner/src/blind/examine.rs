@@ -1,0 +1,53 @@
+//! Diagnosing sealed rigs, and opening their keys afterwards.
+
+use super::case::Case;
+use super::seal::Sealed;
+use rayon::prelude::*;
+use switchback_estimator::rig::Rig;
+use switchback_gap::{DiagnoseError, Diagnosis, Effect, Settings};
+use switchback_maker::MakeError;
+
+/// Who diagnoses: a function of what a user's folder holds and of the effects to consider.
+pub type Examiner<'a> = &'a (dyn Fn(&Rig, &Settings) -> Result<Diagnosis, DiagnoseError> + Sync);
+
+/// Rigs diagnosed before their keys are opened; bounds memory, changes no result.
+const BATCH: usize = 64;
+
+/// Diagnoses batch after batch in parallel; the keys of a batch stay closed until all of it is diagnosed.
+///
+/// Results come in the order of `sealed`, whatever the threads do. `done` hears of each rig.
+///
+/// # Errors
+/// [`MakeError`] never in practice: every recipe was made before.
+pub fn examine(
+    sealed: &[Sealed],
+    examiner: Examiner<'_>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Case>, MakeError> {
+    let mut cases = Vec::with_capacity(sealed.len());
+    for batch in sealed.chunks(BATCH) {
+        let diagnosed: Vec<Option<Diagnosis>> = batch
+            .par_iter()
+            .map(|one| {
+                let diagnosis = examiner(&one.rig()?, &settings(one)).ok();
+                done();
+                Ok(diagnosis)
+            })
+            .collect::<Result<_, MakeError>>()?;
+        let judged: Vec<Case> = batch
+            .par_iter()
+            .zip(diagnosed)
+            .map(|(one, diagnosis)| Ok(Case::judge(one.ticket(), diagnosis.as_ref(), &one.open()?)))
+            .collect::<Result<_, MakeError>>()?;
+        cases.extend(judged);
+    }
+    Ok(cases)
+}
+
+/// The defaults, less the effect that is taken out of the library for this rig.
+fn settings(sealed: &Sealed) -> Settings {
+    let withheld = sealed.ticket().withheld.and_then(Effect::from_name);
+    let mut settings = Settings::default();
+    settings.effects.retain(|e| Some(*e) != withheld);
+    settings
+}

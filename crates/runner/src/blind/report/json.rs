@@ -1,0 +1,67 @@
+//! results.json.
+
+use crate::blind::case::Case;
+use crate::blind::design::Kind;
+use crate::blind::scenario::Study;
+use crate::blind::score::{Bound, Scores, Share};
+use serde_json::{Value, json};
+
+pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &Scores) -> String {
+    let count = |kind: Kind| cases.iter().filter(|c| c.kind == kind).count();
+    let kinds = [Kind::Single, Kind::None, Kind::Outside, Kind::Pair];
+    let rigs: serde_json::Map<String, Value> =
+        kinds.into_iter().map(|kind| (kind.name().to_owned(), count(kind).into())).collect();
+    let value = json!({
+        "study": "blind",
+        "name": study.name,
+        "question": study.question,
+        "version": env!("CARGO_PKG_VERSION"),
+        "seed": study.seed,
+        "design": {
+            "systems": study.systems, "sizes": study.sizes, "seeds": study.seeds, "none": study.none,
+            "outside": study.outside, "pairs": study.pairs, "slice": study.slice,
+        },
+        "key_sha256": key_sha256,
+        "rigs": rigs,
+        "refused": cases.iter().filter(|c| c.reply.status == "failed").map(|c| c.id).collect::<Vec<_>>(),
+        "measures": scores.measures.iter().map(|m| json!({
+            "key": m.key, "measure": m.text, "must_reach": m.target.map(bound), "expected": m.expected.map(bound),
+            "reached": m.reached, "rigs": m.rigs, "meets": m.meets_target(),
+        })).collect::<Vec<_>>(),
+        "sizes": scores.sizes.iter().map(|r| json!({
+            "size": r.wanted, "exact": share(r.exact), "class": share(r.class),
+            "mismatch_class": share(r.mismatch_class), "wrong": share(r.wrong),
+        })).collect::<Vec<_>>(),
+        "calibration": {
+            "ece": scores.calibration.ece, "top_ece": scores.calibration.top_ece,
+            "bins": scores.calibration.bins.iter()
+                .map(|b| json!({"claimed": b.claimed, "held": share(b.held)})).collect::<Vec<_>>(),
+        },
+        "where": scores.places.iter().map(|p| json!({
+            "axis": p.axis, "precision": p.precision, "recall": p.recall, "f1": p.f1, "cells": p.cells,
+        })).collect::<Vec<_>>(),
+        "closure": scores.closure.iter().map(|r| json!({
+            "effect": r.effect, "rigs": r.rigs, "stated": r.stated, "actual": r.actual,
+            "coverage": share(r.coverage), "error": r.error,
+        })).collect::<Vec<_>>(),
+        "baselines": scores.baselines.iter().map(|r| json!({
+            "rule": r.rule, "exact": share(r.exact), "false_alarm": share(r.false_alarm),
+            "outside_named": share(r.outside_named), "precision": share(r.precision),
+        })).collect::<Vec<_>>(),
+    });
+    let mut text = serde_json::to_string_pretty(&value).expect("numbers and strings are JSON");
+    text.push('\n');
+    text
+}
+
+fn share(share: Share) -> Value {
+    json!({"share": share.value(), "count": share.count, "of": share.of})
+}
+
+fn bound(bound: Bound) -> Value {
+    match bound {
+        Bound::AtLeast(x) => json!({"at_least": x}),
+        Bound::AtMost(x) => json!({"at_most": x}),
+        Bound::Within(low, high) => json!({"within": [low, high]}),
+    }
+}

@@ -1,0 +1,199 @@
+//! The scenario of a blind study.
+//!
+//! ```toml
+//! study = "blind"
+//! question = "Does the diagnosis name what was put in, and stay silent otherwise?"
+//! seed = 1
+//! systems = 3                  # families of nominal systems: orders 1, 2, 3, 1, …
+//! sizes = [0.5, 1.0, 2.0, 4.0] # surviving gap in noise sd
+//! seeds = 20                   # rigs a cell of effect × size × system
+//! none = 300                   # rigs without effect
+//! outside = 300                # effects foreign to the library or taken out of it
+//! pairs = 200                  # rigs with two effects
+//! slice = 100                  # optional: a random part of the design, this many rigs
+//!
+//! [expect]                     # optional: what must come out, see `Expect`
+//! exact = 0.9
+//! ```
+
+use crate::input::{FileError, TomlError, TomlFile};
+use miette::Diagnostic;
+use serde::Deserialize;
+use std::path::Path;
+use switchback_maker::Plan;
+use thiserror::Error;
+use toml::Spanned;
+
+/// A blind study that can be run.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The file's stem; names the report folder.
+    pub name: String,
+    /// What it is to answer.
+    pub question: String,
+    /// Seed of everything.
+    pub seed: u64,
+    /// Families of nominal systems, at least 1.
+    pub systems: usize,
+    /// Surviving gaps in noise sd; positive, at least one of them 1 or more.
+    pub sizes: Vec<f64>,
+    /// Rigs a cell of effect × size × system.
+    pub seeds: usize,
+    /// Rigs without effect.
+    pub none: usize,
+    /// Rigs whose effect the diagnosis does not know.
+    pub outside: usize,
+    /// Rigs with two effects.
+    pub pairs: usize,
+    /// Rigs to run, drawn from the design; all of it if none.
+    pub slice: Option<usize>,
+    /// Records of each rig.
+    pub plan: Plan,
+    /// What must come out.
+    pub expect: Expect,
+}
+
+/// What must come out; each figure is optional and a share unless said otherwise.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// Least share of plain single effects of size ≥ 1 named exactly.
+    pub exact: Option<f64>,
+    /// Least share of these with the right class.
+    pub class: Option<f64>,
+    /// Least share of single effects under a law of their own, size ≥ 1, with the right class.
+    pub mismatch_class: Option<f64>,
+    /// Largest share of rigs without effect for which a cause is named.
+    pub false_alarm: Option<f64>,
+    /// Least share of named causes that are right.
+    pub precision: Option<f64>,
+    /// Largest share of outsiders for which a cause is named.
+    pub outside_named: Option<f64>,
+    /// Largest expected calibration error.
+    pub ece: Option<f64>,
+    /// Least F1 of the cells flagged.
+    pub where_f1: Option<f64>,
+    /// Least and largest coverage of the 90 % closure intervals.
+    pub coverage: Option<[f64; 2]>,
+    /// Largest mean error of the closure at size ≥ 1.
+    pub closure_error: Option<f64>,
+    /// Least share of pairs found exactly.
+    pub pairs_exact: Option<f64>,
+    /// Largest share of single effects for which a second is named.
+    pub phantom: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WireStudy {
+    study: Spanned<String>,
+    question: String,
+    seed: u64,
+    systems: Spanned<usize>,
+    sizes: Spanned<Vec<f64>>,
+    seeds: usize,
+    none: usize,
+    outside: usize,
+    pairs: usize,
+    slice: Option<Spanned<usize>>,
+    #[serde(default)]
+    expect: Expect,
+}
+
+/// Why a file is no blind study.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum BlindError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] FileError),
+    /// Its content is refused.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Content(Box<TomlError>),
+}
+
+impl From<TomlError> for BlindError {
+    fn from(error: TomlError) -> Self {
+        Self::Content(Box::new(error))
+    }
+}
+
+/// Reads and checks a scenario with `study = "blind"`.
+///
+/// # Errors
+/// [`BlindError`] if it cannot be read, holds unknown keys or impossible values; content errors name the place.
+pub fn read(path: &Path) -> Result<Study, BlindError> {
+    let file = TomlFile::read(path)?;
+    let wire: WireStudy = file.parse()?;
+    check(&file, &wire)?;
+    Ok(Study {
+        name: path.file_stem().map_or_else(|| "blind".to_owned(), |s| s.to_string_lossy().into_owned()),
+        question: wire.question,
+        seed: wire.seed,
+        systems: wire.systems.into_inner(),
+        sizes: wire.sizes.into_inner(),
+        seeds: wire.seeds,
+        none: wire.none,
+        outside: wire.outside,
+        pairs: wire.pairs,
+        slice: wire.slice.map(Spanned::into_inner),
+        plan: Plan::default(),
+        expect: wire.expect,
+    })
+}
+
+fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
+    if wire.study.get_ref() != "blind" {
+        let message = format!("study = \"{}\" is not a blind study", wire.study.get_ref());
+        return Err(file.error(wire.study.span(), message, "write study = \"blind\""));
+    }
+    if *wire.systems.get_ref() == 0 {
+        return Err(file.error(wire.systems.span(), "systems = 0 leaves nothing to make", "give at least 1"));
+    }
+    let sizes = wire.sizes.get_ref();
+    if let Some(bad) = sizes.iter().find(|s| !(s.is_finite() && **s > 0.0)) {
+        let message = format!("size {bad} is no surviving gap");
+        return Err(file.error(wire.sizes.span(), message, "give positive numbers of noise sd"));
+    }
+    if !sizes.iter().any(|s| *s >= 1.0) {
+        let message = "no size reaches 1 noise sd, where causes must be named";
+        return Err(file.error(
+            wire.sizes.span(),
+            message,
+            "add a size of at least 1, e.g. sizes = [0.5, 1, 2, 4]",
+        ));
+    }
+    if let Some(slice) = wire.slice.as_ref().filter(|s| *s.get_ref() == 0) {
+        return Err(file.error(
+            slice.span(),
+            "slice = 0 leaves no rig",
+            "give a number of rigs, or leave the key out",
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn refused(change: (&str, &str)) -> String {
+        let text = "study = \"blind\"\nquestion = \"q\"\nseed = 1\nsystems = 3\nsizes = [0.5, 1.0]\nseeds = 2\nnone = 3\noutside = 3\npairs = 2\n";
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("blind.toml");
+        fs::write(&path, text.replace(change.0, change.1)).unwrap();
+        read(&path).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_refusal_names_the_place() {
+        assert!(refused(("seeds", "sedes")).contains(":6:1: unknown key `sedes`"));
+        assert!(refused(("\"blind\"", "\"consistency\"")).contains(":1:9:"));
+        assert!(refused(("[0.5, 1.0]", "[0.5]")).contains(":5:9: no size reaches 1"));
+        assert!(refused(("[0.5, 1.0]", "[-1.0, 2.0]")).contains("size -1"));
+        assert!(refused(("systems = 3", "systems = 0")).contains(":4:11:"));
+    }
+}

@@ -1,0 +1,180 @@
+//! The summary: what must be reached, what was, and what the scenario expects.
+
+use super::accuracy::singles;
+use super::calibration::Calibration;
+use super::places::PlaceRow;
+use super::{Share, closure};
+use crate::blind::case::Case;
+use crate::blind::design::Kind;
+use crate::blind::scenario::Expect;
+
+/// What a diagnosis must reach.
+pub const TARGETS: Expect = Expect {
+    exact: Some(0.90),
+    class: Some(0.95),
+    mismatch_class: Some(0.80),
+    false_alarm: Some(0.01),
+    precision: Some(0.98),
+    outside_named: Some(0.05),
+    ece: Some(0.03),
+    where_f1: Some(0.85),
+    coverage: Some([0.87, 0.93]),
+    closure_error: Some(0.05),
+    pairs_exact: Some(0.85),
+    phantom: Some(0.05),
+};
+
+/// What a figure must be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// At least this.
+    AtLeast(f64),
+    /// At most this.
+    AtMost(f64),
+    /// From the first to the second.
+    Within(f64, f64),
+}
+
+impl Bound {
+    /// Whether a figure meets the bound.
+    pub fn holds(self, x: f64) -> bool {
+        match self {
+            Self::AtLeast(low) => x >= low,
+            Self::AtMost(high) => x <= high,
+            Self::Within(low, high) => (low..=high).contains(&x),
+        }
+    }
+}
+
+/// One line of the summary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// The key in `[expect]`.
+    pub key: &'static str,
+    /// What is measured.
+    pub text: &'static str,
+    /// What must be reached.
+    pub target: Option<Bound>,
+    /// What the scenario expects.
+    pub expected: Option<Bound>,
+    /// What was reached; none where no rig tells.
+    pub reached: Option<f64>,
+    /// Rigs that tell, or cells for *where*.
+    pub rigs: usize,
+}
+
+impl Measure {
+    /// Whether the target is met, where a rig tells.
+    pub fn meets_target(&self) -> Option<bool> {
+        Some(self.target?.holds(self.reached?))
+    }
+
+    /// Whether the scenario's expectation is broken. A figure that no rig tells breaks it, too.
+    pub fn is_unexpected(&self) -> bool {
+        self.expected.is_some_and(|bound| !self.reached.is_some_and(|x| bound.holds(x)))
+    }
+}
+
+type Bounds = fn(&Expect) -> Option<Bound>;
+
+pub(super) fn measures(
+    cases: &[Case],
+    calibration: &Calibration,
+    places: &[PlaceRow],
+    expect: &Expect,
+) -> Vec<Measure> {
+    let of = |kind: Kind| cases.iter().filter(move |c| c.kind == kind);
+    let plain = || singles(cases).filter(|c| c.plain && c.is_large());
+    let other = || singles(cases).filter(|c| !c.plain && c.is_large());
+    let named = || cases.iter().filter(|c| c.kind != Kind::Outside && c.reply.status == "named");
+    let closures = || singles(cases).filter_map(|c| c.closure.as_ref());
+    let large_closures = || singles(cases).filter(|c| c.is_large()).filter_map(|c| c.closure.as_ref());
+    let place = places.iter().find(|p| p.axis == "all");
+    let share = |s: Share| (s.value(), s.of);
+    let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
+    let lines: [(&'static str, &'static str, Bounds, (Option<f64>, usize)); 12] = [
+        (
+            "exact",
+            "exact effect named, surviving gap ≥ 1 sd",
+            |e| e.exact.map(Bound::AtLeast),
+            share(Share::over(plain(), Case::exact)),
+        ),
+        (
+            "class",
+            "right class, surviving gap ≥ 1 sd",
+            |e| e.class.map(Bound::AtLeast),
+            share(Share::over(plain(), Case::class_right)),
+        ),
+        (
+            "mismatch_class",
+            "under law mismatch, right class, ≥ 1 sd",
+            |e| e.mismatch_class.map(Bound::AtLeast),
+            share(Share::over(other(), Case::class_right)),
+        ),
+        (
+            "false_alarm",
+            "a cause named where there is none",
+            |e| e.false_alarm.map(Bound::AtMost),
+            share(Share::over(of(Kind::None), Case::names_a_cause)),
+        ),
+        (
+            "precision",
+            "of the causes named, right ones",
+            |e| e.precision.map(Bound::AtLeast),
+            share(Share::over(named(), Case::all_named_are_true)),
+        ),
+        (
+            "outside_named",
+            "effect outside the library, yet a cause named",
+            |e| e.outside_named.map(Bound::AtMost),
+            share(Share::over(of(Kind::Outside), Case::names_a_cause)),
+        ),
+        (
+            "ece",
+            "calibration error of the probability (ECE)",
+            |e| e.ece.map(Bound::AtMost),
+            (calibration.ece, calibration.bins.iter().map(|b| b.held.of).sum()),
+        ),
+        (
+            "where_f1",
+            "where: F1 of the cells flagged (cells counted)",
+            |e| e.where_f1.map(Bound::AtLeast),
+            (place.map(|p| p.f1), place.map_or(0, |p| p.cells)),
+        ),
+        (
+            "coverage",
+            "coverage of the 90 % closure interval",
+            |e| e.coverage.map(|[low, high]| Bound::Within(low, high)),
+            share(closure::coverage(closures())),
+        ),
+        (
+            "closure_error",
+            "mean error of the closure, ≥ 1 sd",
+            |e| e.closure_error.map(Bound::AtMost),
+            (closure::mean(large_closures().map(closure::error)), large_closures().count()),
+        ),
+        (
+            "pairs_exact",
+            "pairs found exactly, count unknown",
+            |e| e.pairs_exact.map(Bound::AtLeast),
+            share(Share::over(of(Kind::Pair), Case::exact)),
+        ),
+        (
+            "phantom",
+            "phantom second effect",
+            |e| e.phantom.map(Bound::AtMost),
+            share(Share::over(singles(cases), two)),
+        ),
+    ];
+    lines
+        .into_iter()
+        .map(|(key, text, bound, (reached, rigs))| Measure {
+            key,
+            text,
+            target: bound(&TARGETS),
+            expected: bound(expect),
+            reached,
+            rigs,
+        })
+        .collect()
+}

@@ -1,0 +1,138 @@
+//! `switchback rig --effect EFFECT --size 2 --seed 7 --out DIR`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::output::OutputFolder;
+use crate::rig;
+use miette::{Diagnostic, IntoDiagnostic};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use switchback_maker::{EFFECTS, FOREIGN, Family, Ingredient, Key, MakeError, MakeRig, laws_of};
+use thiserror::Error;
+
+/// Make a rig with a chosen effect: records as a user would take them, and on stdout what was put in.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Effect to put in; may be given more than once; none makes a rig without a gap.
+    #[arg(long, value_name = "EFFECT")]
+    effect: Vec<String>,
+
+    /// Which law of the effects, 0 being the plain one; `--list` shows them.
+    #[arg(long, default_value_t = 0)]
+    law: usize,
+
+    /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise.
+    #[arg(long, default_value_t = 1.0)]
+    size: f64,
+
+    /// Everything else is drawn from this.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Order of the linear part, 1 to 3 [default: drawn].
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=3))]
+    order: Option<u8>,
+
+    /// Folder for rig.toml and the records.
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+
+    /// Print what was put in as JSON.
+    #[arg(long)]
+    json: bool,
+
+    /// List effects and laws instead.
+    #[arg(long)]
+    list: bool,
+}
+
+/// Why no rig was made.
+#[derive(Debug, Error, Diagnostic)]
+#[error(transparent)]
+#[diagnostic(help("`switchback rig --list` shows every effect with its laws"))]
+pub struct RigCommandError(#[from] MakeError);
+
+/// Makes the rig, writes its folder, prints its key.
+///
+/// # Errors
+/// An unknown effect or law, a size that is none, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    if args.list {
+        print!("{}", list());
+        return Ok(Outcome::Done);
+    }
+    let recipe = recipe(args).map_err(RigCommandError)?;
+    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
+    let made = recipe.make().map_err(RigCommandError)?;
+    if let Some(folder) = folder {
+        folder.commit(&rig::artefacts(&made.rig))?;
+    }
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&key_json(&made.key)).into_diagnostic()?);
+    } else {
+        print!("{}", told(&made.key));
+    }
+    Ok(Outcome::Done)
+}
+
+fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
+    let family = Family { order: args.order.map(usize::from), shape: None };
+    let mut recipe = MakeRig::new(args.seed).family(family);
+    for effect in args.effect.iter().filter(|name| *name != "none") {
+        recipe = recipe.with(Ingredient::with_law(effect, args.law, args.size)?);
+    }
+    Ok(recipe)
+}
+
+fn told(key: &Key) -> String {
+    let mut text = format!("order {}, {} borders, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
+    for e in &key.effects {
+        let _ = writeln!(
+            text,
+            "{} ({}, {}): {:.4} {}; survives the best nominal re-fit with {:.2} noise sd",
+            e.effect,
+            e.law,
+            e.stage.name(),
+            e.magnitude,
+            e.unit,
+            e.size
+        );
+        if (e.size / e.wanted - 1.0).abs() > 0.05 {
+            let _ = writeln!(text, "  (asked for {}; this system and law go no closer)", e.wanted);
+        }
+    }
+    if key.effects.is_empty() {
+        text.push_str("no effect\n");
+    }
+    text
+}
+
+/// A key as JSON.
+pub(crate) fn key_json(key: &Key) -> serde_json::Value {
+    let effects: Vec<_> = key
+        .effects
+        .iter()
+        .map(|e| {
+            serde_json::json!({
+                "effect": e.effect, "law": e.law, "plain": e.plain, "stage": e.stage.name(),
+                "magnitude": e.magnitude, "unit": e.unit, "wanted_size": e.wanted, "size": e.size,
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "seed": key.seed, "order": key.order, "a": key.a, "b": key.b, "borders": key.borders,
+        "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
+    })
+}
+
+fn list() -> String {
+    let mut text = String::new();
+    for (title, names) in [("effects", EFFECTS.as_slice()), ("in no library of causes", FOREIGN.as_slice())] {
+        let _ = writeln!(text, "{title}:");
+        for name in names {
+            let laws: Vec<_> =
+                laws_of(name).iter().enumerate().map(|(i, law)| format!("{i} {}", law.name())).collect();
+            let _ = writeln!(text, "  {name:22} {}", laws.join(", "));
+        }
+    }
+    text
+}

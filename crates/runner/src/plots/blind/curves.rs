@@ -1,0 +1,112 @@
+//! Shares as curves: accuracy against size, calibration, abstention.
+
+use super::page::{COLOURS, Chart, Frame, INK, PlotError, page};
+use crate::blind::{AbstentionRow, Calibration, Share, SizeRow};
+use plotters::prelude::*;
+
+const SIZE: (u32, u32) = (720, 460);
+
+/// Accuracy against the size of the surviving gap, with 95 % intervals (Wilson).
+///
+/// # Errors
+/// [`PlotError`] if the drawing library fails.
+pub fn accuracy(rows: &[SizeRow]) -> Result<String, PlotError> {
+    let largest = rows.iter().map(|r| r.wanted).fold(1.0, f64::max);
+    let least = rows.iter().map(|r| r.wanted).fold(1.0, f64::min);
+    let frame = Frame {
+        title: "What was put in is named",
+        names: &["exact", "right class", "other laws, right class", "a wrong cause"],
+        x: ("surviving gap, noise sd", least.log2() - 0.3..largest.log2() + 0.3),
+        y: ("share of rigs", 0.0..1.02),
+    };
+    let series: [fn(&SizeRow) -> Share; 4] = [|r| r.exact, |r| r.class, |r| r.mismatch_class, |r| r.wrong];
+    page(SIZE, |canvas| {
+        frame.draw(
+            canvas,
+            |x| format!("{:.2}", x.exp2()),
+            |chart| {
+                for (k, share) in series.into_iter().enumerate() {
+                    // Slightly apart, so that intervals do not cover each other.
+                    let aside = 0.03 * (k as f64 - 1.5);
+                    let points: Vec<_> = rows.iter().map(|r| (r.wanted.log2() + aside, share(r))).collect();
+                    curve(chart, COLOURS[k], &points)?;
+                }
+                Ok(())
+            },
+        )
+    })
+}
+
+/// Share of verdicts that hold against the probability they claim.
+///
+/// # Errors
+/// [`PlotError`] if the drawing library fails.
+pub fn calibration(table: &Calibration) -> Result<String, PlotError> {
+    let frame = Frame {
+        title: "Probabilities mean what they say where the curve follows the diagonal",
+        names: &["verdicts"],
+        x: ("probability claimed", 0.0..1.02),
+        y: ("share that holds", 0.0..1.02),
+    };
+    page(SIZE, |canvas| {
+        frame.draw(
+            canvas,
+            |x| format!("{x:.1}"),
+            |chart| {
+                let diagonal = LineSeries::new([(0.0, 0.0), (1.0, 1.0)], INK.mix(0.4));
+                chart.draw_series(diagonal).map_err(PlotError::new)?;
+                let points: Vec<_> = table.bins.iter().map(|b| (b.claimed, b.held)).collect();
+                curve(chart, COLOURS[0], &points)
+            },
+        )
+    })
+}
+
+/// Share of right verdicts against the share that is still given.
+///
+/// # Errors
+/// [`PlotError`] if the drawing library fails.
+pub fn abstention(rows: &[AbstentionRow]) -> Result<String, PlotError> {
+    let frame = Frame {
+        title: "Staying silent below a probability",
+        names: &["verdicts still given", "of these, right"],
+        x: ("least probability of a verdict", 0.0..1.02),
+        y: ("share", 0.0..1.02),
+    };
+    let series: [fn(&AbstentionRow) -> Share; 2] = [|r| r.answered, |r| r.right];
+    page(SIZE, |canvas| {
+        frame.draw(
+            canvas,
+            |x| format!("{x:.1}"),
+            |chart| {
+                for (k, share) in series.into_iter().enumerate() {
+                    let points: Vec<_> = rows.iter().map(|r| (r.threshold, share(r))).collect();
+                    curve(chart, COLOURS[k], &points)?;
+                }
+                Ok(())
+            },
+        )
+    })
+}
+
+fn curve(chart: &mut Chart<'_, '_>, colour: RGBColor, points: &[(f64, Share)]) -> Result<(), PlotError> {
+    let told: Vec<_> = points.iter().filter_map(|(x, s)| Some((*x, s.value()?, wilson(*s)))).collect();
+    let line = LineSeries::new(told.iter().map(|(x, y, _)| (*x, *y)), colour.stroke_width(2));
+    chart.draw_series(line).map_err(PlotError::new)?;
+    let dots = told.iter().map(|(x, y, _)| Circle::new((*x, *y), 3, colour.filled()));
+    chart.draw_series(dots).map_err(PlotError::new)?;
+    let bars = told.iter().map(|(x, _, (low, high))| PathElement::new([(*x, *low), (*x, *high)], colour));
+    chart.draw_series(bars).map_err(PlotError::new)?;
+    Ok(())
+}
+
+/// Wilson's 95 % interval of a share.
+fn wilson(share: Share) -> (f64, f64) {
+    const Z: f64 = 1.96;
+    let n = share.of as f64;
+    let p = share.count as f64 / n;
+    let centre = p + Z * Z / (2.0 * n);
+    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let scale = 1.0 + Z * Z / n;
+    (((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0))
+}

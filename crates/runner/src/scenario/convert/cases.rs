@@ -1,0 +1,151 @@
+//! Cases: the base system with each case's changes.
+
+use super::check::{distinct, unknown};
+use super::expect::expect;
+use crate::scenario::border::WireBorder;
+use crate::scenario::error::Fault;
+use crate::scenario::wire::{WireCase, WireScenario, WireSystem, WireSystemOverride};
+use crate::scenario::{Border, Case, Disturbance, Expect, Method};
+use std::ops::Range;
+use std::sync::Arc;
+use switchback_estimator::hysteresis::Interval;
+use switchback_estimator::linear::{LinearSystem, is_stable};
+use toml::Spanned;
+
+pub(super) fn cases(
+    wire: &WireScenario,
+    borders: &[WireBorder],
+    default: &Expect,
+    swept: &[Method],
+) -> Result<Vec<Case>, Fault> {
+    distinct(wire.case.iter().map(|c| &c.name))?;
+    let base = &wire.system;
+    if wire.case.is_empty() {
+        let system = system(base, None)?;
+        let n = system.order();
+        return Ok(vec![Case {
+            name: "all assumptions hold".to_owned(),
+            borders: hystereses(borders, base, None)?,
+            disturbance: Disturbance::White,
+            order: n,
+            spacing: n.max(2),
+            expect: default.clone(),
+            system,
+        }]);
+    }
+    wire.case
+        .iter()
+        .map(|case| {
+            let change = case.system.as_ref();
+            let system = system(base, change)?;
+            let order = order(case, system.order())?;
+            Ok(Case {
+                name: case.name.get_ref().clone(),
+                borders: hystereses(borders, base, change)?,
+                disturbance: disturbance(case)?,
+                order,
+                spacing: spacing(case, system.order().max(order))?,
+                expect: case.expect.as_ref().map_or_else(|| Ok(default.clone()), |e| expect(e, swept))?,
+                system,
+            })
+        })
+        .collect()
+}
+
+/// The base system with a case's changes.
+fn system(
+    base: &Spanned<WireSystem>,
+    change: Option<&Spanned<WireSystemOverride>>,
+) -> Result<LinearSystem, Fault> {
+    let overriding = change.map(Spanned::get_ref);
+    let a = overriding.and_then(|c| c.a.as_ref()).unwrap_or(&base.get_ref().a);
+    let b = overriding.and_then(|c| c.b.as_ref()).unwrap_or(&base.get_ref().b);
+    LinearSystem::new(a.get_ref().clone(), b.get_ref().clone()).map_err(|error| {
+        let span = change.map_or_else(|| a.span(), Spanned::span);
+        Fault::new(
+            span,
+            error.to_string(),
+            "change a or b so that A is stable, B(1) ≠ 0 and both are coprime",
+        )
+    })
+}
+
+/// Every border on the case's interval.
+fn hystereses(
+    borders: &[WireBorder],
+    base: &Spanned<WireSystem>,
+    change: Option<&Spanned<WireSystemOverride>>,
+) -> Result<Vec<Border>, Fault> {
+    let wire = change.and_then(|c| c.get_ref().interval.as_ref()).unwrap_or(&base.get_ref().interval);
+    let (low, high) = *wire.get_ref();
+    let interval = Interval::new(low, high)
+        .map_err(|e| Fault::new(wire.span(), e.to_string(), "write interval = [h_m, h_M] with h_m < h_M"))?;
+    borders
+        .iter()
+        .map(|border| {
+            let hysteresis = Arc::new(border.on(interval)?);
+            Ok(Border { name: border.name.get_ref().clone(), hysteresis })
+        })
+        .collect()
+}
+
+fn disturbance(case: &WireCase) -> Result<Disturbance, Fault> {
+    let Some(wire) = &case.disturbance else { return Ok(Disturbance::White) };
+    let d = wire.get_ref();
+    match d.kind.get_ref().as_str() {
+        "coloured" => coloured(wire.span(), d.ar.as_ref(), d.ma.as_ref()),
+        kind @ ("white" | "output") => match d.ar.as_ref().or(d.ma.as_ref()) {
+            Some(extra) => Err(Fault::new(
+                extra.span(),
+                format!("{kind} noise has no colouring filter"),
+                "remove it, or write kind = \"coloured\"",
+            )),
+            None if kind == "white" => Ok(Disturbance::White),
+            None => Ok(Disturbance::Output),
+        },
+        _ => Err(unknown(&d.kind, "disturbance", &["white", "coloured", "output"])),
+    }
+}
+
+fn coloured(
+    span: Range<usize>,
+    ar: Option<&Spanned<Vec<f64>>>,
+    ma: Option<&Spanned<Vec<f64>>>,
+) -> Result<Disturbance, Fault> {
+    let list = |x: Option<&Spanned<Vec<f64>>>| x.map_or_else(Vec::new, |v| v.get_ref().clone());
+    let (ar_values, ma_values) = (list(ar), list(ma));
+    for part in [ar, ma].into_iter().flatten() {
+        if part.get_ref().iter().any(|x| !x.is_finite()) {
+            return Err(Fault::new(part.span(), "every coefficient must be finite", "write plain numbers"));
+        }
+    }
+    if ar_values.iter().chain(&ma_values).all(|&x| x == 0.0) {
+        let remedy = "give ar = [d1, …] or ma = [m1, …], or write kind = \"white\"";
+        return Err(Fault::new(span, "coloured noise without a colouring filter", remedy));
+    }
+    if !ar_values.is_empty() && !is_stable(&ar_values) {
+        let at = ar.map_or(span, Spanned::span);
+        let remedy = "bring every root of q^k + d1 q^(k−1) + … inside the unit circle";
+        return Err(Fault::new(at, "the colouring filter is unstable", remedy));
+    }
+    Ok(Disturbance::Coloured { ar: ar_values, ma: ma_values })
+}
+
+fn order(case: &WireCase, true_order: usize) -> Result<usize, Fault> {
+    match &case.order {
+        None => Ok(true_order),
+        Some(order) if *order.get_ref() >= 1 => Ok(*order.get_ref()),
+        Some(order) => Err(Fault::new(order.span(), "an order is at least 1", "write 1 or more")),
+    }
+}
+
+/// Pulses `max(n, 2)` apart, with the larger of the true and the assumed order, unless the case breaks that on purpose.
+fn spacing(case: &WireCase, order: usize) -> Result<usize, Fault> {
+    match &case.spacing {
+        None => Ok(order.max(2)),
+        Some(spacing) if *spacing.get_ref() >= 1 => Ok(*spacing.get_ref()),
+        Some(spacing) => {
+            Err(Fault::new(spacing.span(), "pulses cannot coincide", "write 1 or more; max(n, 2) is safe"))
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! From what the file says to what can be run; every judgement of a value is made here.
+
+mod cases;
+mod check;
+mod expect;
+mod sweep;
+
+use super::border::WireBorder;
+use super::error::Fault;
+use super::wire::{WirePrecision, WireScenario, WireSystem};
+use super::{Coupling, Labels, Replication, Scenario, Stopping};
+use cases::cases;
+use check::{positive, unknown};
+use expect::{expect, methods};
+use sweep::{selected, sweep};
+use toml::Spanned;
+
+/// Converts a whole file.
+pub(in crate::scenario) fn scenario(
+    name: String,
+    wire: WireScenario,
+    borders: Vec<WireBorder>,
+    source: serde_json::Value,
+) -> Result<Scenario, Fault> {
+    study(&wire.study)?;
+    let replication = replication(&wire)?;
+    let coupling = coupling(wire.coupling.as_ref())?;
+    let (borders, sweep_methods) = (selected(borders, &wire.sweep)?, methods(&wire.sweep)?);
+    let expect = expect(&wire.expect, &sweep_methods)?;
+    let cases = cases(&wire, &borders, &expect, &sweep_methods)?;
+    let sweep = sweep(&wire.sweep, sweep_methods, &cases)?;
+    let labels = labels(wire.system.get_ref());
+    Ok(Scenario {
+        name,
+        question: wire.question,
+        seed: wire.seed,
+        replication,
+        coupling,
+        labels,
+        cases,
+        sweep,
+        source,
+    })
+}
+
+fn study(kind: &Spanned<String>) -> Result<(), Fault> {
+    match kind.get_ref().as_str() {
+        "consistency" => Ok(()),
+        _ => Err(Fault::new(kind.span(), "not a consistency study", "write study = \"consistency\"")),
+    }
+}
+
+fn replication(wire: &WireScenario) -> Result<Replication, Fault> {
+    let replicates = *wire.replicates.get_ref();
+    if replicates < 2 {
+        let why = "a standard deviation needs at least two replicates";
+        return Err(Fault::new(
+            wire.replicates.span(),
+            why,
+            "write 2 or more; 500 resolves a coverage to 1 %",
+        ));
+    }
+    let stopping = match (&wire.precision, &wire.max_replicates) {
+        (None, None) => None,
+        (Some(precision), Some(max)) if *max.get_ref() >= replicates => {
+            Some(stopping(precision, *max.get_ref())?)
+        }
+        (Some(_), Some(max)) => {
+            let why = format!("below replicates = {replicates}");
+            return Err(Fault::new(max.span(), why, "raise max_replicates, or lower replicates"));
+        }
+        (Some(precision), None) => {
+            let why = "a precision needs a limit on the replicates it may cost";
+            return Err(Fault::new(precision.span(), why, "add max_replicates = …"));
+        }
+        (None, Some(max)) => {
+            let why = "without a precision nothing goes beyond `replicates`";
+            return Err(Fault::new(max.span(), why, "add precision = { … }, or remove max_replicates"));
+        }
+    };
+    Ok(Replication { replicates, stopping })
+}
+
+fn stopping(precision: &Spanned<WirePrecision>, max_replicates: usize) -> Result<Stopping, Fault> {
+    let wire = precision.get_ref();
+    if wire.bias_mcse.is_none() && wire.sd_relative_mcse.is_none() {
+        let remedy = "write precision = { bias_mcse = …, sd_relative_mcse = … } with one or both";
+        return Err(Fault::new(precision.span(), "this precision asks for nothing", remedy));
+    }
+    let checked = |x: &Option<Spanned<f64>>| x.as_ref().map(positive).transpose();
+    Ok(Stopping {
+        bias_mcse: checked(&wire.bias_mcse)?,
+        sd_relative_mcse: checked(&wire.sd_relative_mcse)?,
+        max_replicates,
+    })
+}
+
+fn coupling(wire: Option<&Spanned<String>>) -> Result<Coupling, Fault> {
+    let Some(name) = wire else { return Ok(Coupling::Shared) };
+    match name.get_ref().as_str() {
+        "shared" => Ok(Coupling::Shared),
+        "independent" => Ok(Coupling::Independent),
+        _ => Err(unknown(name, "coupling", &["shared", "independent"])),
+    }
+}
+
+fn labels(system: &WireSystem) -> Labels {
+    Labels {
+        input: system.input.clone().unwrap_or_else(|| "input v".to_owned()),
+        output: system.output.clone().unwrap_or_else(|| "output y".to_owned()),
+    }
+}
