@@ -45,50 +45,55 @@ def results(entries, missing, setting):
 
 def table(page):
     """The results as Markdown."""
-    machine = page["machine"]
-    lines = [
+    return "\n".join([*heading(page), "", *rows(page), *footnote(page), "", *particulars(page)]) + "\n"
+
+
+def heading(page):
+    return [
         "# The leaf-spring grid in other tools",
         "",
         f"{page['cells']} cells of `scenarios/leafspring.toml`, {page['grid_samples']:,} samples a replicate; the paper's",
-        "descendant estimate of every cell. One thread, processor time, the median of",
-        f"{page['rounds']} rounds; `×` is the median over the rounds of the tool's time over Switchback's just before it.",
-        "",
-        "| tool | how | seconds a replicate | ns a sample | × | (least – most) | largest difference |",
-        "|---|---|--:|--:|--:|--:|--:|",
+        f"descendant estimate of every cell. One thread, processor time, the median of {page['rounds']} rounds; `×` is the",
+        "median over the rounds of the tool's time over Switchback's just before it. The difference is the largest to",
+        "Switchback's estimate in any of a, b, F on one of its own replicates.",
     ]
+
+
+def rows(page):
+    yield "| tool | how | seconds a replicate | ns a sample | × | (least – most) | largest difference |"
+    yield "|---|---|--:|--:|--:|--:|--:|"
     for row in page["tools"]:
-        name = row["name"] + (" ¹" if row["largest_samples_timed"] else "")
-        lines.append(
-            f"| {name} | {row['how']} | {row['seconds_a_replicate']:.3g} | {row['nanoseconds_a_sample']:,.0f} "
-            f"| **{row['ratio']:,.0f}** | {min(row['ratios']):,.0f} – {max(row['ratios']):,.0f} "
-            f"| {row['largest_difference']:.0e} |"
+        mark = " ¹" if row["largest_samples_timed"] else ""
+        yield (
+            f"| {row['name']}{mark} | {row['how']} | {row['seconds_a_replicate']:.3g} "
+            f"| {row['nanoseconds_a_sample']:,.0f} | **{row['ratio']:,.0f}** "
+            f"| {min(row['ratios']):,.0f} – {max(row['ratios']):,.0f} | {row['largest_difference']:.0e} |"
         )
-    lines += [f"| {name} | not available: {reason} | | | | | |" for name, reason in page["not_available"].items()]
+    for name, reason in page["not_available"].items():
+        yield f"| {name} | not available: {reason} | | | | | |"
     seconds = statistics.median(row["switchback_seconds_a_replicate"] for row in page["tools"])
-    lines.append(
-        f"| Switchback | {page['switchback']} | {seconds:.3g} | {1e9 * seconds / page['grid_samples']:.3g} | 1 | | |"
+    yield (
+        f"| Switchback | {page['switchback']} | {seconds:.3g} | {1e9 * seconds / page['grid_samples']:.2g} | 1 | | |"
     )
-    slow = [
-        f"{row['name']} up to N = {row['largest_samples_timed']:,}"
-        for row in page["tools"]
-        if row["largest_samples_timed"]
-    ]
+
+
+def footnote(page):
+    slow = [row for row in page["tools"] if row["largest_samples_timed"]]
     if slow:
-        lines += [
-            "",
-            f"¹ Too slow for the whole grid. Timed at one border and noise level ({'; '.join(slow)}), every m; taken as the",
-            "same for the others, and for larger N as the same a sample as at the largest N timed.",
-        ]
-    lines += [
-        "",
-        "The difference is the largest to Switchback's estimate in any of a, b, F on one of its own replicates, over all cells",
-        f"(¹ those of N = {page['slow_check_samples']:,}).",
-        "",
+        timed = "; ".join(f"{row['name']} up to N = {row['largest_samples_timed']:,}" for row in slow)
+        yield ""
+        yield f"¹ Timed at one border and noise level, every m ({timed}), and taken as the same for"
+        yield f"the others; beyond that N as the same a sample. Checked at N = {page['slow_check_samples']:,} only."
+
+
+def particulars(page):
+    machine = page["machine"]
+    versions = dict.fromkeys(row["version"] for row in page["tools"])
+    return [
         f"Machine: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, Python {machine['python']}.",
-        f"Versions: {'; '.join(dict.fromkeys(row['version'] for row in page['tools']))}.",
+        f"Versions: {'; '.join(versions)}.",
         f"Command: `{page['command']}`.",
     ]
-    return "\n".join(lines) + "\n"
 
 
 def write(page, folder):

@@ -1,8 +1,7 @@
 % octave_arx (TASK, SOURCE, TARGET): fit a given record ("estimate") or time one replicate ("time").
 function octave_arx (task, source, target)
   pkg load control
-  job = jsondecode (fileread (source));
-  job.pulses = reshape (job.pulses, job.points, [])';
+  job = prepare (jsondecode (fileread (source)));
   if (strcmp (task, "estimate"))
     result = regress (job, job.y);
   else
@@ -17,6 +16,19 @@ function octave_arx (task, source, target)
   fclose (file);
 endfunction
 
+% Pulse columns and noise-free forcing from one period of each.
+function job = prepare (job)
+  order = numel (job.a);
+  one_period = job.visits' == (0:job.period-1)';
+  job.pulses = double (one_period(phases (job, order),:));
+  job.drive = job.forcing(phases (job, order + job.settling))(:);
+endfunction
+
+% The phases, from 1 on, of a record that begins so many samples before phase 0.
+function index = phases (job, before)
+  index = mod (-before:job.samples-1, job.period) + 1;
+endfunction
+
 function [b, f] = replicate (job)
   [y, y0] = simulate (job);
   [b, f] = border (regress (job, y - y0), y0);
@@ -26,7 +38,7 @@ endfunction
 function [y, y0] = simulate (job)
   order = numel (job.a);
   y = respond (job, job.drive);
-  step = respond (job, job.step_drive);
+  step = respond (job, job.step_forcing);
   y0 = mean (step(order+1:end));
 endfunction
 
@@ -36,10 +48,10 @@ endfunction
 
 function fit = regress (job, y)
   order = numel (job.a);
-  sys = arx (iddata (y, job.pulses, 1), "na", order, "nb", order * ones (1, job.points));
+  sys = arx (iddata (y, job.pulses, 1), "na", order, "nb", order * ones (1, numel (job.visits)));
   [num, den] = filtdata (sys);
   fit.a = den{1,1}(2:end);
-  fit.heights = cell2mat (cellfun (@(b) b(2:order+1)(:), num(1,1:job.points), "uniformoutput", false));
+  fit.heights = cell2mat (cellfun (@(b) b(2:order+1)(:), num(1,1:numel (job.visits)), "uniformoutput", false));
 endfunction
 
 % (3.24a-b), (3.25)

@@ -1,7 +1,6 @@
 """GNU Octave's `arx` from its control package, in a process of its own."""
 
 import json
-import os
 import shutil
 import subprocess
 import tempfile
@@ -16,10 +15,14 @@ from .tool import Tool, Unavailable
 SCRIPT = Path(__file__).with_name("octave_arx.m")
 
 
+class OctaveError(Exception):
+    """Octave stopped; the message is what it said."""
+
+
 class OctaveArx(Tool):
     name = "GNU Octave `arx`"
     how = "`filter`, `arx` of the control package, one input a level"
-    largest_samples = 10_000
+    largest_samples = 100_000
 
     def __init__(self):
         self.command = shutil.which("octave-cli")
@@ -27,8 +30,8 @@ class OctaveArx(Tool):
             raise Unavailable("octave-cli not found; apt-get install octave octave-control, or run.sh --octave")
         try:
             self.versions = self._octave("pkg load control; disp([version ', control ' ver('control').Version])")
-        except subprocess.CalledProcessError as error:
-            raise Unavailable(f"no control package ({error.stderr.strip()}); apt-get install octave-control") from error
+        except OctaveError as error:
+            raise Unavailable(f"no control package ({error}); apt-get install octave-control") from error
 
     def version(self):
         return f"octave {self.versions.strip()}"
@@ -46,12 +49,13 @@ class OctaveArx(Tool):
         experiment = cell.experiment
         job = {
             "a": experiment.a,
-            "points": experiment.points,
+            "samples": cell.samples,
             "noise": cell.noise,
             "settling": SETTLING,
-            "pulses": cell.pulses.ravel(),
-            "drive": cell.drive,
-            "step_drive": experiment.step_forcing,
+            "period": experiment.period,
+            "visits": experiment.visits,
+            "forcing": experiment.forcing,
+            "step_forcing": experiment.step_forcing,
             **extra,
         }
         with tempfile.TemporaryDirectory() as folder:
@@ -62,5 +66,7 @@ class OctaveArx(Tool):
 
     def _octave(self, code):
         command = [self.command, "--quiet", "--no-init-file", "--eval", code]
-        environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise OctaveError(done.stderr.strip())
+        return done.stdout

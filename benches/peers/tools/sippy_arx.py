@@ -10,7 +10,7 @@ from .tool import Tool, Unavailable
 class SippyArx(Tool):
     name = "SIPPY `ARX`"
     how = '`system_identification(…, "ARX")`, one input a level'
-    largest_samples = 3000
+    largest_samples = 10_000
 
     def __init__(self):
         try:

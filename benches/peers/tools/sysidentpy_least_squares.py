@@ -10,7 +10,6 @@ from .tool import Tool, Unavailable
 class SysidentpyLeastSquares(Tool):
     name = "SysIdentPy `LeastSquares`"
     how = "`initial_lagged_matrix`, `LeastSquares().optimize`; no structure selection"
-    largest_samples = 10_000
 
     def __init__(self):
         try:
