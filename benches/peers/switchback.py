@@ -14,6 +14,9 @@ from grid import ROOT, Cell
 
 BINARY = ROOT / "target" / "release" / "leafspring_grid"
 
+# A study of fewer has no standard deviation.
+LEAST_REPLICATES = 2
+
 
 @dataclass(frozen=True)
 class Replicate:
@@ -43,7 +46,7 @@ class Grid:
 def replicate_zero(cells):
     """The first replicate of every cell, sample by sample."""
     with tempfile.TemporaryDirectory() as folder:
-        page = run(1, "--records", folder)
+        page = run(LEAST_REPLICATES, "--records", folder)
         index = json.loads(Path(folder, "index.json").read_text())
         records = {place(entry): Record(folder, entry) for entry in index if entry["experiment"] == "descendant"}
     estimates = {(*place(found), found["samples"]): found for found in page["cells"]}
