@@ -89,6 +89,8 @@ pub(crate) enum EquationColumn {
     Line { frequency: f64, track: Option<usize>, sine: bool },
     /// A polynomial of a clock, of the given degree.
     Trend { clock: Clock, degree: usize },
+    /// `radiusᵗ cos(frequency·t)` (or sine) on one track: the unknown initial state of a slow filter.
+    Decay { track: usize, radius: f64, frequency: f64, sine: bool },
     /// A bump function of a track: linear interpolation between `pieces` equal pieces.
     Local { track: usize, piece: usize, pieces: usize },
 }
@@ -125,8 +127,7 @@ pub(crate) struct NoiseLaw {
 /// A composition of effects.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Assembly {
-    /// Extra lags of A and of B beyond the nominal order.
-    pub(crate) extra_a: usize,
+    /// Coefficients of B beyond the nominal order.
     pub(crate) extra_b: usize,
     /// Delay of the input, samples.
     pub(crate) delay: f64,

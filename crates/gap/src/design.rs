@@ -375,7 +375,8 @@ impl<'a> JacobianStream<'a> {
     }
 }
 
-fn filtered_rows(design: &Design, track: &DesignTrack, k: usize) -> Vec<f64> {
+/// Rows after the poles, dense, row-major, `k` a sample.
+pub(crate) fn filtered_rows(design: &Design, track: &DesignTrack, k: usize) -> Vec<f64> {
     let n = track.x.len();
     let mut out = vec![0.0; n * k];
     let rest = 1.0 / (1.0 + design.poles.iter().sum::<f64>());

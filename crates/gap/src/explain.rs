@@ -52,6 +52,7 @@ impl Explanation {
 
     /// The same explanation with border knots placed anew.
     pub(crate) fn with_knots_refined(mut self, campaign: &Campaign) -> Self {
+        let before = self.clone();
         let parts = self.parts.clone();
         // Parameters with corners stay where their profile put them.
         let held = parts.iter().any(|p| p.search == Search::Profile);
@@ -64,15 +65,15 @@ impl Explanation {
             free.own_se.clear();
             free.parameters -= own.len() as f64;
             let assembly = assembled(&parts, &values);
-            let mut refined = crate::knots::refine(campaign, free, &|_| assembly.clone());
+            let mut refined = crate::knots::replace(campaign, &free, &|_| assembly.clone());
             refined.own = own;
             refined.own_se = own_se;
             refined.parameters += refined.own.len() as f64;
             self.fit = refined;
         } else {
-            self.fit = crate::knots::refine(campaign, self.fit.clone(), &|values| assembled(&parts, values));
+            self.fit = crate::knots::replace(campaign, &self.fit, &|values| assembled(&parts, values));
         }
-        self
+        if self.bic() > before.bic() { before } else { self }
     }
 }
 
@@ -89,8 +90,8 @@ fn assembled(parts: &[Part], values: &[f64]) -> Assembly {
 }
 
 /// Gauss–Newton rounds from each start, and from the best.
-const SCREENING: usize = 2;
-const FINAL: usize = 8;
+const SCREENING: usize = 3;
+const FINAL: usize = 14;
 
 /// Fits one more effect on top of what is known; `None` where the records rule it out.
 pub(crate) fn explain(scene: &Scene<'_>, known: &Explanation, effect: Effect) -> Option<Explanation> {
@@ -123,6 +124,7 @@ fn fit_variant(
     let task = Task { ground, build: &build, known: &known.fit, base };
     let fit = match variant.search {
         Search::Smooth => task.smooth(&variant.starts),
+        Search::Conditional => task.conditional(&variant.starts),
         Search::Profile => task.profile(&variant.starts),
     }?;
     Some(Explanation { parts, fit, handicap: known.handicap + variant.handicap })
@@ -170,7 +172,50 @@ impl Task<'_> {
         }
         let screened =
             best(starts.iter().filter_map(|own| self.run(&self.joined(own), &self.base, SCREENING)))?;
-        self.run(&screened.own, &screened.linear, FINAL)
+        self.settled(self.run(&screened.own, &screened.linear, FINAL)?)
+    }
+
+    fn conditional(&self, starts: &[Vec<Own>]) -> Option<Fit> {
+        let held = best(
+            starts
+                .iter()
+                .flat_map(|own| {
+                    let own = self.joined(own);
+                    [self.held(&own, &self.base, 4), self.afresh(&own)]
+                })
+                .flatten(),
+        )?;
+        self.settled(self.run(&held.own, &held.linear, FINAL)?)
+    }
+
+    /// The fit with the own parameters held, from scratch: behind a filter the nominal `A` may hold a pole that the filter
+    /// ought to have, and no small step gets out of that.
+    fn afresh(&self, own: &[Own]) -> Option<Fit> {
+        let assembly = self.assembly(own);
+        if assembly.denominator.len() < 2 || !assembly.border_columns.is_empty() {
+            return None;
+        }
+        let order = self.known.linear.a.len();
+        let start =
+            crate::nominal::first_guess(self.ground.campaign, self.ground.grid, order, &assembly).ok()?;
+        self.held(own, &start, 3)
+    }
+
+    /// Alternates between everything together and the own parameters held, until neither moves: where own parameters
+    /// and dynamics trade against each other, a joint step may stall far from the best point.
+    fn settled(&self, mut top: Fit) -> Option<Fit> {
+        for _ in 0..3 {
+            let held = self.held(&top.own, &top.linear, 4)?;
+            let next = self.run(&held.own, &held.linear, FINAL)?;
+            let gained = top.deviance - next.deviance;
+            if gained > 0.0 {
+                top = next;
+            }
+            if gained < 1.0 {
+                break;
+            }
+        }
+        Some(top)
     }
 
     /// A profile over the starts, then a pattern search whose steps start at each parameter's `step`.
@@ -207,6 +252,7 @@ impl Task<'_> {
     /// The linear parameters with zeros for what the assembly adds.
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
         let mut p = start.clone();
+        p.b.resize(self.known.linear.a.len() + assembly.extra_b, 0.0);
         p.f.resize(self.ground.grid.len() + assembly.border_columns.len(), 0.0);
         p.d.resize(assembly.equation_columns.len(), 0.0);
         p

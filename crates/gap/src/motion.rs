@@ -28,8 +28,9 @@ pub(crate) struct Motion {
 
 /// Follows an input through a play of full width `play`; moves below `threshold` against the branch are no reversal.
 ///
-/// With play, the border coordinate stays the recorded `v`: each branch engages at `v ∓ play/2`, a shift that the
-/// border tables absorb. What the play leaves is the rest after each reversal.
+/// The play's output `p` stays within half the play of `v` and moves only when pushed; the branch is the direction in which it
+/// last moved. On each branch `p = v ∓ play/2`, a shift that the border tables absorb: the border coordinate stays the
+/// recorded `v`. What the play leaves is the rest after each reversal.
 pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
     let mut out = Vec::with_capacity(v.len());
     let Some(&first) = v.first() else { return out };
@@ -44,43 +45,56 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
         step: 0.0,
         path: 0.0,
     };
+    let half = 0.5 * play;
+    let mut p = first;
     // The furthest point reached on the present branch: the next reversal is measured from here.
     let mut extreme = first;
-    // Whether the present branch has taken up the play; a record starts engaged.
-    let mut engaged = true;
     out.push(m);
     for t in 1..v.len() {
         let step = v[t] - v[t - 1];
         m.step = step;
         m.path += step.abs();
+        let pushed = p.max(v[t] - half).min(v[t] + half);
+        let push = pushed - p;
+        p = pushed;
         m.reversal = false;
-        m.moves = false;
-        if step != 0.0 {
-            if m.branch == 0.0 {
-                m.branch = step.signum();
-                m.reversal = true;
-                m.turn = v[t - 1];
-                extreme = v[t];
-            }
-            let back = (extreme - v[t]) * m.branch;
-            if back > threshold {
-                m.branch = -m.branch;
+        m.moves = push != 0.0;
+        if m.moves {
+            let back = (extreme - p) * m.branch;
+            if m.branch == 0.0 || back > threshold {
+                m.branch = push.signum();
                 m.reversal = true;
                 m.loop_size = (extreme - m.turn).abs();
                 m.turn = extreme;
-                extreme = v[t];
-                engaged = play <= 0.0;
+                extreme = p;
             } else if back <= 0.0 {
-                extreme = v[t];
+                extreme = p;
             }
-            m.travel = (v[t] - m.turn).abs();
-            if !engaged && m.travel > play {
-                engaged = true;
-            }
-            m.moves = engaged;
+            m.travel = (p - m.turn).abs();
         }
         m.rest = if step == 0.0 { m.rest + 1 } else { 0 };
         out.push(m);
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_return_inside_the_play_changes_no_branch() {
+        let v = [0.0, 0.5, 0.9, 0.85, 0.95, 0.6, 0.3];
+        let branches: Vec<f64> = motions(&v, 0.2, 0.0).iter().map(|m| m.branch).collect();
+        assert_eq!(branches, [0.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
+        let moves: Vec<bool> = motions(&v, 0.2, 0.0).iter().map(|m| m.moves).collect();
+        assert_eq!(moves, [false, true, true, false, true, true, true]);
+    }
+
+    #[test]
+    fn without_play_the_branch_is_the_sign_of_the_move() {
+        let v = [0.0, 0.1, 0.1, 0.05, 0.2];
+        let branches: Vec<f64> = motions(&v, 0.0, 0.0).iter().map(|m| m.branch).collect();
+        assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, 1.0]);
+    }
 }

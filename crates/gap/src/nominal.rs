@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
-use crate::design::{Design, Linear};
+use crate::design::{Design, Linear, filtered_rows};
 use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
 use crate::knots::{first_grid, refine};
@@ -23,7 +23,7 @@ pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, Diagnos
             needed,
         });
     }
-    let start = first_guess(campaign, &grid, order)?;
+    let start = first_guess(campaign, &grid, order, &Assembly::default())?;
     let ground = Ground { campaign, grid: &grid };
     let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 12)
         .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })?;
@@ -34,20 +34,42 @@ pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, Diagnos
 ///
 /// The hats of a row sum to one, so each lag's `g` is known up to a constant shared among lags: rows of `g` are
 /// centred before the decomposition.
-pub(crate) fn first_guess(campaign: &Campaign, grid: &Grid, n: usize) -> Result<Linear, DiagnoseError> {
-    let design = Design::new(campaign, grid, &Assembly::default(), |t| t.is_fit());
+pub(crate) fn first_guess(
+    campaign: &Campaign,
+    grid: &Grid,
+    n: usize,
+    assembly: &Assembly,
+) -> Result<Linear, DiagnoseError> {
+    let design = Design::new(campaign, grid, assembly, |t| t.is_fit());
     let k = grid.len();
-    let size = n + n * k;
+    let nb = n + assembly.extra_b;
+    let size = n + nb * k;
     let mut normal = Normal::new(size);
     let mut row = vec![0.0; size];
     for track in &design.tracks {
+        let dense = (!design.poles.is_empty()).then(|| filtered_rows(&design, track, k));
         for t in track.from..track.x.len() {
             row.fill(0.0);
             for i in 0..n {
                 row[i] = -track.x[t - i - 1];
-                let (index, value) = track.rows.row(t - i - 1);
-                for (&j, x) in index.iter().zip(value) {
-                    row[n + i * k + j as usize] += x;
+            }
+            for i in 0..nb {
+                let block = &mut row[n + i * k..n + (i + 1) * k];
+                for (lag, tap) in design.taps.iter().enumerate() {
+                    let past = t.saturating_sub(i + 1 + lag);
+                    match &dense {
+                        Some(rows) => {
+                            for (target, x) in block.iter_mut().zip(&rows[past * k..(past + 1) * k]) {
+                                *target += tap * x;
+                            }
+                        }
+                        None => {
+                            let (index, value) = track.rows.row(past);
+                            for (&j, x) in index.iter().zip(value) {
+                                block[j as usize] += tap * x;
+                            }
+                        }
+                    }
                 }
             }
             normal.add(&row, track.x[t]);
@@ -59,8 +81,8 @@ pub(crate) fn first_guess(campaign: &Campaign, grid: &Grid, n: usize) -> Result<
     let theta = factor.solve(&normal.gradient);
     let visited: Vec<bool> = (0..k).map(|j| normal.entry(n + j, n + j) > 1e-9).collect();
     let count = visited.iter().filter(|v| **v).count().max(1) as f64;
-    let mut g = DMatrix::zeros(n, k);
-    for i in 0..n {
+    let mut g = DMatrix::zeros(nb, k);
+    for i in 0..nb {
         let block = &theta[n + i * k..n + (i + 1) * k];
         let mean = block.iter().zip(&visited).filter(|(_, v)| **v).map(|(x, _)| x).sum::<f64>() / count;
         for j in 0..k {
@@ -72,7 +94,7 @@ pub(crate) fn first_guess(campaign: &Campaign, grid: &Grid, n: usize) -> Result<
         return Err(DiagnoseError::Singular { reason: "the border table has no leading component".into() });
     };
     let lead = svd.singular_values.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1)).map_or(0, |x| x.0);
-    let b: Vec<f64> = (0..n).map(|i| u[(i, lead)]).collect();
+    let b: Vec<f64> = (0..nb).map(|i| u[(i, lead)]).collect();
     let f: Vec<f64> = (0..k).map(|j| vt[(lead, j)] * svd.singular_values[lead]).collect();
     Ok(Linear { a: theta[..n].to_vec(), b, f, d: Vec::new() })
 }

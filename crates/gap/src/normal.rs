@@ -91,6 +91,22 @@ impl Normal {
         out
     }
 
+    /// The equations with all but the chosen parameters held.
+    pub(crate) fn restricted(&self, chosen: impl Fn(usize) -> bool) -> Self {
+        let mut out = self.clone();
+        for i in 0..self.size {
+            for j in i..self.size {
+                if !chosen(i) || !chosen(j) {
+                    out.set(i, j, if i == j { 1.0 } else { 0.0 });
+                }
+            }
+            if !chosen(i) {
+                out.gradient[i] = 0.0;
+            }
+        }
+        out
+    }
+
     /// Entry of the symmetric matrix.
     pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
         self.matrix[i.min(j) * self.size + i.max(j)]

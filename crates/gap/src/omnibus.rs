@@ -17,6 +17,8 @@ pub(crate) struct Omnibus {
     pub(crate) regressors: (f64, usize),
     /// Ljung–Box statistic over [`LAGS`] lags.
     pub(crate) ljung_box: f64,
+    /// Dependence of the scaled innovations' size on circumstances, and its degrees of freedom.
+    pub(crate) scatter: (f64, usize),
     /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
     pub(crate) period: (f64, usize),
 }
@@ -29,6 +31,7 @@ pub(crate) enum Group {
     Reversal,
     Time,
     Level,
+    Scatter,
 }
 
 impl Group {
@@ -39,6 +42,7 @@ impl Group {
             Self::Motion | Self::Reversal => Stage::Operator,
             Self::Time => Stage::Sensor,
             Self::Level => Stage::Sensor,
+            Self::Scatter => Stage::Disturbance,
         }
     }
 }
@@ -56,7 +60,7 @@ impl Omnibus {
         let regressors = over(self.regressors.0, self.regressors.1);
         let period = over(self.period.0, self.period.1);
         let colour = over(self.ljung_box, LAGS);
-        regressors.max(period) + colour
+        regressors.max(period) + colour + over(self.scatter.0, self.scatter.1)
     }
 
     /// The stage that the residual points at.
@@ -148,7 +152,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let normal = design.normal(&fit.linear, &whitener, &around);
     let gains = Gains::new(&normal, fit.linear.len(), fit.variance)?;
     let all: Vec<usize> = (0..names.len()).collect();
-    let mut groups = Vec::new();
+    let mut groups: Vec<(Group, f64, usize)> = Vec::new();
     for group in [Group::Lags, Group::Motion, Group::Reversal, Group::Time, Group::Level] {
         let members: Vec<usize> = all.iter().copied().filter(|&j| names[j] == group).collect();
         groups.push((group, gains.of(&members), members.len()));
@@ -165,12 +169,43 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let r = crate::spectrum::autocorrelation(&scaled, LAGS);
     let ljung_box = r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
+    let scatter = scatter(campaign, &scaled);
+    groups.push((Group::Scatter, scatter.0, scatter.1));
     Some(Omnibus {
         groups,
         regressors: (gains.of(&all), all.len()),
         ljung_box,
+        scatter,
         period: period_lack(campaign, &scaled, second),
     })
+}
+
+/// Chi-square of a regression of the innovations' size on circumstances.
+///
+/// The size is the square, cut at nine variances so that a few outliers do not decide.
+fn scatter(campaign: &Campaign, innovations: &[Vec<f64>]) -> (f64, usize) {
+    const COLUMNS: usize = 7;
+    let count: usize = innovations.iter().map(Vec::len).sum();
+    let variance = innovations.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
+    let size = |w: f64| (w * w / variance).min(9.0);
+    let mean = innovations.iter().flatten().map(|w| size(*w)).sum::<f64>() / count as f64;
+    let spread = innovations.iter().flatten().map(|w| (size(*w) - mean).powi(2)).sum::<f64>() / count as f64;
+    let mut normal = crate::normal::Normal::new(COLUMNS);
+    for (track, w) in campaign.fit().zip(innovations) {
+        for (k, w) in w.iter().enumerate() {
+            let t = track.from + k;
+            let step = (track.v[t - 1] - track.v[t - 2]).abs();
+            let y = track.y[t - 1];
+            let moved = f64::from(u8::from(step > 0.0));
+            let time = (track.clock + t) as f64 / campaign.total as f64;
+            let pulsed = f64::from(u8::from(track.is_pulsed()));
+            normal.add(&[1.0, y * y, y.abs(), moved, step, time, pulsed], size(*w) - mean);
+        }
+    }
+    let gain = normal.factor(1e-9).map_or(0.0, |f| {
+        f.solve(&normal.gradient).iter().zip(&normal.gradient).map(|(x, g)| x * g).sum::<f64>() / spread
+    });
+    (gain, COLUMNS)
 }
 
 /// Chi-square of the period means of the innovations.

@@ -247,6 +247,13 @@ pub(crate) fn equation_columns(
             EquationColumn::Trend { clock: c, degree } => {
                 (2.0 * clock(c, campaign, track, t, path) - 1.0).powi(degree as i32)
             }
+            EquationColumn::Decay { track: only, radius, frequency, sine } => {
+                if only != number || t < track.from.min(6) {
+                    return 0.0;
+                }
+                let angle = frequency * t as f64;
+                radius.powi(t as i32) * if sine { angle.sin() } else { angle.cos() }
+            }
             EquationColumn::Local { track: only, piece, pieces } => {
                 if only != number {
                     return 0.0;

@@ -15,7 +15,7 @@ pub(super) fn variants() -> Vec<Variant> {
         .map(|passes| {
             let starts =
                 [0.2, 0.5, 0.8].iter().map(|&p| vec![own("pole", "1", p, (0.02, 0.98), 0.003)]).collect();
-            Variant::new(starts, move |p, assembly| {
+            Variant::conditional(starts, move |p, assembly| {
                 assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 if passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);

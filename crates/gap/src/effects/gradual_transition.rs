@@ -27,7 +27,7 @@ pub(super) fn variants() -> Vec<Variant> {
                     ]
                 })
                 .collect();
-            Variant::new(starts, move |p, assembly| {
+            Variant::conditional(starts, move |p, assembly| {
                 assembly.transition = Some(Transition { length: p[0], shape: p[1], law });
             })
         })

@@ -13,5 +13,5 @@ pub(super) fn variants() -> Vec<Variant> {
         .iter()
         .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
         .collect();
-    vec![Variant::new(starts, |p, assembly| assembly.delay = p[0])]
+    vec![Variant::conditional(starts, |p, assembly| assembly.delay = p[0])]
 }

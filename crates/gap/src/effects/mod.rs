@@ -39,6 +39,8 @@ use crate::engine::{Fit, Own};
 pub(crate) enum Search {
     /// Gauss–Newton together with everything else.
     Smooth,
+    /// The starts are compared with their own parameters held, which is a nearly linear problem; then as `Smooth`.
+    Conditional,
     /// A profile refined around its best point: the likelihood has corners.
     Profile,
 }
@@ -62,6 +64,13 @@ impl Variant {
     fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
         Self { starts, search: Search::Smooth, apply: Arc::new(apply), grid: None, handicap: 0.0 }
     }
+
+    fn conditional(
+        starts: Vec<Vec<Own>>,
+        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
+    ) -> Self {
+        Self { search: Search::Conditional, ..Self::new(starts, apply) }
+    }
 }
 
 /// What an effect may look at when it proposes its variants.
@@ -81,15 +90,15 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::Backlash => backlash::variants(),
         Effect::GradualTransition => gradual_transition::variants(),
         Effect::RateDependence => rate_dependence::variants(scene),
-        Effect::Creep => creep::variants(),
+        Effect::Creep => creep::variants(scene),
         Effect::BorderWear => border_wear::variants(),
         Effect::Stribeck => stribeck::variants(scene),
         Effect::ExtraPole => extra_pole::variants(),
-        Effect::Resonance => resonance::variants(),
+        Effect::Resonance => resonance::variants(scene),
         Effect::GainDrift => gain_drift::variants(),
         Effect::ColouredNoise => coloured_noise::variants(),
         Effect::OutputNoise => output_noise::variants(),
-        Effect::Outliers => outliers::variants(),
+        Effect::Outliers => outliers::variants(scene),
         Effect::PeriodicDisturbance => periodic_disturbance::variants(scene),
         Effect::SensorDrift => sensor_drift::variants(scene),
         Effect::SensorSaturation => sensor_saturation::variants(scene),
@@ -112,6 +121,11 @@ fn typical_speed(campaign: &Campaign) -> f64 {
     }
     let middle = speeds.len() / 2;
     *speeds.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Numbers of the tracks that are fitted.
+fn fitted_tracks(campaign: &Campaign) -> Vec<usize> {
+    campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).map(|(i, _)| i).collect()
 }
 
 /// A parameter with its bounds; the derivative step is a thousandth of the range unless told.

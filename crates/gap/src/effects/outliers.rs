@@ -7,9 +7,21 @@
 //! Parameters: share `ε` and ratio `κ`, found by expectation–maximisation. Stage: disturbance. Heavy tails without a place.
 //! Confused with: input noise, a border jump between grid points.
 
-use super::Variant;
+use super::{Scene, Variant};
 
-pub(super) fn variants() -> Vec<Variant> {
+/// Exact repeats of the last output, as a share of the samples, that chance does not make: a sensor that holds its value
+/// leaves large errors too, but is another cause.
+const REPEATS: f64 = 0.004;
+
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    let (mut repeats, mut count) = (0, 0);
+    for track in scene.campaign.fit() {
+        repeats += track.y.windows(2).filter(|w| w[0] == w[1]).count();
+        count += track.y.len();
+    }
+    if repeats as f64 > REPEATS * count as f64 {
+        return Vec::new();
+    }
     let mut variant =
         Variant::new(vec![Vec::new()], |_, assembly| assembly.noise.mixture = Some((0.01, 8.0)));
     // Two parameters that expectation–maximisation finds outside the count.

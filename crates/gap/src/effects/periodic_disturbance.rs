@@ -7,17 +7,18 @@
 //! Parameter: angular frequency `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
 //! with: resonance where the drive excites it, drift where it is slow.
 
-use super::{Scene, Variant, own};
+use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
 use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let lines = strongest_lines(scene.innovations, 3);
     let longest = scene.innovations.iter().map(Vec::len).max().unwrap_or(1) as f64;
-    let tracks: Vec<usize> =
-        scene.campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).map(|(i, _)| i).collect();
-    let start = |omega: f64| vec![own("omega", "radians per sample", omega, (0.002, 3.13), 0.05 / longest)];
-    let starts: Vec<_> = lines.iter().map(|&omega| start(omega)).collect();
+    // Fewer than eight periods a record are a drift.
+    let slowest = 16.0 * std::f64::consts::PI / longest;
+    let tracks = fitted_tracks(scene.campaign);
+    let start = |omega: f64| vec![own("omega", "radians per sample", omega, (slowest, 3.13), 0.05 / longest)];
+    let starts: Vec<_> = lines.iter().filter(|omega| **omega > slowest).map(|&omega| start(omega)).collect();
     if starts.is_empty() {
         return Vec::new();
     }

@@ -28,7 +28,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                     )]
                 })
                 .collect();
-            out.push(Variant::new(starts, move |p, assembly| {
+            out.push(Variant::conditional(starts, move |p, assembly| {
                 assembly.border_columns.push(BorderColumn::LowSpeed { power, scale: p[0], while_resting });
             }));
         }

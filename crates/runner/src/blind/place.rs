@@ -47,8 +47,8 @@ pub(super) fn check(cells: &[Cell], rig: &Rig, truth: &[Truth]) -> Vec<PlaceChec
     let all = mean_square(samples.iter());
     let mut checks: Vec<PlaceCheck> = Vec::new();
     for cell in cells {
-        let inside: Vec<&Circumstance<'_>> =
-            samples.iter().filter(|s| holds(cell, s).unwrap_or(false)).collect();
+        let Some(region) = Region::of(cell) else { continue };
+        let inside: Vec<&Circumstance<'_>> = samples.iter().filter(|s| region.holds(s)).collect();
         if inside.len() < FEWEST {
             continue;
         }
@@ -74,24 +74,39 @@ fn mean_square<'s, 'r: 's>(samples: impl Iterator<Item = &'s Circumstance<'r>>) 
     sum / count.max(1) as f64
 }
 
-/// Whether a sample lies in a cell; none for an axis that is not a property of single samples.
-fn holds(cell: &Cell, s: &Circumstance<'_>) -> Option<bool> {
-    let between = |x: f64| {
+/// What a cell holds, understood once from its axis and label.
+enum Region<'a> {
+    Record(&'a str),
+    Branch(&'a str),
+    Between(fn(&Circumstance<'_>) -> f64, std::ops::Range<f64>),
+}
+
+impl<'a> Region<'a> {
+    /// None for an axis that is not a property of single samples, such as frequency.
+    fn of(cell: &'a Cell) -> Option<Self> {
+        let property: fn(&Circumstance<'_>) -> f64 = match cell.axis {
+            "record" => return Some(Self::Record(&cell.cell)),
+            "branch" => return Some(Self::Branch(&cell.cell)),
+            "v" => |s| s.v,
+            "y" => |s| s.y,
+            // A rest has no speed and lies in no cell of it.
+            "speed" => |s| if s.speed > 0.0 { s.speed } else { f64::NAN },
+            "travel_since_reversal" => |s| s.travel,
+            "rest_samples" => |s| s.rest,
+            "loop_size" => |s| s.loop_size,
+            "time" => |s| s.time,
+            _ => return None,
+        };
         let (low, high) = cell.cell.split_once("..")?;
-        let (low, high): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);
-        Some(low <= x && x < high)
-    };
-    match cell.axis {
-        "record" => Some(cell.cell == s.record),
-        "branch" => Some(cell.cell == s.branch),
-        "v" => between(s.v),
-        "y" => between(s.y),
-        "speed" if s.speed > 0.0 => between(s.speed),
-        "travel_since_reversal" => between(s.travel),
-        "rest_samples" => between(s.rest),
-        "loop_size" => between(s.loop_size),
-        "time" => between(s.time),
-        _ => None,
+        Some(Self::Between(property, low.parse().ok()?..high.parse().ok()?))
+    }
+
+    fn holds(&self, s: &Circumstance<'_>) -> bool {
+        match self {
+            Self::Record(name) => *name == s.record,
+            Self::Branch(name) => *name == s.branch,
+            Self::Between(property, range) => range.contains(&property(s)),
+        }
     }
 }
 
