@@ -1,6 +1,6 @@
 //! The verdict in sentences: where, which, how far, what remains.
 
-use super::number::{digits, with_interval};
+use super::number::{digits, whole_percent, with_interval};
 use super::{Report, Source, Units, place, told};
 use switchback_gap::{Candidate, Diagnosis, Effect, Status};
 
@@ -35,7 +35,12 @@ fn size(report: &Report) -> String {
     let [low, high] = gap.before.ci90;
     let held_out = judged(report);
     if gap.before.ci90[0] <= 0.0 {
-        let at_most = percent(high.max(0.0));
+        if high <= 0.0 {
+            return format!(
+                "On {held_out} {model} misses less than the noise floor, which is then no estimate of the noise: the gap cannot be measured."
+            );
+        }
+        let at_most = percent(high);
         return format!(
             "On {held_out} {model} misses no more than the noise does: any gap is below {at_most} % of the output's variance."
         );
@@ -158,11 +163,11 @@ fn closure(report: &Report) -> Vec<String> {
     let noise_only =
         !diagnosis.verdict.effects.is_empty() && diagnosis.verdict.effects.iter().all(|e| e.is_noise());
     match &gap.closure {
-        Some(_) if noise_only => sentences
+        _ if noise_only => sentences
             .push("A cause in the noise moves no simulation error, so no closure is given.".to_owned()),
         Some(closure) => {
             let [low, high] = closure.ci90.map(|x| 100.0 * x);
-            let percent = |x: f64| format!("{x:.0}").replace('-', "−");
+            let percent = whole_percent;
             sentences.push(match closure.estimate {
                 c if c > 0.0 => format!(
                     "{adding} closes {} % [{}, {}] of the gap on {}.",
@@ -196,16 +201,36 @@ fn closure(report: &Report) -> Vec<String> {
 /// What remains after the augmentation.
 fn remainder(diagnosis: &Diagnosis, units: &Units) -> String {
     let gap = &diagnosis.gap;
+    let percent = |x: f64| digits(100.0 * x, 2);
     let floor = format!("sd {} {}", digits(gap.noise_floor, 2), units.output);
-    if gap.after.ci90[0] <= 0.0 {
-        format!("What remains is the noise floor ({floor}).")
-    } else {
-        let percent = |x: f64| digits(100.0 * x, 2);
-        format!(
-            "What remains, {} % [{}, {}] of the output's variance, lies above the noise floor ({floor}).",
-            percent(gap.after.estimate),
-            percent(gap.after.ci90[0]),
-            percent(gap.after.ci90[1])
-        )
+    let what = format!(
+        "{} % [{}, {}] of the output's variance",
+        percent(gap.after.estimate),
+        percent(gap.after.ci90[0]),
+        percent(gap.after.ci90[1])
+    );
+    let left = gap.after.estimate.max(0.0).sqrt() * output_sd(diagnosis);
+    match gap.after.estimate {
+        after if after >= 1.0 => {
+            "The augmented model is no simulator: in free run it misses more than the output's mean would."
+                .to_owned()
+        }
+        _ if gap.after.ci90[0] <= 0.0 => format!("What remains is the noise floor ({floor})."),
+        _ if left < gap.noise_floor => {
+            format!("What remains, {what}, is less than the noise floor ({floor}).")
+        }
+        _ => format!("What remains, {what}, lies above the noise floor ({floor})."),
     }
+}
+
+/// Standard deviation of the measured outputs about their records' means, over the judged records.
+fn output_sd(diagnosis: &Diagnosis) -> f64 {
+    let (mut energy, mut count) = (0.0, 0.0);
+    for series in &diagnosis.series {
+        let n = series.measured.len() as f64;
+        let mean = series.measured.iter().sum::<f64>() / n.max(1.0);
+        energy += series.measured.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
+        count += n;
+    }
+    (energy / f64::max(count, 1.0)).sqrt()
 }

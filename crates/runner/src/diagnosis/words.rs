@@ -1,6 +1,6 @@
 //! The diagnosis as a page for a person.
 
-use super::number::digits;
+use super::number::{digits, whole_percent};
 use super::sentences::{parameters, probability};
 use super::{NEXT_EXPERIMENT, Report, Units, sentences};
 use std::fmt::Write;
@@ -75,7 +75,7 @@ fn explanations(report: &Report, units: &Units) -> String {
     let told: Vec<String> = listed()
         .map(|candidate| (candidate.effect, parameters(candidate, units)))
         .filter(|(_, text)| !text.is_empty())
-        .map(|(effect, text)| format!("  {effect}: {text}\n"))
+        .map(|(effect, text)| wrapped(&format!("  {effect}: {text}"), "    "))
         .collect();
     if told.is_empty() {
         table
@@ -90,7 +90,7 @@ fn row(candidate: &Candidate) -> [String; 5] {
         probability(candidate.probability),
         format!("{:.0}", candidate.bic).replace('-', "−"),
         digits(candidate.heldout_log_score, 2),
-        candidate.closure.map_or_else(|| "–".to_owned(), |c| format!("{:.0}", 100.0 * c).replace('-', "−")),
+        candidate.closure.map_or_else(|| "–".to_owned(), |c| whole_percent(100.0 * c)),
     ]
 }
 

@@ -26,15 +26,16 @@ pub(super) fn figure(report: &Report, series: &HoldoutSeries) -> String {
     let drawing = Drawing::new(report, series);
     let sheet = Sheet {
         title: drawing.title(),
-        notes: vec![format!(
+        notes: vec![
             "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the nominal model misses most, is enlarged below."
-        )],
+                .to_owned(),
+        ],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(GREY, 4.0)), "measured"),
             Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), "nominal, and measured − nominal"),
             Entry::new(Sample::Line(Pen::new(AFTER, 2.0)), "augmented, and measured − augmented"),
         ],
-        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 58.0 },
+        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 76.0 },
     };
     sheet.render(|canvas, frames| {
         drawing.errors(canvas, frames, 0, 0..series.measured.len());
