@@ -36,6 +36,21 @@ pub(super) fn whole_percent(percent: f64) -> String {
     format!("{rounded:.decimals$}").replace('-', "−")
 }
 
+/// A fit figure: one decimal; what is worse than −999 says no more than that.
+///
+/// ```
+/// # use switchback::diagnosis::fit_percent;
+/// assert_eq!(fit_percent(97.25), "97.2");
+/// assert_eq!(fit_percent(-68_042_733.0), "< −999");
+/// ```
+pub fn fit_percent(fit: f64) -> String {
+    match fit {
+        fit if !fit.is_finite() => "–".to_owned(),
+        fit if fit < -999.0 => "< −999".to_owned(),
+        fit => format!("{fit:.1}").replace('-', "−"),
+    }
+}
+
 /// A number without trailing zeros, four significant digits at most: for the edges of cells.
 pub(super) fn edge(x: f64) -> String {
     let text = digits(x, 4);

@@ -79,14 +79,18 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             let effect = verdict.effects.first().map(|effect| described(*effect, diagnosis, units));
             format!("Cause: {}, probability {p}{}.", effect.unwrap_or_default(), next_best(diagnosis))
         }
+        Status::Class | Status::Ambiguous if verdict.class.len() == 1 => format!(
+            "Cause: probably {}; that is not certain enough to name it{}.",
+            rivals(&verdict.class, diagnosis, units),
+            next_best(diagnosis)
+        ),
         Status::Class => format!(
-            "Cause: one of {}, probability {p} together; no record here separates these twins.",
+            "Cause: one of {}, together {p}; no record here separates these twins.",
             rivals(&verdict.class, diagnosis, units)
         ),
-        Status::Ambiguous => format!(
-            "Cause: not settled between {}, probability {p} together.",
-            rivals(&verdict.class, diagnosis, units)
-        ),
+        Status::Ambiguous => {
+            format!("Cause: not settled between {}, together {p}.", rivals(&verdict.class, diagnosis, units))
+        }
         Status::Unexplained => {
             let stage = verdict
                 .stage
@@ -123,15 +127,16 @@ pub(super) fn parameters(candidate: &Candidate, units: &Units) -> String {
 fn rivals(class: &[Effect], diagnosis: &Diagnosis, units: &Units) -> String {
     let one = |effect: &Effect| {
         let p = diagnosis.candidates.iter().find(|c| c.effect == *effect).map_or(f64::NAN, |c| c.probability);
-        format!("{} {}", described(*effect, diagnosis, units), probability(p))
+        format!("{} with probability {}", described(*effect, diagnosis, units), probability(p))
     };
     class.iter().map(one).collect::<Vec<_>>().join(" or ")
 }
 
 /// The likeliest rival of what was named, be it another effect, none of these, or nothing at all.
 fn next_best(diagnosis: &Diagnosis) -> String {
-    let named = &diagnosis.verdict.effects;
-    let others = diagnosis.candidates.iter().filter(|c| !named.contains(&c.effect));
+    let verdict = &diagnosis.verdict;
+    let told = |effect: &Effect| verdict.effects.contains(effect) || verdict.class.contains(effect);
+    let others = diagnosis.candidates.iter().filter(|c| !told(&c.effect));
     let effects = others.map(|c| (c.effect.name(), c.probability));
     let rest =
         [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)];
