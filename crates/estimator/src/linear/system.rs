@@ -45,7 +45,7 @@ pub enum SystemError {
     },
     /// `B(1) = 0`.
     #[error(
-        "B(1) = {0:e}: the static gain vanishes, so no experiment can find the level of the borders; change b"
+        "B(1) = {0}: the static gain vanishes, so no experiment can find the level of the borders; change b"
     )]
     NoStaticGain(f64),
     /// `A` and `B` share a root.

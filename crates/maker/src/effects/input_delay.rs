@@ -3,7 +3,7 @@
 use super::card;
 use crate::law::{Law, Scene};
 
-pub(super) static LAWS: [&dyn Law; 2] = [&HeldCommand, &AllPass];
+pub(super) static LAWS: [&dyn Law; 2] = [&HeldCommand, &LateClock];
 
 /// A held command that arrives `d = k + f` samples late: `u'(t) = (1−f)·u(t−k) + f·u(t−k−1)`.
 #[derive(Debug)]
@@ -21,25 +21,21 @@ impl Law for HeldCommand {
     }
 }
 
-/// The fractional part by a first-order all-pass (Thiran): `u'(t) = c·u(t) + u(t−1) − c·u'(t−1)`, `c = (1−f)/(1+f)`.
+/// The fractional part by quadratic interpolation (Lagrange): a smooth command that a late clock samples.
+///
+/// `u'(t) = ½(f−1)(f−2)·u(t) − f(f−2)·u(t−1) + ½f(f−1)·u(t−2)`
 #[derive(Debug)]
-struct AllPass;
+struct LateClock;
 
-impl Law for AllPass {
-    card!("input_delay", "all-pass", Input, "samples", 4.0);
+impl Law for LateClock {
+    card!("input_delay", "late clock", Input, "samples", 4.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let (whole, part) = split(scene.x());
+        let (whole, f) = split(scene.x());
         shift(u, whole);
-        if part == 0.0 {
-            return;
-        }
-        let c = (1.0 - part) / (1.0 + part);
-        let (mut before, mut answer) = (u[0], u[0]);
-        for now in u.iter_mut() {
-            answer = c * *now + before - c * answer;
-            before = *now;
-            *now = answer;
+        for t in (2..u.len()).rev() {
+            // As differences from u(t): no fraction, no change, to the bit.
+            u[t] += f * (2.0 - f) * (u[t - 1] - u[t]) + 0.5 * f * (f - 1.0) * (u[t - 2] - u[t]);
         }
     }
 }

@@ -105,7 +105,8 @@ fn draw_borders(shape: Shape, levels: &[f64], rng: &mut ChaCha8Rng) -> Table {
     let m = levels.len() - 1;
     let gap = rng.random_range(0.1..0.6); // distance of the borders, in units of the drawn curves
     let jump = rng.random_range(1..m); // the cell that a jump falls into
-    let (centre_a, centre_d) = (rng.random_range(0.5..0.8), rng.random_range(0.2..0.5));
+    // At least a cell and a half apart, or both borders of a relay could fall together.
+    let (centre_a, centre_d) = (rng.random_range(0.61..0.8), rng.random_range(0.2..0.39));
     let steep = rng.random_range(3.0..12.0);
     let waves = rng.random_range(0.8..1.6);
     let curve = |x: f64, j: usize, rising: bool| -> f64 {

@@ -147,14 +147,14 @@ mod tests {
     }
 
     #[test]
-    fn a_border_that_moves_shows_on_its_own_branch_only() {
-        let made = MakeRig::new(4).with(Ingredient::plain("thermal_step", 4.0).unwrap()).make().unwrap();
-        let mean_square_on = |branch: &str| {
-            let samples = circumstances(&made.rig, &made.truth);
-            mean_square(samples.iter().filter(|s| s.branch == branch))
-        };
-        let (up, down) = (mean_square_on("ascending"), mean_square_on("descending"));
-        assert!(up > 3.0 * down || down > 3.0 * up, "{up} {down}");
+    fn backlash_acts_soon_after_reversals() {
+        let made = MakeRig::new(4).with(Ingredient::plain("backlash", 4.0).unwrap()).make().unwrap();
+        let width = made.rig.interval.unwrap().width();
+        let samples = circumstances(&made.rig, &made.truth);
+        let free = || samples.iter().filter(|s| s.record == "sweep");
+        let near = mean_square(free().filter(|s| s.travel < 0.05 * width));
+        let far = mean_square(free().filter(|s| s.travel > 0.3 * width));
+        assert!(near > 3.0 * far, "{near} {far}");
     }
 
     #[test]

@@ -42,60 +42,51 @@ pub fn artefacts(
 
 /// The table of measures, as printed: measure, what must be reached, what was, how many rigs tell.
 pub fn summary(scores: &Scores) -> String {
-    let mut text = format!("{:46} {:>12}  {:>9}  {:>7}\n", "measure", "must reach", "reached", "rigs");
+    let mut text = format!("{:50} {:>11} {:>9} {:>6}\n", "measure", "must reach", "reached", "rigs");
     for measure in &scores.measures {
-        let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| figure(measure.target, x));
+        let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| figure(measure, x));
         let mark = match measure.meets_target() {
             Some(true) => "",
             Some(false) => "  short",
             None => "  not told",
         };
-        let _ = writeln!(
-            text,
-            "{:46} {:>12}  {reached:>9}  {:>7}{mark}{}",
-            measure.text,
-            measure.target.map_or_else(String::new, told),
-            measure.rigs,
-            unexpected(measure),
-        );
+        let target = measure.target.map_or_else(String::new, |bound| told(measure, bound));
+        let (what, rigs, broken) = (measure.text, measure.rigs, unexpected(measure));
+        let _ = writeln!(text, "{what:50} {target:>11} {reached:>9} {rigs:>6}{mark}{broken}");
     }
-    text.push_str("\nthe same rigs, simpler rules                   exact ≥ 1 sd   false alarm   outside named   precision\n");
+    let _ = writeln!(
+        text,
+        "\n{:24} {:>13} {:>12} {:>14} {:>10}",
+        "rules on the same rigs", "exact, ≥ 1 sd", "false alarm", "outside named", "precision"
+    );
     for row in &scores.baselines {
-        let share = |s: super::score::Share| {
-            s.value().map_or_else(|| "—".to_owned(), |x| format!("{:.1} %", 100.0 * x))
-        };
-        let _ = writeln!(
-            text,
-            "{:46} {:>12} {:>13} {:>15} {:>11}",
-            row.rule,
-            share(row.exact),
-            share(row.false_alarm),
-            share(row.outside_named),
-            share(row.precision),
-        );
+        let shares = [row.exact, row.false_alarm, row.outside_named, row.precision];
+        let [exact, alarm, outside, precision] =
+            shares.map(|s| s.value().map_or_else(|| "—".to_owned(), |x| format!("{:.1} %", 100.0 * x)));
+        let _ = writeln!(text, "{:24} {exact:>13} {alarm:>12} {outside:>14} {precision:>10}", row.rule);
     }
     text
 }
 
 fn unexpected(measure: &Measure) -> String {
     match measure.expected.filter(|_| measure.is_unexpected()) {
-        Some(bound) => format!("  UNEXPECTED: the scenario wants {}", told(bound)),
+        Some(bound) => format!("  UNEXPECTED: the scenario wants {}", told(measure, bound)),
         None => String::new(),
     }
 }
 
-/// Shares in percent, errors as they are.
-fn figure(bound: Option<Bound>, x: f64) -> String {
-    match bound {
-        Some(Bound::AtMost(limit)) if limit <= 0.05 && x < 0.1 => format!("{x:.4}"),
+/// Shares in percent, everything else as it is.
+fn figure(measure: &Measure, x: f64) -> String {
+    match measure.key {
+        "ece" | "closure_error" | "where_f1" => format!("{x:.3}"),
         _ => format!("{:.1} %", 100.0 * x),
     }
 }
 
-fn told(bound: Bound) -> String {
+fn told(measure: &Measure, bound: Bound) -> String {
     match bound {
-        Bound::AtLeast(x) => format!("≥ {}", figure(None, x)),
-        Bound::AtMost(x) => format!("≤ {x}"),
+        Bound::AtLeast(x) => format!("≥ {}", figure(measure, x)),
+        Bound::AtMost(x) => format!("≤ {}", figure(measure, x)),
         Bound::Within(low, high) => format!("{:.0}–{:.0} %", 100.0 * low, 100.0 * high),
     }
 }

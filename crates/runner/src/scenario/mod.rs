@@ -22,7 +22,7 @@ use crate::input::TomlFile;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
-use switchback_estimator::hysteresis::SwitchedHysteresis;
+use switchback_estimator::hysteresis::{Interval, SwitchedHysteresis};
 use switchback_estimator::linear::LinearSystem;
 
 /// A consistency study: which systems, borders, noise levels, record lengths and methods, and what must come out.
@@ -139,6 +139,11 @@ impl Case {
     /// The period of the experiments with `m` points: `T = s(m + 3)` samples.
     pub fn period(&self, points: usize) -> usize {
         self.spacing * (points + 3)
+    }
+
+    /// The working interval, which all borders share.
+    pub fn interval(&self) -> Interval {
+        self.borders[0].hysteresis.interval()
     }
 }
 

@@ -4,6 +4,7 @@ use super::StudyError;
 use crate::scenario::{Border, Case, Disturbance, Method};
 use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
+use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
@@ -49,7 +50,15 @@ impl NoiseFilter {
             Disturbance::Output => Self { ar: Vec::new(), ma: Vec::new() },
         }
     }
+
+    /// Samples to run before a record begins, so that the noise in it is stationary.
+    pub(super) fn burn_in(&self) -> usize {
+        settling_samples(&self.ar, STATIONARY) + self.ma.len()
+    }
 }
+
+/// What is left of the impulse response when a record of noise begins.
+const STATIONARY: f64 = 1e-16;
 
 /// Coefficients `1…` of the product of two monic polynomials.
 fn product(p: &[f64], q: &[f64]) -> Vec<f64> {

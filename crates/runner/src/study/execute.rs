@@ -1,5 +1,6 @@
 //! Running the replicates, in parallel and reproducibly.
 
+use super::cell::{CellSpec, Workload};
 use super::moments::{ReplicateNoise, draw};
 use super::sections::{CellSums, SECTIONS, Sections};
 use super::world::{Contender, Setting, World};
@@ -24,9 +25,13 @@ pub trait Progress: Sync {
 ///
 /// Replicates are numbered; number `r` sees the same noise whatever else is run. Each round gives every section a contiguous range of them, so
 /// the sums of a section, added in order, depend on nothing but the numbers.
-pub(super) fn run(scenario: &Scenario, worlds: &[World], progress: &dyn Progress) -> Sections {
-    let parameters: Vec<usize> =
-        worlds.iter().flat_map(|w| w.cells().map(|(_, _, c)| c.parameters.len())).collect();
+pub(super) fn run(
+    scenario: &Scenario,
+    workloads: &[&dyn Workload],
+    specs: &[CellSpec],
+    progress: &dyn Progress,
+) -> Sections {
+    let parameters: Vec<usize> = specs.iter().map(|s| s.parameters.len()).collect();
     let mut sections = Sections::new(&parameters);
     let mut active = vec![true; parameters.len()];
     let replication = scenario.replication();
@@ -34,7 +39,7 @@ pub(super) fn run(scenario: &Scenario, worlds: &[World], progress: &dyn Progress
     let mut target = replication.replicates;
     while done < target {
         progress.planned(target as u64);
-        round(scenario.seed(), worlds, done..target, &active, &mut sections, progress);
+        round(scenario.seed(), workloads, done..target, &active, &mut sections, progress);
         done = target;
         if let Some(stopping) = replication.stopping {
             target = next_target(&stopping, &sections, &mut active, done);
@@ -46,7 +51,7 @@ pub(super) fn run(scenario: &Scenario, worlds: &[World], progress: &dyn Progress
 /// One round: the replicates of `range`, divided over the sections.
 fn round(
     seed: u64,
-    worlds: &[World],
+    workloads: &[&dyn Workload],
     range: Range<usize>,
     active: &[bool],
     sections: &mut Sections,
@@ -59,18 +64,27 @@ fn round(
         while start < end {
             let batch = start..end.min(start + BATCH);
             let mut first_cell = 0;
-            for world in worlds {
-                let cells = world.cells().count();
-                let range = first_cell..first_cell + cells;
+            for workload in workloads {
+                let range = first_cell..first_cell + workload.cells();
+                first_cell = range.end;
                 if active[range.clone()].iter().any(|a| *a) {
-                    run_batch(world, seed, batch.clone(), &active[range.clone()], &mut sums[range]);
+                    workload.run(seed, batch.clone(), &active[range.clone()], &mut sums[range]);
                 }
-                first_cell += cells;
             }
             progress.advanced(u64::from(batch.end - batch.start));
             start = batch.end;
         }
     });
+}
+
+impl Workload for World {
+    fn cells(&self) -> usize {
+        World::cells(self).count()
+    }
+
+    fn run(&self, seed: u64, replicates: Range<u32>, active: &[bool], sums: &mut [CellSums]) {
+        run_batch(self, seed, replicates, active, sums);
+    }
 }
 
 /// Some replicates of one world.

@@ -1,10 +1,8 @@
 //! What the curves over N amount to: slopes, plateaus and a verdict, with jackknifed errors.
 
+use super::cell::CellSpec;
 use super::sections::{SECTIONS, Sections};
-use super::tabulate::series;
-use super::world::{Contender, World};
-use crate::results::{Fitted, Group, Measured, Series, Summary, Verdict};
-use crate::scenario::Scenario;
+use crate::results::{Fitted, Group, Measured, Summary, Verdict};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use switchback_estimator::statistics::{Performance, jackknife_se, weighted_line};
 
@@ -19,14 +17,13 @@ const IMMATERIAL: f64 = 0.3;
 const SLOWEST_DECAY: f64 = -0.35;
 
 /// One entry a series and group of parameters.
-pub(super) fn summaries(scenario: &Scenario, worlds: &[World], sections: &Sections) -> Vec<Summary> {
+pub(super) fn summaries(specs: &[CellSpec], sections: &Sections) -> Vec<Summary> {
     let mut curves: Vec<Curve<'_>> = Vec::new();
-    for (index, (setting, samples, contender)) in worlds.iter().flat_map(World::cells).enumerate() {
-        let point = Point::new(samples, index, contender, sections);
-        let series = series(scenario, setting, contender);
-        match curves.iter_mut().find(|c| c.series == series) {
+    for (index, spec) in specs.iter().enumerate() {
+        let point = Point::new(spec, index, sections);
+        match curves.iter_mut().find(|c| c.spec.series == spec.series) {
             Some(curve) => curve.points.push(point),
-            None => curves.push(Curve { series, contender, points: vec![point] }),
+            None => curves.push(Curve { spec, points: vec![point] }),
         }
     }
     curves.iter().flat_map(Curve::summaries).collect()
@@ -34,34 +31,30 @@ pub(super) fn summaries(scenario: &Scenario, worlds: &[World], sections: &Sectio
 
 /// All cells of a series, by increasing N.
 struct Curve<'a> {
-    series: Series,
-    contender: &'a Contender,
-    points: Vec<Point>,
+    /// The first of them, for what all have in common.
+    spec: &'a CellSpec,
+    points: Vec<Point<'a>>,
 }
 
 /// One cell: the performance of every parameter, over all replicates and over all but each section.
-struct Point {
+struct Point<'a> {
+    spec: &'a CellSpec,
     samples: f64,
     whole: Vec<Option<Performance>>,
     without: Vec<Vec<Option<Performance>>>,
-    theory: Option<Vec<f64>>,
-    bound: Option<Vec<f64>>,
 }
 
-impl Point {
-    fn new(samples: usize, index: usize, contender: &Contender, sections: &Sections) -> Self {
-        let samples = samples as f64;
-        let theory = contender.theory.then(|| contender.limit.theory_se(samples));
+impl<'a> Point<'a> {
+    fn new(spec: &'a CellSpec, index: usize, sections: &Sections) -> Self {
         let performance = |without| {
             let sums = sections.cell(index, without);
             sums.parameters.iter().map(|p| p.performance(None)).collect::<Vec<_>>()
         };
         Self {
-            samples,
+            spec,
+            samples: spec.samples as f64,
             whole: performance(None),
             without: (0..SECTIONS).map(|section| performance(Some(section))).collect(),
-            theory,
-            bound: contender.bound.as_ref().map(|b| b.sd(samples)),
         }
     }
 
@@ -118,7 +111,7 @@ impl Curve<'_> {
     }
 
     fn parameters(&self, group: Group) -> Vec<usize> {
-        let names = self.contender.parameters.iter().enumerate();
+        let names = self.spec.parameters.iter().enumerate();
         names.filter(|(_, p)| p.group == group).map(|(k, _)| k).collect()
     }
 
@@ -128,7 +121,7 @@ impl Curve<'_> {
         let plateau = self.plateau(parameters);
         let (verdict, reason) = self.verdict(sd_slope, plateau.as_ref());
         Summary {
-            series: self.series.clone(),
+            series: self.spec.series.clone(),
             group,
             sd_slope: sd_slope.and_then(|s| s.interval(usual)),
             bias_slope: self.bias_slope(parameters).and_then(|s| s.interval(usual)),
@@ -136,12 +129,12 @@ impl Curve<'_> {
             coverage: Jackknifed::of(|view| self.last_mean(view, parameters, |p, _| Some(p.coverage.value)))
                 .and_then(Jackknifed::measured),
             sd_over_theory: Jackknifed::of(|view| {
-                let theory = self.last()?.theory.as_ref()?;
+                let theory = self.last()?.spec.theory.as_ref()?;
                 self.last_mean(view, parameters, |p, k| Some((p.sd.value / theory[k]).powi(2))).map(f64::sqrt)
             })
             .and_then(Jackknifed::measured),
             variance_over_bound: Jackknifed::of(|view| {
-                let bound = self.last()?.bound.as_ref()?;
+                let bound = self.last()?.spec.bound.as_ref()?;
                 self.last_mean(view, parameters, |p, k| Some((p.sd.value / bound[k]).powi(2)))
             })
             .and_then(Jackknifed::measured),
@@ -150,7 +143,7 @@ impl Curve<'_> {
         }
     }
 
-    fn last(&self) -> Option<&Point> {
+    fn last(&self) -> Option<&Point<'_>> {
         self.points.last()
     }
 
@@ -183,14 +176,14 @@ impl Curve<'_> {
 
     /// Slope of log root-mean-square bias against log N, over the N where the bias is resolved; needs two of them.
     fn bias_slope(&self, parameters: &[usize]) -> Option<Jackknifed> {
-        let size = |point: &Point, view: View| -> Option<(f64, f64)> {
+        let size = |point: &Point<'_>, view: View| -> Option<(f64, f64)> {
             let biases: Option<Vec<_>> = parameters.iter().map(|&k| best_bias(point, view, k)).collect();
             let biases = biases?;
             let squares = mean(&biases.iter().map(|b| b.0 * b.0).collect::<Vec<_>>())?;
             let errors = mean(&biases.iter().map(|b| b.1 * b.1).collect::<Vec<_>>())?;
             Some((squares.sqrt(), errors.sqrt()))
         };
-        let resolved: Vec<&Point> = self
+        let resolved: Vec<&Point<'_>> = self
             .points
             .iter()
             .filter(|point| size(point, None).is_some_and(|(size, error)| size > RESOLVED * error))
@@ -234,7 +227,7 @@ impl Curve<'_> {
         let (Some(slope), Some(plateau)) = (sd_slope, plateau) else {
             return (Verdict::Undecided, "needs two numbers of samples and 20 replicates or more".to_owned());
         };
-        let name = &self.contender.parameters[plateau.parameter].name;
+        let name = &self.spec.parameters[plateau.parameter].name;
         let stays = plateau.jackknifed.value / plateau.sd;
         let at_most = (plateau.jackknifed.value.abs() + quantile(0.05) * plateau.jackknifed.se) / plateau.sd;
         let significant = plateau.distance() > quantile(FALSE_PLATEAU / plateau.tested as f64);
@@ -277,7 +270,7 @@ impl Plateau {
 }
 
 /// Bias and its error: controlled where there is a control variate.
-fn best_bias(point: &Point, view: View, k: usize) -> Option<(f64, f64)> {
+fn best_bias(point: &Point<'_>, view: View, k: usize) -> Option<(f64, f64)> {
     let performance = point.performance(view, k)?;
     let bias = performance.bias_controlled.unwrap_or(performance.bias);
     (bias.mcse > 0.0).then_some((bias.value, bias.mcse))

@@ -1,11 +1,14 @@
 //! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
 //!
-//! One pass over the noise of a replicate serves every cell (`world`): the cells of a sweep share it by superposition. Sections of
-//! replicates run in parallel (`execute`) and are merged in order, so results depend on the scenario and its seed only.
+//! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
+//! designed experiment (`free`): the cells of a sweep share it by superposition. Sections of replicates run in parallel (`execute`) and are
+//! merged in order, so results depend on the scenario and its seed only.
 
 mod bench;
+mod cell;
 mod execute;
 mod expectations;
+mod free;
 mod judge;
 mod moments;
 mod sections;
@@ -14,6 +17,7 @@ mod world;
 
 use crate::results::{BorderCurve, Engine, Results, SCHEMA};
 use crate::scenario::Scenario;
+use cell::{CellSpec, Workload};
 use thiserror::Error;
 
 pub use execute::Progress;
@@ -38,6 +42,20 @@ pub enum StudyError {
         /// What the method says.
         source: switchback_estimator::estimators::pulse::PulseFitError,
     },
+    /// The estimate from any record does not exist on some cell.
+    #[error(
+        "free cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; lower sweep.points, raise sweep.samples, or drop the method"
+    )]
+    NotFromDrive {
+        /// Name of the case.
+        case: String,
+        /// Name of the border.
+        border: String,
+        /// Knots `m` on each border.
+        points: usize,
+        /// What the method says.
+        source: switchback_estimator::estimators::free::FreeError,
+    },
     /// An experiment of the sweep cannot be built.
     #[error("case `{case}`, m = {points}: {reason}")]
     NoExperiment {
@@ -55,10 +73,15 @@ pub enum StudyError {
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
-    let worlds = world::plan(scenario)?;
-    let sections = execute::run(scenario, &worlds, progress);
-    let cells = tabulate::cells(scenario, &worlds, &sections);
-    let summaries = judge::summaries(scenario, &worlds, &sections);
+    let pulses = world::plan(scenario)?;
+    let free = free::plan(scenario)?;
+    let specs: Vec<CellSpec> =
+        pulses.iter().flat_map(|w| w.specs(scenario)).chain(free.iter().flat_map(|w| w.specs())).collect();
+    let pulses = pulses.iter().map(|w| w as &dyn Workload);
+    let workloads: Vec<&dyn Workload> = pulses.chain(free.iter().map(|w| w as &dyn Workload)).collect();
+    let sections = execute::run(scenario, &workloads, &specs, progress);
+    let cells = tabulate::cells(&specs, &sections);
+    let summaries = judge::summaries(&specs, &sections);
     let expectations = expectations::check(scenario, &summaries);
     Ok(Results {
         schema: SCHEMA,

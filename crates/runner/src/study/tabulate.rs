@@ -1,40 +1,21 @@
 //! From sums to the result table.
 
+use super::cell::CellSpec;
 use super::sections::Sections;
-use super::world::{Contender, Setting, World};
-use crate::results::{Cell, Failures, Measured, Parameter, Series};
-use crate::scenario::Scenario;
+use crate::results::{Cell, Failures, Measured, Parameter};
 use switchback_estimator::statistics::{self, ErrorSums};
 
-/// The series that a cell belongs to.
-pub(super) fn series(scenario: &Scenario, setting: &Setting, contender: &Contender) -> Series {
-    let case = &scenario.cases()[setting.case];
-    Series {
-        case: case.name.clone(),
-        border: case.borders[setting.border].name.clone(),
-        method: contender.method,
-        points: setting.bench.points,
-        noise: setting.sigma,
-    }
-}
-
-/// One entry a cell, in the order of the worlds.
-pub(super) fn cells(scenario: &Scenario, worlds: &[World], sections: &Sections) -> Vec<Cell> {
-    worlds
+/// One entry a cell, in their order.
+pub(super) fn cells(specs: &[CellSpec], sections: &Sections) -> Vec<Cell> {
+    specs
         .iter()
-        .flat_map(World::cells)
         .enumerate()
-        .map(|(index, (setting, samples, contender))| {
+        .map(|(index, spec)| {
             let sums = sections.cell(index, None);
-            let theory = contender.theory.then(|| contender.limit.theory_se(samples as f64));
-            let bound = contender.bound.as_ref().map(|b| b.sd(samples as f64));
-            let parameters = sums.parameters.iter().enumerate().map(|(k, parameter)| {
-                let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
-                self::parameter(contender, k, parameter, at(&theory), at(&bound))
-            });
+            let parameters = sums.parameters.iter().enumerate().map(|(k, sums)| parameter(spec, k, sums));
             Cell {
-                series: series(scenario, setting, contender),
-                samples,
+                series: spec.series.clone(),
+                samples: spec.samples,
                 parameters: parameters.collect(),
                 replicates: sums.replicates,
                 failures: Failures { count: sums.failed, replicates: sums.failures, reason: sums.reason },
@@ -43,22 +24,18 @@ pub(super) fn cells(scenario: &Scenario, worlds: &[World], sections: &Sections) 
         .collect()
 }
 
-fn parameter(
-    contender: &Contender,
-    k: usize,
-    sums: &ErrorSums,
-    theory_sd: Option<f64>,
-    bound_sd: Option<f64>,
-) -> Parameter {
-    let name = &contender.parameters[k];
+fn parameter(spec: &CellSpec, k: usize, sums: &ErrorSums) -> Parameter {
+    let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
+    let (theory_sd, bound_sd) = (at(&spec.theory), at(&spec.bound));
+    let name = &spec.parameters[k];
     let performance = sums.performance(theory_sd.map(|sd| sd * sd));
     let measured = |m: statistics::Measured| Measured::new(m.value, m.mcse);
     Parameter {
         name: name.name.clone(),
         group: name.group,
         v: name.v,
-        truth: contender.truth[k],
-        mean_estimate: performance.map(|p| contender.truth[k] + p.bias.value),
+        truth: spec.truth[k],
+        mean_estimate: performance.map(|p| spec.truth[k] + p.bias.value),
         bias: performance.and_then(|p| measured(p.bias)),
         bias_controlled: performance.and_then(|p| p.bias_controlled).and_then(measured),
         sd: performance.and_then(|p| measured(p.sd)),

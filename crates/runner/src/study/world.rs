@@ -2,17 +2,14 @@
 
 use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
-use crate::results::Group;
+use super::cell::{CellSpec, ParameterName};
+use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
 use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
-use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::noise::NoisePlan;
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
 pub(super) const STREAMS: u32 = 4;
-
-/// What is left of the impulse response when a record of noise begins.
-const STATIONARY: f64 = 1e-16;
 
 /// Everything that one pass over the noise of one replicate serves.
 #[derive(Debug, Clone)]
@@ -52,14 +49,6 @@ pub(super) struct Contender {
     pub(super) bound: Option<Bound>,
 }
 
-/// What a parameter is called, and with whom it is judged.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ParameterName {
-    pub(super) name: String,
-    pub(super) group: Group,
-    pub(super) v: Option<f64>,
-}
-
 /// Lays out the worlds of a scenario.
 ///
 /// With shared noise there is one world a case, and all of them use the same streams; with independent noise, one a bench, noise level
@@ -92,8 +81,9 @@ impl World {
         for setting in &mut settings {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
         }
-        let NoiseFilter { ar, ma } = NoiseFilter::of(case);
-        let burn_in = settling_samples(&ar, STATIONARY) + ma.len();
+        let filter = NoiseFilter::of(case);
+        let burn_in = filter.burn_in();
+        let NoiseFilter { ar, ma } = filter;
         let needs_steps = settings.iter().flat_map(|s| &s.methods).any(|c| c.kind.needs_step());
         let steps = needs_steps.then(|| NoisePlan {
             ar: ar.clone(),
@@ -116,6 +106,29 @@ impl World {
                 .iter()
                 .flat_map(move |&samples| setting.methods.iter().map(move |c| (setting, samples, c)))
         })
+    }
+
+    /// What tables and verdicts need of the cells, in the same order.
+    pub(super) fn specs(&self, scenario: &Scenario) -> Vec<CellSpec> {
+        self.cells()
+            .map(|(setting, samples, contender)| {
+                let case = &scenario.cases()[setting.case];
+                CellSpec {
+                    series: Series {
+                        case: case.name.clone(),
+                        border: case.borders[setting.border].name.clone(),
+                        method: contender.method,
+                        points: setting.bench.points,
+                        noise: setting.sigma,
+                    },
+                    samples,
+                    parameters: contender.parameters.clone(),
+                    truth: contender.truth.clone(),
+                    theory: contender.theory.then(|| contender.limit.theory_se(samples as f64)),
+                    bound: contender.bound.as_ref().map(|b| b.sd(samples as f64)),
+                }
+            })
+            .collect()
     }
 }
 
@@ -186,16 +199,6 @@ fn keeps_assumptions(case: &Case, bench: &Bench) -> bool {
 }
 
 fn parameters(order: usize, bench: &Bench, kind: PulseKind) -> Vec<ParameterName> {
-    let coefficients = |letter: char, group| {
-        (1..=order).map(move |i| ParameterName { name: format!("{letter}{i}"), group, v: None })
-    };
-    let borders = kind.experiments().iter().flat_map(|&k| {
-        let (label, group) = [("desc", Group::Descending), ("asc", Group::Ascending)][k];
-        bench.levels(k).iter().enumerate().map(move |(j, &v)| ParameterName {
-            name: format!("F_{label}(V{})", j + 1),
-            group,
-            v: Some(v),
-        })
-    });
-    coefficients('a', Group::A).chain(coefficients('b', Group::B)).chain(borders).collect()
+    let border = |&k: &usize| ([Group::Descending, Group::Ascending][k], bench.levels(k));
+    ParameterName::all(order, &kind.experiments().iter().map(border).collect::<Vec<_>>())
 }

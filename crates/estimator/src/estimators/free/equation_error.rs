@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 /// in the order `a` (n), `μ` (lag by lag, m features each), `c`, and last `y` itself. A row has `n + 2·n_b + 2` non-zeros whatever the number of
 /// knots, so a sample costs `O((n + n_b)²)`.
 #[derive(Debug, Clone)]
-pub(super) struct Moments {
+pub struct Moments {
     pub(super) structure: Structure,
     /// Features of the basis.
     pub(super) width: usize,

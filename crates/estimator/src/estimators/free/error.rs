@@ -58,4 +58,17 @@ pub enum FreeError {
         /// Position of the knot, input units.
         v: f64,
     },
+    /// The input ends before the samples asked for.
+    #[error(
+        "the input leaves {available} regression samples where {wanted} are asked for; give a longer one"
+    )]
+    InputTooShort {
+        /// Samples that can be explained.
+        available: usize,
+        /// Samples of the last checkpoint.
+        wanted: usize,
+    },
+    /// A parameter has no information even with noise-free data.
+    #[error("the input leaves a parameter open; drive it over more of its range, or give fewer knots")]
+    NotExcited,
 }

@@ -9,7 +9,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 ///
 /// The scale shared by `b` and `f` is free, so the information matrix has the null direction `(0, b, −f, 0)`. Every normalised
 /// parameter is blind to it; giving that direction some information makes the matrix invertible and changes none of them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Covariance {
     factor: Cholesky<f64, nalgebra::Dyn>,
     /// Columns are scaled to unit information before the factorisation.
@@ -56,8 +56,13 @@ impl Covariance {
         self
     }
 
+    /// What the information makes of a score: the first-order change of `(a, b, f, c)`.
+    pub(super) fn response(&self, score: &DVector<f64>) -> DVector<f64> {
+        self.factor.solve(&score.component_div(&self.scale)).component_div(&self.scale)
+    }
+
     /// Standard error of a parameter with the given derivatives: the larger of the two estimates.
-    fn standard_error(&self, derivative: &DVector<f64>) -> f64 {
+    pub(super) fn standard_error(&self, derivative: &DVector<f64>) -> f64 {
         let d = derivative.component_div(&self.scale);
         let x = self.factor.solve(&d);
         let white = self.noise_variance * d.dot(&x);
@@ -110,10 +115,58 @@ pub(super) fn has_gain(theta: &Parameters) -> bool {
     theta.b.iter().sum::<f64>().abs() > NO_GAIN * theta.b.iter().map(|b| b.abs()).sum::<f64>()
 }
 
-/// The fit in the normalisation `u_M − u_m = 1`.
+/// A normalised parameter with its derivatives in `(a, b, f, c)`.
+#[derive(Debug)]
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    pub(super) derivative: DVector<f64>,
+}
+
+/// `a`, `b`, the points of the descending border (or the only curve), and those of the ascending one, in the normalisation `u_M − u_m = 1`.
 ///
 /// With `k = u_M − u_m` in the fit's scale: `b̂ = k b`, `F̂ = (f + c/B(1))/k`, so that `B̂(1)/Â(1)·F̂` is the stationary output.
-/// Standard errors by the delta method.
+pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let p = n + nb + m + 1;
+    let span = Span::of(&theta.f);
+    let knot = |k: usize| if k == 0 { 0.0 } else { theta.f[k - 1] };
+    let b_one: f64 = theta.b.iter().sum();
+    let level = if has_gain(theta) { theta.c / b_one } else { 0.0 };
+    // Adds `x` times the derivative of knot value k.
+    let add_knot = |d: &mut DVector<f64>, k: usize, x: f64| {
+        if k > 0 {
+            d[n + nb + k - 1] += x;
+        }
+    };
+    let a = (0..n).map(|i| Quantity {
+        value: theta.a[i],
+        derivative: DVector::from_fn(p, |j, _| f64::from(u8::from(i == j))),
+    });
+    let b = (0..nb).map(|i| {
+        let mut derivative = DVector::zeros(p);
+        derivative[n + i] = span.value;
+        add_knot(&mut derivative, span.high, theta.b[i]);
+        add_knot(&mut derivative, span.low, -theta.b[i]);
+        Quantity { value: theta.b[i] * span.value, derivative }
+    });
+    let points = (0..basis.sizes().sum()).map(|k| {
+        let value = (knot(k) + level) / span.value;
+        let mut derivative = DVector::zeros(p);
+        add_knot(&mut derivative, k, 1.0 / span.value);
+        add_knot(&mut derivative, span.high, -value / span.value);
+        add_knot(&mut derivative, span.low, value / span.value);
+        if has_gain(theta) {
+            derivative[p - 1] += 1.0 / (b_one * span.value);
+            for i in 0..nb {
+                derivative[n + i] -= level / (b_one * span.value);
+            }
+        }
+        Quantity { value, derivative }
+    });
+    a.chain(b).chain(points).collect()
+}
+
+/// The fit as an [`Estimate`], standard errors by the delta method.
 pub(super) fn normalise(
     theta: &Parameters,
     structure: Structure,
@@ -122,56 +175,32 @@ pub(super) fn normalise(
     figures: Figures,
 ) -> Estimate {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
-    let p = n + nb + m + 1;
-    let span = Span::of(&theta.f);
-    let knot = |k: usize| if k == 0 { 0.0 } else { theta.f[k - 1] };
     let a_one: f64 = 1.0 + theta.a.iter().sum::<f64>();
     let b_one: f64 = theta.b.iter().sum();
-    let level = if has_gain(theta) { theta.c / b_one } else { 0.0 };
-    let se = |derivative: DVector<f64>| covariance.map_or(f64::NAN, |c| c.standard_error(&derivative));
-    // Adds `x` times the derivative of knot value k.
-    let add_knot = |d: &mut DVector<f64>, k: usize, x: f64| {
-        if k > 0 {
-            d[n + nb + k - 1] += x;
-        }
+    let parameters: Vec<(f64, f64)> = quantities(theta, basis)
+        .into_iter()
+        .map(|q| (q.value, covariance.map_or(f64::NAN, |c| c.standard_error(&q.derivative))))
+        .collect();
+    let (a, rest) = parameters.split_at(n);
+    let (b, points) = rest.split_at(nb);
+    let curve = |knots: &[f64], first: usize| {
+        knots.iter().zip(&points[first..]).map(|(&v, &(f, se))| BorderPoint { v, f, se }).collect()
     };
-    let a_se = (0..n).map(|i| se(DVector::from_fn(p, |j, _| f64::from(u8::from(i == j))))).collect();
-    let b_se = (0..nb).map(|i| {
-        let mut d = DVector::zeros(p);
-        d[n + i] = span.value;
-        add_knot(&mut d, span.high, theta.b[i]);
-        add_knot(&mut d, span.low, -theta.b[i]);
-        se(d)
-    });
-    let point = |v: f64, k: usize| {
-        let f = (knot(k) + level) / span.value;
-        let mut d = DVector::zeros(p);
-        add_knot(&mut d, k, 1.0 / span.value);
-        add_knot(&mut d, span.high, -f / span.value);
-        add_knot(&mut d, span.low, f / span.value);
-        if has_gain(theta) {
-            d[p - 1] += 1.0 / (b_one * span.value);
-            for i in 0..nb {
-                d[n + i] -= level / (b_one * span.value);
-            }
-        }
-        BorderPoint { v, f, se: se(d) }
-    };
-    let descending = basis.descending().iter().enumerate().map(|(k, &v)| point(v, k)).collect();
     let first = if basis.is_switched() { basis.descending().len() } else { 0 };
-    let ascending = basis.ascending().iter().enumerate().map(|(k, &v)| point(v, first + k)).collect();
+    let (a, a_se) = a.iter().copied().unzip();
+    let (b, b_se) = b.iter().copied().unzip();
     Estimate {
-        a: theta.a.clone(),
+        a,
         a_se,
-        b_se: b_se.collect(),
-        b: theta.b.iter().map(|b| b * span.value).collect(),
+        b,
+        b_se,
         delay: structure.delay,
         noise_sd: figures.noise_sd,
-        gain: b_one * span.value / a_one,
-        y_high: (b_one * knot(m) + theta.c) / a_one,
+        gain: b_one * Span::of(&theta.f).value / a_one,
+        y_high: (b_one * theta.f[m - 1] + theta.c) / a_one,
         y_low: theta.c / a_one,
-        descending,
-        ascending,
+        descending: curve(basis.descending(), 0),
+        ascending: curve(basis.ascending(), first),
         excitation: figures.excitation,
         samples: figures.samples,
     }

@@ -106,11 +106,7 @@ pub(super) fn gauss_newton(moments: &Moments, start: Parameters) -> Parameters {
     // Near an exact fit the energy is lost in rounding, while the step still improves the parameters.
     let rounding = 1e-12 * moments.matrix[(p, p)];
     for _ in 0..MOST_STEPS {
-        let jacobian = jacobian(moments, &theta);
-        let residual = moments.matrix.view((0, p), (p, 1))
-            - moments.matrix.view((0, 0), (p, p)) * products(moments, &theta);
-        let gradient = jacobian.transpose() * residual;
-        let Some(step) = solve_symmetric(&information(moments, &theta), &gradient.column(0).into(), 1e-13)
+        let Some(step) = solve_symmetric(&information(moments, &theta), &score(moments, &theta), 1e-13)
         else {
             break;
         };
@@ -161,6 +157,14 @@ fn products(moments: &Moments, theta: &Parameters) -> DVector<f64> {
 pub(super) fn residual_energy(moments: &Moments, theta: &Parameters) -> f64 {
     let x = products(moments, theta).push(-1.0);
     x.dot(&(&moments.matrix * &x)).max(0.0)
+}
+
+/// `Jᵀ Σ Φξ`: half the downhill gradient of the squared equation errors with respect to `(a, b, f, c)`.
+pub(super) fn score(moments: &Moments, theta: &Parameters) -> DVector<f64> {
+    let p = moments.constant() + 1;
+    let output: DVector<f64> = moments.matrix.view((0, p), (p, 1)).column(0).into();
+    let residual = output - moments.matrix.view((0, 0), (p, p)) * products(moments, theta);
+    jacobian(moments, theta).tr_mul(&residual)
 }
 
 /// `JᵀMJ`, with `J` the derivative of the over-parameterised coefficients with respect to `(a, b, f, c)`: the

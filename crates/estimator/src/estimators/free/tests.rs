@@ -3,11 +3,18 @@
 use super::basis::Basis;
 use super::branch::{Branches, ReversalRule, Timing};
 use super::equation_error::{Moments, fill_row};
+use super::limit::Limit;
 use super::model::cells;
+use super::one_shot::{Grid, one_shot};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::over_parameterised;
+use super::regression::Regression;
 use super::simulation_error::{free_run, linearise};
-use crate::linear::is_stable;
+use crate::estimators::Estimate;
+use crate::excitation::RandomLevels;
+use crate::hysteresis::{Interval, SwitchedHysteresis, Table, TablePoint};
+use crate::linear::{filter, is_stable};
+use crate::record::Record;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
@@ -112,5 +119,86 @@ proptest! {
             let sum: f64 = cell(branch).features().map(|(k, x)| x * values[k]).sum();
             prop_assert!((sum - cell(branch).value(&values)).abs() < 1e-12);
         }
+    }
+}
+
+/// A record of a switched system on a grid, and everything needed to identify it.
+struct Synthetic {
+    v: Vec<f64>,
+    z: Vec<f64>,
+    e: Vec<f64>,
+    grid: Grid,
+}
+
+fn synthetic(seed: u64, samples: usize) -> Synthetic {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let drive = RandomLevels::new(Interval::new(-1.0, 1.0).unwrap());
+    let v = drive.record_input(samples, &mut rng);
+    let table = |u: [f64; 3]| [-1.0, 0.0, 1.0].into_iter().zip(u).map(|(v, u)| TablePoint { v, u }).collect();
+    let borders = Table::new(table([-0.4, 0.6, 0.9]), table([-0.8, -0.5, 0.7])).unwrap();
+    let hysteresis = SwitchedHysteresis::new(drive.interval(), Box::new(borders)).unwrap();
+    let u = hysteresis.output(&v, hysteresis.u_low());
+    let z = filter(&[-1.1, 0.4], &[0.5, 0.3], &u, &[], 0.0, 0.0);
+    let w = uniform(&mut rng, v.len());
+    let e = filter(&[-1.1, 0.4], &[], &u, &w, 0.0, 0.0);
+    let grid = Grid {
+        structure: Structure { order: 2, delay: 0 },
+        basis: Basis::borders(vec![-1.0, 0.0, 1.0], vec![-1.0, 0.0, 1.0]),
+        rule: ReversalRule::EXACT,
+    };
+    Synthetic { v, z, e, grid }
+}
+
+/// The moments of `z + σe` from the sums of both.
+fn superposed(regression: &Regression, s: &Synthetic, sigma: f64, checkpoint: usize) -> Moments {
+    let lags = |x: &[f64], y: &[f64]| regression.lag_products(x, y).swap_remove(checkpoint);
+    let input = |x: &[f64]| regression.input_products(x).swap_remove(checkpoint);
+    let cross = lags(&s.z, &s.e);
+    let lags = lags(&s.z, &s.z) + (&cross + cross.transpose()) * sigma + lags(&s.e, &s.e) * (sigma * sigma);
+    regression.moments(checkpoint, &lags, &(input(&s.z) + input(&s.e) * sigma))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn superposed_sums_give_the_estimate_of_the_record(seed: u64, sigma in 0.001..0.3_f64) {
+        let s = synthetic(seed, 700);
+        let checkpoints = [400, 650];
+        let regression = Regression::new(&s.v, s.grid.clone(), &checkpoints).unwrap();
+        for (c, n) in checkpoints.into_iter().enumerate() {
+            let fast = regression.estimate(&superposed(&regression, &s, sigma, c)).unwrap();
+            let end = regression.start() + n;
+            let y = s.z.iter().zip(&s.e).map(|(z, e)| z + sigma * e).take(end).collect();
+            let slow = one_shot(&[&Record::new(s.v[..end].to_vec(), y).unwrap()], &s.grid).unwrap();
+            prop_assert_eq!(fast.samples, slow.samples);
+            let values = |e: &Estimate| {
+                let points = e.descending.iter().chain(&e.ascending);
+                let points = points.flat_map(|p| [p.f, p.se]).collect::<Vec<_>>();
+                [e.a.clone(), e.a_se.clone(), e.b.clone(), e.b_se.clone(), points].concat()
+            };
+            for (f, s) in values(&fast).into_iter().zip(values(&slow)) {
+                prop_assert!((f - s).abs() < 1e-8 * (1.0 + s.abs()), "{} against {}", f, s);
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_order_part_leaves_an_error_of_second_order(seed: u64) {
+        let s = synthetic(seed, 2100);
+        let regression = Regression::new(&s.v, s.grid.clone(), &[2000]).unwrap();
+        let clean = superposed(&regression, &s, 0.0, 0);
+        let limit = Limit::of(&regression, &clean, 1.0).unwrap();
+        let remainder = |sigma: f64| -> f64 {
+            let moments = superposed(&regression, &s, sigma, 0);
+            let estimate = regression.estimate(&moments).unwrap();
+            let points = estimate.descending.iter().chain(&estimate.ascending).map(|p| p.f);
+            let values = estimate.a.iter().chain(&estimate.b).copied().chain(points);
+            let first = limit.first_order(&moments);
+            let parts = values.zip(limit.parameters()).zip(first).map(|((x, l), f)| (x - l - f).powi(2));
+            parts.sum::<f64>().sqrt()
+        };
+        let (small, large) = (remainder(1e-4), remainder(1e-3));
+        prop_assert!(small < 0.02 * large, "{} should be a hundredth of {}", small, large);
     }
 }

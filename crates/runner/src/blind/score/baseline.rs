@@ -26,8 +26,9 @@ pub(super) fn rows(cases: &[Case]) -> Vec<BaselineRow> {
     fn single_name(case: &Case) -> Option<&'static str> {
         match case.reply.effects.as_slice() {
             [one] => Some(one),
-            _ if case.names_a_cause() => Some("(class)"),
-            _ => None,
+            [_, ..] => Some("(several)"),
+            [] if case.names_a_cause() => Some("(class)"),
+            [] => None,
         }
     }
     fn rule(pick: fn(&Baseline) -> Option<&'static str>, case: &Case) -> Option<&'static str> {

@@ -160,9 +160,9 @@ pub(super) fn measures(
         ),
         (
             "pairs_exact",
-            "pairs found exactly, count unknown",
+            "pairs found exactly, count unknown, each ≥ 1 sd",
             |e| e.pairs_exact.map(Bound::AtLeast),
-            share(Share::over(of(Kind::Pair), Case::exact)),
+            share(Share::over(of(Kind::Pair).filter(|c| c.is_large()), Case::exact)),
         ),
         (
             "phantom",

@@ -33,28 +33,34 @@ pub fn confusion(table: &Confusion) -> Result<String, PlotError> {
             let total: usize = counts.iter().sum();
             for (j, &count) in counts.iter().enumerate() {
                 let share = count as f64 / total.max(1) as f64;
-                draw_cell(canvas, (i, j), share, table.rows[i] == table.columns[j])?;
+                draw_cell(canvas, (i, j), share, is_right(table.rows[i], table.columns[j]))?;
             }
         }
         Ok(())
     })
 }
 
+/// Whether an answer is the right one: the effect itself, silence where there is none, "none of these" for outsiders.
+fn is_right(truth: &str, answer: &str) -> bool {
+    truth == answer || (truth, answer) == ("outside", "unexplained")
+}
+
 fn draw_cell(
     canvas: &super::page::Canvas<'_>,
     (i, j): (usize, usize),
     share: f64,
-    diagonal: bool,
+    right: bool,
 ) -> Result<(), PlotError> {
     let (x, y) = (LEFT + CELL * j as i32, TOP + CELL * i as i32);
     let shade = |full: u8| (255.0 - share * (255.0 - f64::from(full))) as u8;
-    let (r, g, b) = if diagonal { (0x00, 0x72, 0xB2) } else { (0xD5, 0x5E, 0x00) };
+    let (r, g, b) = if right { (0x00, 0x72, 0xB2) } else { (0xD5, 0x5E, 0x00) };
     let colour = RGBColor(shade(r), shade(g), shade(b));
     let area = [(x, y), (x + CELL - 1, y + CELL - 1)];
     canvas.draw(&Rectangle::new(area, colour.filled())).map_err(PlotError::new)?;
     canvas.draw(&Rectangle::new(area, INK.mix(0.15))).map_err(PlotError::new)?;
     if share > 0.0 {
-        let style = letters(11).pos(Pos::new(HPos::Center, VPos::Center));
+        let ink = if share > 0.6 { WHITE } else { INK };
+        let style = letters(11).color(&ink).pos(Pos::new(HPos::Center, VPos::Center));
         let text = format!("{:.0}", 100.0 * share);
         canvas.draw(&Text::new(text, (x + CELL / 2, y + CELL / 2), style)).map_err(PlotError::new)?;
     }

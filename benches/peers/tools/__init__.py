@@ -1,0 +1,1 @@
+"""The tools compared, one a file."""

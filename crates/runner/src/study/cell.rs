@@ -1,0 +1,59 @@
+//! What tables and verdicts need to know of a cell, whatever ran its replicates.
+
+use super::sections::CellSums;
+use crate::results::{Group, Series};
+use std::ops::Range;
+
+/// One cell of a sweep: a curve at one number of samples.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct CellSpec {
+    pub(super) series: Series,
+    /// `N`.
+    pub(super) samples: usize,
+    pub(super) parameters: Vec<ParameterName>,
+    /// One a parameter.
+    pub(super) truth: Vec<f64>,
+    /// Asymptotic standard deviations at `N`, one a parameter; `None` where the method's model does not hold.
+    pub(super) theory: Option<Vec<f64>>,
+    /// The Cramér–Rao bound at `N`, as standard deviations.
+    pub(super) bound: Option<Vec<f64>>,
+}
+
+/// What a parameter is called, and with whom it is judged.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ParameterName {
+    pub(super) name: String,
+    pub(super) group: Group,
+    pub(super) v: Option<f64>,
+}
+
+/// Cells whose replicates are run together.
+///
+/// Every kind of experiment has its own; the rounds, sections and stopping rule know this much of them only.
+pub(super) trait Workload: Sync {
+    /// How many cells there are.
+    fn cells(&self) -> usize;
+
+    /// Runs some replicates of the active cells and adds what came out to their sums; both slices have one entry a cell.
+    ///
+    /// The outcome depends on the seed and the replicate's number, not on what else is active or in the range.
+    fn run(&self, seed: u64, replicates: Range<u32>, active: &[bool], sums: &mut [CellSums]);
+}
+
+impl ParameterName {
+    /// The names of `a₁…aₙ`, `b₁…bₙ` and of the points of the given borders, in this order.
+    pub(super) fn all(order: usize, borders: &[(Group, &[f64])]) -> Vec<Self> {
+        let coefficients = |letter: char, group| {
+            (1..=order).map(move |i| Self { name: format!("{letter}{i}"), group, v: None })
+        };
+        let points = borders.iter().flat_map(|&(group, positions)| {
+            let label = if group == Group::Descending { "desc" } else { "asc" };
+            positions.iter().enumerate().map(move |(j, &v)| Self {
+                name: format!("F_{label}(V{})", j + 1),
+                group,
+                v: Some(v),
+            })
+        });
+        coefficients('a', Group::A).chain(coefficients('b', Group::B)).chain(points).collect()
+    }
+}

@@ -1,0 +1,162 @@
+//! One border, grid and noise level: everything about its cells that noise does not touch.
+
+use super::drive;
+use crate::results::{Group, Series};
+use crate::scenario::{Border, Case, Disturbance, Method};
+use crate::study::StudyError;
+use crate::study::bench::NoiseFilter;
+use crate::study::cell::{CellSpec, ParameterName};
+use nalgebra::DMatrix;
+use switchback_estimator::estimators::free::{Grid, Limit, Moments, Regression};
+use switchback_estimator::linear::autocovariance;
+
+/// A grid and the drive's regression on it.
+#[derive(Debug)]
+pub(super) struct GridOnDrive {
+    pub(super) points: usize,
+    pub(super) grid: Grid,
+    pub(super) regression: Regression,
+}
+
+/// A border's noise-free output and its lag products at each checkpoint.
+#[derive(Debug)]
+pub(super) struct Response {
+    pub(super) z: Vec<f64>,
+    pub(super) lags: Vec<DMatrix<f64>>,
+}
+
+/// The cells over `N` of one border, grid and noise level.
+#[derive(Debug)]
+pub(super) struct Setting {
+    /// Index of the border's response.
+    pub(super) response: usize,
+    /// Index of the grid.
+    pub(super) grid: usize,
+    sigma: f64,
+    /// Sums of the noise-free output against the input's regressors, at each checkpoint.
+    input: Vec<DMatrix<f64>>,
+    /// One a checkpoint.
+    pub(super) limits: Vec<Limit>,
+    /// One a checkpoint.
+    pub(super) specs: Vec<CellSpec>,
+}
+
+/// What a setting is made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ingredients<'a> {
+    pub(super) case: &'a Case,
+    pub(super) border: &'a Border,
+    pub(super) v: &'a [f64],
+    pub(super) samples: &'a [usize],
+}
+
+/// Sums of the unit noise of one replicate at one checkpoint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NoiseSums<'a> {
+    /// `Σ e(t−i) e(t−l)`
+    pub(super) lags: &'a DMatrix<f64>,
+    /// `Σ z(t−i) e(t−l)`
+    pub(super) cross: &'a DMatrix<f64>,
+    /// `Σ e(t−i) ψ(t)`
+    pub(super) input: &'a DMatrix<f64>,
+}
+
+impl Setting {
+    /// Works out truth, limit, theory and bound at every checkpoint; `response` and `grid` are given with their indices.
+    pub(super) fn new(
+        of: Ingredients<'_>,
+        (response_index, response): (usize, &Response),
+        (grid_index, on): (usize, &GridOnDrive),
+        sigma: f64,
+    ) -> Result<Self, StudyError> {
+        let mut setting = Self {
+            response: response_index,
+            grid: grid_index,
+            sigma,
+            input: on.regression.input_products(&response.z),
+            limits: Vec::new(),
+            specs: Vec::new(),
+        };
+        let holds = keeps_assumptions(of.case) && drive::lies_on(&of.border.hysteresis, &on.grid, of.v);
+        for (checkpoint, &samples) in of.samples.iter().enumerate() {
+            let expected = setting.expected(of.case, on, response, checkpoint, samples);
+            let limit = Limit::of(&on.regression, &expected, sigma * sigma).map_err(|source| {
+                let (case, border) = (of.case.name.clone(), of.border.name.clone());
+                StudyError::NotFromDrive { case, border, points: on.points, source }
+            })?;
+            // Least squares and rank one on white errors is maximum likelihood: its theory is the bound.
+            let theory = holds.then(|| limit.theory_se());
+            setting.specs.push(CellSpec {
+                series: Series {
+                    case: of.case.name.clone(),
+                    border: of.border.name.clone(),
+                    method: Method::Free,
+                    points: on.points,
+                    noise: sigma,
+                },
+                samples,
+                parameters: names(of.case.order, &on.grid),
+                truth: truth(of.case, of.border, &on.grid),
+                bound: theory.clone(),
+                theory,
+            });
+            setting.limits.push(limit);
+        }
+        Ok(setting)
+    }
+
+    /// The moments of `y = z + σe` at a checkpoint.
+    pub(super) fn moments(
+        &self,
+        regression: &Regression,
+        response: &Response,
+        checkpoint: usize,
+        noise: NoiseSums<'_>,
+    ) -> Moments {
+        let mixed = (noise.cross + noise.cross.transpose()) * self.sigma;
+        let lags = &response.lags[checkpoint] + mixed + noise.lags * (self.sigma * self.sigma);
+        let input = &self.input[checkpoint] + noise.input * self.sigma;
+        regression.moments(checkpoint, &lags, &input)
+    }
+
+    /// Their mean over all noise: the noise-free output's, and the noise's stationary autocovariances.
+    fn expected(
+        &self,
+        case: &Case,
+        on: &GridOnDrive,
+        response: &Response,
+        checkpoint: usize,
+        samples: usize,
+    ) -> Moments {
+        let filter = NoiseFilter::of(case);
+        let gamma = autocovariance(&filter.ar, &filter.ma, case.order);
+        let width = case.order + 1;
+        let lags = DMatrix::from_fn(width, width, |i, l| samples as f64 * gamma[i.abs_diff(l)]);
+        let input = &self.input[checkpoint];
+        let (no_cross, no_input) = (DMatrix::zeros(width, width), input * 0.0);
+        let noise = NoiseSums { lags: &lags, cross: &no_cross, input: &no_input };
+        self.moments(&on.regression, response, checkpoint, noise)
+    }
+}
+
+/// Whether the regression's equation error is white and its order right.
+fn keeps_assumptions(case: &Case) -> bool {
+    matches!(case.disturbance, Disturbance::White) && case.order == case.system.order()
+}
+
+fn names(order: usize, grid: &Grid) -> Vec<ParameterName> {
+    let borders = [(Group::Descending, grid.basis.descending()), (Group::Ascending, grid.basis.ascending())];
+    ParameterName::all(order, &borders)
+}
+
+/// The true parameters in the normalisation `u_M − u_m = 1`, as far as a regression of the assumed order names them.
+fn truth(case: &Case, border: &Border, grid: &Grid) -> Vec<f64> {
+    use switchback_estimator::hysteresis::Branch::{Ascending, Descending};
+    let hysteresis = &border.hysteresis;
+    let named = |c: &[f64]| (0..case.order).map(|i| c.get(i).copied().unwrap_or(0.0)).collect::<Vec<_>>();
+    let mut truth = [named(case.system.a()), named(case.system.normalised(hysteresis.span()).b())].concat();
+    for (branch, knots) in [(Descending, grid.basis.descending()), (Ascending, grid.basis.ascending())] {
+        truth.extend(knots.iter().map(|&v| hysteresis.border(branch, v) / hysteresis.span()));
+    }
+    truth
+}

@@ -1,0 +1,135 @@
+//! The blind study, with examiners that are easy to foresee in place of the diagnosis.
+
+use std::collections::BTreeMap;
+use switchback::blind::{self, Expect, Kind, Study};
+use switchback_estimator::rig::Rig;
+use switchback_gap::{DiagnoseError, Diagnosis, Figure, Gap, ResidualPicture, Settings, Status, Verdict};
+use switchback_maker::Plan;
+
+fn study() -> Study {
+    Study {
+        name: "small".to_owned(),
+        question: "?".to_owned(),
+        seed: 5,
+        systems: 2,
+        sizes: vec![1.0],
+        seeds: 2,
+        none: 3,
+        outside: 6,
+        pairs: 3,
+        slice: Some(30),
+        plan: Plan { step: 120, periods: 8, sweep: 400, drive: 200, repeat_periods: 3 },
+        expect: Expect::default(),
+    }
+}
+
+fn silent(status: Status) -> Diagnosis {
+    let nothing = Figure { estimate: 0.0, ci90: [0.0, 0.0] };
+    Diagnosis {
+        verdict: Verdict { status, effects: vec![], class: vec![], stage: None, probability: 0.9 },
+        gap: Gap {
+            before: nothing,
+            after: nothing,
+            closure: None,
+            noise_floor: 0.0,
+            predictive_gain: 0.0,
+            per_record: vec![],
+        },
+        where_: vec![],
+        candidates: vec![],
+        probability_none: 0.9,
+        probability_unexplained: 0.1,
+        next_experiment: None,
+        series: vec![],
+        residuals_before: ResidualPicture::default(),
+        residuals_after: ResidualPicture::default(),
+        limitations: vec![],
+    }
+}
+
+fn quiet(_: &Rig, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
+    Ok(silent(Status::None))
+}
+
+fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let study = study();
+        let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+        let key = blind::key_file(&sealed);
+        let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
+        let scores = blind::score(&cases, &study.expect);
+        let files = blind::artefacts(&study, &blind::sha256(&key), &cases, &scores).unwrap();
+        (key, files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect())
+    })
+}
+
+#[test]
+fn key_and_report_are_the_same_at_any_thread_count() {
+    assert_eq!(run(1), run(3));
+}
+
+#[test]
+fn the_report_carries_the_hash_of_the_key() {
+    let (key, files) = run(2);
+    let results: serde_json::Value = serde_json::from_slice(&files["results.json"]).unwrap();
+    assert_eq!(results["key_sha256"], blind::sha256(&key));
+    assert_eq!(key.lines().count(), 30);
+}
+
+#[test]
+fn who_says_nothing_is_never_wrong_and_never_right() {
+    let (_, files) = run(2);
+    let results: serde_json::Value = serde_json::from_slice(&files["results.json"]).unwrap();
+    let reached = |key: &str| {
+        results["measures"].as_array().unwrap().iter().find(|m| m["key"] == key).unwrap()["reached"].clone()
+    };
+    assert_eq!(reached("exact"), 0.0);
+    assert_eq!(reached("outside_named"), 0.0);
+    assert!(reached("precision").is_null());
+}
+
+#[test]
+fn an_examiner_sees_what_a_users_folder_holds_and_never_the_withheld_effect() {
+    let mut study = study();
+    study.slice = None;
+    study.seeds = 0;
+    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    for one in &sealed {
+        let rig = one.rig().unwrap();
+        assert_eq!(rig, one.open().unwrap().rig);
+        assert!(rig.records.iter().all(|r| r.predicted.is_none()));
+        assert!(!format!("{} {} {}", rig.name, rig.input_label, rig.output_label).contains('_'));
+    }
+    let withheld: Vec<_> = sealed.iter().filter_map(|s| s.ticket().withheld).collect();
+    assert_eq!(withheld.len(), 3);
+    let watched = |_: &Rig, settings: &Settings| {
+        assert!(settings.effects.len() >= 19);
+        Ok(silent(if settings.effects.len() == 19 { Status::Unexplained } else { Status::None }))
+    };
+    let cases = blind::examine(&sealed, &watched, &|| ()).unwrap();
+    let unexplained = cases.iter().filter(|c| c.reply.status == "unexplained").count();
+    assert_eq!(unexplained, 3);
+    assert!(cases.iter().filter(|c| c.reply.status == "unexplained").all(|c| c.kind == Kind::Outside));
+}
+
+#[test]
+fn a_refused_rig_counts_as_failed() {
+    let mut study = study();
+    study.slice = Some(3);
+    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    let refuse = |_: &Rig, _: &Settings| Err(DiagnoseError::ConstantInput);
+    let cases = blind::examine(&sealed, &refuse, &|| ()).unwrap();
+    assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
+}
+
+#[test]
+fn the_shipped_scenarios_can_be_read_and_the_full_one_is_as_large_as_it_must_be() {
+    let scenarios = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let full = blind::design(&blind::read(&scenarios.join("blind.toml")).unwrap()).unwrap();
+    let count = |kind: Kind| full.iter().filter(|t| t.kind == kind).count();
+    assert_eq!(count(Kind::Single), 20 * 3 * 4 * 20);
+    assert_eq!([Kind::None, Kind::Outside, Kind::Pair].map(count), [300, 300, 200]);
+    let slice = blind::design(&blind::read(&scenarios.join("blind-slice.toml")).unwrap()).unwrap();
+    assert_eq!(slice.len(), 100);
+}

@@ -1,0 +1,54 @@
+//! `switchback rig`, from the outside.
+
+use assert_cmd::Command;
+use predicates::str::contains;
+use std::fs;
+
+fn switchback() -> Command {
+    Command::cargo_bin("switchback").unwrap()
+}
+
+#[test]
+fn the_same_seed_writes_the_same_folder_and_says_what_is_in_it() {
+    let root = tempfile::tempdir().unwrap();
+    for name in ["one", "two"] {
+        let out = root.path().join(name);
+        let run = switchback()
+            .args(["rig", "--effect", "creep", "--size", "2", "--seed", "7", "--out"])
+            .arg(&out)
+            .assert();
+        run.success().stdout(contains("creep (logarithmic, operator)"));
+    }
+    let files = |name: &str| {
+        let mut files: Vec<_> = fs::read_dir(root.path().join(name))
+            .unwrap()
+            .map(|f| f.unwrap())
+            .map(|f| (f.file_name(), fs::read(f.path()).unwrap()))
+            .collect();
+        files.sort();
+        files
+    };
+    assert_eq!(files("one").len(), 8);
+    assert_eq!(files("one"), files("two"));
+    let description = fs::read_to_string(root.path().join("one/rig.toml")).unwrap();
+    assert!(!description.contains("creep"), "the folder must not tell");
+}
+
+#[test]
+fn an_unknown_effect_is_refused_and_nothing_is_written() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("rig");
+    let run = switchback().args(["rig", "--effect", "blacklash", "--out"]).arg(&out).assert();
+    run.code(2).stderr(contains("`blacklash` is no effect")).stderr(contains("--list"));
+    assert!(!out.exists());
+}
+
+#[test]
+fn the_list_names_every_effect_with_its_laws() {
+    switchback()
+        .args(["rig", "--list"])
+        .assert()
+        .success()
+        .stdout(contains("backlash"))
+        .stdout(contains("Bouc-Wen"));
+}
