@@ -20,7 +20,7 @@ pub use examine::{Report, examine};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use json::json;
 pub use model_file::ModelError;
-pub use number::digits;
+pub use number::{digits, fit_percent};
 pub use parameter::{Told, told};
 pub use place::{SIGNIFICANT, edges};
 pub use subject::{Source, Subject, SubjectError};

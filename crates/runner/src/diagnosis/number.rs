@@ -26,6 +26,31 @@ pub fn digits(x: f64, count: usize) -> String {
     text.replace('-', "−")
 }
 
+/// A share in whole percent, with decimals where it comes closer to 100 than that; `percent` may be negative.
+pub(super) fn whole_percent(percent: f64) -> String {
+    let short = 100.0 - percent;
+    let decimals =
+        if short > 0.0 && short < 1.0 { (-short.log10().floor()).clamp(1.0, 3.0) as usize } else { 0 };
+    // Adding zero turns the −0 of rounding into 0.
+    let rounded = format!("{percent:.decimals$}").parse::<f64>().unwrap_or(percent) + 0.0;
+    format!("{rounded:.decimals$}").replace('-', "−")
+}
+
+/// A fit figure: one decimal; what is worse than −999 says no more than that.
+///
+/// ```
+/// # use switchback::diagnosis::fit_percent;
+/// assert_eq!(fit_percent(97.25), "97.2");
+/// assert_eq!(fit_percent(-68_042_733.0), "< −999");
+/// ```
+pub fn fit_percent(fit: f64) -> String {
+    match fit {
+        fit if !fit.is_finite() => "–".to_owned(),
+        fit if fit < -999.0 => "< −999".to_owned(),
+        fit => format!("{fit:.1}").replace('-', "−"),
+    }
+}
+
 /// A number without trailing zeros, four significant digits at most: for the edges of cells.
 pub(super) fn edge(x: f64) -> String {
     let text = digits(x, 4);
@@ -66,6 +91,14 @@ mod tests {
         assert_eq!(with_interval(0.12345, [0.0934, 0.1534]), "0.12 ± 0.03");
         assert_eq!(with_interval(0.5, [0.3, 0.9]), "0.5 [0.3, 0.9]");
         assert_eq!(with_interval(2.0, [f64::NAN, f64::NAN]), "2.00");
+    }
+
+    #[test]
+    fn all_but_a_trace_is_not_all() {
+        assert_eq!(whole_percent(96.4), "96");
+        assert_eq!(whole_percent(99.93), "99.93");
+        assert_eq!(whole_percent(-0.2), "0");
+        assert_eq!(whole_percent(-112.3), "−112");
     }
 
     #[test]

@@ -23,6 +23,8 @@ struct Place<'a> {
 }
 
 /// Where the gap is concentrated: on a branch, and on the axis that shows it best. None where no cell is significant.
+///
+/// Where the simulation shows no gap, the map is that of the one-step errors alone, and the sentence says so.
 pub(super) fn place(report: &Report) -> Option<String> {
     let cells = &report.diagnosis.where_;
     if cells.iter().all(|cell| cell.q_value >= SIGNIFICANT) {
@@ -30,22 +32,43 @@ pub(super) fn place(report: &Report) -> Option<String> {
     }
     let mut axes: Vec<&'static str> = cells.iter().map(|cell| cell.axis).collect();
     axes.dedup();
+    let visible = report.diagnosis.gap.before.ci90[0] > 0.0;
+    let subject = if visible { "The gap" } else { "What one-step predictions miss" };
     let units = Units::of(&report.rig);
     let places = axes.into_iter().filter_map(|axis| bulk(axis, cells));
     let (branch, mut others): (Vec<Place<'_>>, Vec<Place<'_>>) = places
         .filter(|place| place.concentration >= CONCENTRATED)
         .partition(|place| place.axis == "branch" && place.cells.len() == 1);
-    others.retain(|place| place.axis != "branch");
-    others.sort_by(|x, y| y.concentration.total_cmp(&x.concentration));
+    others.retain(|place| place.axis != "branch" && !is_motion(place) && is_one_stretch(place));
+    others.sort_by(|x, y| {
+        let order = |place: &Place<'_>| (is_indirect(place.axis), -place.concentration);
+        order(x).partial_cmp(&order(y)).unwrap_or(std::cmp::Ordering::Equal)
+    });
     let told: Vec<String> = branch
         .iter()
         .chain(others.first())
         .map(|place| format!("{} ({:.0} % of its energy)", told(place, &units), 100.0 * place.share))
         .collect();
     Some(match told.is_empty() {
-        true => "The gap lies everywhere: no axis of the map holds most of it in few cells.".to_owned(),
-        false => format!("The gap lies {}.", told.join(", ")),
+        true => format!("{subject} lies everywhere: no axis of the map holds most of it in few cells."),
+        false => format!("{subject} lies {}.", told.join(", ")),
     })
+}
+
+/// Records and stretches of time differ by what the input does in them, so they are named only where nothing says it better.
+fn is_indirect(axis: &str) -> bool {
+    matches!(axis, "record" | "time")
+}
+
+/// Whether the cells lie side by side; scattered ones are no place.
+fn is_one_stretch(place: &Place<'_>) -> bool {
+    let intervals: Option<Vec<_>> = place.cells.iter().map(|cell| edges(&cell.cell)).collect();
+    intervals.is_none_or(|intervals| merged(&intervals).len() == 1)
+}
+
+/// Whether the place is merely where the input moves, as in most samples.
+fn is_motion(place: &Place<'_>) -> bool {
+    place.axis == "rest_samples" && place.cells.first().is_some_and(|cell| cell.cell.starts_with("0.0"))
 }
 
 /// The fewest cells that hold [`BULK`] of an axis's energy, all of them significant.
@@ -85,7 +108,7 @@ fn told(place: &Place<'_>, units: &Units) -> String {
         |tell: &dyn Fn([f64; 2]) -> String| merged.iter().map(|i| tell(*i)).collect::<Vec<_>>().join(" and ");
     match place.axis {
         "travel_since_reversal" => each(&|i| after_reversal(i, &units.input)),
-        "rest_samples" => each(&|i| after_reversal(i, "samples")),
+        "rest_samples" => format!("{} after the input stopped", each(&|i| between(i, "samples"))),
         "v" => format!("at an input of {}", each(&|i| between(i, &units.input))),
         "y" => format!("at an output of {}", each(&|i| between(i, &units.output))),
         "loop_size" => format!("in loops of {}", each(&|i| between(i, &units.input))),

@@ -1,6 +1,6 @@
 //! The verdict in sentences: where, which, how far, what remains.
 
-use super::number::{digits, with_interval};
+use super::number::{digits, whole_percent, with_interval};
 use super::{Report, Source, Units, place, told};
 use switchback_gap::{Candidate, Diagnosis, Effect, Status};
 
@@ -35,7 +35,12 @@ fn size(report: &Report) -> String {
     let [low, high] = gap.before.ci90;
     let held_out = judged(report);
     if gap.before.ci90[0] <= 0.0 {
-        let at_most = percent(high.max(0.0));
+        if high <= 0.0 {
+            return format!(
+                "On {held_out} {model} misses less than the noise floor, which is then no estimate of the noise: the gap cannot be measured."
+            );
+        }
+        let at_most = percent(high);
         return format!(
             "On {held_out} {model} misses no more than the noise does: any gap is below {at_most} % of the output's variance."
         );
@@ -74,14 +79,18 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             let effect = verdict.effects.first().map(|effect| described(*effect, diagnosis, units));
             format!("Cause: {}, probability {p}{}.", effect.unwrap_or_default(), next_best(diagnosis))
         }
+        Status::Class | Status::Ambiguous if verdict.class.len() == 1 => format!(
+            "Cause: probably {}; that is not certain enough to name it{}.",
+            rivals(&verdict.class, diagnosis, units),
+            next_best(diagnosis)
+        ),
         Status::Class => format!(
-            "Cause: one of {}, probability {p} together; no record here separates these twins.",
+            "Cause: one of {}, together {p}; no record here separates these twins.",
             rivals(&verdict.class, diagnosis, units)
         ),
-        Status::Ambiguous => format!(
-            "Cause: not settled between {}, probability {p} together.",
-            rivals(&verdict.class, diagnosis, units)
-        ),
+        Status::Ambiguous => {
+            format!("Cause: not settled between {}, together {p}.", rivals(&verdict.class, diagnosis, units))
+        }
         Status::Unexplained => {
             let stage = verdict
                 .stage
@@ -118,15 +127,16 @@ pub(super) fn parameters(candidate: &Candidate, units: &Units) -> String {
 fn rivals(class: &[Effect], diagnosis: &Diagnosis, units: &Units) -> String {
     let one = |effect: &Effect| {
         let p = diagnosis.candidates.iter().find(|c| c.effect == *effect).map_or(f64::NAN, |c| c.probability);
-        format!("{} {}", described(*effect, diagnosis, units), probability(p))
+        format!("{} with probability {}", described(*effect, diagnosis, units), probability(p))
     };
     class.iter().map(one).collect::<Vec<_>>().join(" or ")
 }
 
 /// The likeliest rival of what was named, be it another effect, none of these, or nothing at all.
 fn next_best(diagnosis: &Diagnosis) -> String {
-    let named = &diagnosis.verdict.effects;
-    let others = diagnosis.candidates.iter().filter(|c| !named.contains(&c.effect));
+    let verdict = &diagnosis.verdict;
+    let told = |effect: &Effect| verdict.effects.contains(effect) || verdict.class.contains(effect);
+    let others = diagnosis.candidates.iter().filter(|c| !told(&c.effect));
     let effects = others.map(|c| (c.effect.name(), c.probability));
     let rest =
         [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)];
@@ -158,11 +168,11 @@ fn closure(report: &Report) -> Vec<String> {
     let noise_only =
         !diagnosis.verdict.effects.is_empty() && diagnosis.verdict.effects.iter().all(|e| e.is_noise());
     match &gap.closure {
-        Some(_) if noise_only => sentences
+        _ if noise_only => sentences
             .push("A cause in the noise moves no simulation error, so no closure is given.".to_owned()),
         Some(closure) => {
             let [low, high] = closure.ci90.map(|x| 100.0 * x);
-            let percent = |x: f64| format!("{x:.0}").replace('-', "−");
+            let percent = whole_percent;
             sentences.push(match closure.estimate {
                 c if c > 0.0 => format!(
                     "{adding} closes {} % [{}, {}] of the gap on {}.",
@@ -196,16 +206,36 @@ fn closure(report: &Report) -> Vec<String> {
 /// What remains after the augmentation.
 fn remainder(diagnosis: &Diagnosis, units: &Units) -> String {
     let gap = &diagnosis.gap;
+    let percent = |x: f64| digits(100.0 * x, 2);
     let floor = format!("sd {} {}", digits(gap.noise_floor, 2), units.output);
-    if gap.after.ci90[0] <= 0.0 {
-        format!("What remains is the noise floor ({floor}).")
-    } else {
-        let percent = |x: f64| digits(100.0 * x, 2);
-        format!(
-            "What remains, {} % [{}, {}] of the output's variance, lies above the noise floor ({floor}).",
-            percent(gap.after.estimate),
-            percent(gap.after.ci90[0]),
-            percent(gap.after.ci90[1])
-        )
+    let what = format!(
+        "{} % [{}, {}] of the output's variance",
+        percent(gap.after.estimate),
+        percent(gap.after.ci90[0]),
+        percent(gap.after.ci90[1])
+    );
+    let left = gap.after.estimate.max(0.0).sqrt() * output_sd(diagnosis);
+    match gap.after.estimate {
+        after if after >= 1.0 => {
+            "The augmented model is no simulator: in free run it misses more than the output's mean would."
+                .to_owned()
+        }
+        _ if gap.after.ci90[0] <= 0.0 => format!("What remains is the noise floor ({floor})."),
+        _ if left < gap.noise_floor => {
+            format!("What remains, {what}, is less than the noise floor ({floor}).")
+        }
+        _ => format!("What remains, {what}, lies above the noise floor ({floor})."),
     }
+}
+
+/// Standard deviation of the measured outputs about their records' means, over the judged records.
+fn output_sd(diagnosis: &Diagnosis) -> f64 {
+    let (mut energy, mut count) = (0.0, 0.0);
+    for series in &diagnosis.series {
+        let n = series.measured.len() as f64;
+        let mean = series.measured.iter().sum::<f64>() / n.max(1.0);
+        energy += series.measured.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
+        count += n;
+    }
+    (energy / f64::max(count, 1.0)).sqrt()
 }

@@ -1,6 +1,7 @@
 //! The diagnosis as a page for a person.
 
-use super::number::digits;
+use super::experiment::separates;
+use super::number::{digits, fit_percent, whole_percent};
 use super::sentences::{parameters, probability};
 use super::{NEXT_EXPERIMENT, Report, Units, sentences};
 use std::fmt::Write;
@@ -42,13 +43,11 @@ fn records(report: &Report) -> String {
     let head = ["record", "fit % before", "after", "gap % of var(y) before", "after"];
     let mut rows = vec![head.map(str::to_owned)];
     for record in &report.diagnosis.gap.per_record {
-        let fit =
-            |x: f64| if x.is_finite() { format!("{x:.1}").replace('-', "−") } else { "–".to_owned() };
         let gap = |x: f64| digits(100.0 * x, 3);
         rows.push([
             record.record.clone(),
-            fit(record.fit_before),
-            fit(record.fit_after),
+            fit_percent(record.fit_before),
+            fit_percent(record.fit_after),
             gap(record.before),
             gap(record.after),
         ]);
@@ -75,7 +74,7 @@ fn explanations(report: &Report, units: &Units) -> String {
     let told: Vec<String> = listed()
         .map(|candidate| (candidate.effect, parameters(candidate, units)))
         .filter(|(_, text)| !text.is_empty())
-        .map(|(effect, text)| format!("  {effect}: {text}\n"))
+        .map(|(effect, text)| wrapped(&format!("  {effect}: {text}"), "    "))
         .collect();
     if told.is_empty() {
         table
@@ -90,7 +89,7 @@ fn row(candidate: &Candidate) -> [String; 5] {
         probability(candidate.probability),
         format!("{:.0}", candidate.bic).replace('-', "−"),
         digits(candidate.heldout_log_score, 2),
-        candidate.closure.map_or_else(|| "–".to_owned(), |c| format!("{:.0}", 100.0 * c).replace('-', "−")),
+        candidate.closure.map_or_else(|| "–".to_owned(), |c| whole_percent(100.0 * c)),
     ]
 }
 
@@ -98,6 +97,13 @@ fn next(report: &Report, out: Option<&Path>) -> Option<String> {
     let next = report.diagnosis.next_experiment.as_ref()?;
     let seconds = digits(next.v.len() as f64 * report.rig.sample_time, 3);
     let rivals = next.separates.iter().map(|effect| effect.name()).collect::<Vec<_>>().join(" and ");
+    if !separates(next) {
+        let least = digits(next.distance, 2);
+        return Some(format!(
+            "next experiment: none of the kinds tried would separate {rivals}; the best sets their predictions apart by \
+             {least} noise sd."
+        ));
+    }
     let file = match out {
         Some(folder) => format!("its input is ready in {}", folder.join(NEXT_EXPERIMENT).display()),
         None => "`--out DIR` writes its input as a CSV".to_owned(),
@@ -110,18 +116,21 @@ fn next(report: &Report, out: Option<&Path>) -> Option<String> {
     ))
 }
 
-/// Lines of at most [`WIDTH`] letters, all but the first begun with `indent`.
+/// Lines of at most [`WIDTH`] letters, all but the first begun with `indent`; blanks before the first word are kept.
 fn wrapped(text: &str, indent: &str) -> String {
+    let words = text.trim_start();
     let mut page = String::new();
-    let mut line = String::new();
-    for word in text.split(' ') {
-        if !line.trim().is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
+    let mut line = text[..text.len() - words.len()].to_owned();
+    let mut begun = false;
+    for word in words.split(' ') {
+        if begun && line.chars().count() + 1 + word.chars().count() > WIDTH {
             let _ = writeln!(page, "{line}");
             line = indent.to_owned();
-        } else if !line.trim().is_empty() {
+        } else if begun {
             line.push(' ');
         }
         line.push_str(word);
+        begun = true;
     }
     let _ = writeln!(page, "{line}");
     page

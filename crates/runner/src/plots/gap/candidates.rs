@@ -106,5 +106,6 @@ impl Row {
 }
 
 fn whole(x: f64) -> String {
-    format!("{:.0}", x + 0.0).replace('-', "−")
+    // Adding zero turns the −0 of rounding into 0.
+    format!("{}", x.round() + 0.0).replace('-', "−")
 }

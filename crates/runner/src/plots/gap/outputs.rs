@@ -1,6 +1,6 @@
 //! Measured, nominal and augmented output of one hold-out record.
 
-use crate::diagnosis::Report;
+use crate::diagnosis::{Report, fit_percent};
 use crate::plots::axis::Axis;
 use crate::plots::canvas::{Canvas, Pen};
 use crate::plots::identify::series::{thinned, worst_window};
@@ -26,15 +26,16 @@ pub(super) fn figure(report: &Report, series: &HoldoutSeries) -> String {
     let drawing = Drawing::new(report, series);
     let sheet = Sheet {
         title: drawing.title(),
-        notes: vec![format!(
+        notes: vec![
             "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the nominal model misses most, is enlarged below."
-        )],
+                .to_owned(),
+        ],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(GREY, 4.0)), "measured"),
             Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), "nominal, and measured − nominal"),
             Entry::new(Sample::Line(Pen::new(AFTER, 2.0)), "augmented, and measured − augmented"),
         ],
-        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 58.0 },
+        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 76.0 },
     };
     sheet.render(|canvas, frames| {
         drawing.errors(canvas, frames, 0, 0..series.measured.len());
@@ -63,7 +64,7 @@ impl<'a> Drawing<'a> {
     fn title(&self) -> String {
         let fits = self.report.diagnosis.gap.per_record.iter().find(|r| r.record == self.series.record);
         let fits = fits.map_or_else(String::new, |r| {
-            format!(": fit {:.1} % before, {:.1} % after", r.fit_before, r.fit_after).replace('-', "−")
+            format!(": fit {} % before, {} % after", fit_percent(r.fit_before), fit_percent(r.fit_after))
         });
         format!("{}, record {}{fits}", self.report.rig.name, self.series.record)
     }
@@ -72,11 +73,19 @@ impl<'a> Drawing<'a> {
         stretch.clone().map(|k| (k as f64 * self.report.rig.sample_time, values[k])).collect()
     }
 
+    /// Range of the measured output. A run that leaves it further than this must not flatten all else to a line.
+    fn reach(&self) -> f64 {
+        let [low, high] = extremes(self.series.measured.iter().copied());
+        (high - low).max(f64::MIN_POSITIVE)
+    }
+
     /// Errors over a stretch of samples; over the whole record the enlarged stretch is shaded.
     fn errors(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize, stretch: Range<usize>) {
         let (before, after) = (self.timed(&self.before, &stretch), self.timed(&self.after, &stretch));
         let floor = 2.0 * self.report.diagnosis.gap.noise_floor;
-        let shown = before.iter().chain(&after).map(|p| p.1).chain([floor, -floor]);
+        let reach = self.reach();
+        let errors = before.iter().chain(&after).map(|p| p.1.clamp(-reach, reach));
+        let shown = errors.chain([floor.min(reach), -floor.min(reach)]);
         let y = Axis::linear(shown);
         let x = Axis::linear([before[0].0, before[before.len() - 1].0]);
         let whole = stretch.len() > self.window.len();
@@ -115,10 +124,8 @@ impl<'a> Drawing<'a> {
             lines.map(|(values, colour, width)| (self.timed(values, &self.window), Pen::new(colour, width)));
         let times = &lines[0].0;
         let x = Axis::linear([times[0].0, times[times.len() - 1].0]);
-        let measured = lines[0].0.iter().map(|p| p.1);
-        let (low, high) = measured.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-        // A run that leaves every range must not flatten the measured output to a line.
-        let reach = (high - low).max(f64::MIN_POSITIVE);
+        let [low, high] = extremes(lines[0].0.iter().map(|p| p.1));
+        let reach = self.reach();
         let inside = |y: f64| y.clamp(low - reach, high + reach);
         let y = Axis::linear(lines.iter().flat_map(|(line, _)| line.iter().map(|p| inside(p.1))));
         let panel = Panel::new(canvas, frames.corner(row, 0), frames.size(), (x, y));
@@ -144,4 +151,8 @@ impl<'a> Drawing<'a> {
             unit => format!(" [{unit}]"),
         }
     }
+}
+
+fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }

@@ -92,7 +92,7 @@ fn axis_name(axis: &str, units: &Units) -> String {
         "v" => format!("input v [{}]", units.input),
         "y" => format!("output y [{}]", units.output),
         "travel_since_reversal" => format!("travel since the last reversal [{}]", units.input),
-        "rest_samples" => "samples at rest".to_owned(),
+        "rest_samples" => "samples since the last move".to_owned(),
         "loop_size" => format!("size of the loop [{}]", units.input),
         "speed" => format!("speed |Δv| [{} per sample]", units.input),
         "time" => "time, as a share of the campaign".to_owned(),
