@@ -71,7 +71,9 @@ fn a_report_appears_where_the_scenario_s_name_says() {
     let folder = Folder::with(SMALL);
     let output = folder.run(&[]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    for file in ["results.json", "table.csv", "bias-efficient.svg", "sd-efficient.svg", "borders-efficient.svg"] {
+    for file in
+        ["results.json", "table.csv", "bias-efficient.svg", "sd-efficient.svg", "borders-efficient.svg"]
+    {
         assert!(folder.report().join(file).is_file(), "{file} is missing");
     }
     assert!(String::from_utf8_lossy(&output.stdout).contains("efficient"));
@@ -118,7 +120,13 @@ fn results_agree_with_themselves_and_not_with_another_truth() {
     }
     let compare = |one: &str, two: &str| {
         let mut command = switchback();
-        command.current_dir(folder.0.path()).args(["compare", one, two]).output().expect("it runs").status.code()
+        command
+            .current_dir(folder.0.path())
+            .args(["compare", one, two])
+            .output()
+            .expect("it runs")
+            .status
+            .code()
     };
     assert_eq!(compare("same", "same"), Some(0));
     assert_eq!(compare("same", "other"), Some(1));

@@ -8,6 +8,7 @@ mod execute;
 mod expectations;
 mod judge;
 mod moments;
+mod replay;
 mod sections;
 mod tabulate;
 mod world;
@@ -17,6 +18,7 @@ use crate::scenario::Scenario;
 use thiserror::Error;
 
 pub use execute::Progress;
+pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
 
 /// Why a study cannot be run.
 #[derive(Debug, Error)]
