@@ -4,7 +4,8 @@ use super::StudyError;
 use crate::scenario::{Border, Case, Disturbance, Method};
 use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
-use switchback_estimator::linear::settling_samples;
+use switchback_estimator::hysteresis::SwitchedHysteresis;
+use switchback_estimator::linear::{LinearSystem, filter, settling_samples};
 use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
@@ -13,10 +14,14 @@ pub(super) const DIRECTIONS: [Direction; 2] = [Direction::Descendant, Direction:
 /// Samples of the expected statistics that stand for endless data: terms of order 1/N vanish beside 1e-9.
 const ENDLESS: f64 = 1e12;
 
+/// What is left of a transient when a simulated record begins.
+const SETTLED: f64 = 1e-16;
+
 /// Both experiments on one hysteresis, unrolled.
 #[derive(Debug, Clone)]
 pub(super) struct Bench {
     pub(super) points: usize,
+    experiments: [PulseExperiment; 2],
     designs: [PeriodicDesign; 2],
     responses: [Vec<f64>; 2],
     /// Noise-free outputs at the satellites.
@@ -81,7 +86,8 @@ impl Bench {
                 })
         };
         let [descendant, ascendant] = DIRECTIONS.map(experiment);
-        let designs = [descendant?, ascendant?].map(|e| PeriodicDesign::new(&e, hysteresis, case.order));
+        let experiments = [descendant?, ascendant?];
+        let designs = [0, 1].map(|k| PeriodicDesign::new(&experiments[k], hysteresis, case.order));
         let responses = [0, 1].map(|k| periodic_response(&case.system, &designs[k].u));
         let gain = case.system.static_gain();
         let named = |c: &[f64]| (0..case.order).map(|i| c.get(i).copied().unwrap_or(0.0)).collect::<Vec<_>>();
@@ -103,6 +109,7 @@ impl Bench {
             satellites: [gain * hysteresis.u_high(), gain * hysteresis.u_low()],
             truth,
             noise: NoiseFilter::of(case),
+            experiments,
             designs,
         })
     }
@@ -114,6 +121,34 @@ impl Bench {
     /// `V₁…V_m` of an experiment.
     pub(super) fn levels(&self, experiment: usize) -> &[f64] {
         &self.designs[experiment].levels
+    }
+
+    /// Where the input of an experiment rests.
+    pub(super) fn satellite(&self, experiment: usize) -> f64 {
+        self.designs[experiment].satellite
+    }
+
+    /// The noise-free output there.
+    pub(super) fn satellite_output(&self, experiment: usize) -> f64 {
+        self.satellites[experiment]
+    }
+
+    /// Input and noise-free output of an experiment by running the operator and the difference equation until they have settled, from
+    /// `lead` samples before phase 0 on, `samples` of them. Slow; what the closed form must equal.
+    pub(super) fn simulate(
+        &self,
+        system: &LinearSystem,
+        hysteresis: &SwitchedHysteresis,
+        experiment: usize,
+        (lead, samples): (usize, usize),
+    ) -> (Vec<f64>, Vec<f64>) {
+        let settled =
+            (system.settling_samples(SETTLED) + lead).next_multiple_of(self.period()) + self.period();
+        let mut v = self.experiments[experiment].record_input(settled + samples - lead);
+        let u = hysteresis.output(&v, hysteresis.u_low());
+        let mut y = filter(system.a(), system.b(), &u, &[], 0.0, 0.0);
+        let start = 1 + settled - lead;
+        (v.split_off(start), y.split_off(start))
     }
 
     /// The statistics of both experiments with the noise of one replicate.

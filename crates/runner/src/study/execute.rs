@@ -7,7 +7,7 @@ use super::world::{Contender, Setting, World};
 use crate::scenario::{Scenario, Stopping};
 use rayon::prelude::*;
 use std::ops::Range;
-use switchback_estimator::estimators::pulse::{PulseData, StepMean};
+use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
 use switchback_estimator::statistics::ReplicateError;
 
 /// Replicates whose noise is held at once: a whole number of lanes at every width.
@@ -111,18 +111,24 @@ fn run_batch(world: &World, seed: u64, batch: Range<u32>, active: &[bool], sums:
 }
 
 /// The data of one replicate in one setting, at one number of samples.
-struct Sample {
+pub(super) struct Sample {
     data: [PulseData; 2],
     steps: [StepMean; 2],
 }
 
 impl Sample {
-    fn new(world: &World, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
+    pub(super) fn new(world: &World, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
         let samples = world.pulses.checkpoints[checkpoint] as f64;
         Self {
             data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
             steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),
         }
+    }
+
+    /// The values of a method's parameters.
+    pub(super) fn estimates(&self, contender: &Contender) -> Result<Vec<f64>, PulseFitError> {
+        let fit = contender.kind.with_input(&self.data, self.steps, |method| method.fit())?;
+        Ok(fit.parameters().map(|p| p.value).collect())
     }
 
     fn estimate(&self, contender: &Contender, replicate: u32, sums: &mut CellSums) {

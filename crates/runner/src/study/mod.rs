@@ -11,6 +11,7 @@ mod expectations;
 mod free;
 mod judge;
 mod moments;
+mod replay;
 mod sections;
 mod tabulate;
 mod world;
@@ -21,6 +22,7 @@ use cell::{CellSpec, Workload};
 use thiserror::Error;
 
 pub use execute::Progress;
+pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
 
 /// Why a study cannot be run.
 #[derive(Debug, Error)]

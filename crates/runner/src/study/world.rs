@@ -111,24 +111,29 @@ impl World {
     /// What tables and verdicts need of the cells, in the same order.
     pub(super) fn specs(&self, scenario: &Scenario) -> Vec<CellSpec> {
         self.cells()
-            .map(|(setting, samples, contender)| {
-                let case = &scenario.cases()[setting.case];
-                CellSpec {
-                    series: Series {
-                        case: case.name.clone(),
-                        border: case.borders[setting.border].name.clone(),
-                        method: contender.method,
-                        points: setting.bench.points,
-                        noise: setting.sigma,
-                    },
-                    samples,
-                    parameters: contender.parameters.clone(),
-                    truth: contender.truth.clone(),
-                    theory: contender.theory.then(|| contender.limit.theory_se(samples as f64)),
-                    bound: contender.bound.as_ref().map(|b| b.sd(samples as f64)),
-                }
+            .map(|(setting, samples, contender)| CellSpec {
+                series: setting.series(scenario, contender.method),
+                samples,
+                parameters: contender.parameters.clone(),
+                truth: contender.truth.clone(),
+                theory: contender.theory.then(|| contender.limit.theory_se(samples as f64)),
+                bound: contender.bound.as_ref().map(|b| b.sd(samples as f64)),
             })
             .collect()
+    }
+}
+
+impl Setting {
+    /// The curve over N of one of its methods.
+    pub(super) fn series(&self, scenario: &Scenario, method: Method) -> Series {
+        let case = &scenario.cases()[self.case];
+        Series {
+            case: case.name.clone(),
+            border: case.borders[self.border].name.clone(),
+            method,
+            points: self.bench.points,
+            noise: self.sigma,
+        }
     }
 }
 

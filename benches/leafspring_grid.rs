@@ -1,0 +1,132 @@
+//! The grid of `scenarios/leafspring.toml` with one method on one thread, timed, for comparison with other tools.
+//!
+//! ```text
+//! cargo run --release -p switchback-benches --bin leafspring_grid -- REPLICATES [--method NAME] [--records DIR]
+//! ```
+//!
+//! prints one JSON object: `seconds` for all replicates of all cells, and `cells`, the estimates of replicate 0 (`a`, `b`, then the
+//! border points; `b` in output units a span `u_M − u_m`, border points in spans). `--records` writes replicate 0 sample by
+//! sample too, so that another tool can be given the same data: `DIR/index.json` and one file `*.f64` (little-endian doubles) a record,
+//! `y(t)` from `t = −n` on; the cell with `N` samples uses the first `n + N` of them.
+
+use serde_json::{Value, json};
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+use switchback::scenario::Scenario;
+use switchback::study::{self, Progress};
+
+const SCENARIO: &str = include_str!("../scenarios/leafspring.toml");
+
+const USAGE: &str = "usage: leafspring_grid REPLICATES [--method NAME] [--records DIR]";
+
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: u64) {}
+    fn advanced(&self, _: u64) {}
+}
+
+struct Arguments {
+    replicates: usize,
+    method: String,
+    records: Option<String>,
+}
+
+impl Arguments {
+    fn read(mut given: impl Iterator<Item = String>) -> Result<Self, Box<dyn Error>> {
+        let replicates = given.next().ok_or(USAGE)?.parse()?;
+        let mut arguments = Self { replicates, method: "paper-descendant".to_owned(), records: None };
+        while let Some(option) = given.next() {
+            let value = given.next().ok_or(USAGE)?;
+            match option.as_str() {
+                "--method" => arguments.method = value,
+                "--records" => arguments.records = Some(value),
+                _ => return Err(USAGE.into()),
+            }
+        }
+        Ok(arguments)
+    }
+
+    /// The committed scenario with these replicates and this method only, promising nothing.
+    fn scenario(&self) -> Result<Scenario, Box<dyn Error>> {
+        let mut table: toml::Table = SCENARIO.parse()?;
+        table.remove("expect");
+        table.insert("replicates".to_owned(), i64::try_from(self.replicates)?.into());
+        table["sweep"]["methods"] = vec![self.method.clone()].into();
+        Ok(Scenario::parse("leafspring.toml", &toml::to_string(&table)?)?)
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::read(std::env::args().skip(1))?;
+    let scenario = arguments.scenario()?;
+    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let start = Instant::now();
+    let results = thread.install(|| study::run(&scenario, String::new(), &Silent))?;
+    let seconds = start.elapsed().as_secs_f64();
+    if let Some(folder) = &arguments.records {
+        write_records(&scenario, Path::new(folder))?;
+    }
+    let output = json!({
+        "method": arguments.method,
+        "replicates": arguments.replicates,
+        "threads": 1,
+        "seconds": seconds,
+        "seconds_per_replicate": seconds / arguments.replicates as f64,
+        "cell_count": results.cells.len(),
+        "cells": estimates(&scenario)?,
+    });
+    println!("{}", serde_json::to_string_pretty(&output)?);
+    Ok(())
+}
+
+/// Replicate 0 in every cell.
+fn estimates(scenario: &Scenario) -> Result<Vec<Value>, Box<dyn Error>> {
+    let order = scenario.cases()[0].order;
+    study::replay(scenario, 0)?
+        .into_iter()
+        .map(|cell| {
+            let estimates = cell.estimates?;
+            Ok(json!({
+                "border": cell.series.border,
+                "points": cell.series.points,
+                "noise": cell.series.noise,
+                "samples": cell.samples,
+                "a": estimates[..order],
+                "b": estimates[order..2 * order],
+                "borders": estimates[2 * order..],
+            }))
+        })
+        .collect()
+}
+
+/// Replicate 0 sample by sample.
+fn write_records(scenario: &Scenario, folder: &Path) -> Result<(), Box<dyn Error>> {
+    std::fs::create_dir_all(folder)?;
+    let mut index = Vec::new();
+    for (k, setting) in study::records(scenario, 0)?.iter().enumerate() {
+        for experiment in &setting.experiments {
+            let name = format!("{k:02}-{}", experiment.direction);
+            let doubles = |x: &[f64]| x.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+            std::fs::write(folder.join(format!("{name}-y.f64")), doubles(&experiment.y))?;
+            std::fs::write(folder.join(format!("{name}-v.f64")), doubles(&experiment.v))?;
+            index.push(json!({
+                "y": format!("{name}-y.f64"),
+                "v": format!("{name}-v.f64"),
+                "experiment": experiment.direction.to_string(),
+                "border": setting.border,
+                "points": setting.points,
+                "noise": setting.noise,
+                "span": setting.span,
+                "lead": experiment.lead,
+                "satellite": experiment.satellite,
+                "levels": experiment.levels,
+                "samples": scenario.sweep().samples,
+                "step_means": experiment.step_means,
+            }));
+        }
+    }
+    std::fs::write(folder.join("index.json"), serde_json::to_string_pretty(&index)?)?;
+    Ok(())
+}

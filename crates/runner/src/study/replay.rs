@@ -1,0 +1,158 @@
+//! One replicate again: its estimates in every cell, and the records they are made from, sample by sample.
+
+use super::StudyError;
+use super::bench::DIRECTIONS;
+use super::execute::Sample;
+use super::moments::draw;
+use super::world::{self, Setting, World};
+use crate::results::Series;
+use crate::scenario::Scenario;
+use switchback_estimator::estimators::pulse::PulseFitError;
+use switchback_estimator::excitation::Direction;
+use switchback_estimator::simulation::noise::{NoisePlan, StreamId, samples};
+
+/// What one replicate gave in one cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayedCell {
+    /// The curve the cell is a point of.
+    pub series: Series,
+    /// `N`.
+    pub samples: usize,
+    /// `a`, `b`, then the border points, in the order of the results.
+    pub estimates: Result<Vec<f64>, PulseFitError>,
+}
+
+/// The experiments of one replicate on one border with `m` points at one noise level, in the open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayedRecords {
+    /// Name of the case.
+    pub case: String,
+    /// Name of the border.
+    pub border: String,
+    /// Points `m`.
+    pub points: usize,
+    /// Standard deviation of the noise, output units.
+    pub noise: f64,
+    /// `u_M − u_m`: estimates of `b` are in output units a span, those of the borders in spans.
+    pub span: f64,
+    /// Descendant and ascendant experiment.
+    pub experiments: [ReplayedExperiment; 2],
+}
+
+/// One pulse experiment in the open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayedExperiment {
+    /// Which one.
+    pub direction: Direction,
+    /// `V₁…V_m`.
+    pub levels: Vec<f64>,
+    /// Where the input rests.
+    pub satellite: f64,
+    /// Samples before `t = 0`, which serve as lags only.
+    pub lead: usize,
+    /// `v(t)`, `t = −lead…N−1`, `N` the largest of the sweep.
+    pub v: Vec<f64>,
+    /// `y(t)` of the same `t`.
+    pub y: Vec<f64>,
+    /// Mean output of the step experiment at the satellite, one a number of samples of the sweep.
+    pub step_means: Vec<f64>,
+}
+
+/// The estimates of one replicate in every cell, in the order of the results: to look into a failure or an outlier.
+///
+/// # Errors
+/// [`StudyError`] if a method or an experiment does not exist for some cell.
+pub fn replay(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedCell>, StudyError> {
+    let worlds = world::plan(scenario)?;
+    let mut cells = Vec::new();
+    for world in &worlds {
+        let noise = draw(world, scenario.seed(), replicate..replicate + 1);
+        for setting in &world.settings {
+            for (checkpoint, &samples) in world.pulses.checkpoints.iter().enumerate() {
+                let sample = Sample::new(world, setting, checkpoint, &noise[0]);
+                cells.extend(setting.methods.iter().map(|contender| ReplayedCell {
+                    series: setting.series(scenario, contender.method),
+                    samples,
+                    estimates: sample.estimates(contender),
+                }));
+            }
+        }
+    }
+    Ok(cells)
+}
+
+/// The records behind [`replay`], simulated one by one: the noise-free response of a settled system plus the noise of the replicate.
+///
+/// # Errors
+/// [`StudyError`] if a method or an experiment does not exist for some cell.
+pub fn records(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedRecords>, StudyError> {
+    let worlds = world::plan(scenario)?;
+    let of_world = |world: &World| {
+        let noise = OpenNoise::draw(world, scenario.seed(), replicate);
+        world.settings.iter().map(|s| noise.records(scenario, world, s)).collect::<Vec<_>>()
+    };
+    Ok(worlds.iter().flat_map(of_world).collect())
+}
+
+/// The noise of one replicate of a world, sample by sample.
+struct OpenNoise {
+    /// Samples before `t = 0`.
+    lead: usize,
+    pulses: [Vec<f64>; 2],
+    steps: Option<[Vec<f64>; 2]>,
+}
+
+impl OpenNoise {
+    fn draw(world: &World, seed: u64, replicate: u32) -> Self {
+        let lead = world.pulses.lags;
+        let open = |plan: &NoisePlan, stream: u32| {
+            let count = plan.checkpoints.last().copied().unwrap_or_default();
+            let id = StreamId { seed, experiment: world.stream + stream, replicate };
+            let noise = samples(plan, id, count).expect("a world's noise plan is valid");
+            // Before the burn-in there was rest.
+            let mut e = vec![0.0; plan.lags.saturating_sub(noise.burn_in)];
+            e.extend(&noise.e[noise.burn_in.saturating_sub(plan.lags)..]);
+            e
+        };
+        Self {
+            lead,
+            pulses: [0, 1].map(|k| open(&world.pulses, k)),
+            steps: world.steps.as_ref().map(|plan| [2, 3].map(|k| open(plan, k))),
+        }
+    }
+
+    fn records(&self, scenario: &Scenario, world: &World, setting: &Setting) -> ReplayedRecords {
+        let case = &scenario.cases()[setting.case];
+        let border = &case.borders[setting.border];
+        let experiment = |k: usize| {
+            let mean = |n: usize| {
+                let e = self.steps.as_ref().map_or(0.0, |e| e[k][..n].iter().sum::<f64>() / n as f64);
+                setting.bench.satellite_output(k) + setting.sigma * e
+            };
+            let (v, response) = setting.bench.simulate(
+                &case.system,
+                &border.hysteresis,
+                k,
+                (self.lead, self.pulses[k].len()),
+            );
+            let y = response.iter().zip(&self.pulses[k]).map(|(z, e)| z + setting.sigma * e).collect();
+            ReplayedExperiment {
+                direction: DIRECTIONS[k],
+                levels: setting.bench.levels(k).to_vec(),
+                satellite: setting.bench.satellite(k),
+                lead: self.lead,
+                v,
+                y,
+                step_means: world.pulses.checkpoints.iter().map(|&n| mean(n)).collect(),
+            }
+        };
+        ReplayedRecords {
+            case: case.name.clone(),
+            border: border.name.clone(),
+            points: setting.bench.points,
+            noise: setting.sigma,
+            span: border.hysteresis.span(),
+            experiments: [0, 1].map(experiment),
+        }
+    }
+}
