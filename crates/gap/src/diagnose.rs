@@ -41,8 +41,6 @@ pub struct Plan {
     /// The nominal model as identified here.
     nominal: Explanation,
     nominal_innovations: Vec<Vec<f64>>,
-    /// Deviance that the nominal model leaves to causes in general.
-    left: f64,
     /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
     foreign: Option<Vec<Vec<f64>>>,
     /// Tracks the gap is measured on.
@@ -106,13 +104,11 @@ impl Plan {
         };
         note_what_the_records_lack(&campaign, &mut limitations);
         let nominal_innovations = innovations(&campaign, &nominal, |t| t.is_fit());
-        let left = omnibus(&campaign, &nominal).map_or(0.0, |o| o.excess());
         Ok(Self {
             settings: settings.clone(),
             campaign,
             nominal: Explanation::nominal(nominal),
             nominal_innovations,
-            left,
             foreign,
             judged,
             limitations,
@@ -131,16 +127,7 @@ impl Plan {
             fit: &self.nominal.fit,
             innovations: &self.nominal_innovations,
         };
-        let explanation = explain(&scene, &self.nominal, effect).map(|e| {
-            // The nominal fit placed its knots with the effect's trace in the residual: place them anew without it.
-            let gain = self.nominal.bic() - e.bic();
-            let promising = gain > SIGNIFICANT.max(PROMISING * self.left);
-            if promising && effect != Effect::BorderResolution {
-                e.with_knots_refined(&self.campaign)
-            } else {
-                e
-            }
-        });
+        let explanation = explain(&scene, &self.nominal, effect);
         CandidateFit { effect, explanation }
     }
 
@@ -149,6 +136,10 @@ impl Plan {
         let mut singles: Vec<Explanation> = fits.into_iter().filter_map(|f| f.explanation).collect();
         singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
+        if significant {
+            self.place_knots_anew(&mut singles);
+            self.drop_noise_where_the_gap_is_systematic(&mut singles);
+        }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
         let mut tests = omnibus(&self.campaign, &best.fit);
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
@@ -186,6 +177,30 @@ impl Plan {
             _ => joint.clone().unwrap_or(best),
         };
         self.report(Conclusion { singles, odds, verdict, augmented })
+    }
+
+    /// The nominal fit placed its knots with the effect's trace in the residual: the promising candidates get theirs anew.
+    fn place_knots_anew(&self, singles: &mut [Explanation]) {
+        let gain = |e: &Explanation| self.nominal.bic() - e.bic();
+        let most = singles.first().map_or(0.0, gain);
+        for single in singles.iter_mut().take(REFINED) {
+            let is_grid = single.parts[0].effect == Effect::BorderResolution;
+            if gain(single) > SIGNIFICANT.max(PROMISING * most) && !is_grid {
+                *single = single.clone().with_knots_refined(&self.campaign);
+            }
+        }
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    }
+
+    /// Noise moves no simulation error: where the held-out error exceeds the floor of the best noise explanation by far,
+    /// the noise is no cause of it, however well it predicts one step ahead.
+    fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
+        let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
+        let runs = self.simulations(&best.fit);
+        let gap = measure(&self.campaign, &runs, self.noise_floor(&best.fit), (self.settings.seed, 100));
+        if gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC {
+            singles.retain(|s| !s.parts[0].effect.is_noise());
+        }
     }
 
     /// A second effect on top of the likeliest ones, where it explains most of what they leave.
@@ -333,8 +348,11 @@ struct Conclusion {
     augmented: Explanation,
 }
 
-/// Share of what the nominal model leaves that a candidate must gain to have its knots placed anew.
-const PROMISING: f64 = 0.1;
+/// Candidates whose knots are placed anew at most, and the share of the best gain that makes one promising.
+const REFINED: usize = 5;
+const PROMISING: f64 = 0.2;
+/// Gap that noise cannot make.
+const SYSTEMATIC: f64 = 0.003;
 /// Deviance that must be left before a second effect is looked for, and that it must gain: in all, and as a share of what
 /// the first gained. Laws are never exact, so a little is always left that some other effect can take.
 const SECOND: f64 = 150.0;

@@ -19,7 +19,7 @@ const MOST: usize = 48;
 /// Cells looked at in one round.
 const CELLS: usize = 10;
 /// Rounds of refinement.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 4;
 /// Moves of the jumps after each round.
 const POLISHES: usize = 3;
 /// Gain in deviance below which an added knot is taken out again.
