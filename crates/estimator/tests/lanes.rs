@@ -138,7 +138,7 @@ proptest! {
             method.fit(&parts, step, &mut fit);
             let limit = Limit::of(example).ok();
             if let Some(limit) = &limit {
-                limit.lanes(bench.samples as f64).first_order(&parts, step.map(|s| s.mean), &mut score, &mut first);
+                limit.lanes().first_order(&parts, step.map(|s| s.mean), &mut score, &mut first);
             }
             for l in 0..LANES {
                 let data: [PulseData; 2] =

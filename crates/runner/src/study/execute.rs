@@ -1,16 +1,18 @@
 //! Running the replicates, in parallel and reproducibly.
 
-use super::moments::{ReplicateNoise, draw};
-use super::sections::{CellSums, SECTIONS, Sections};
-use super::world::{Contender, Setting, World};
+use super::family::Family;
+use super::moments::{LaneNoise, draw_lanes};
+use super::sections::{SECTIONS, Sections};
+use super::world::World;
 use crate::scenario::{Scenario, Stopping};
 use rayon::prelude::*;
 use std::ops::Range;
-use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
-use switchback_estimator::statistics::ReplicateError;
 
-/// Replicates whose noise is held at once: a whole number of lanes at every width.
-const BATCH: u32 = 16;
+/// Replicates of one noise pass: a whole number of lanes at every width.
+const BATCH: usize = 16;
+
+/// Replicates whose noise is held at once.
+const CHUNK: usize = 8 * BATCH;
 
 /// Told how the work goes on; called from several threads.
 pub trait Progress: Sync {
@@ -22,8 +24,9 @@ pub trait Progress: Sync {
 
 /// Runs replicates until the scenario has enough of them.
 ///
-/// Replicates are numbered; number `r` sees the same noise whatever else is run. Each round gives every section a contiguous range of them, so
-/// the sums of a section, added in order, depend on nothing but the numbers.
+/// Replicates are numbered; number `r` sees the same noise whatever else is run. Each round gives every section a contiguous range of them.
+/// The noise of a chunk is drawn batch by batch, then every cell takes in its replicates in order: so neither the estimates nor the order
+/// in which they are added up depends on threads.
 pub(super) fn run(scenario: &Scenario, worlds: &[World], progress: &dyn Progress) -> Sections {
     let parameters: Vec<usize> =
         worlds.iter().flat_map(|w| w.cells().map(|(_, _, c)| c.parameters.len())).collect();
@@ -43,7 +46,7 @@ pub(super) fn run(scenario: &Scenario, worlds: &[World], progress: &dyn Progress
     sections
 }
 
-/// One round: the replicates of `range`, divided over the sections.
+/// One round: the replicates of `range`, chunk by chunk.
 fn round(
     seed: u64,
     worlds: &[World],
@@ -52,85 +55,27 @@ fn round(
     sections: &mut Sections,
     progress: &dyn Progress,
 ) {
-    let cut = |k: usize| (range.start + range.len() * k / SECTIONS) as u32;
-    sections.by_section().par_iter_mut().enumerate().for_each(|(section, sums)| {
-        let mut start = cut(section);
-        let end = cut(section + 1);
-        while start < end {
-            let batch = start..end.min(start + BATCH);
-            let mut first_cell = 0;
-            for world in worlds {
-                let cells = world.cells().count();
-                let range = first_cell..first_cell + cells;
-                if active[range.clone()].iter().any(|a| *a) {
-                    run_batch(world, seed, batch.clone(), &active[range.clone()], &mut sums[range]);
-                }
-                first_cell += cells;
-            }
-            progress.advanced(u64::from(batch.end - batch.start));
-            start = batch.end;
-        }
-    });
-}
-
-/// Some replicates of one world.
-fn run_batch(world: &World, seed: u64, batch: Range<u32>, active: &[bool], sums: &mut [CellSums]) {
-    for (replicate, noise) in batch.clone().zip(draw(world, seed, batch)) {
-        let mut cell = 0;
-        for setting in &world.settings {
-            for checkpoint in 0..world.pulses.checkpoints.len() {
-                let cells = cell..cell + setting.methods.len();
-                cell = cells.end;
-                if active[cells.clone()].iter().any(|a| *a) {
-                    let sample = Sample::new(world, setting, checkpoint, &noise);
-                    for ((contender, sums), active) in
-                        setting.methods.iter().zip(&mut sums[cells.clone()]).zip(&active[cells])
-                    {
-                        if *active {
-                            sample.estimate(contender, replicate, sums);
-                        }
-                    }
-                }
+    for start in range.clone().step_by(CHUNK) {
+        let chunk = start..range.end.min(start + CHUNK);
+        let batches: Vec<Range<u32>> = (chunk.start as u32..chunk.end as u32)
+            .step_by(BATCH)
+            .map(|first| first..(chunk.end as u32).min(first + BATCH as u32))
+            .collect();
+        let mut first_cell = 0;
+        for world in worlds {
+            let cells = first_cell..first_cell + world.cells().count();
+            first_cell = cells.end;
+            if active[cells.clone()].contains(&true) {
+                let noise: Vec<LaneNoise> = batches
+                    .par_iter()
+                    .flat_map_iter(|batch| draw_lanes(world, seed, batch.clone()))
+                    .collect();
+                Family::all(world, &active[cells.clone()], &mut sections.by_cell()[cells])
+                    .into_par_iter()
+                    .for_each(|family| family.run(&noise, &range));
             }
         }
-    }
-}
-
-/// The data of one replicate in one setting, at one number of samples.
-pub(super) struct Sample {
-    data: [PulseData; 2],
-    steps: [StepMean; 2],
-}
-
-impl Sample {
-    pub(super) fn new(world: &World, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
-        let samples = world.pulses.checkpoints[checkpoint] as f64;
-        Self {
-            data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
-            steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),
-        }
-    }
-
-    /// The values of a method's parameters.
-    pub(super) fn estimates(&self, contender: &Contender) -> Result<Vec<f64>, PulseFitError> {
-        let fit = contender.kind.with_input(&self.data, self.steps, |method| method.fit())?;
-        Ok(fit.parameters().map(|p| p.value).collect())
-    }
-
-    fn estimate(&self, contender: &Contender, replicate: u32, sums: &mut CellSums) {
-        sums.replicates += 1;
-        contender.kind.with_input(&self.data, self.steps, |method| match method.fit() {
-            Ok(fit) => {
-                let first_order = contender.limit.first_order(&method);
-                for (((estimated, first), truth), sums) in
-                    fit.parameters().zip(first_order).zip(&contender.truth).zip(&mut sums.parameters)
-                {
-                    let error = estimated.value - truth;
-                    sums.push(ReplicateError { error, se: estimated.se, first_order: Some(first) });
-                }
-            }
-            Err(error) => sums.fail(replicate, error.to_string()),
-        });
+        progress.advanced((chunk.end - chunk.start) as u64);
     }
 }
 
@@ -149,9 +94,7 @@ fn next_target(stopping: &Stopping, sections: &Sections, active: &mut [bool], do
     }
     // Errors fall as R^-1/2; at most four times as many at once, in case the estimate of the error is off.
     let wanted = (done as f64 * (factor * factor).min(4.0)).ceil() as usize;
-    wanted
-        .clamp(done + SECTIONS * BATCH as usize, stopping.max_replicates.max(done + 1))
-        .min(stopping.max_replicates)
+    wanted.max(done + SECTIONS * BATCH).min(stopping.max_replicates)
 }
 
 /// The cell's largest Monte-Carlo error over the one allowed.

@@ -1,11 +1,12 @@
 //! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
 //!
-//! One pass over the noise of a replicate serves every cell (`world`): the cells of a sweep share it by superposition. Sections of
-//! replicates run in parallel (`execute`) and are merged in order, so results depend on the scenario and its seed only.
+//! One pass over the noise of a replicate serves every cell (`world`): the cells of a sweep share it by superposition. Replicates go eight abreast
+//! (`family`), batches of noise and families of cells in parallel (`execute`); results depend on the scenario and its seed only.
 
 mod bench;
 mod execute;
 mod expectations;
+mod family;
 mod judge;
 mod moments;
 mod replay;

@@ -4,6 +4,7 @@ use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
 use crate::results::Group;
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
+use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
 use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::noise::NoisePlan;
@@ -23,6 +24,8 @@ pub(super) struct World {
     pub(super) pulses: NoisePlan,
     /// What to record of the step experiments' noise; `None` where no method asks for them.
     pub(super) steps: Option<NoisePlan>,
+    /// Whether any method looks at the descendant, at the ascendant experiment.
+    pub(super) experiments: [bool; 2],
     pub(super) settings: Vec<Setting>,
 }
 
@@ -47,6 +50,9 @@ pub(super) struct Contender {
     pub(super) truth: Vec<f64>,
     /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
     pub(super) limit: Limit,
+    /// The method, and the control variate, for eight replicates at a time.
+    pub(super) lanes: LaneMethod,
+    pub(super) control: LaneControl,
     /// Whether the model holds: the limit is then the truth, its theory the asymptotic one, and the bound applies.
     pub(super) theory: bool,
     pub(super) bound: Option<Bound>,
@@ -105,7 +111,9 @@ impl World {
         });
         let pulses =
             NoisePlan { ar, ma, lags: case.order, periods, checkpoints: checkpoints.to_vec(), burn_in };
-        Self { stream, pulses, steps, settings }
+        let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
+        let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
+        Self { stream, pulses, steps, experiments, settings }
     }
 
     /// The cells, in the order in which their sums are kept: setting, number of samples, method.
@@ -164,13 +172,16 @@ impl Contender {
         method: Method,
         kind: PulseKind,
     ) -> Result<Self, PulseFitError> {
+        let limit = bench.limit(kind, sigma)?;
         let theory = kind.models_hysteresis() && keeps_assumptions(case, bench);
         Ok(Self {
             method,
             kind,
             parameters: parameters(case.order, bench, kind),
             truth: bench.truth(kind),
-            limit: bench.limit(kind, sigma)?,
+            lanes: bench.lanes(kind),
+            control: limit.lanes(),
+            limit,
             theory,
             bound: if theory { Some(bench.bound(kind, sigma)?) } else { None },
         })

@@ -108,9 +108,9 @@ impl Limit {
         self.fit.parameters().map(|x| x.se * scale).collect()
     }
 
-    /// [`Limit::first_order`] for eight replicates of `samples` samples an experiment.
-    pub fn lanes(&self, samples: f64) -> LaneControl {
-        self.solution.control(self.samples / samples)
+    /// [`Limit::first_order`] for eight replicates at a time.
+    pub fn lanes(&self) -> LaneControl {
+        self.solution.control(self.samples)
     }
 
     /// The first-order part of the error of the same method's estimate from `sample`: `a`, `b`, then the points of each border.

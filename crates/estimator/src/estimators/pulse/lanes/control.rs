@@ -3,7 +3,7 @@
 use super::lane::Lane;
 use super::statistics::LaneStatistics;
 
-/// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score, for one number of samples.
+/// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score over the number of samples.
 #[derive(Debug, Clone)]
 pub struct LaneControl {
     /// What the limit was taken about.
@@ -30,6 +30,8 @@ impl LaneControl {
         first_order: &mut Vec<Lane>,
     ) {
         self.score(parts, score);
+        let per_sample = 1.0 / parts[0].counts.iter().sum::<f64>();
+        score.iter_mut().for_each(|s| *s = *s * per_sample);
         let step = step_mean.map_or(Lane::ZERO, |mean| mean - Lane::splat(self.step_mean));
         first_order.clear();
         first_order.extend(self.map.chunks_exact(score.len()).zip(&self.step_slopes).map(|(row, slope)| {
