@@ -1,7 +1,8 @@
 //! The superposed engine against simulating every cell, sample by sample.
 
-use switchback::scenario::{Method, Scenario};
-use switchback::study::{ReplayedExperiment, records, replay};
+use switchback::results::{Cell, Results, to_json};
+use switchback::scenario::{Coupling, Method, Scenario};
+use switchback::study::{Progress, ReplayedExperiment, records, replay, run};
 use switchback_estimator::Record;
 use switchback_estimator::estimators::pulse::{PulseData, PulseMethod, StepMean};
 
@@ -81,4 +82,97 @@ fn superposition_gives_the_estimates_of_the_simulated_records() {
         }
         assert!(cells.next().is_none());
     }
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: u64) {}
+    fn advanced(&self, _: u64) {}
+}
+
+/// Runs [`SCENARIO`] with `header` in place of its number of replicates.
+fn study(header: &str, threads: usize) -> Results {
+    let text = SCENARIO.replace("replicates = 2", header);
+    let scenario = Scenario::parse("engine.toml", &text).expect("a valid scenario");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| run(&scenario, "switchback engine.toml".to_owned(), &Silent)).expect("a study")
+}
+
+#[test]
+fn results_are_the_same_bytes_on_any_number_of_threads() {
+    let one = to_json(&study("replicates = 150", 1));
+    for threads in [2, 8] {
+        assert!(to_json(&study("replicates = 150", threads)) == one, "{threads} threads change the results");
+    }
+}
+
+#[test]
+fn a_study_averages_what_its_replicates_give_one_by_one() {
+    let replicates = 37;
+    let results = study(&format!("replicates = {replicates}"), 2);
+    let scenario = Scenario::parse("engine.toml", SCENARIO).expect("a valid scenario");
+    let mut sums: Vec<Vec<f64>> = results.cells.iter().map(|c| vec![0.0; c.parameters.len()]).collect();
+    for r in 0..replicates {
+        for (sums, cell) in sums.iter_mut().zip(replay(&scenario, r).expect("replayed")) {
+            sums.iter_mut().zip(cell.estimates.expect("excited")).for_each(|(sum, x)| *sum += x);
+        }
+    }
+    for (cell, sums) in results.cells.iter().zip(&sums) {
+        assert_eq!((cell.replicates, cell.failures.count), (replicates as usize, 0));
+        for (parameter, sum) in cell.parameters.iter().zip(sums) {
+            let (fast, slow) = (parameter.mean_estimate.expect("estimated"), sum / f64::from(replicates));
+            assert!(
+                (fast - slow).abs() < 1e-9 * slow.abs().max(1.0),
+                "{}, {}: {fast} against {slow}",
+                cell.series,
+                parameter.name
+            );
+        }
+    }
+}
+
+#[test]
+fn independent_cells_agree_with_shared_ones_within_the_monte_carlo_error() {
+    let shared = study("replicates = 300", 2);
+    let independent = study("replicates = 300\ncoupling = \"independent\"", 2);
+    assert_eq!((shared.coupling, independent.coupling), (Coupling::Shared, Coupling::Independent));
+    let mut squares = Vec::new();
+    for (s, i) in shared.cells.iter().zip(&independent.cells) {
+        assert_eq!((&s.series, s.samples), (&i.series, i.samples));
+        for (s, i) in s.parameters.iter().zip(&i.parameters) {
+            let (s, i) = (s.bias.expect("estimated"), i.bias.expect("estimated"));
+            if s.mcse() > 0.0 {
+                squares.push((s.value() - i.value()).powi(2) / (s.mcse().powi(2) + i.mcse().powi(2)));
+            }
+        }
+    }
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!((0.5..1.6).contains(&mean), "mean squared distance {mean} over {} parameters", squares.len());
+    let worst = squares.iter().fold(0.0, |m: f64, x| m.max(*x));
+    assert!(worst < 25.0, "the worst is {} errors apart", worst.sqrt());
+}
+
+#[test]
+fn cells_stop_when_they_are_precise_enough() {
+    let sd_errors = |results: &Results| -> Vec<(usize, f64)> {
+        let of_cell = |c: &Cell| {
+            let relative = c.parameters.iter().filter_map(|p| p.sd).map(|sd| sd.mcse() / sd.value());
+            (c.replicates, relative.fold(0.0, f64::max))
+        };
+        results.cells.iter().map(of_cell).collect()
+    };
+    // The relative error of a standard deviation is (2(R − 1))^-1/2, so 0.03 takes 557 replicates.
+    let enough = study("replicates = 40\nprecision = { sd_relative_mcse = 0.03 }\nmax_replicates = 5000", 2);
+    for (replicates, error) in sd_errors(&enough) {
+        assert!(error <= 0.0301 && (557..2500).contains(&replicates), "{error} after {replicates}");
+    }
+    let cut_short =
+        study("replicates = 40\nprecision = { sd_relative_mcse = 0.03 }\nmax_replicates = 200", 2);
+    assert!(cut_short.cells.iter().all(|c| c.replicates == 200), "the limit holds in every cell");
+    // How fast the error of a bias falls differs from cell to cell: those that meet the demand first stop first.
+    let uneven = study("replicates = 40\nprecision = { bias_mcse = 0.01 }\nmax_replicates = 600", 2);
+    let counts: Vec<usize> = uneven.cells.iter().map(|c| c.replicates).collect();
+    assert!(counts.iter().min() < counts.iter().max(), "every cell took {counts:?}");
+    assert!(counts.iter().all(|r| (40..=600).contains(r)));
 }

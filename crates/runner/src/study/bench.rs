@@ -2,11 +2,14 @@
 
 use super::StudyError;
 use crate::scenario::{Border, Case, Disturbance, Method};
+use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
 use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::SwitchedHysteresis;
 use switchback_estimator::linear::{LinearSystem, filter, settling_samples};
-use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
+use switchback_estimator::simulation::{
+    LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
+};
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
 pub(super) const DIRECTIONS: [Direction; 2] = [Direction::Descendant, Direction::Ascendant];
@@ -174,6 +177,25 @@ impl Bench {
     pub(super) fn limit(&self, method: PulseKind, sigma: f64) -> Result<Limit, PulseFitError> {
         let data = self.expected(sigma);
         method.with_input(&data, self.steps(sigma, [0.0; 2], ENDLESS), Limit::of)
+    }
+
+    /// A method for these experiments, eight replicates at a time.
+    pub(super) fn lanes(&self, method: PulseKind) -> LaneMethod {
+        let data = self.expected(1.0);
+        method.with_input(&data, self.steps(1.0, [0.0; 2], ENDLESS), |method| LaneMethod::of(&method))
+    }
+
+    /// The statistics of both experiments over `samples` samples, as functions of noise and noise level.
+    pub(super) fn superpositions(&self, samples: usize) -> [LaneSuperposition; 2] {
+        [0, 1].map(|k| LaneSuperposition::new(&self.designs[k], &self.responses[k], samples))
+    }
+
+    /// One replicate's data by itself.
+    pub(super) fn replicate(&self, statistics: &[LaneStatistics; 2], lane: usize) -> [PulseData; 2] {
+        [0, 1].map(|k| {
+            let PeriodicDesign { branch, levels, satellite, .. } = &self.designs[k];
+            PulseData::from_statistics(*branch, levels.clone(), *satellite, statistics[k].replicate(lane))
+        })
     }
 
     /// The Cramér–Rao bound, as standard deviations, for the data a method uses: the theory of the efficient estimate on them.

@@ -1,5 +1,6 @@
 //! What tables and verdicts need to know of a cell, whatever ran its replicates.
 
+use super::execute::Round;
 use super::sections::CellSums;
 use crate::results::{Group, Series};
 use std::ops::Range;
@@ -34,10 +35,11 @@ pub(super) trait Workload: Sync {
     /// How many cells there are.
     fn cells(&self) -> usize;
 
-    /// Runs some replicates of the active cells and adds what came out to their sums; both slices have one entry a cell.
+    /// Runs the replicates `chunk` of a round in every active cell and adds what came out to their sums; `active` and `cells` have one
+    /// entry a cell, `cells` within it one a section.
     ///
-    /// The outcome depends on the seed and the replicate's number, not on what else is active or in the range.
-    fn run(&self, seed: u64, replicates: Range<u32>, active: &[bool], sums: &mut [CellSums]);
+    /// The outcome depends on the seed and the replicates' numbers, not on threads or on what else is active.
+    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]);
 }
 
 impl ParameterName {

@@ -1,13 +1,14 @@
 //! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
-//! designed experiment (`free`): the cells of a sweep share it by superposition. Sections of replicates run in parallel (`execute`) and are
-//! merged in order, so results depend on the scenario and its seed only.
+//! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight abreast
+//! (`family`); batches of noise and families of cells run in parallel (`execute`). Results depend on the scenario and its seed only.
 
 mod bench;
 mod cell;
 mod execute;
 mod expectations;
+mod family;
 mod free;
 mod judge;
 mod moments;

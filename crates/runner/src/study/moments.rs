@@ -1,9 +1,10 @@
-//! The noise of one replicate, as a world needs it.
+//! The noise of a world's replicates: one by one, and eight abreast.
 
 use super::world::World;
 use std::ops::Range;
-use switchback_estimator::simulation::NoiseMoments;
-use switchback_estimator::simulation::noise::{NoisePass, NoiseRecord, Width};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
+use switchback_estimator::simulation::noise::{NoisePass, NoisePlan, NoiseRecord, Width};
+use switchback_estimator::simulation::{LaneMoments, NoiseMoments};
 
 /// Moments of one replicate: for both experiments, by number of samples and period; means of the step noise by number of samples.
 #[derive(Debug, Clone, Default)]
@@ -53,4 +54,59 @@ fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
         .iter()
         .map(|c| (0..c.folds.len()).map(|k| NoiseMoments::from_checkpoint(&record.head, c, k)).collect())
         .collect()
+}
+
+/// Moments of eight replicates: by experiment, number of samples and period; step means by experiment and number of samples.
+///
+/// What no method of the world looks at is left empty.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LaneNoise {
+    /// The first of them.
+    pub(super) first: u32,
+    /// How many there are; the lanes after them hold no replicate.
+    pub(super) live: usize,
+    pub(super) pulses: [Vec<Vec<LaneMoments>>; 2],
+    pub(super) steps: [Vec<Lane>; 2],
+}
+
+/// Draws the noise of a run of replicates.
+pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Vec<LaneNoise> {
+    let start = replicates.start;
+    let mut noise: Vec<LaneNoise> = replicates
+        .clone()
+        .step_by(LANES)
+        .map(|first| LaneNoise {
+            first,
+            live: LANES.min((replicates.end - first) as usize),
+            ..LaneNoise::default()
+        })
+        .collect();
+    let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
+    let pass = |plan: &NoisePlan, k: usize, visit: &mut dyn FnMut(u32, &NoiseRecord)| {
+        let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
+        pass.run(seed, world.stream + k as u32, replicates.clone(), visit);
+    };
+    for k in (0..2).filter(|k| world.experiments[*k]) {
+        pass(&world.pulses, k, &mut |r, record| {
+            let (group, lane) = place(r);
+            let into = &mut noise[group].pulses[k];
+            if lane == 0 {
+                let splat = |all: Vec<NoiseMoments>| all.iter().map(LaneMoments::splat).collect();
+                *into = moments(record).into_iter().map(splat).collect();
+            } else {
+                let all = moments(record);
+                into.iter_mut().flatten().zip(all.iter().flatten()).for_each(|(m, one)| m.set(lane, one));
+            }
+        });
+        let Some(plan) = &world.steps else { continue };
+        pass(plan, 2 + k, &mut |r, record| {
+            let (group, lane) = place(r);
+            let into = &mut noise[group].steps[k];
+            into.resize(record.checkpoints.len(), Lane::ZERO);
+            for (mean, c) in into.iter_mut().zip(&record.checkpoints) {
+                mean.0[lane] = c.folds[0][0] / c.samples as f64;
+            }
+        });
+    }
+    noise
 }

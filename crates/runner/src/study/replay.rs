@@ -2,12 +2,11 @@
 
 use super::StudyError;
 use super::bench::DIRECTIONS;
-use super::execute::Sample;
-use super::moments::draw;
-use super::world::{self, Setting, World};
+use super::moments::{ReplicateNoise, draw};
+use super::world::{self, Contender, Setting, World};
 use crate::results::Series;
 use crate::scenario::Scenario;
-use switchback_estimator::estimators::pulse::PulseFitError;
+use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
 use switchback_estimator::excitation::Direction;
 use switchback_estimator::simulation::noise::{NoisePlan, StreamId, samples};
 
@@ -79,6 +78,28 @@ pub fn replay(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedCell>, 
         }
     }
     Ok(cells)
+}
+
+/// The data of one replicate in one setting, at one number of samples.
+struct Sample {
+    data: [PulseData; 2],
+    steps: [StepMean; 2],
+}
+
+impl Sample {
+    fn new(world: &World, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
+        let samples = world.pulses.checkpoints[checkpoint] as f64;
+        Self {
+            data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
+            steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),
+        }
+    }
+
+    /// The values of a method's parameters.
+    fn estimates(&self, contender: &Contender) -> Result<Vec<f64>, PulseFitError> {
+        let fit = contender.kind.with_input(&self.data, self.steps, |method| method.fit())?;
+        Ok(fit.parameters().map(|p| p.value).collect())
+    }
 }
 
 /// The records behind [`replay`], simulated one by one: the noise-free response of a settled system plus the noise of the replicate.

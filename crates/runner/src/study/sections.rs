@@ -47,7 +47,7 @@ impl CellSums {
     }
 }
 
-/// Every section's sums, cell for cell (worlds in order, then the order of their cells).
+/// Every cell's sums, section for section; cells are in the order of the worlds, then of their own.
 #[derive(Debug, Clone)]
 pub(super) struct Sections {
     sums: Vec<Vec<CellSums>>,
@@ -55,22 +55,21 @@ pub(super) struct Sections {
 
 impl Sections {
     pub(super) fn new(parameters: &[usize]) -> Self {
-        let empty: Vec<CellSums> = parameters.iter().map(|&p| CellSums::new(p)).collect();
-        Self { sums: vec![empty; SECTIONS] }
+        Self { sums: parameters.iter().map(|&p| vec![CellSums::new(p); SECTIONS]).collect() }
     }
 
-    pub(super) fn by_section(&mut self) -> &mut [Vec<CellSums>] {
+    pub(super) fn by_cell(&mut self) -> &mut [Vec<CellSums>] {
         &mut self.sums
     }
 
     /// A cell over all sections, or over all but one.
     pub(super) fn cell(&self, cell: usize, without: Option<usize>) -> CellSums {
-        let mut all = CellSums::new(self.sums[0][cell].parameters.len());
-        self.sums
+        let mut all = CellSums::new(self.sums[cell][0].parameters.len());
+        self.sums[cell]
             .iter()
             .enumerate()
             .filter(|(section, _)| Some(*section) != without)
-            .for_each(|(_, sums)| all.merge(&sums[cell]));
+            .for_each(|(_, sums)| all.merge(sums));
         all
     }
 }

@@ -2,9 +2,16 @@
 
 use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
-use super::cell::{CellSpec, ParameterName};
+use super::cell::{CellSpec, ParameterName, Workload};
+use super::execute::{BATCH, Round};
+use super::family::Family;
+use super::moments::{LaneNoise, draw_lanes};
+use super::sections::CellSums;
 use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
+use rayon::prelude::*;
+use std::ops::Range;
+use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
 use switchback_estimator::simulation::noise::NoisePlan;
 
@@ -20,6 +27,8 @@ pub(super) struct World {
     pub(super) pulses: NoisePlan,
     /// What to record of the step experiments' noise; `None` where no method asks for them.
     pub(super) steps: Option<NoisePlan>,
+    /// Whether any method looks at the descendant, at the ascendant experiment.
+    pub(super) experiments: [bool; 2],
     pub(super) settings: Vec<Setting>,
 }
 
@@ -44,6 +53,9 @@ pub(super) struct Contender {
     pub(super) truth: Vec<f64>,
     /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
     pub(super) limit: Limit,
+    /// The method, and the control variate, for eight replicates at a time.
+    pub(super) lanes: LaneMethod,
+    pub(super) control: LaneControl,
     /// Whether the model holds: the limit is then the truth, its theory the asymptotic one, and the bound applies.
     pub(super) theory: bool,
     pub(super) bound: Option<Bound>,
@@ -95,7 +107,9 @@ impl World {
         });
         let pulses =
             NoisePlan { ar, ma, lags: case.order, periods, checkpoints: checkpoints.to_vec(), burn_in };
-        Self { stream, pulses, steps, settings }
+        let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
+        let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
+        Self { stream, pulses, steps, experiments, settings }
     }
 
     /// The cells, in the order in which their sums are kept: setting, number of samples, method.
@@ -182,13 +196,16 @@ impl Contender {
         method: Method,
         kind: PulseKind,
     ) -> Result<Self, PulseFitError> {
+        let limit = bench.limit(kind, sigma)?;
         let theory = kind.models_hysteresis() && keeps_assumptions(case, bench);
         Ok(Self {
             method,
             kind,
             parameters: parameters(case.order, bench, kind),
             truth: bench.truth(kind),
-            limit: bench.limit(kind, sigma)?,
+            lanes: bench.lanes(kind),
+            control: limit.lanes(),
+            limit,
             theory,
             bound: if theory { Some(bench.bound(kind, sigma)?) } else { None },
         })
@@ -206,4 +223,21 @@ fn keeps_assumptions(case: &Case, bench: &Bench) -> bool {
 fn parameters(order: usize, bench: &Bench, kind: PulseKind) -> Vec<ParameterName> {
     let border = |&k: &usize| ([Group::Descending, Group::Ascending][k], bench.levels(k));
     ParameterName::all(order, &kind.experiments().iter().map(border).collect::<Vec<_>>())
+}
+
+impl Workload for World {
+    fn cells(&self) -> usize {
+        World::cells(self).count()
+    }
+
+    /// The noise of the chunk is drawn batch by batch, then every cell takes in its replicates in order: so neither the estimates nor the
+    /// order in which they are added up depends on threads.
+    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
+        let (start, end) = (chunk.start as u32, chunk.end as u32);
+        let batches: Vec<Range<u32>> =
+            (start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH as u32)).collect();
+        let noise: Vec<LaneNoise> =
+            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round.seed, batch.clone())).collect();
+        Family::all(self, active, cells).into_par_iter().for_each(|family| family.run(&noise, round));
+    }
 }

@@ -140,7 +140,7 @@ impl ArrowFit {
 
     /// How all parameters answer to a target that is `residual` in the groups and `lagged` against the lags:
     /// `Σ_{t∈q} r(t)` a group and `−Σ_t y(t−i) r(t)` a lag.
-    fn respond(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> Response {
+    pub(crate) fn respond(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> Response {
         let (n, p) = (lagged.len(), columns.shared.ncols());
         let mut right = DVector::zeros(n + p);
         right.rows_mut(0, n).copy_from_slice(lagged);

@@ -9,9 +9,9 @@ use super::solution::{Level, RelativeLevel, Solution, known_level};
 use nalgebra::DVector;
 
 /// A change of the parameters below this share of their size ends the iteration.
-const CONVERGED: f64 = 1e-12;
+pub(super) const CONVERGED: f64 = 1e-12;
 /// Gauss–Newton from a consistent start needs two to five steps; more means that the record says little.
-const MOST_STEPS: usize = 30;
+pub(super) const MOST_STEPS: usize = 30;
 
 /// Least squares under the rank-one constraint: `a`, `b`, the level `κ` and the border values themselves.
 ///

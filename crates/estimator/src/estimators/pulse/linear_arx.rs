@@ -19,20 +19,24 @@ use crate::hysteresis::Branch;
 /// If no experiment is given.
 pub(crate) fn linear_arx(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
+    let (columns, positions) = columns(&experiments);
+    let fit = experiments.solve(&columns)?;
+    let known = |levels: Vec<f64>| levels.into_iter().map(|value| known_level(&fit, value)).collect();
+    let levels = positions.into_iter().map(known).collect();
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+}
+
+/// The regression, and every level's place on the straight line.
+pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, Vec<Vec<f64>>) {
     let position = |e: usize, level: usize| relative_position(experiments.parts[e], level);
     let columns = Columns {
         shared: experiments.core_columns(position),
         local: Vec::new(),
         offset: vec![0.0; experiments.statistics.groups()],
     };
-    let fit = experiments.solve(&columns)?;
-    let levels = experiments
-        .parts
-        .iter()
-        .enumerate()
-        .map(|(e, part)| (0..part.points()).map(|j| known_level(&fit, position(e, j))).collect())
-        .collect();
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+    let of_experiment =
+        |(e, part): (usize, &&PulseData)| (0..part.points()).map(|j| position(e, j)).collect();
+    (columns, experiments.parts.iter().enumerate().map(of_experiment).collect())
 }
 
 /// `(V_j − h_m)/(h_M − h_m)`.

@@ -2,7 +2,7 @@
 
 use super::arrow::{Columns, LocalColumn};
 use super::data::PulseData;
-use super::experiments::{Experiments, first_level_value, satellite_value};
+use super::experiments::{Experiments, first_level_value};
 use super::fit::PulseFitError;
 use super::solution::{Level, Solution, known_level, rank_one_level};
 
@@ -26,7 +26,25 @@ const SAME_LEVEL: f64 = 1e-6;
 pub(crate) fn memoryless(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
     let n = experiments.order();
-    let curve = StaticCurve::through(&experiments);
+    let (columns, curve) = columns(&experiments);
+    let fit = experiments.solve(&columns)?;
+    let levels = curve
+        .of_experiment
+        .iter()
+        .zip(&experiments.parts)
+        .map(|(indices, part)| {
+            std::iter::once(known_level(&fit, first_level_value(part.branch)))
+                .chain(indices.iter().map(|&k| rank_one_level(&fit, n, k * n)))
+                .collect()
+        })
+        .collect();
+    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+}
+
+/// The regression, and the curve that it estimates.
+pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, StaticCurve) {
+    let n = experiments.order();
+    let curve = StaticCurve::through(experiments);
     // At an inner level the shared part is the experiment without the pulse's lag; the local column adds bᵢf(V).
     let shared = experiments.core_columns(|e, level| match level {
         0 => first_level_value(experiments.parts[e].branch),
@@ -38,26 +56,14 @@ pub(crate) fn memoryless(experiments: &[&PulseData]) -> Result<Solution, PulseFi
             support: curve.visits_of(k).map(|(e, j)| (experiments.group(e, j, lag), 1.0)).collect(),
         })
         .collect();
-    let columns = Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] };
-    let fit = experiments.solve(&columns)?;
-    let levels = curve
-        .of_experiment
-        .iter()
-        .zip(&experiments.parts)
-        .map(|(indices, part)| {
-            std::iter::once(known_level(&fit, 1.0 - satellite_value(part.branch)))
-                .chain(indices.iter().map(|&k| rank_one_level(&fit, n, k * n)))
-                .collect()
-        })
-        .collect();
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+    (Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] }, curve)
 }
 
 /// The distinct inner levels, and which of them each experiment visits.
-struct StaticCurve {
+pub(super) struct StaticCurve {
     levels: Vec<f64>,
     /// For every experiment, the index into `levels` of its `V₂…V_m`.
-    of_experiment: Vec<Vec<usize>>,
+    pub(super) of_experiment: Vec<Vec<usize>>,
 }
 
 impl StaticCurve {

@@ -2,6 +2,7 @@
 
 use super::data::{PulseData, StepMean};
 use super::fit::{PulseFit, PulseFitError};
+use super::lanes::LaneControl;
 use super::solution::Solution;
 use super::{efficient, joint, linear_arx, memoryless, paper};
 
@@ -49,7 +50,7 @@ impl PulseMethod<'_> {
         }
     }
 
-    fn experiments(&self) -> Vec<&PulseData> {
+    pub(super) fn experiments(&self) -> Vec<&PulseData> {
         match *self {
             Self::Paper { experiment, .. } => vec![experiment],
             Self::Joint { descendant, ascendant } => vec![descendant, ascendant],
@@ -105,6 +106,11 @@ impl Limit {
     pub fn theory_se(&self, samples: f64) -> Vec<f64> {
         let scale = (self.samples / samples).sqrt();
         self.fit.parameters().map(|x| x.se * scale).collect()
+    }
+
+    /// [`Limit::first_order`] for eight replicates at a time.
+    pub fn lanes(&self) -> LaneControl {
+        self.solution.control(self.samples)
     }
 
     /// The first-order part of the error of the same method's estimate from `sample`: `a`, `b`, then the points of each border.

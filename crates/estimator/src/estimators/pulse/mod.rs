@@ -11,6 +11,7 @@ mod experiments;
 mod fit;
 mod grouped;
 mod joint;
+pub mod lanes;
 mod linear_arx;
 mod memoryless;
 mod method;

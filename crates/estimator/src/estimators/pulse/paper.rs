@@ -39,7 +39,7 @@ pub(crate) fn paper(experiment: &PulseData, step: StepMean) -> Result<Solution, 
 }
 
 /// One column a (level, lag): `V₁`'s are shared columns because they are `∓bᵢ` themselves, the others are free means.
-fn pulse_columns(experiments: &Experiments<'_>) -> Columns {
+pub(super) fn pulse_columns(experiments: &Experiments<'_>) -> Columns {
     let n = experiments.order();
     let branch = experiments.parts[0].branch;
     let height = first_level_value(branch) - satellite_value(branch);

@@ -1,10 +1,11 @@
 //! A solved regression read as a system: its parameters, their derivatives and their errors.
 
-use super::arrow::{ArrowFit, Columns, Gradient};
+use super::arrow::{ArrowFit, Columns, Gradient, Response};
 use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
+use super::lanes::LaneControl;
 use crate::hysteresis::Branch;
 use nalgebra::DVector;
 
@@ -147,6 +148,33 @@ impl Solution {
             borders: self.points.iter().map(|&m| estimated.by_ref().take(m).collect()).collect(),
             noise_sd: self.fit.variance.sqrt(),
             u_low: self.u_low,
+        }
+    }
+
+    /// [`Self::first_order`] as a constant map of the score, found by probing it one entry at a time.
+    pub(crate) fn control(&self, scale: f64) -> LaneControl {
+        let means = self.fit.group_means(&self.columns);
+        let (n, groups) = (self.order, means.len());
+        let unit = |length: usize, at: Option<usize>| -> Vec<f64> {
+            (0..length).map(|k| if Some(k) == at { 1.0 } else { 0.0 }).collect()
+        };
+        let probes: Vec<Response> = (0..n + groups)
+            .map(|k| {
+                let (lagged, residual) = (unit(n, Some(k)), unit(groups, k.checked_sub(n)));
+                self.fit.respond(&self.columns, &residual, &lagged)
+            })
+            .collect();
+        let along = |q: &Quantity| probes.iter().map(|r| scale * r.along(&q.gradient)).collect::<Vec<_>>();
+        LaneControl {
+            reference: self.reference,
+            a: self.fit.core.rows(0, n).iter().copied().collect(),
+            means,
+            map: self.quantities.iter().flat_map(along).collect(),
+            step_slopes: self.quantities.iter().map(|q| q.step_slope).collect(),
+            step_mean: match self.level {
+                Level::Constant => 0.0,
+                Level::Step(step) => step.mean,
+            },
         }
     }
 

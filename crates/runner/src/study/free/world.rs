@@ -6,8 +6,10 @@ use crate::scenario::{Case, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{CellSpec, Workload};
+use crate::study::execute::Round;
 use crate::study::sections::CellSums;
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::Estimate;
 use switchback_estimator::estimators::free::Regression;
@@ -134,9 +136,24 @@ impl Workload for FreeWorld {
         self.settings.len() * self.checkpoints
     }
 
-    fn run(&self, seed: u64, replicates: Range<u32>, active: &[bool], sums: &mut [CellSums]) {
-        for replicate in replicates {
-            self.replicate(seed, replicate, active, sums);
+    /// Each section's part of the chunk is summed on its own, and the parts are added in order.
+    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
+        let replicates: Vec<usize> = chunk.collect();
+        let parts: Vec<&[usize]> =
+            replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
+        let empty: Vec<CellSums> =
+            cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
+        let sums: Vec<Vec<CellSums>> = parts
+            .par_iter()
+            .map(|part| {
+                let mut sums = empty.clone();
+                part.iter().for_each(|&r| self.replicate(round.seed, r as u32, active, &mut sums));
+                sums
+            })
+            .collect();
+        for (part, sums) in parts.iter().zip(&sums) {
+            let section = round.section(part[0]);
+            cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
         }
     }
 }

@@ -1,0 +1,75 @@
+//! Eight replicates abreast.
+
+use std::array::from_fn;
+use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
+
+/// Replicates in a [`Lane`]. Fixed, so that nothing depends on the processor.
+pub const LANES: usize = 8;
+
+/// One number of eight replicates. No operation crosses from one to another, so a replicate's results are the same bits whatever its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lane(pub [f64; LANES]);
+
+impl Lane {
+    /// All zero.
+    pub const ZERO: Self = Self([0.0; LANES]);
+
+    /// The same number in every replicate.
+    #[inline(always)]
+    pub fn splat(x: f64) -> Self {
+        Self([x; LANES])
+    }
+
+    /// Square roots.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        Self(from_fn(|l| self.0[l].sqrt()))
+    }
+
+    /// The larger of each and `floor`.
+    #[inline(always)]
+    pub(crate) fn at_least(self, floor: f64) -> Self {
+        Self(from_fn(|l| if self.0[l] < floor { floor } else { self.0[l] }))
+    }
+}
+
+macro_rules! operator {
+    ($operator:ident, $name:ident, $symbol:tt) => {
+        impl $operator for Lane {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                Self(from_fn(|l| self.0[l] $symbol other.0[l]))
+            }
+        }
+    };
+}
+
+operator!(Add, add, +);
+operator!(Sub, sub, -);
+operator!(Mul, mul, *);
+operator!(Div, div, /);
+
+impl Mul<f64> for Lane {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self(from_fn(|l| self.0[l] * factor))
+    }
+}
+
+impl AddAssign for Lane {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Lane {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}

@@ -1,0 +1,63 @@
+//! Sufficient statistics of eight replicates, split into within and between groups.
+
+use super::lane::Lane;
+use crate::estimators::pulse::GroupedStatistics;
+
+/// The statistics of [`GroupedStatistics`] of eight replicates, as means and what is left about them:
+///
+/// ```text
+/// m_q,l = S_q,l / K_q                       group means,       Q × (n+1), rows first
+/// W_i,l = P_i,l − Σ_q K_q m_q,i m_q,l       within the groups, (n+1) × (n+1)
+/// ```
+///
+/// A group with a mean of its own (most, in a pulse experiment) adds nothing to the normal equations of `a` but its share of `W`, and of a
+/// noise-free response that is constant within the group nothing is left in `W`: there is no cancellation of large sums.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LaneStatistics {
+    order: usize,
+    /// `K_q`, the same in all replicates.
+    pub counts: Vec<f64>,
+    /// `m`.
+    pub means: Vec<Lane>,
+    /// `W`.
+    pub within: Vec<Lane>,
+}
+
+impl LaneStatistics {
+    /// Zeros for these counts.
+    pub fn new(order: usize, counts: Vec<f64>) -> Self {
+        let width = order + 1;
+        Self {
+            order,
+            means: vec![Lane::ZERO; counts.len() * width],
+            within: vec![Lane::ZERO; width * width],
+            counts,
+        }
+    }
+
+    /// The order `n`.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// `m_q,0…n`.
+    #[inline(always)]
+    pub(super) fn mean(&self, group: usize) -> &[Lane] {
+        &self.means[group * (self.order + 1)..(group + 1) * (self.order + 1)]
+    }
+
+    /// Replicate `lane` by itself.
+    pub fn replicate(&self, lane: usize) -> GroupedStatistics {
+        let width = self.order + 1;
+        let mut products: Vec<f64> = self.within.iter().map(|w| w.0[lane]).collect();
+        let mut sums = Vec::with_capacity(self.means.len());
+        for (q, &count) in self.counts.iter().enumerate() {
+            let mean = self.mean(q);
+            sums.extend(mean.iter().map(|m| count * m.0[lane]));
+            for (k, product) in products.iter_mut().enumerate() {
+                *product += count * mean[k / width].0[lane] * mean[k % width].0[lane];
+            }
+        }
+        GroupedStatistics::from_parts(self.order, self.counts.clone(), sums, products)
+    }
+}

@@ -1,0 +1,174 @@
+//! Cells of one border, m and N: they share all but the noise level and the method.
+
+use super::bench::Bench;
+use super::execute::Round;
+use super::moments::LaneNoise;
+use super::sections::CellSums;
+use super::world::{Contender, Setting, World};
+use switchback_estimator::estimators::pulse::StepMean;
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneStatistics, LaneStep};
+use switchback_estimator::simulation::LaneSuperposition;
+use switchback_estimator::statistics::ReplicateError;
+
+/// The cells of one border, m and N, with their sums.
+pub(super) struct Family<'a> {
+    checkpoint: usize,
+    samples: usize,
+    period: usize,
+    bench: &'a Bench,
+    levels: Vec<NoiseLevel<'a>>,
+}
+
+/// The cells of a family at one noise level, a method each.
+struct NoiseLevel<'a> {
+    setting: &'a Setting,
+    active: &'a [bool],
+    cells: &'a mut [Vec<CellSums>],
+}
+
+impl<'a> Family<'a> {
+    /// The families of a world; `active` and `cells` are in the order of its cells.
+    pub(super) fn all(
+        world: &'a World,
+        mut active: &'a [bool],
+        mut cells: &'a mut [Vec<CellSums>],
+    ) -> Vec<Self> {
+        let same = |s: &Setting, t: &Setting| (s.border, s.bench.points) == (t.border, t.bench.points);
+        let mut families = Vec::new();
+        for settings in world.settings.chunk_by(same) {
+            let first = families.len();
+            families.extend(world.pulses.checkpoints.iter().enumerate().map(|(checkpoint, &samples)| Self {
+                checkpoint,
+                samples,
+                period: settings[0].period,
+                bench: &settings[0].bench,
+                levels: Vec::with_capacity(settings.len()),
+            }));
+            for setting in settings {
+                for family in &mut families[first..] {
+                    let methods = setting.methods.len();
+                    let (own, rest) = cells.split_at_mut(methods);
+                    cells = rest;
+                    family.levels.push(NoiseLevel { setting, active: &active[..methods], cells: own });
+                    active = &active[methods..];
+                }
+            }
+        }
+        families
+    }
+
+    /// Estimates every active cell from the noise of some replicates of a round, in order.
+    pub(super) fn run(mut self, noise: &[LaneNoise], round: &Round) {
+        if !self.levels.iter().any(|level| level.active.contains(&true)) {
+            return;
+        }
+        let mut superpositions = self.bench.superpositions(self.samples);
+        let mut lanes = Lanes::new(&superpositions);
+        for noise in noise {
+            for (superposition, pulses) in superpositions.iter_mut().zip(&noise.pulses) {
+                if let Some(periods) = pulses.get(self.checkpoint) {
+                    superposition.load(&periods[self.period]);
+                }
+            }
+            let section = |l: usize| round.section(noise.first as usize + l);
+            let sections: [usize; LANES] =
+                std::array::from_fn(|l| if l < noise.live { section(l) } else { 0 });
+            lanes.first = noise.first;
+            for level in &mut self.levels {
+                lanes.superpose(level.setting, &superpositions, noise, (self.checkpoint, self.samples));
+                let contenders = level.setting.methods.iter().zip(level.active).zip(&mut *level.cells);
+                for ((contender, _), cell) in contenders.filter(|((_, active), _)| **active) {
+                    lanes.estimate(contender, self.bench, &sections[..noise.live], cell);
+                }
+            }
+        }
+    }
+}
+
+/// Eight replicates at one noise level, with the memory to estimate from them.
+struct Lanes {
+    first: u32,
+    statistics: [LaneStatistics; 2],
+    steps: [LaneStep; 2],
+    fit: LaneFit,
+    score: Vec<Lane>,
+    first_order: Vec<Lane>,
+}
+
+impl Lanes {
+    fn new(superpositions: &[LaneSuperposition; 2]) -> Self {
+        Self {
+            first: 0,
+            statistics: [0, 1].map(|k| superpositions[k].statistics()),
+            steps: [LaneStep { mean: Lane::ZERO, samples: 0.0 }; 2],
+            fit: LaneFit::default(),
+            score: Vec::new(),
+            first_order: Vec::new(),
+        }
+    }
+
+    fn superpose(
+        &mut self,
+        setting: &Setting,
+        superpositions: &[LaneSuperposition; 2],
+        noise: &LaneNoise,
+        (checkpoint, samples): (usize, usize),
+    ) {
+        for k in 0..2 {
+            superpositions[k].at(setting.sigma, &mut self.statistics[k]);
+            let unit = noise.steps[k].get(checkpoint).copied().unwrap_or(Lane::ZERO);
+            let mean = unit * setting.sigma + Lane::splat(setting.bench.satellite_output(k));
+            self.steps[k] = LaneStep { mean, samples: samples as f64 };
+        }
+    }
+
+    /// Adds one method's errors to the sums of a cell; `sections` tells where each replicate belongs.
+    fn estimate(&mut self, contender: &Contender, bench: &Bench, sections: &[usize], cell: &mut [CellSums]) {
+        let [descendant, ascendant] = &self.statistics;
+        let both = [descendant, ascendant];
+        let parts = match contender.kind.experiments() {
+            &[k] => &both[k..=k],
+            _ => &both[..],
+        };
+        let step = contender.kind.needs_step().then(|| self.steps[contender.kind.experiments()[0]]);
+        contender.lanes.fit(parts, step, &mut self.fit);
+        contender.control.first_order(parts, step.map(|s| s.mean), &mut self.score, &mut self.first_order);
+        for (l, &section) in sections.iter().enumerate() {
+            let sums = &mut cell[section];
+            sums.replicates += 1;
+            if !self.fit.sound[l] {
+                self.estimate_alone(l, contender, bench, sums);
+                continue;
+            }
+            let estimates = self.fit.values.iter().zip(&self.fit.errors).zip(&self.first_order);
+            for (((value, se), first), (sums, truth)) in
+                estimates.zip(sums.parameters.iter_mut().zip(&contender.truth))
+            {
+                sums.push(ReplicateError {
+                    error: value.0[l] - truth,
+                    se: se.0[l],
+                    first_order: Some(first.0[l]),
+                });
+            }
+        }
+    }
+
+    /// A replicate that the lanes could not solve, or its failure.
+    fn estimate_alone(&self, l: usize, contender: &Contender, bench: &Bench, sums: &mut CellSums) {
+        let steps = self.steps.map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
+        contender.kind.with_input(&bench.replicate(&self.statistics, l), steps, |method| {
+            match method.fit() {
+                Ok(fit) => {
+                    let first_order = contender.limit.first_order(&method);
+                    for (((estimated, first), truth), sums) in
+                        fit.parameters().zip(first_order).zip(&contender.truth).zip(&mut sums.parameters)
+                    {
+                        let error = estimated.value - truth;
+                        sums.push(ReplicateError { error, se: estimated.se, first_order: Some(first) });
+                    }
+                }
+                Err(error) => sums.fail(self.first + l as u32, error.to_string()),
+            }
+        });
+    }
+}
