@@ -146,6 +146,11 @@ fn bad_scenarios_are_refused_with_file_place_and_remedy() {
     refused(&SMALL.replace("friction = 0.3", "friction = \"much\""), &["study.toml:13", "friction"]);
     refused(&SMALL.replace("stiffness = 1.0", "stiffness = -1.0"), &["study.toml", "Assumption 1"]);
     refused(&SMALL.replace("\"efficient\"", "\"eficient\""), &["study.toml:18", "efficient"]);
+    refused(
+        &SMALL.replace("\"consistency\"", "\"consistence\""),
+        &["study.toml:1", "consistence", "\"blind\""],
+    );
+    refused("study = \"gap\"\n", &["study.toml:1", "no such study", "\"consistency\""]);
     refused("study = ", &["study.toml:1"]);
     refused("", &["study.toml", "study"]);
 }

@@ -17,10 +17,23 @@ pub(super) fn scenario(file: &TomlFile) -> Result<Scenario, ScenarioError> {
 
 fn checked(name: String, text: &str) -> Result<Scenario, Fault> {
     let mut document = DeTable::parse(text)?;
+    take_study(document.get_mut())?;
     let borders = take_borders(document.get_mut())?;
     let wire = WireScenario::deserialize(Deserializer::from(document))?;
     let source = toml::from_str(text)?;
     convert::scenario(name, wire, borders, source)
+}
+
+/// Takes `study` out of the document. It decides which keys are right, so it is judged before all of them.
+fn take_study(document: &mut DeTable<'_>) -> Result<(), Fault> {
+    let remedy = "write study = \"consistency\" or study = \"blind\"";
+    let Some(study) = take(document, "study") else {
+        return Err(Fault::new(0..0, "the scenario has no `study`", remedy));
+    };
+    match study.get_ref().as_str() {
+        Some("consistency") => Ok(()),
+        _ => Err(Fault::new(study.span(), "there is no such study", remedy)),
+    }
 }
 
 /// Takes `[[border]]` out of the document: which keys a border may have depends on its kind.

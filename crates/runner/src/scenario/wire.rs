@@ -6,7 +6,6 @@ use toml::Spanned;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireScenario {
-    pub(super) study: Spanned<String>,
     pub(super) question: String,
     pub(super) seed: u64,
     pub(super) replicates: Spanned<usize>,

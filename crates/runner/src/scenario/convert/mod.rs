@@ -22,7 +22,6 @@ pub(in crate::scenario) fn scenario(
     borders: Vec<WireBorder>,
     source: serde_json::Value,
 ) -> Result<Scenario, Fault> {
-    study(&wire.study)?;
     let replication = replication(&wire)?;
     let coupling = coupling(wire.coupling.as_ref())?;
     let (borders, sweep_methods) = (selected(borders, &wire.sweep)?, methods(&wire.sweep)?);
@@ -41,13 +40,6 @@ pub(in crate::scenario) fn scenario(
         sweep,
         source,
     })
-}
-
-fn study(kind: &Spanned<String>) -> Result<(), Fault> {
-    match kind.get_ref().as_str() {
-        "consistency" => Ok(()),
-        _ => Err(Fault::new(kind.span(), "not a consistency study", "write study = \"consistency\"")),
-    }
 }
 
 fn replication(wire: &WireScenario) -> Result<Replication, Fault> {
