@@ -47,6 +47,7 @@ pub(super) struct LaneArrow {
 }
 
 impl Default for Lane {
+    #[inline(always)]
     fn default() -> Self {
         Self::ZERO
     }
@@ -54,6 +55,7 @@ impl Default for Lane {
 
 impl LaneArrow {
     /// Solves the regression for statistics of `y − shift`, experiments side by side.
+    #[inline(always)]
     pub(super) fn solve(&mut self, parts: &[&LaneStatistics], shift: Lane, columns: &LaneColumns) {
         let n = parts[0].order();
         self.size = n + columns.width;
@@ -99,6 +101,7 @@ impl LaneArrow {
     }
 
     /// Within-group products; the energy so far.
+    #[inline(always)]
     fn begin(&mut self, parts: &[&LaneStatistics], locals: usize) -> Lane {
         let (n, d) = (parts[0].order(), self.size);
         for (memory, length) in [
@@ -129,6 +132,7 @@ impl LaneArrow {
     }
 
     /// `(−m_1…−m_n, x, m_0 − o)`, one row a group.
+    #[inline(always)]
     fn read_regressors(&mut self, parts: &[&LaneStatistics], shift: Lane, columns: &LaneColumns) {
         let p = columns.width;
         self.regressors.clear();
@@ -206,6 +210,7 @@ impl LaneArrow {
     }
 
     /// Cholesky in place, the inverse pivots on the diagonal.
+    #[inline(always)]
     fn factorise(&mut self) {
         let d = self.size;
         for j in 0..d {

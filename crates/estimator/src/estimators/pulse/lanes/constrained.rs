@@ -50,6 +50,7 @@ impl Constrained {
     }
 
     /// From the joint regression to convergence. A replicate that has converged stays where it is while the others go on.
+    #[inline(always)]
     pub(super) fn iterate(&self, parts: &[&LaneStatistics], arrow: &mut LaneArrow) {
         let n = self.order;
         let mut columns = self.columns.clone();
@@ -80,6 +81,7 @@ impl Constrained {
     }
 
     /// The regression linearised about `b` and `w`.
+    #[inline(always)]
     fn linearise(&self, columns: &mut LaneColumns, b: &[Lane], w: &[Lane]) {
         for ((level, w), support) in self.levels.iter().zip(w).zip(&mut columns.local) {
             for (lag, (&q, b)) in level.groups.iter().zip(b).enumerate() {
@@ -92,6 +94,7 @@ impl Constrained {
 }
 
 /// The largest change of replicate `l` relative to the largest value.
+#[inline(always)]
 fn moved(arrow: &LaneArrow, n: usize, b: &[Lane], w: &[Lane], l: usize) -> f64 {
     let new_b = &arrow.core[n..2 * n];
     let largest = new_b.iter().fold(0.0_f64, |m, x| m.max(x.0[l].abs()));

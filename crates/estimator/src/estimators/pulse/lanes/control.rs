@@ -2,6 +2,7 @@
 
 use super::lane::Lane;
 use super::statistics::LaneStatistics;
+use super::wide::{Work, widest};
 
 /// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score over the number of samples.
 #[derive(Debug, Clone)]
@@ -29,21 +30,11 @@ impl LaneControl {
         score: &mut Vec<Lane>,
         first_order: &mut Vec<Lane>,
     ) {
-        self.score(parts, score);
-        let per_sample = 1.0 / parts[0].counts.iter().sum::<f64>();
-        score.iter_mut().for_each(|s| *s = *s * per_sample);
-        let step = step_mean.map_or(Lane::ZERO, |mean| mean - Lane::splat(self.step_mean));
-        first_order.clear();
-        first_order.extend(self.map.chunks_exact(score.len()).zip(&self.step_slopes).map(|(row, slope)| {
-            let mut sum = step * *slope;
-            for (weight, score) in row.iter().zip(score.iter()) {
-                sum += *score * *weight;
-            }
-            sum
-        }));
+        widest(FirstOrder { control: self, parts, step_mean, score, first_order });
     }
 
     /// `Σ_t −y(t−i) r(t)` a lag and `Σ_{t∈q} r(t)` a group, with `r` the residual at the limit's parameters.
+    #[inline(always)]
     fn score(&self, parts: &[&LaneStatistics], score: &mut Vec<Lane>) {
         let n = self.a.len();
         let reference = Lane::splat(self.reference);
@@ -53,7 +44,11 @@ impl LaneControl {
         for part in parts {
             for i in 0..n {
                 let row = &part.within[(i + 1) * (n + 1)..];
-                score[i] -= self.a.iter().zip(&row[1..]).fold(row[0], |sum, (a, w)| sum + *w * *a);
+                let mut sum = row[0];
+                for (a, w) in self.a.iter().zip(&row[1..]) {
+                    sum += *w * *a;
+                }
+                score[i] -= sum;
             }
             for ((group, &count), limit) in part.counts.iter().enumerate().zip(&mut limit_means) {
                 let mean = part.mean(group);
@@ -67,6 +62,36 @@ impl LaneControl {
                 }
                 score.push(residual);
             }
+        }
+    }
+}
+
+/// [`LaneControl::first_order`] on its way.
+struct FirstOrder<'a> {
+    control: &'a LaneControl,
+    parts: &'a [&'a LaneStatistics],
+    step_mean: Option<Lane>,
+    score: &'a mut Vec<Lane>,
+    first_order: &'a mut Vec<Lane>,
+}
+
+impl Work for FirstOrder<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { control, parts, step_mean, score, first_order } = self;
+        control.score(parts, score);
+        let per_sample = 1.0 / parts[0].counts.iter().sum::<f64>();
+        let step = match step_mean {
+            Some(mean) => mean - Lane::splat(control.step_mean),
+            None => Lane::ZERO,
+        };
+        first_order.clear();
+        for (row, slope) in control.map.chunks_exact(score.len()).zip(&control.step_slopes) {
+            let mut sum = Lane::ZERO;
+            for (weight, score) in row.iter().zip(score.iter()) {
+                sum += *score * *weight;
+            }
+            first_order.push(sum * per_sample + step * *slope);
         }
     }
 }

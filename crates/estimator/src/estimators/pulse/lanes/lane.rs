@@ -1,6 +1,5 @@
 //! Eight replicates abreast.
 
-use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
 /// Replicates in a [`Lane`]. Fixed, so that nothing depends on the processor.
@@ -23,13 +22,23 @@ impl Lane {
     /// Square roots.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
-        Self(from_fn(|l| self.0[l].sqrt()))
+        let mut result = self;
+        for l in 0..LANES {
+            result.0[l] = self.0[l].sqrt();
+        }
+        result
     }
 
     /// The larger of each and `floor`.
     #[inline(always)]
     pub(crate) fn at_least(self, floor: f64) -> Self {
-        Self(from_fn(|l| if self.0[l] < floor { floor } else { self.0[l] }))
+        let mut result = self;
+        for l in 0..LANES {
+            if self.0[l] < floor {
+                result.0[l] = floor;
+            }
+        }
+        result
     }
 }
 
@@ -40,7 +49,11 @@ macro_rules! operator {
 
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
-                Self(from_fn(|l| self.0[l] $symbol other.0[l]))
+                let mut result = self;
+                for l in 0..LANES {
+                    result.0[l] = self.0[l] $symbol other.0[l];
+                }
+                result
             }
         }
     };
@@ -56,7 +69,7 @@ impl Mul<f64> for Lane {
 
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Self(from_fn(|l| self.0[l] * factor))
+        self * Self::splat(factor)
     }
 }
 

@@ -29,18 +29,24 @@ impl<'a> Reading<'a> {
         let (a, rest) = arrow.core.split_at(order);
         let b = &rest[..order];
         let one = Lane::splat(1.0);
-        let a_at_one = a.iter().fold(one, |sum, x| sum + *x);
-        let inverse = one / b.iter().fold(Lane::ZERO, |sum, x| sum + *x);
+        let (mut a_at_one, mut b_at_one) = (one, Lane::ZERO);
+        for (a, b) in a.iter().zip(b) {
+            a_at_one += *a;
+            b_at_one += *b;
+        }
+        let inverse = one / b_at_one;
         let (held, output) = match step {
             None => (rest[order], Lane::ZERO),
             Some(step) => (a_at_one * step.mean, step.mean),
         };
         let base = held * inverse;
-        let step = step.map(|step| StepError {
-            a_at_one,
-            direct: a_at_one * inverse,
-            variance: arrow.variance / (a_at_one * a_at_one * step.samples),
-        });
+        let step = match step {
+            Some(LaneStep { samples, .. }) => {
+                let variance = arrow.variance / (a_at_one * a_at_one * samples);
+                Some(StepError { a_at_one, direct: a_at_one * inverse, variance })
+            }
+            None => None,
+        };
         let base_slopes = [output * inverse, Lane::ZERO - base * inverse, inverse];
         Self { arrow, order, base, base_slopes, step, norm: dot(b, b) }
     }
@@ -75,19 +81,15 @@ impl<'a> Reading<'a> {
         for (slope, count) in self.base_slopes.iter().zip([n, n, self.arrow.size - 2 * n]) {
             gradient.extend(std::iter::repeat_n(*slope, count));
         }
-        let direct = self.step.as_ref().map_or(Lane::ZERO, |s| s.direct);
-        let (mut own, mut weights) = (Lane::ZERO, Lane::ZERO);
-        let mut through_local = |gradient: &mut [Lane], local: usize, weight: Lane| {
-            own += weight * weight / self.arrow.own[local];
-            weights += weight;
-            for (g, slope) in gradient.iter_mut().zip(self.arrow.slope(local)) {
-                *g -= weight * *slope;
-            }
+        let direct = match &self.step {
+            Some(step) => step.direct,
+            None => Lane::ZERO,
         };
+        let (mut own, mut weights) = (Lane::ZERO, Lane::ZERO);
         let relative = match rule {
             LevelRule::Known(value) => Lane::splat(value),
             LevelRule::Local(local) => {
-                through_local(gradient, local, Lane::splat(1.0));
+                self.through_local(gradient, local, Lane::splat(1.0), (&mut own, &mut weights));
                 self.arrow.local[local]
             }
             LevelRule::RankOne { first, plus } => {
@@ -97,7 +99,7 @@ impl<'a> Reading<'a> {
                 let value = dot(b, h) * inverse;
                 for i in 0..n {
                     gradient[n + i] += (h[i] - b[i] * value * 2.0) * inverse;
-                    through_local(gradient, first + i, b[i] * inverse);
+                    self.through_local(gradient, first + i, b[i] * inverse, (&mut own, &mut weights));
                 }
                 value + Lane::splat(plus)
             }
@@ -106,14 +108,31 @@ impl<'a> Reading<'a> {
         errors.push(self.error(gradient, [own, weights, direct]));
     }
 
+    /// Carries the weight of a local column over to the core; adds its own variance, and the weight.
+    #[inline(always)]
+    fn through_local(
+        &self,
+        gradient: &mut [Lane],
+        local: usize,
+        weight: Lane,
+        (own, weights): (&mut Lane, &mut Lane),
+    ) {
+        *own += weight * weight / self.arrow.own[local];
+        *weights += weight;
+        for (g, slope) in gradient.iter_mut().zip(self.arrow.slope(local)) {
+            *g -= weight * *slope;
+        }
+    }
+
     /// Delta method; `own` the local columns' own variance, `weights` the sum of their weights, `direct` the derivative in `ŷ₀`.
     #[inline(always)]
     fn error(&self, gradient: &mut [Lane], [own, weights, direct]: [Lane; 3]) -> Lane {
-        let through_step = self.step.as_ref().map_or(Lane::ZERO, |step| {
+        let mut through_step = Lane::ZERO;
+        if let Some(step) = &self.step {
             // A constant left in y moves every free mean by itself and the core by `constant`.
             let slope = direct - step.a_at_one * (dot(gradient, &self.arrow.constant) + weights);
-            slope * slope * step.variance
-        });
+            through_step = slope * slope * step.variance;
+        }
         (self.arrow.variance * (own + self.arrow.quadratic(gradient)) + through_step).sqrt()
     }
 }

@@ -5,6 +5,7 @@ use super::constrained::Constrained;
 use super::lane::{LANES, Lane};
 use super::levels::Reading;
 use super::statistics::LaneStatistics;
+use super::wide::{Work, widest};
 use crate::estimators::pulse::PulseMethod;
 use crate::estimators::pulse::arrow::Columns;
 use crate::estimators::pulse::experiments::{Experiments, first_level_value, satellite_value};
@@ -102,19 +103,39 @@ impl LaneMethod {
 
     /// The estimates from the statistics of the method's experiments, in their order, and of the step experiment for the paper's methods.
     pub fn fit(&self, parts: &[&LaneStatistics], step: Option<LaneStep>, fit: &mut LaneFit) {
+        widest(Fit { method: self, parts, step, fit });
+    }
+}
+
+/// [`LaneMethod::fit`] on its way.
+struct Fit<'a> {
+    method: &'a LaneMethod,
+    parts: &'a [&'a LaneStatistics],
+    step: Option<LaneStep>,
+    fit: &'a mut LaneFit,
+}
+
+impl Work for Fit<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { method, parts, step, fit } = self;
         let LaneFit { values, errors, sound, arrow, gradients } = fit;
-        arrow.solve(parts, step.map_or(Lane::ZERO, |s| s.mean), &self.columns);
-        if let Some(constrained) = &self.constrained {
+        let shift = match step {
+            Some(step) => step.mean,
+            None => Lane::ZERO,
+        };
+        arrow.solve(parts, shift, &method.columns);
+        if let Some(constrained) = &method.constrained {
             constrained.iterate(parts, arrow);
         }
         values.clear();
         errors.clear();
         *sound = arrow.sound;
-        let reading = Reading::new(arrow, self.order, step);
-        for k in 0..2 * self.order {
+        let reading = Reading::new(arrow, method.order, step);
+        for k in 0..2 * method.order {
             reading.coefficient(k, gradients, values, errors);
         }
-        for rule in &self.levels {
+        for rule in &method.levels {
             reading.level(*rule, gradients, values, errors);
         }
         for x in values.iter().chain(errors.iter()) {

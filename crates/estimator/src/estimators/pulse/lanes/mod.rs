@@ -10,6 +10,7 @@ mod lane;
 mod levels;
 mod method;
 mod statistics;
+mod wide;
 
 pub use control::LaneControl;
 pub use lane::{LANES, Lane};

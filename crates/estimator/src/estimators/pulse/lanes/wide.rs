@@ -1,0 +1,37 @@
+//! Running the algebra of lanes with the widest instructions the processor has.
+
+/// A piece of work on lanes.
+pub(super) trait Work {
+    /// Does it. Implementations, and what they call, are `#[inline(always)]`, so that they take on the instruction set of the caller.
+    fn run(self);
+}
+
+/// Runs `work` compiled for the widest vectors of this processor.
+///
+/// The bits of the results are the same with all: no operation crosses lanes, and a multiplication is never fused with an addition.
+pub(super) fn widest(work: impl Work) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
+            // SAFETY: both features have just been found.
+            return unsafe { avx512(work) };
+        }
+        if std::is_x86_feature_detected!("avx2") {
+            // SAFETY: the feature has just been found.
+            return unsafe { avx2(work) };
+        }
+    }
+    work.run();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq")]
+fn avx512(work: impl Work) {
+    work.run();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn avx2(work: impl Work) {
+    work.run();
+}
