@@ -38,6 +38,8 @@ fn sections() -> miette::Result<Vec<(&'static str, String)>> {
         ("leafspring", study("leafspring")?),
         ("assumptions-broken", study("assumptions-broken")?),
         ("measured-rigs", fits(Path::new("reports/measured-rigs/fits.csv"))?),
+        ("gap", verdict(Path::new("reports/gap-leaf-spring-with-backlash/verdict.txt"))?),
+        ("speed", text(Path::new("reports/speed/table.md"))?),
     ])
 }
 
@@ -48,6 +50,19 @@ fn study(name: &str) -> miette::Result<String> {
     let rows: Vec<&str> =
         table.lines().filter(|l| !l.starts_with("as expected:") && !l.starts_with("NOT expected:")).collect();
     Ok(format!("```text\n{}\n```\n", rows.join("\n")))
+}
+
+/// What a diagnosis says, down to its first table.
+fn verdict(path: &Path) -> miette::Result<String> {
+    let text = text(path)?;
+    let words = text.split("explanation ").next().unwrap_or_default();
+    Ok(format!("```text\n{}\n```\n", words.trim_end()))
+}
+
+fn text(path: &Path) -> miette::Result<String> {
+    std::fs::read_to_string(path)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("cannot read {}", path.display()))
 }
 
 /// Fit percentages as a table: a row a rig, a column a method.
