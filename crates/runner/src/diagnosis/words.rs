@@ -4,6 +4,7 @@ use super::experiment::separates;
 use super::number::{digits, fit_percent, whole_percent};
 use super::sentences::{parameters, probability};
 use super::{NEXT_EXPERIMENT, Report, Units, sentences};
+use crate::output::columns;
 use std::fmt::Write;
 use std::path::Path;
 use switchback_gap::Candidate;
@@ -52,7 +53,7 @@ fn records(report: &Report) -> String {
             gap(record.after),
         ]);
     }
-    aligned(&rows)
+    columns(&rows)
 }
 
 fn explanations(report: &Report, units: &Units) -> String {
@@ -70,7 +71,7 @@ fn explanations(report: &Report, units: &Units) -> String {
         let [a, b, c] = rest;
         rows.push([name.to_owned(), probability(p), a, b, c]);
     }
-    let table = aligned(&rows);
+    let table = columns(&rows);
     let told: Vec<String> = listed()
         .map(|candidate| (candidate.effect, parameters(candidate, units)))
         .filter(|(_, text)| !text.is_empty())
@@ -134,21 +135,6 @@ fn wrapped(text: &str, indent: &str) -> String {
     }
     let _ = writeln!(page, "{line}");
     page
-}
-
-/// Columns padded to their widest cell: the first to the left, the others to the right, no blanks at the line's end.
-fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..N).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let mut line = format!("{:<width$}", row[0], width = widths[0]);
-        for column in 1..N {
-            let _ = write!(line, "  {:>width$}", row[column], width = widths[column]);
-        }
-        let _ = writeln!(text, "{}", line.trim_end());
-    }
-    text
 }
 
 #[cfg(test)]

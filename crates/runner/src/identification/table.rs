@@ -1,6 +1,7 @@
 //! The identification as a page for a person.
 
 use super::{Identification, lacks_holdout, unit};
+use crate::output::columns;
 use std::fmt::Write;
 use switchback_estimator::estimators::{BorderPoint, Estimate};
 use switchback_estimator::rig::{Rig, Usage};
@@ -73,7 +74,7 @@ fn parameters(rig: &Rig, estimate: &Estimate) -> String {
         rows.push([name.to_owned(), number(value), String::new(), output.to_owned()]);
     }
     rows.push(["excitation λ_min".to_owned(), number(estimate.excitation), String::new(), String::new()]);
-    aligned(&rows)
+    columns(&rows)
 }
 
 fn fits(rig: &Rig, identification: &Identification) -> String {
@@ -89,7 +90,7 @@ fn fits(rig: &Rig, identification: &Identification) -> String {
         };
         rows.push([record.name.clone(), usage.to_owned(), record.record.len().to_string(), fit]);
     }
-    aligned(&rows)
+    columns(&rows)
 }
 
 /// Both borders over one axis, where a cell stays empty if that border has no point there; one curve if they coincide.
@@ -102,7 +103,7 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
     let table = if identification.has_one_curve() {
         let points = estimate.descending.iter().map(|p| [number(p.v), number(p.f), plus_minus(p.se)]);
         let header = [v, "static curve".to_owned(), "95 %".to_owned()];
-        aligned(&std::iter::once(header).chain(points).collect::<Vec<_>>())
+        columns(&std::iter::once(header).chain(points).collect::<Vec<_>>())
     } else {
         let mut positions: Vec<f64> =
             estimate.descending.iter().chain(&estimate.ascending).map(|point| point.v).collect();
@@ -119,7 +120,7 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
             let [a, a_se] = at(&estimate.ascending, v);
             rows.push([number(v), d, d_se, a, a_se]);
         }
-        aligned(&rows)
+        columns(&rows)
     };
     format!("{table}in units of u_M − u_m; times the gain these are stationary outputs\n")
 }
@@ -148,19 +149,4 @@ fn plus_minus(se: f64) -> String {
     } else {
         format!("± {half:.1e}")
     }
-}
-
-/// Columns padded to their widest cell: the first to the left, the others to the right, no blanks at the line's end.
-fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..N).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let mut line = format!("{:<width$}", row[0], width = widths[0]);
-        for column in 1..N {
-            let _ = write!(line, "  {:>width$}", row[column], width = widths[column]);
-        }
-        let _ = writeln!(text, "{}", line.trim_end());
-    }
-    text
 }

@@ -1,10 +1,12 @@
 //! Writing and printing results: all of a command's files appear, or none does.
 
 mod artefacts;
+mod columns;
 mod folder;
 mod page;
 mod staging;
 
 pub use artefacts::Artefacts;
+pub use columns::columns;
 pub use folder::{OutputError, OutputFolder};
 pub use page::print;
