@@ -1,0 +1,140 @@
+//! What a sweep is made of: noise alone, the pass that sums over it, one cell's algebra, and all of it together.
+//!
+//! Second order, m = 8. `noise alone` is the floor; `pass` over it is the price of a sample (lag products, folds, edges);
+//! `one cell` is what every further noise level, border, m, N or method costs; `leaf-spring sweep` is the study itself, a
+//! sample of noise the unit in it too.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use switchback::scenario::Scenario;
+use switchback::study;
+use switchback_benches::{experiment, noise, settings, spring, system};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep};
+use switchback_estimator::estimators::pulse::{Limit, PulseMethod, StepMean};
+use switchback_estimator::excitation::Direction;
+use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
+use switchback_estimator::simulation::{
+    LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
+};
+
+/// Points `m`.
+const POINTS: usize = 8;
+
+/// Standard deviation of the equation error.
+const SIGMA: f64 = 0.2;
+
+/// Samples of one replicate, a multiple of the block.
+const SAMPLES: usize = 160 * BLOCK;
+
+/// Replicates, a multiple of every width.
+const REPLICATES: u32 = 16;
+
+/// Normals that `noise alone` and `pass` draw.
+const NORMALS: u64 = SAMPLES as u64 * REPLICATES as u64;
+
+fn samples(c: &mut Criterion) {
+    let width = Width::detect();
+    let mut group = c.benchmark_group("engine, a sample");
+    group.throughput(Throughput::Elements(NORMALS));
+    let mut white = WhiteNoise::new(width, StreamId { seed: 1, experiment: 0, replicate: 0 });
+    let mut block = vec![0.0; BLOCK * white.lanes()];
+    group.bench_function("noise alone", |b| {
+        b.iter(|| {
+            for _ in 0..NORMALS as usize / block.len() {
+                white.fill(&mut block);
+                black_box(&mut block);
+            }
+        })
+    });
+    let period = experiment(Direction::Descendant, POINTS).period();
+    let plan = NoisePlan {
+        ar: system().a().to_vec(),
+        ma: vec![],
+        lags: 2,
+        periods: vec![period],
+        checkpoints: vec![SAMPLES / 100, SAMPLES / 10, SAMPLES],
+        burn_in: 0,
+    };
+    let mut pass = NoisePass::new(plan, width).expect("the plan is valid");
+    group.bench_function("pass", |b| {
+        b.iter(|| {
+            pass.run(1, 0, 0..REPLICATES, |_, record| {
+                black_box(NoiseMoments::from_checkpoint(&record.head, &record.checkpoints[2], 0));
+            })
+        })
+    });
+    group.finish();
+}
+
+/// Eight replicates of one cell: statistics, estimates with their standard errors, control variate.
+fn cell(c: &mut Criterion) {
+    let design = PeriodicDesign::new(&experiment(Direction::Descendant, POINTS), &spring(), 2);
+    let response = periodic_response(&system(), &design.u);
+    let mut superposition = LaneSuperposition::new(&design, &response, SAMPLES);
+    let replicate =
+        |r: u32| NoiseMoments::from_samples(&noise(r, SAMPLES + 2), design.order, design.period());
+    let mut moments = LaneMoments::splat(&replicate(0));
+    (1..LANES).for_each(|lane| moments.set(lane, &replicate(lane as u32)));
+    superposition.load(&moments);
+    let mut statistics = superposition.statistics();
+
+    let endless = NoiseMoments::expected(system().a(), &[], design.order, design.period(), 1e12);
+    let expected = superpose(&design, &response, SIGMA, &endless);
+    let mean = system().static_gain() * spring().u_high();
+    let paper = PulseMethod::Paper { experiment: &expected, step: StepMean { mean, samples: 1e12 } };
+    let control = Limit::of(paper).expect("a solvable regression").lanes();
+    let method = LaneMethod::of(&paper);
+    let step = LaneStep { mean: Lane::splat(mean), samples: SAMPLES as f64 };
+    let (mut fit, mut score, mut first_order) = (LaneFit::default(), Vec::new(), Vec::new());
+
+    let mut group = c.benchmark_group("engine, a cell of a replicate");
+    group.throughput(Throughput::Elements(LANES as u64));
+    group.bench_function("noise taken in, once a border, m and N", |b| {
+        b.iter(|| superposition.load(black_box(&moments)))
+    });
+    group.bench_function("one cell", |b| {
+        b.iter(|| {
+            superposition.at(black_box(SIGMA), &mut statistics);
+            method.fit(&[&statistics], Some(step), &mut fit);
+            control.first_order(&[&statistics], Some(step.mean), &mut score, &mut first_order);
+            black_box((&fit, &first_order));
+        })
+    });
+    group.finish();
+}
+
+/// Nobody watches.
+struct Silent;
+
+impl study::Progress for Silent {
+    fn planned(&self, _: u64) {}
+    fn advanced(&self, _: u64) {}
+}
+
+/// Replicates of the sweep: a whole number of lanes at every width.
+const SWEEP_REPLICATES: u32 = 160;
+
+/// The grid of the leaf-spring study (108 cells) with the paper's estimator, on one thread.
+fn sweep(c: &mut Criterion) {
+    let text = include_str!("../scenarios/leafspring.toml");
+    let mut table: toml::Table = text.parse().expect("the committed scenario");
+    table.remove("expect");
+    table.insert("replicates".to_owned(), i64::from(SWEEP_REPLICATES).into());
+    table["sweep"]["methods"] = vec!["paper-descendant"].into();
+    let text = toml::to_string(&table).expect("it was TOML before");
+    let scenario = Scenario::parse("leafspring.toml", &text).expect("a valid scenario");
+    let longest = scenario.sweep().samples.last().copied().unwrap_or_default() as u64;
+    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let mut group = c.benchmark_group("engine, a sample of the longest record");
+    group.throughput(Throughput::Elements(longest * u64::from(SWEEP_REPLICATES)));
+    group.bench_function("leaf-spring sweep", |b| {
+        b.iter(|| {
+            thread.install(|| study::run(black_box(&scenario), String::new(), &Silent)).expect("it runs")
+        })
+    });
+    group.finish();
+}
+
+criterion_group! { name = benches; config = settings(); targets = samples, cell, sweep }
+criterion_main!(benches);
