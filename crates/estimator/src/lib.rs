@@ -10,6 +10,7 @@
 pub mod estimators;
 pub mod excitation;
 pub mod hysteresis;
+pub mod lanes;
 pub mod linear;
 pub mod record;
 pub mod rig;

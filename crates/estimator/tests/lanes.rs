@@ -151,7 +151,7 @@ proptest! {
                 let scale = slow.parameters().fold(1.0_f64, |s, p| s.max(p.value.abs()));
                 for (k, p) in slow.parameters().enumerate() {
                     near(&format!("method {m}, parameter {k}"), fit.values[k].0[l], p.value, scale)?;
-                    near(&format!("method {m}, se {k}"), fit.errors[k].0[l], p.se, scale)?;
+                    near(&format!("method {m}, se {k}"), fit.variances[k].0[l].sqrt(), p.se, scale)?;
                 }
                 if let Some(limit) = &limit {
                     for (k, slow) in limit.first_order(&slow_method).into_iter().enumerate() {

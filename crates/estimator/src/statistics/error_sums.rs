@@ -1,7 +1,9 @@
 //! Running sums over replicates, and the performance measures they give.
 
 use super::Measured;
+use crate::lanes::Lane;
 use statrs::distribution::{ContinuousCDF, Normal};
+use std::ops::Range;
 
 /// What one replicate tells of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +76,31 @@ impl ErrorSums {
         }
     }
 
+    /// Adds replicates one by one, the terms of each in a lane: error and its powers, variance and its square, coverage, remainder and
+    /// its square, remainder of the square and its square.
+    #[inline(always)]
+    pub(super) fn add(&mut self, terms: &[Lane; 11], lanes: Range<usize>) {
+        let count = lanes.len() as f64;
+        let mut total = [0.0; 11];
+        total[..4].copy_from_slice(&self.error);
+        total[4..6].copy_from_slice(&self.variance);
+        total[6] = self.covered;
+        total[7..9].copy_from_slice(&self.remainder);
+        total[9..].copy_from_slice(&self.square_remainder);
+        for l in lanes {
+            for k in 0..11 {
+                total[k] += terms[k].0[l];
+            }
+        }
+        self.count += count;
+        self.controlled += count;
+        self.error.copy_from_slice(&total[..4]);
+        self.variance.copy_from_slice(&total[4..6]);
+        self.covered = total[6];
+        self.remainder.copy_from_slice(&total[7..9]);
+        self.square_remainder.copy_from_slice(&total[9..]);
+    }
+
     /// Adds the sums of other replicates.
     pub fn merge(&mut self, other: &Self) {
         let add = |into: &mut [f64], from: &[f64]| into.iter_mut().zip(from).for_each(|(i, f)| *i += f);
@@ -144,7 +171,7 @@ fn spread(sums: [f64; 2], r: f64) -> f64 {
 }
 
 /// `Φ⁻¹(0.975)`, the half width of a 95 % interval in standard errors.
-fn normal_quantile_975() -> f64 {
+pub(super) fn normal_quantile_975() -> f64 {
     static VALUE: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
     *VALUE.get_or_init(|| Normal::standard().inverse_cdf(0.975))
 }

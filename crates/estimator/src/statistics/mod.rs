@@ -2,10 +2,12 @@
 
 mod error_sums;
 mod jackknife;
+mod lane_errors;
 mod line;
 
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
+pub use lane_errors::LaneErrors;
 pub use line::{Line, weighted_line};
 
 /// A measured number with its Monte-Carlo standard error.

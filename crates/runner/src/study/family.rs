@@ -8,7 +8,7 @@ use super::world::{Contender, Setting, World};
 use switchback_estimator::estimators::pulse::StepMean;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneStatistics, LaneStep};
 use switchback_estimator::simulation::LaneSuperposition;
-use switchback_estimator::statistics::ReplicateError;
+use switchback_estimator::statistics::{LaneErrors, ReplicateError};
 
 /// The cells of one border, m and N, with their sums.
 pub(super) struct Family<'a> {
@@ -133,22 +133,27 @@ impl Lanes {
         let step = contender.kind.needs_step().then(|| self.steps[contender.kind.experiments()[0]]);
         contender.lanes.fit(parts, step, &mut self.fit);
         contender.control.first_order(parts, step.map(|s| s.mean), &mut self.score, &mut self.first_order);
-        for (l, &section) in sections.iter().enumerate() {
-            let sums = &mut cell[section];
-            sums.replicates += 1;
-            if !self.fit.sound[l] {
-                self.estimate_alone(l, contender, bench, sums);
-                continue;
-            }
-            let estimates = self.fit.values.iter().zip(&self.fit.errors).zip(&self.first_order);
-            for (((value, se), first), (sums, truth)) in
-                estimates.zip(sums.parameters.iter_mut().zip(&contender.truth))
-            {
-                sums.push(ReplicateError {
-                    error: value.0[l] - truth,
-                    se: se.0[l],
-                    first_order: Some(first.0[l]),
-                });
+        let errors = LaneErrors {
+            truth: &contender.truth,
+            values: &self.fit.values,
+            variances: &self.fit.variances,
+            first_order: &self.first_order,
+        };
+        // Replicates that follow each other in a section are added in one go.
+        let mut next = 0;
+        for run in sections.chunk_by(|s, t| s == t) {
+            let sums = &mut cell[run[0]];
+            sums.replicates += run.len();
+            let end = next + run.len();
+            while next < end {
+                let sound = (next..end).take_while(|l| self.fit.sound[*l]).count();
+                if sound > 0 {
+                    errors.add_to(&mut sums.parameters, next..next + sound);
+                    next += sound;
+                } else {
+                    self.estimate_alone(next, contender, bench, sums);
+                    next += 1;
+                }
             }
         }
     }

@@ -17,6 +17,11 @@ impl LocalColumn {
     pub(crate) fn own(group: usize) -> Self {
         Self { support: vec![(group, 1.0)] }
     }
+
+    /// The column's product with a target that is `residual` in the groups.
+    fn target(&self, residual: &[f64]) -> f64 {
+        self.support.iter().map(|&(q, w)| w * residual[q]).sum()
+    }
 }
 
 /// The input part of a regression over groups: `y(t) = −Σaᵢy(t−i) + o_q + x_qᵀη + Σ_l w_q,l λ_l + ξ(t)`.
@@ -141,6 +146,19 @@ impl ArrowFit {
     /// How all parameters answer to a target that is `residual` in the groups and `lagged` against the lags:
     /// `Σ_{t∈q} r(t)` a group and `−Σ_t y(t−i) r(t)` a lag.
     pub(crate) fn respond(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> Response {
+        let core = self.factor.solve(&self.core_side(columns, residual, lagged));
+        let start = |column: &LocalColumn, tie: &LocalTie| column.target(residual) / tie.own;
+        let local = columns
+            .local
+            .iter()
+            .zip(&self.ties)
+            .map(|(column, tie)| start(column, tie) - tie.slope.dot(&core))
+            .collect();
+        Response { core, local }
+    }
+
+    /// The core's right-hand side for such a target, the local columns eliminated.
+    pub(crate) fn core_side(&self, columns: &Columns, residual: &[f64], lagged: &[f64]) -> DVector<f64> {
         let (n, p) = (lagged.len(), columns.shared.ncols());
         let mut right = DVector::zeros(n + p);
         right.rows_mut(0, n).copy_from_slice(lagged);
@@ -149,15 +167,22 @@ impl ArrowFit {
                 right[n + k] += columns.shared[(q, k)] * r;
             }
         }
-        let mut starts = Vec::with_capacity(self.ties.len());
         for (column, tie) in columns.local.iter().zip(&self.ties) {
-            let target: f64 = column.support.iter().map(|&(q, w)| w * residual[q]).sum();
-            right.axpy(-target, &tie.slope, 1.0);
-            starts.push(target / tie.own);
+            right.axpy(-column.target(residual), &tie.slope, 1.0);
         }
-        let core = self.factor.solve(&right);
-        let local = self.ties.iter().zip(starts).map(|(tie, start)| start - tie.slope.dot(&core)).collect();
-        Response { core, local }
+        right
+    }
+
+    /// What a quantity takes of a target: weights of [`Self::core_side`], and weights of single groups.
+    pub(crate) fn answer(&self, columns: &Columns, gradient: &Gradient) -> (DVector<f64>, Vec<(usize, f64)>) {
+        let mut through_core = gradient.core.clone();
+        let mut own = Vec::new();
+        for &(l, weight) in &gradient.local {
+            let tie = &self.ties[l];
+            through_core.axpy(-weight, &tie.slope, 1.0);
+            own.extend(columns.local[l].support.iter().map(|&(q, w)| (q, weight * w / tie.own)));
+        }
+        (self.factor.solve(&through_core), own)
     }
 
     /// How all parameters move with a constant 1 left in `y`; `statistics` and `columns` are those that were solved.

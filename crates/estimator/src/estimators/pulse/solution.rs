@@ -1,11 +1,11 @@
 //! A solved regression read as a system: its parameters, their derivatives and their errors.
 
-use super::arrow::{ArrowFit, Columns, Gradient, Response};
+use super::arrow::{ArrowFit, Columns, Gradient};
 use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
-use super::lanes::LaneControl;
+use super::lanes::{Answer, LaneControl};
 use crate::hysteresis::Branch;
 use nalgebra::DVector;
 
@@ -151,26 +151,31 @@ impl Solution {
         }
     }
 
-    /// [`Self::first_order`] as a constant map of the score, found by probing it one entry at a time.
+    /// [`Self::first_order`] as a constant map of the score.
     pub(crate) fn control(&self, scale: f64) -> LaneControl {
         let means = self.fit.group_means(&self.columns);
-        let (n, groups) = (self.order, means.len());
-        let unit = |length: usize, at: Option<usize>| -> Vec<f64> {
-            (0..length).map(|k| if Some(k) == at { 1.0 } else { 0.0 }).collect()
+        let lags = vec![0.0; self.order];
+        let to_core = |group: usize| {
+            let probe: Vec<f64> = (0..means.len()).map(|q| f64::from(q == group)).collect();
+            self.fit.core_side(&self.columns, &probe, &lags)
         };
-        let probes: Vec<Response> = (0..n + groups)
-            .map(|k| {
-                let (lagged, residual) = (unit(n, Some(k)), unit(groups, k.checked_sub(n)));
-                self.fit.respond(&self.columns, &residual, &lagged)
-            })
-            .collect();
-        let along = |q: &Quantity| probes.iter().map(|r| scale * r.along(&q.gradient)).collect::<Vec<_>>();
+        let answers: Vec<_> =
+            self.quantities.iter().map(|q| self.fit.answer(&self.columns, &q.gradient)).collect();
+        let scaled = |own: &[(usize, f64)]| own.iter().map(|(q, weight)| (*q, scale * weight)).collect();
         LaneControl {
             reference: self.reference,
-            a: self.fit.core.rows(0, n).iter().copied().collect(),
+            a: self.fit.core.rows(0, self.order).iter().copied().collect(),
+            to_core: (0..means.len()).flat_map(|q| to_core(q).iter().copied().collect::<Vec<_>>()).collect(),
+            from_core: answers
+                .iter()
+                .flat_map(|(core, _)| core.iter().map(|weight| scale * weight))
+                .collect(),
+            parameters: answers
+                .iter()
+                .zip(&self.quantities)
+                .map(|((_, own), q)| Answer { own: scaled(own), step_slope: q.step_slope })
+                .collect(),
             means,
-            map: self.quantities.iter().flat_map(along).collect(),
-            step_slopes: self.quantities.iter().map(|q| q.step_slope).collect(),
             step_mean: match self.level {
                 Level::Constant => 0.0,
                 Level::Step(step) => step.mean,

@@ -1,238 +1,263 @@
 //! The arrow of [`super::super::arrow`], eight replicates abreast.
 
-use super::lane::{LANES, Lane};
+use super::columns::{ColumnPlan, ColumnValues};
 use super::statistics::LaneStatistics;
-
-/// Groups, rows and local columns of a regression; see `Columns`.
-#[derive(Debug, Clone)]
-pub(super) struct LaneColumns {
-    /// Columns `p` of `x`.
-    pub(super) width: usize,
-    /// `x`, `p` a group.
-    pub(super) shared: Vec<Lane>,
-    /// `o`, one a group.
-    pub(super) offset: Vec<Lane>,
-    /// Whether the group has a mean of its own, and so drops out of everything else.
-    pub(super) saturated: Vec<bool>,
-    /// Group and weight, column by column.
-    pub(super) local: Vec<Vec<(usize, Lane)>>,
-}
+use crate::lanes::{LANES, Lane};
 
 /// A replicate whose pivot keeps less than this share of its diagonal entry is left to the solver that goes one by one.
 const SOUND: f64 = 1e-12;
 
-/// A solved regression of eight replicates, in memory that is used again and again.
+/// A regression to be solved: statistics of `y − shift`, experiments side by side, and its columns.
+#[derive(Clone, Copy)]
+pub(super) struct Regression<'a> {
+    pub(super) parts: &'a [&'a LaneStatistics],
+    pub(super) shift: Lane,
+    pub(super) plan: &'a ColumnPlan,
+    pub(super) values: &'a ColumnValues,
+}
+
+/// A group as the core sees it: `(−m₁…−mₙ, x)`, `m₀ − o`, and its count.
+struct Row<const D: usize> {
+    regressors: [Lane; D],
+    target: Lane,
+    count: f64,
+    /// `1/K`.
+    share: f64,
+}
+
+impl Regression<'_> {
+    #[inline(always)]
+    fn row<const N: usize, const D: usize>(&self, group: usize) -> Row<D> {
+        let first = self.parts[0].counts.len();
+        let (part, q) = if group < first { (self.parts[0], group) } else { (self.parts[1], group - first) };
+        let mean = &part.means[q * (N + 1)..(q + 1) * (N + 1)];
+        let shared = &self.values.shared[group * (D - N)..(group + 1) * (D - N)];
+        let mut regressors = [Lane::ZERO; D];
+        for i in 0..N {
+            regressors[i] = self.shift - mean[i + 1];
+        }
+        regressors[N..].copy_from_slice(shared);
+        let target = mean[0] - self.shift - self.values.offset[group];
+        Row { regressors, target, count: part.counts[q], share: part.shares[q] }
+    }
+}
+
+/// The local columns of a solved regression of eight replicates, in memory that is used again and again.
 #[derive(Debug, Clone, Default)]
-pub(super) struct LaneArrow {
-    /// Core parameters `n + p`.
-    pub(super) size: usize,
-    /// `(a, η)`.
-    pub(super) core: Vec<Lane>,
+pub(super) struct Locals {
     /// `λ`.
-    pub(super) local: Vec<Lane>,
+    pub(super) values: Vec<Lane>,
+    /// `1/D`.
+    pub(super) inverse: Vec<Lane>,
+    /// `c/D`, `D` core parameters a column.
+    slopes: Vec<Lane>,
+}
+
+impl Locals {
+    /// `c/D` of a column.
+    #[inline(always)]
+    pub(super) fn slope<const D: usize>(&self, local: usize) -> &[Lane; D] {
+        &self.slopes.as_chunks().0[local]
+    }
+
+    #[inline(always)]
+    fn resize(&mut self, columns: usize, size: usize) {
+        self.values.resize(columns, Lane::ZERO);
+        self.inverse.resize(columns, Lane::ZERO);
+        self.slopes.resize(columns * size, Lane::ZERO);
+    }
+}
+
+/// The core of a solved regression of eight replicates: `N` lags, `D` parameters.
+pub(super) struct Core<const N: usize, const D: usize> {
+    /// `(a, η)`.
+    pub(super) parameters: [Lane; D],
     /// Residual variance.
     pub(super) variance: Lane,
     /// Whether each replicate was solved.
     pub(super) sound: [bool; LANES],
-    /// `D`, one a local column.
-    pub(super) own: Vec<Lane>,
-    /// How the core answers to a constant 1 left in `y`.
-    pub(super) constant: Vec<Lane>,
-    slopes: Vec<Lane>,
-    starts: Vec<Lane>,
-    factor: Vec<Lane>,
-    right: Vec<Lane>,
-    regressors: Vec<Lane>,
-    cross: Vec<Lane>,
+    /// How the core answers to a constant 1 left in `y`, where every local column is a group's mean.
+    pub(super) constant: [Lane; D],
+    factor: Factor<D>,
 }
 
-impl Default for Lane {
-    #[inline(always)]
-    fn default() -> Self {
-        Self::ZERO
-    }
+/// The normal equations of the core on their way.
+struct Equations<const D: usize> {
+    /// The lower triangle.
+    normal: [[Lane; D]; D],
+    right: [Lane; D],
+    constant: [Lane; D],
+    energy: Lane,
 }
 
-impl LaneArrow {
-    /// Solves the regression for statistics of `y − shift`, experiments side by side.
+impl<const N: usize, const D: usize> Core<N, D> {
+    /// Solves a regression; its local columns go into `locals`.
     #[inline(always)]
-    pub(super) fn solve(&mut self, parts: &[&LaneStatistics], shift: Lane, columns: &LaneColumns) {
-        let n = parts[0].order();
-        self.size = n + columns.width;
-        self.sound = [true; LANES];
-        let mut energy = self.begin(parts, columns.local.len());
-        self.read_regressors(parts, shift, columns);
-        let mut samples = 0.0;
-        for (q, count) in parts.iter().flat_map(|part| &part.counts).copied().enumerate() {
-            samples += count;
-            if !columns.saturated[q] {
-                energy += self.add_group(q, count);
+    pub(super) fn solve(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+        let plan = regression.plan;
+        locals.resize(plan.local.len(), D);
+        let mut equations = Equations::<D>::within::<N>(regression.parts);
+        for &group in &plan.pooled {
+            equations.add(&regression.row::<N, D>(group));
+        }
+        let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
+        let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
+        for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
+            if column.own_mean {
+                // Nothing of its group was put in, so nothing is to be taken out.
+                let row = regression.row::<N, D>(plan.support[column.entries.start]);
+                (*slope, *start, *inverse) = (row.regressors, row.target, Lane::splat(row.share));
+            } else {
+                let entries = column.entries.clone();
+                let support = plan.support[entries.clone()].iter().zip(&regression.values.weights[entries]);
+                (*slope, *start, *inverse) =
+                    equations.eliminate(support.map(|(&q, w)| (regression.row::<N, D>(q), *w)));
             }
         }
-        let counts = |q: usize| {
-            let first = parts[0].counts.len();
-            if q < first { parts[0].counts[q] } else { parts[1].counts[q - first] }
+        let (factor, sound) = Factor::new(equations.normal);
+        let parameters = factor.solve(equations.right);
+        for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
+            *value = *value - dot(slope, &parameters);
+        }
+        let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
+        let freedom = (samples - (D + plan.local.len()) as f64).max(1.0);
+        let left = equations.energy - dot(&parameters, &equations.right);
+        Self {
+            parameters,
+            variance: left.at_least(0.0) * (1.0 / freedom),
+            sound,
+            constant: factor.solve(equations.constant),
+            factor,
+        }
+    }
+
+    /// `gᵀN⁻¹g`.
+    #[inline(always)]
+    pub(super) fn quadratic(&self, gradient: [Lane; D]) -> Lane {
+        let solved = self.factor.forward(gradient);
+        dot(&solved, &solved)
+    }
+}
+
+impl<const D: usize> Equations<D> {
+    /// The products within groups.
+    #[inline(always)]
+    fn within<const N: usize>(parts: &[&LaneStatistics]) -> Self {
+        let mut equations = Self {
+            normal: [[Lane::ZERO; D]; D],
+            right: [Lane::ZERO; D],
+            constant: [Lane::ZERO; D],
+            energy: Lane::ZERO,
         };
-        for (l, support) in columns.local.iter().enumerate() {
-            energy -= self.eliminate(l, support, columns.saturated[support[0].0], counts);
-        }
-        self.factorise();
-        self.core.copy_from_slice(&self.right);
-        solve_in_place(&self.factor, &mut self.core);
-        solve_in_place(&self.factor, &mut self.constant);
-        for l in 0..columns.local.len() {
-            self.local[l] = self.starts[l] - dot(self.slope(l), &self.core);
-        }
-        let freedom = (samples - (self.size + columns.local.len()) as f64).max(1.0);
-        self.variance = (energy - dot(&self.core, &self.right)).at_least(0.0) * (1.0 / freedom);
-    }
-
-    /// `c/D` of a local column.
-    #[inline(always)]
-    pub(super) fn slope(&self, local: usize) -> &[Lane] {
-        &self.slopes[local * self.size..(local + 1) * self.size]
-    }
-
-    /// `gᵀN⁻¹g`; overwrites `g`.
-    #[inline(always)]
-    pub(super) fn quadratic(&self, g: &mut [Lane]) -> Lane {
-        forward(&self.factor, g);
-        dot(g, g)
-    }
-
-    /// Within-group products; the energy so far.
-    #[inline(always)]
-    fn begin(&mut self, parts: &[&LaneStatistics], locals: usize) -> Lane {
-        let (n, d) = (parts[0].order(), self.size);
-        for (memory, length) in [
-            (&mut self.core, d),
-            (&mut self.constant, d),
-            (&mut self.right, d),
-            (&mut self.cross, d),
-            (&mut self.factor, d * d),
-            (&mut self.local, locals),
-            (&mut self.own, locals),
-            (&mut self.starts, locals),
-            (&mut self.slopes, locals * d),
-        ] {
-            memory.clear();
-            memory.resize(length, Lane::ZERO);
-        }
-        let mut energy = Lane::ZERO;
         for part in parts {
-            energy += part.within[0];
-            for i in 0..n {
-                self.right[i] -= part.within[i + 1];
+            let within = &part.within[..(N + 1) * (N + 1)];
+            equations.energy += within[0];
+            for i in 0..N {
+                equations.right[i] -= within[i + 1];
                 for l in 0..=i {
-                    self.factor[i * d + l] += part.within[(i + 1) * (n + 1) + l + 1];
+                    equations.normal[i][l] += within[(i + 1) * (N + 1) + l + 1];
                 }
             }
         }
-        energy
+        equations
     }
 
-    /// `(−m_1…−m_n, x, m_0 − o)`, one row a group.
+    /// Adds a group.
     #[inline(always)]
-    fn read_regressors(&mut self, parts: &[&LaneStatistics], shift: Lane, columns: &LaneColumns) {
-        let p = columns.width;
-        self.regressors.clear();
-        let mut q = 0;
-        for part in parts {
-            for group in 0..part.counts.len() {
-                let mean = part.mean(group);
-                self.regressors.extend(mean[1..].iter().map(|m| shift - *m));
-                self.regressors.extend_from_slice(&columns.shared[q * p..(q + 1) * p]);
-                self.regressors.push(mean[0] - shift - columns.offset[q]);
-                q += 1;
-            }
-        }
-    }
-
-    /// Adds a group to the normal equations; returns its energy.
-    #[inline(always)]
-    fn add_group(&mut self, q: usize, count: f64) -> Lane {
-        let d = self.size;
-        let row = &self.regressors[q * (d + 1)..(q + 1) * (d + 1)];
-        let target = row[d];
-        for i in 0..d {
-            let weighted = row[i] * count;
+    fn add(&mut self, row: &Row<D>) {
+        for i in 0..D {
+            let weighted = row.regressors[i] * row.count;
             self.constant[i] += weighted;
-            self.right[i] += weighted * target;
+            self.right[i] += weighted * row.target;
             for l in 0..=i {
-                self.factor[i * d + l] += weighted * row[l];
+                self.normal[i][l] += weighted * row.regressors[l];
             }
         }
-        target * target * count
+        self.energy += row.target * row.target * row.count;
     }
 
-    /// Takes a local column out of the normal equations; returns the energy that it explains. Of a group with its own mean nothing was put in.
+    /// Takes out a local column, given by its groups and weights; `c/D`, its estimate were the core zero, and `1/D`.
     #[inline(always)]
-    fn eliminate(
-        &mut self,
-        l: usize,
-        support: &[(usize, Lane)],
-        saturated: bool,
-        counts: impl Fn(usize) -> f64,
-    ) -> Lane {
-        let d = self.size;
-        let slope = &mut self.slopes[l * d..(l + 1) * d];
-        if saturated {
-            let q = support[0].0;
-            let row = &self.regressors[q * (d + 1)..(q + 1) * (d + 1)];
-            slope.copy_from_slice(&row[..d]);
-            self.starts[l] = row[d];
-            self.own[l] = Lane::splat(counts(q));
-            return Lane::ZERO;
-        }
-        let (mut own, mut target) = (Lane::ZERO, Lane::ZERO);
-        self.cross.fill(Lane::ZERO);
-        for &(q, w) in support {
-            let row = &self.regressors[q * (d + 1)..(q + 1) * (d + 1)];
-            let weight = w * counts(q);
+    fn eliminate(&mut self, support: impl Iterator<Item = (Row<D>, Lane)>) -> ([Lane; D], Lane, Lane) {
+        let (mut own, mut target, mut cross) = (Lane::ZERO, Lane::ZERO, [Lane::ZERO; D]);
+        for (row, w) in support {
+            let weight = w * row.count;
             own += weight * w;
-            target += weight * row[d];
-            for i in 0..d {
-                self.cross[i] += weight * row[i];
+            target += weight * row.target;
+            for i in 0..D {
+                cross[i] += weight * row.regressors[i];
             }
         }
         let inverse = Lane::splat(1.0) / own;
         let start = target * inverse;
-        for i in 0..d {
-            slope[i] = self.cross[i] * inverse;
-            self.right[i] -= self.cross[i] * start;
-            for j in 0..=i {
-                self.factor[i * d + j] -= slope[i] * self.cross[j];
+        let mut slope = [Lane::ZERO; D];
+        for i in 0..D {
+            slope[i] = cross[i] * inverse;
+            self.right[i] -= cross[i] * start;
+            for l in 0..=i {
+                self.normal[i][l] -= slope[i] * cross[l];
             }
         }
-        self.own[l] = own;
-        self.starts[l] = start;
-        target * start
+        self.energy -= target * start;
+        (slope, start, inverse)
     }
+}
 
-    /// Cholesky in place, the inverse pivots on the diagonal.
+/// Cholesky's lower triangle, the inverse pivots on the diagonal.
+struct Factor<const D: usize>([[Lane; D]; D]);
+
+impl<const D: usize> Factor<D> {
+    /// Factors a matrix given by its lower triangle; says which replicates kept their digits.
     #[inline(always)]
-    fn factorise(&mut self) {
-        let d = self.size;
-        for j in 0..d {
-            let before = self.factor[j * d + j];
+    fn new(mut normal: [[Lane; D]; D]) -> (Self, [bool; LANES]) {
+        let mut sound = [true; LANES];
+        for j in 0..D {
+            let before = normal[j][j];
             let mut pivot = before;
             for k in 0..j {
-                let x = self.factor[j * d + k];
-                pivot -= x * x;
+                pivot -= normal[j][k] * normal[j][k];
             }
-            for (l, sound) in self.sound.iter_mut().enumerate() {
-                *sound &= pivot.0[l] > SOUND * before.0[l];
+            for l in 0..LANES {
+                sound[l] &= pivot.0[l] > SOUND * before.0[l];
             }
             let inverse = Lane::splat(1.0) / pivot.sqrt();
-            self.factor[j * d + j] = inverse;
-            for i in j + 1..d {
-                let mut x = self.factor[i * d + j];
+            normal[j][j] = inverse;
+            for i in j + 1..D {
+                let mut x = normal[i][j];
                 for k in 0..j {
-                    x -= self.factor[i * d + k] * self.factor[j * d + k];
+                    x -= normal[i][k] * normal[j][k];
                 }
-                self.factor[i * d + j] = x * inverse;
+                normal[i][j] = x * inverse;
             }
         }
+        (Self(normal), sound)
+    }
+
+    /// `L⁻¹x`.
+    #[inline(always)]
+    fn forward(&self, mut x: [Lane; D]) -> [Lane; D] {
+        for i in 0..D {
+            let mut value = x[i];
+            for k in 0..i {
+                value -= self.0[i][k] * x[k];
+            }
+            x[i] = value * self.0[i][i];
+        }
+        x
+    }
+
+    /// `(LLᵀ)⁻¹x`.
+    #[inline(always)]
+    fn solve(&self, x: [Lane; D]) -> [Lane; D] {
+        let mut x = self.forward(x);
+        for i in (0..D).rev() {
+            let mut value = x[i];
+            for k in i + 1..D {
+                value -= self.0[k][i] * x[k];
+            }
+            x[i] = value * self.0[i][i];
+        }
+        x
     }
 }
 
@@ -244,31 +269,4 @@ pub(super) fn dot(x: &[Lane], y: &[Lane]) -> Lane {
         sum += *x * *y;
     }
     sum
-}
-
-/// `L⁻¹x` in place; `L` row by row with its inverse diagonal.
-#[inline(always)]
-fn forward(factor: &[Lane], x: &mut [Lane]) {
-    let d = x.len();
-    for i in 0..d {
-        let mut value = x[i];
-        for k in 0..i {
-            value -= factor[i * d + k] * x[k];
-        }
-        x[i] = value * factor[i * d + i];
-    }
-}
-
-/// `(LLᵀ)⁻¹x` in place.
-#[inline(always)]
-fn solve_in_place(factor: &[Lane], x: &mut [Lane]) {
-    forward(factor, x);
-    let d = x.len();
-    for i in (0..d).rev() {
-        let mut value = x[i];
-        for k in i + 1..d {
-            value -= factor[k * d + i] * x[k];
-        }
-        x[i] = value * factor[i * d + i];
-    }
 }

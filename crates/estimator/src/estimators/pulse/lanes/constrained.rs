@@ -1,18 +1,21 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{LaneArrow, LaneColumns, dot};
-use super::lane::{LANES, Lane};
-use super::method::{LevelRule, broadcast};
+use super::arrow::{Core, Locals, Regression, dot};
+use super::columns::{ColumnPlan, ColumnValues};
+use super::method::LevelRule;
 use super::statistics::LaneStatistics;
+use crate::estimators::pulse::arrow::LocalColumn;
 use crate::estimators::pulse::efficient::{CONVERGED, MOST_STEPS};
 use crate::estimators::pulse::experiments::Experiments;
+use crate::lanes::{LANES, Lane};
 
 /// What is constant in the Gauss–Newton iteration of `efficient`.
 #[derive(Debug, Clone)]
 pub(super) struct Constrained {
-    order: usize,
-    /// The columns of the joint regression: right where no level is estimated.
-    columns: LaneColumns,
+    /// One local column a level.
+    plan: ColumnPlan,
+    /// Right where no level is estimated.
+    values: ColumnValues,
     /// The estimated levels.
     levels: Vec<Level>,
 }
@@ -43,63 +46,89 @@ impl Constrained {
                 _ => None,
             })
             .collect();
-        let mut columns = broadcast(&experiments.rank_free_columns());
-        columns.saturated.fill(false);
-        columns.local = levels.iter().map(|l| l.groups.iter().map(|q| (*q, Lane::ZERO)).collect()).collect();
-        Self { order: n, columns, levels }
+        let mut columns = experiments.rank_free_columns();
+        columns.local = levels
+            .iter()
+            .map(|level| LocalColumn { support: level.groups.iter().map(|q| (*q, 0.0)).collect() })
+            .collect();
+        let (plan, values) = ColumnPlan::of(&columns, false);
+        Self { plan, values, levels }
     }
 
     /// From the joint regression to convergence. A replicate that has converged stays where it is while the others go on.
+    ///
+    /// `locals` are those of `start` on entry; `values` is scratch.
     #[inline(always)]
-    pub(super) fn iterate(&self, parts: &[&LaneStatistics], arrow: &mut LaneArrow) {
-        let n = self.order;
-        let mut columns = self.columns.clone();
-        let mut b = arrow.core[n..2 * n].to_vec();
+    pub(super) fn iterate<const N: usize, const D: usize>(
+        &self,
+        parts: &[&LaneStatistics],
+        start: Core<N, D>,
+        locals: &mut Locals,
+        values: &mut ColumnValues,
+    ) -> Core<N, D> {
+        let mut b = [Lane::ZERO; N];
+        b.copy_from_slice(&start.parameters[N..2 * N]);
         let inverse = Lane::splat(1.0) / dot(&b, &b);
         let mut w: Vec<Lane> = self
             .levels
             .iter()
-            .map(|l| dot(&b, &arrow.local[l.first..l.first + n]) * inverse + Lane::splat(l.plus))
+            .map(|l| dot(&b, &locals.values[l.first..l.first + N]) * inverse + Lane::splat(l.plus))
             .collect();
-        self.linearise(&mut columns, &b, &w);
-        arrow.solve(parts, Lane::ZERO, &columns);
+        values.copy_from(&self.values);
+        let mut solve = |b: &[Lane; N], w: &[Lane], locals: &mut Locals| {
+            self.linearise(values, b, w);
+            Core::<N, D>::solve(&Regression { parts, shift: Lane::ZERO, plan: &self.plan, values }, locals)
+        };
+        let mut core = solve(&b, &w, locals);
         let mut moving = [true; LANES];
         for _ in 0..MOST_STEPS {
-            for (l, moving) in moving.iter_mut().enumerate() {
-                *moving = *moving && moved(arrow, n, &b, &w, l) >= CONVERGED;
-                if *moving {
-                    b.iter_mut().zip(&arrow.core[n..]).for_each(|(b, new)| b.0[l] = new.0[l]);
-                    w.iter_mut().zip(&arrow.local).for_each(|(w, new)| w.0[l] = new.0[l]);
-                }
+            let change = change(&core, locals, &b, &w);
+            for l in 0..LANES {
+                // A replicate that came to nothing moves no further: its change is not a number.
+                moving[l] &= change.0[l] >= CONVERGED;
             }
-            if !moving.contains(&true) {
+            if moving == [false; LANES] {
                 break;
             }
-            self.linearise(&mut columns, &b, &w);
-            arrow.solve(parts, Lane::ZERO, &columns);
+            let new = core.parameters[N..2 * N].iter().chain(&locals.values);
+            for (old, new) in b.iter_mut().chain(&mut w).zip(new) {
+                *old = new.where_or(&moving, *old);
+            }
+            core = solve(&b, &w, locals);
         }
+        core
     }
 
     /// The regression linearised about `b` and `w`.
     #[inline(always)]
-    fn linearise(&self, columns: &mut LaneColumns, b: &[Lane], w: &[Lane]) {
-        for ((level, w), support) in self.levels.iter().zip(w).zip(&mut columns.local) {
+    fn linearise<const N: usize>(&self, values: &mut ColumnValues, b: &[Lane; N], w: &[Lane]) {
+        let (weights, _) = values.weights.as_chunks_mut::<N>();
+        for ((level, w), weights) in self.levels.iter().zip(w).zip(weights) {
             for (lag, (&q, b)) in level.groups.iter().zip(b).enumerate() {
-                columns.shared[q * columns.width + lag] = *w;
-                columns.offset[q] = Lane::ZERO - *b * *w;
-                support[lag].1 = *b;
+                values.shared[q * self.plan.width + lag] = *w;
+                values.offset[q] = Lane::ZERO - *b * *w;
             }
+            *weights = *b;
         }
     }
 }
 
-/// The largest change of replicate `l` relative to the largest value.
+/// The largest change relative to the largest `b`, or to the level.
 #[inline(always)]
-fn moved(arrow: &LaneArrow, n: usize, b: &[Lane], w: &[Lane], l: usize) -> f64 {
-    let new_b = &arrow.core[n..2 * n];
-    let largest = new_b.iter().fold(0.0_f64, |m, x| m.max(x.0[l].abs()));
-    let of_b = b.iter().zip(new_b).map(|(old, new)| (new.0[l] - old.0[l]).abs() / largest);
-    let of_w =
-        w.iter().zip(&arrow.local).map(|(old, new)| (new.0[l] - old.0[l]).abs() / new.0[l].abs().max(1.0));
-    of_b.chain(of_w).fold(0.0, f64::max)
+fn change<const N: usize, const D: usize>(
+    core: &Core<N, D>,
+    locals: &Locals,
+    b: &[Lane; N],
+    w: &[Lane],
+) -> Lane {
+    let new_b = &core.parameters[N..2 * N];
+    let (mut largest, mut of_b, mut of_w) = (Lane::ZERO, Lane::ZERO, Lane::ZERO);
+    for (old, new) in b.iter().zip(new_b) {
+        largest = largest.larger(new.abs());
+        of_b = of_b.larger((*new - *old).abs());
+    }
+    for (old, new) in w.iter().zip(&locals.values) {
+        of_w = of_w.larger((*new - *old).abs() / new.abs().larger(Lane::splat(1.0)));
+    }
+    (of_b / largest).larger(of_w)
 }

@@ -1,10 +1,19 @@
-//! The control variate of eight replicates: one matrix, made once.
+//! The control variate of eight replicates: a constant linear map of the score, in two steps.
 
-use super::lane::Lane;
+use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
-use super::wide::{Work, widest};
+use crate::lanes::Lane;
 
 /// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score over the number of samples.
+///
+/// The score is a sum `λ_i` a lag and `r_q` a group, and the normal equations are an arrow: so it is first carried to the core, then
+/// from there and from the few groups of its own to each parameter,
+///
+/// ```text
+/// g_d = [d ≤ n] λ_d + Σ_q G_q,d r_q        first order of θ_k = (Σ_d H_k,d g_d + Σ_{q ∈ k} h_k,q r_q)/N + s_k (ŷ₀ − y₀)
+/// ```
+///
+/// `O((n + p)(Q + K))` for `Q` groups and `K` parameters, not `O(QK)`.
 #[derive(Debug, Clone)]
 pub struct LaneControl {
     /// What the limit was taken about.
@@ -13,56 +22,39 @@ pub struct LaneControl {
     pub(crate) a: Vec<f64>,
     /// The limit's mean of each group.
     pub(crate) means: Vec<f64>,
-    /// One row a parameter, over the score: `n` lags, then the groups.
-    pub(crate) map: Vec<f64>,
-    /// Derivative of each parameter in `ŷ₀`.
-    pub(crate) step_slopes: Vec<f64>,
-    /// `ŷ₀` at the limit.
+    /// `G`, one row a group.
+    pub(crate) to_core: Vec<f64>,
+    /// One a parameter.
+    pub(crate) parameters: Vec<Answer>,
+    /// `H`, one row a parameter.
+    pub(crate) from_core: Vec<f64>,
+    /// `y₀`, that is `ŷ₀` at the limit.
     pub(crate) step_mean: f64,
 }
 
+/// What one parameter takes of the score beside the core's.
+#[derive(Debug, Clone)]
+pub(crate) struct Answer {
+    /// Group and `h`.
+    pub(crate) own: Vec<(usize, f64)>,
+    /// `s`, the derivative in `ŷ₀`.
+    pub(crate) step_slope: f64,
+}
+
 impl LaneControl {
-    /// The first-order part of every parameter's error, into `first_order`; `score` is scratch.
+    /// The first-order part of every parameter's error, into `first_order`; `residuals` is scratch.
+    ///
+    /// Nothing for the orders that [`LaneMethod::fit`](super::LaneMethod::fit) leaves to the solver that goes one by one.
     pub fn first_order(
         &self,
         parts: &[&LaneStatistics],
         step_mean: Option<Lane>,
-        score: &mut Vec<Lane>,
+        residuals: &mut Vec<Lane>,
         first_order: &mut Vec<Lane>,
     ) {
-        widest(FirstOrder { control: self, parts, step_mean, score, first_order });
-    }
-
-    /// `Σ_t −y(t−i) r(t)` a lag and `Σ_{t∈q} r(t)` a group, with `r` the residual at the limit's parameters.
-    #[inline(always)]
-    fn score(&self, parts: &[&LaneStatistics], score: &mut Vec<Lane>) {
-        let n = self.a.len();
-        let reference = Lane::splat(self.reference);
-        score.clear();
-        score.resize(n, Lane::ZERO);
-        let mut limit_means = self.means.iter();
-        for part in parts {
-            for i in 0..n {
-                let row = &part.within[(i + 1) * (n + 1)..];
-                let mut sum = row[0];
-                for (a, w) in self.a.iter().zip(&row[1..]) {
-                    sum += *w * *a;
-                }
-                score[i] -= sum;
-            }
-            for ((group, &count), limit) in part.counts.iter().enumerate().zip(&mut limit_means) {
-                let mean = part.mean(group);
-                let mut residual = mean[0] - reference - Lane::splat(*limit);
-                for (a, mean) in self.a.iter().zip(&mean[1..]) {
-                    residual += (*mean - reference) * *a;
-                }
-                let residual = residual * count;
-                for i in 0..n {
-                    score[i] -= (mean[i + 1] - reference) * residual;
-                }
-                score.push(residual);
-            }
-        }
+        let size = self.from_core.len() / self.parameters.len();
+        let work = FirstOrder { control: self, parts, step_mean, residuals, first_order };
+        run(self.a.len(), size, work);
     }
 }
 
@@ -71,27 +63,74 @@ struct FirstOrder<'a> {
     control: &'a LaneControl,
     parts: &'a [&'a LaneStatistics],
     step_mean: Option<Lane>,
-    score: &'a mut Vec<Lane>,
+    residuals: &'a mut Vec<Lane>,
     first_order: &'a mut Vec<Lane>,
 }
 
-impl Work for FirstOrder<'_> {
+impl SizedWork for FirstOrder<'_> {
     #[inline(always)]
-    fn run(self) {
-        let Self { control, parts, step_mean, score, first_order } = self;
-        control.score(parts, score);
-        let per_sample = 1.0 / parts[0].counts.iter().sum::<f64>();
+    fn run<const N: usize, const D: usize>(self) {
+        let Self { control, parts, step_mean, residuals, first_order } = self;
+        residuals.resize(control.means.len(), Lane::ZERO);
+        let core = control.to_core::<N, D>(parts, residuals);
+        let per_sample = 1.0 / parts[0].samples;
         let step = match step_mean {
             Some(mean) => mean - Lane::splat(control.step_mean),
             None => Lane::ZERO,
         };
-        first_order.clear();
-        for (row, slope) in control.map.chunks_exact(score.len()).zip(&control.step_slopes) {
+        first_order.resize(control.parameters.len(), Lane::ZERO);
+        let (from_core, _) = control.from_core.as_chunks::<D>();
+        for ((answer, weights), first) in control.parameters.iter().zip(from_core).zip(first_order) {
             let mut sum = Lane::ZERO;
-            for (weight, score) in row.iter().zip(score.iter()) {
-                sum += *score * *weight;
+            for d in 0..D {
+                sum += core[d] * weights[d];
             }
-            first_order.push(sum * per_sample + step * *slope);
+            for &(group, weight) in &answer.own {
+                sum += residuals[group] * weight;
+            }
+            *first = sum * per_sample + step * answer.step_slope;
         }
+    }
+}
+
+impl LaneControl {
+    /// `g`; and `r_q = Σ_{t∈q} r(t)`, with `r` the residual at the limit's parameters.
+    #[inline(always)]
+    fn to_core<const N: usize, const D: usize>(
+        &self,
+        parts: &[&LaneStatistics],
+        residuals: &mut [Lane],
+    ) -> [Lane; D] {
+        let reference = Lane::splat(self.reference);
+        let a: &[f64; N] = self.a.first_chunk().expect("the order is that of the code that was chosen");
+        let mut core = [Lane::ZERO; D];
+        let mut constants = self.to_core.as_chunks::<D>().0.iter().zip(&self.means).zip(residuals);
+        for part in parts {
+            let within = &part.within[..(N + 1) * (N + 1)];
+            for i in 0..N {
+                let row = (i + 1) * (N + 1);
+                let mut sum = within[row];
+                for l in 0..N {
+                    sum += within[row + 1 + l] * a[l];
+                }
+                core[i] -= sum;
+            }
+            let groups = part.means.chunks_exact(N + 1).zip(&part.counts);
+            for ((mean, &count), ((weights, &limit), into)) in groups.zip(&mut constants) {
+                let mut residual = mean[0] - reference - Lane::splat(limit);
+                for l in 0..N {
+                    residual += (mean[l + 1] - reference) * a[l];
+                }
+                let residual = residual * count;
+                for i in 0..N {
+                    core[i] -= (mean[i + 1] - reference) * residual;
+                }
+                for d in 0..D {
+                    core[d] += residual * weights[d];
+                }
+                *into = residual;
+            }
+        }
+        core
     }
 }

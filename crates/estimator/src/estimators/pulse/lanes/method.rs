@@ -1,15 +1,15 @@
 //! The methods, eight replicates abreast.
 
-use super::arrow::{LaneArrow, LaneColumns};
+use super::arrow::{Core, Locals, Regression};
+use super::columns::{ColumnPlan, ColumnValues};
 use super::constrained::Constrained;
-use super::lane::{LANES, Lane};
 use super::levels::Reading;
+use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
-use super::wide::{Work, widest};
 use crate::estimators::pulse::PulseMethod;
-use crate::estimators::pulse::arrow::Columns;
 use crate::estimators::pulse::experiments::{Experiments, first_level_value, satellite_value};
 use crate::estimators::pulse::{linear_arx, memoryless, paper};
+use crate::lanes::{LANES, Lane};
 
 /// A level's value relative to the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,8 @@ pub(super) enum LevelRule {
 #[derive(Debug, Clone)]
 pub struct LaneMethod {
     order: usize,
-    columns: LaneColumns,
+    plan: ColumnPlan,
+    values: ColumnValues,
     levels: Vec<LevelRule>,
     constrained: Option<Constrained>,
 }
@@ -43,17 +44,17 @@ pub struct LaneStep {
     pub samples: f64,
 }
 
-/// Estimates of eight replicates with their standard errors; memory that is used again and again.
+/// Estimates of eight replicates with their variances; memory that is used again and again.
 #[derive(Debug, Clone, Default)]
 pub struct LaneFit {
     /// `a`, `b`, then the border points: the order of [`super::super::PulseFit::parameters`].
     pub values: Vec<Lane>,
-    /// Their standard errors.
-    pub errors: Vec<Lane>,
+    /// Their variances: the squares of the standard errors.
+    pub variances: Vec<Lane>,
     /// Whether the replicate has an estimate; if not, ask [`PulseMethod::fit`] why.
     pub sound: [bool; LANES],
-    pub(super) arrow: LaneArrow,
-    gradients: Vec<Lane>,
+    pub(super) locals: Locals,
+    pub(super) linearised: ColumnValues,
 }
 
 impl LaneMethod {
@@ -98,12 +99,17 @@ impl LaneMethod {
                 (columns, levels.collect())
             }
         };
-        Self { order: n, columns: broadcast(&columns), levels, constrained }
+        let (plan, values) = ColumnPlan::of(&columns, true);
+        Self { order: n, plan, values, levels, constrained }
     }
 
     /// The estimates from the statistics of the method's experiments, in their order, and of the step experiment for the paper's methods.
+    ///
+    /// Orders above [`LARGEST_ORDER`](super::LARGEST_ORDER) are all left to the solver that goes one by one.
     pub fn fit(&self, parts: &[&LaneStatistics], step: Option<LaneStep>, fit: &mut LaneFit) {
-        widest(Fit { method: self, parts, step, fit });
+        if !run(self.order, self.order + self.plan.width, Fit { method: self, parts, step, fit }) {
+            fit.sound = [false; LANES];
+        }
     }
 }
 
@@ -115,33 +121,33 @@ struct Fit<'a> {
     fit: &'a mut LaneFit,
 }
 
-impl Work for Fit<'_> {
+impl SizedWork for Fit<'_> {
     #[inline(always)]
-    fn run(self) {
+    fn run<const N: usize, const D: usize>(self) {
         let Self { method, parts, step, fit } = self;
-        let LaneFit { values, errors, sound, arrow, gradients } = fit;
+        let LaneFit { values, variances, sound, locals, linearised } = fit;
         let shift = match step {
             Some(step) => step.mean,
             None => Lane::ZERO,
         };
-        arrow.solve(parts, shift, &method.columns);
+        let regression = Regression { parts, shift, plan: &method.plan, values: &method.values };
+        let mut core = Core::<N, D>::solve(&regression, locals);
         if let Some(constrained) = &method.constrained {
-            constrained.iterate(parts, arrow);
+            core = constrained.iterate(parts, core, locals, linearised);
         }
-        values.clear();
-        errors.clear();
-        *sound = arrow.sound;
-        let reading = Reading::new(arrow, method.order, step);
-        for k in 0..2 * method.order {
-            reading.coefficient(k, gradients, values, errors);
+        values.resize(2 * N + method.levels.len(), Lane::ZERO);
+        variances.resize(values.len(), Lane::ZERO);
+        let reading = Reading::new(&core, locals, step);
+        // Zero times a number is zero, times anything else it is not.
+        let mut spoilt = Lane::ZERO;
+        for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate() {
+            (*value, *variance) =
+                if k < 2 * N { reading.coefficient(k) } else { reading.level(method.levels[k - 2 * N]) };
+            spoilt += (*value + *variance) * 0.0;
         }
-        for rule in &method.levels {
-            reading.level(*rule, gradients, values, errors);
-        }
-        for x in values.iter().chain(errors.iter()) {
-            for (sound, x) in sound.iter_mut().zip(x.0) {
-                *sound &= x.is_finite();
-            }
+        *sound = core.sound;
+        for l in 0..LANES {
+            sound[l] &= spoilt.0[l] == 0.0;
         }
     }
 }
@@ -163,26 +169,4 @@ fn rank_free(experiments: &Experiments<'_>) -> Vec<LevelRule> {
             )
         })
         .collect()
-}
-
-/// The same columns in every replicate.
-pub(super) fn broadcast(columns: &Columns) -> LaneColumns {
-    let groups = columns.offset.len();
-    let mut saturated = vec![false; groups];
-    for column in &columns.local {
-        if let [(q, _)] = column.support[..] {
-            saturated[q] = true;
-        }
-    }
-    LaneColumns {
-        width: columns.shared.ncols(),
-        shared: columns.shared.transpose().iter().map(|x| Lane::splat(*x)).collect(),
-        offset: columns.offset.iter().map(|o| Lane::splat(*o)).collect(),
-        saturated,
-        local: columns
-            .local
-            .iter()
-            .map(|c| c.support.iter().map(|&(q, w)| (q, Lane::splat(w))).collect())
-            .collect(),
-    }
 }

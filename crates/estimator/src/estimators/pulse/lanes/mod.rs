@@ -4,15 +4,18 @@
 //! algebra of [`super::PulseMethod`] on [`Lane`]s, without allocation. That one by one is the oracle.
 
 mod arrow;
+mod columns;
 mod constrained;
 mod control;
-mod lane;
 mod levels;
 mod method;
+mod sized;
 mod statistics;
-mod wide;
 
+pub(crate) use control::Answer;
 pub use control::LaneControl;
-pub use lane::{LANES, Lane};
 pub use method::{LaneFit, LaneMethod, LaneStep};
+pub use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;
+
+pub use crate::lanes::{LANES, Lane};

@@ -1,7 +1,7 @@
 //! Sufficient statistics of eight replicates, split into within and between groups.
 
-use super::lane::Lane;
 use crate::estimators::pulse::GroupedStatistics;
+use crate::lanes::Lane;
 
 /// The statistics of [`GroupedStatistics`] of eight replicates, as means and what is left about them:
 ///
@@ -16,7 +16,11 @@ use crate::estimators::pulse::GroupedStatistics;
 pub struct LaneStatistics {
     order: usize,
     /// `K_q`, the same in all replicates.
-    pub counts: Vec<f64>,
+    pub(crate) counts: Vec<f64>,
+    /// `1/K_q`.
+    pub(crate) shares: Vec<f64>,
+    /// `Σ_q K_q`.
+    pub(crate) samples: f64,
     /// `m`.
     pub means: Vec<Lane>,
     /// `W`.
@@ -31,6 +35,8 @@ impl LaneStatistics {
             order,
             means: vec![Lane::ZERO; counts.len() * width],
             within: vec![Lane::ZERO; width * width],
+            shares: counts.iter().map(|count| 1.0 / count).collect(),
+            samples: counts.iter().sum(),
             counts,
         }
     }
@@ -41,8 +47,7 @@ impl LaneStatistics {
     }
 
     /// `m_q,0…n`.
-    #[inline(always)]
-    pub(super) fn mean(&self, group: usize) -> &[Lane] {
+    fn mean(&self, group: usize) -> &[Lane] {
         &self.means[group * (self.order + 1)..(group + 1) * (self.order + 1)]
     }
 

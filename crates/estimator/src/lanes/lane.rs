@@ -29,6 +29,26 @@ impl Lane {
         result
     }
 
+    /// Moduli.
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        let mut result = self;
+        for l in 0..LANES {
+            result.0[l] = self.0[l].abs();
+        }
+        result
+    }
+
+    /// The larger of each two; of a number and what is none, the latter.
+    #[inline(always)]
+    pub(crate) fn larger(self, other: Self) -> Self {
+        let mut result = self;
+        for l in 0..LANES {
+            result.0[l] = if self.0[l] >= other.0[l] || self.0[l].is_nan() { self.0[l] } else { other.0[l] };
+        }
+        result
+    }
+
     /// The larger of each and `floor`.
     #[inline(always)]
     pub(crate) fn at_least(self, floor: f64) -> Self {
@@ -39,6 +59,35 @@ impl Lane {
             }
         }
         result
+    }
+
+    /// 1 where it is at most the other, else 0.
+    #[inline(always)]
+    pub(crate) fn at_most(self, other: Self) -> Self {
+        let mut result = self;
+        for l in 0..LANES {
+            result.0[l] = if self.0[l] <= other.0[l] { 1.0 } else { 0.0 };
+        }
+        result
+    }
+
+    /// Each where `chosen`, else `other`.
+    #[inline(always)]
+    pub(crate) fn where_or(self, chosen: &[bool; LANES], other: Self) -> Self {
+        let mut result = other;
+        for l in 0..LANES {
+            if chosen[l] {
+                result.0[l] = self.0[l];
+            }
+        }
+        result
+    }
+}
+
+impl Default for Lane {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::ZERO
     }
 }
 

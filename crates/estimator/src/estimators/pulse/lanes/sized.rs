@@ -1,0 +1,42 @@
+//! Running the algebra of a method compiled for its own order, so that its short loops unroll into registers.
+
+use crate::lanes::{Work, widest};
+
+/// The largest order that is compiled; what is larger, or of another shape, goes one by one.
+pub const LARGEST_ORDER: usize = 6;
+
+/// A piece of work on `n = N` lags and `D` core parameters.
+pub(super) trait SizedWork {
+    /// Does it. Implementations, and what they call, are `#[inline(always)]`: see [`Work`].
+    fn run<const N: usize, const D: usize>(self);
+}
+
+struct Of<W, const N: usize, const D: usize>(W);
+
+impl<W: SizedWork, const N: usize, const D: usize> Work for Of<W, N, D> {
+    #[inline(always)]
+    fn run(self) {
+        self.0.run::<N, D>();
+    }
+}
+
+/// Runs `work` compiled for `order` lags and `size` core parameters (`a`, `b` and perhaps a constant) and for the widest vectors;
+/// says whether there is such code.
+pub(super) fn run(order: usize, size: usize, work: impl SizedWork) -> bool {
+    match (order, size) {
+        (1, 2) => widest(Of::<_, 1, 2>(work)),
+        (1, 3) => widest(Of::<_, 1, 3>(work)),
+        (2, 4) => widest(Of::<_, 2, 4>(work)),
+        (2, 5) => widest(Of::<_, 2, 5>(work)),
+        (3, 6) => widest(Of::<_, 3, 6>(work)),
+        (3, 7) => widest(Of::<_, 3, 7>(work)),
+        (4, 8) => widest(Of::<_, 4, 8>(work)),
+        (4, 9) => widest(Of::<_, 4, 9>(work)),
+        (5, 10) => widest(Of::<_, 5, 10>(work)),
+        (5, 11) => widest(Of::<_, 5, 11>(work)),
+        (6, 12) => widest(Of::<_, 6, 12>(work)),
+        (LARGEST_ORDER, 13) => widest(Of::<_, LARGEST_ORDER, 13>(work)),
+        _ => return false,
+    }
+    true
+}
