@@ -6,7 +6,10 @@ use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 pub const LANES: usize = 8;
 
 /// One number of eight replicates. No operation crosses from one to another, so a replicate's results are the same bits whatever its neighbours.
+///
+/// It begins at a cache line, so that no full-width load or store straddles two.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
 pub struct Lane(pub [f64; LANES]);
 
 impl Lane {
@@ -69,6 +72,14 @@ impl Lane {
             result.0[l] = if self.0[l] <= other.0[l] { 1.0 } else { 0.0 };
         }
         result
+    }
+
+    /// The sum over the replicates, in halves: one order, whatever the processor.
+    #[inline(always)]
+    pub(crate) fn total(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        let [a, b, c, d] = [a + e, b + f, c + g, d + h];
+        (a + c) + (b + d)
     }
 
     /// Each where `chosen`, else `other`.

@@ -2,7 +2,8 @@
 
 use super::design::PeriodicDesign;
 use super::superposition::NoiseMoments;
-use crate::estimators::pulse::lanes::{Lane, LaneStatistics};
+use crate::estimators::pulse::lanes::LaneStatistics;
+use crate::lanes::{Lane, Work, widest};
 
 /// The [`NoiseMoments`] of eight replicates, for one period and number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,46 +116,80 @@ impl LaneSuperposition {
 
     /// Takes in the noise of eight replicates.
     pub fn load(&mut self, moments: &LaneMoments) {
-        let width = self.width;
-        self.noise.fill(Lane::ZERO);
-        for (fold, &q) in moments.folds.chunks_exact(width).zip(&self.groups) {
-            self.noise[q * width..(q + 1) * width].iter_mut().zip(fold).for_each(|(sum, x)| *sum += *x);
-        }
-        self.noise_within.copy_from_slice(&moments.products);
-        for (mean, &count) in
-            self.noise.chunks_exact_mut(width).zip(&self.counts).filter(|(_, count)| **count > 0.0)
-        {
-            for i in 0..width {
-                let sum = mean[i];
-                mean[i] = sum * (1.0 / count);
-                for l in 0..=i {
-                    self.noise_within[i * width + l] -= sum * mean[l];
-                }
-            }
-        }
-        self.cross.fill(Lane::ZERO);
-        for (p, z) in &self.uneven {
-            let fold = &moments.folds[p * width..(p + 1) * width];
-            for i in 0..width {
-                for l in 0..=i {
-                    self.cross[i * width + l] += fold[l] * z[i] + fold[i] * z[l];
-                }
-            }
-        }
+        widest(Load { superposition: self, moments });
     }
 
     /// The statistics at a noise level.
     pub fn at(&self, sigma: f64, statistics: &mut LaneStatistics) {
-        for ((mean, z), e) in statistics.means.iter_mut().zip(&self.response).zip(&self.noise) {
+        widest(At { superposition: self, sigma, statistics });
+    }
+}
+
+/// [`LaneSuperposition::load`] on its way.
+struct Load<'a> {
+    superposition: &'a mut LaneSuperposition,
+    moments: &'a LaneMoments,
+}
+
+impl Work for Load<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            superposition: LaneSuperposition { width, groups, counts, uneven, noise, noise_within, cross, .. },
+            moments,
+        } = self;
+        let width = *width;
+        noise.fill(Lane::ZERO);
+        for (fold, &q) in moments.folds.chunks_exact(width).zip(&*groups) {
+            noise[q * width..(q + 1) * width].iter_mut().zip(fold).for_each(|(sum, x)| *sum += *x);
+        }
+        noise_within.copy_from_slice(&moments.products);
+        for (mean, &count) in noise.chunks_exact_mut(width).zip(&*counts).filter(|(_, count)| **count > 0.0) {
+            for i in 0..width {
+                let sum = mean[i];
+                mean[i] = sum * (1.0 / count);
+                for l in 0..=i {
+                    noise_within[i * width + l] -= sum * mean[l];
+                }
+            }
+        }
+        cross.fill(Lane::ZERO);
+        for (p, z) in &*uneven {
+            let fold = &moments.folds[p * width..(p + 1) * width];
+            for i in 0..width {
+                for l in 0..=i {
+                    cross[i * width + l] += fold[l] * z[i] + fold[i] * z[l];
+                }
+            }
+        }
+    }
+}
+
+/// [`LaneSuperposition::at`] on its way.
+struct At<'a> {
+    superposition: &'a LaneSuperposition,
+    sigma: f64,
+    statistics: &'a mut LaneStatistics,
+}
+
+impl Work for At<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            superposition:
+                LaneSuperposition { width, response, response_within, noise, noise_within, cross, .. },
+            sigma,
+            statistics,
+        } = self;
+        for ((mean, z), e) in statistics.means.iter_mut().zip(response).zip(noise) {
             *mean = *e * sigma + Lane::splat(*z);
         }
-        for i in 0..self.width {
+        for i in 0..*width {
             for l in 0..=i {
-                let k = i * self.width + l;
-                let within = (self.noise_within[k] * sigma + self.cross[k]) * sigma
-                    + Lane::splat(self.response_within[k]);
+                let k = i * width + l;
+                let within = (noise_within[k] * sigma + cross[k]) * sigma + Lane::splat(response_within[k]);
                 statistics.within[k] = within;
-                statistics.within[l * self.width + i] = within;
+                statistics.within[l * width + i] = within;
             }
         }
     }

@@ -1,9 +1,7 @@
 //! Running sums over replicates, and the performance measures they give.
 
 use super::Measured;
-use crate::lanes::Lane;
 use statrs::distribution::{ContinuousCDF, Normal};
-use std::ops::Range;
 
 /// What one replicate tells of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,29 +74,21 @@ impl ErrorSums {
         }
     }
 
-    /// Adds replicates one by one, the terms of each in a lane: error and its powers, variance and its square, coverage, remainder and
-    /// its square, remainder of the square and its square.
+    /// Adds `count` replicates, given what they add up to: error and its powers, variance and its square, coverage, remainder and its
+    /// square, remainder of the square and its square.
     #[inline(always)]
-    pub(super) fn add(&mut self, terms: &[Lane; 11], lanes: Range<usize>) {
-        let count = lanes.len() as f64;
-        let mut total = [0.0; 11];
-        total[..4].copy_from_slice(&self.error);
-        total[4..6].copy_from_slice(&self.variance);
-        total[6] = self.covered;
-        total[7..9].copy_from_slice(&self.remainder);
-        total[9..].copy_from_slice(&self.square_remainder);
-        for l in lanes {
-            for k in 0..11 {
-                total[k] += terms[k].0[l];
-            }
+    pub(super) fn add(&mut self, count: f64, totals: [f64; 11]) {
+        for k in 0..4 {
+            self.error[k] += totals[k];
         }
+        for k in 0..2 {
+            self.variance[k] += totals[4 + k];
+            self.remainder[k] += totals[7 + k];
+            self.square_remainder[k] += totals[9 + k];
+        }
+        self.covered += totals[6];
         self.count += count;
         self.controlled += count;
-        self.error.copy_from_slice(&total[..4]);
-        self.variance.copy_from_slice(&total[4..6]);
-        self.covered = total[6];
-        self.remainder.copy_from_slice(&total[7..9]);
-        self.square_remainder.copy_from_slice(&total[9..]);
     }
 
     /// Adds the sums of other replicates.

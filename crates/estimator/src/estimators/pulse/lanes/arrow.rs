@@ -36,7 +36,9 @@ impl Regression<'_> {
         for i in 0..N {
             regressors[i] = self.shift - mean[i + 1];
         }
-        regressors[N..].copy_from_slice(shared);
+        for k in N..D {
+            regressors[k] = shared[k - N];
+        }
         let target = mean[0] - self.shift - self.values.offset[group];
         Row { regressors, target, count: part.counts[q], share: part.shares[q] }
     }
