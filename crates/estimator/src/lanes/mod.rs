@@ -4,4 +4,4 @@ mod lane;
 mod wide;
 
 pub use lane::{LANES, Lane};
-pub(crate) use wide::{Work, widest};
+pub(crate) use wide::{Work, keep_apart, widest};

@@ -3,7 +3,7 @@
 use super::design::PeriodicDesign;
 use super::superposition::NoiseMoments;
 use crate::estimators::pulse::lanes::LaneStatistics;
-use crate::lanes::{Lane, Work, widest};
+use crate::lanes::{Lane, Work, keep_apart, widest};
 
 /// The [`NoiseMoments`] of eight replicates, for one period and number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,14 +141,20 @@ impl Work for Load<'_> {
         let width = *width;
         noise.fill(Lane::ZERO);
         for (fold, &q) in moments.folds.chunks_exact(width).zip(&*groups) {
-            noise[q * width..(q + 1) * width].iter_mut().zip(fold).for_each(|(sum, x)| *sum += *x);
+            for (sum, x) in noise[q * width..(q + 1) * width].iter_mut().zip(fold) {
+                keep_apart();
+                *sum += *x;
+            }
         }
         noise_within.copy_from_slice(&moments.products);
         for (mean, &count) in noise.chunks_exact_mut(width).zip(&*counts).filter(|(_, count)| **count > 0.0) {
+            keep_apart();
             for i in 0..width {
+                keep_apart();
                 let sum = mean[i];
                 mean[i] = sum * (1.0 / count);
                 for l in 0..=i {
+                    keep_apart();
                     noise_within[i * width + l] -= sum * mean[l];
                 }
             }
@@ -158,6 +164,7 @@ impl Work for Load<'_> {
             let fold = &moments.folds[p * width..(p + 1) * width];
             for i in 0..width {
                 for l in 0..=i {
+                    keep_apart();
                     cross[i * width + l] += fold[l] * z[i] + fold[i] * z[l];
                 }
             }
@@ -182,6 +189,7 @@ impl Work for At<'_> {
             statistics,
         } = self;
         for ((mean, z), e) in statistics.means.iter_mut().zip(response).zip(noise) {
+            keep_apart();
             *mean = *e * sigma + Lane::splat(*z);
         }
         for i in 0..*width {

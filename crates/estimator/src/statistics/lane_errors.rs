@@ -1,7 +1,7 @@
 //! Adding eight replicates at a time to the running sums.
 
 use super::error_sums::{ErrorSums, normal_quantile_975};
-use crate::lanes::{LANES, Lane, Work, widest};
+use crate::lanes::{LANES, Lane, Work, keep_apart, widest};
 use std::ops::Range;
 
 /// What eight replicates tell of every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
@@ -39,6 +39,7 @@ impl Work for Add<'_> {
         let chosen: [bool; LANES] = std::array::from_fn(|l| self.lanes.contains(&l));
         let replicates = values.iter().zip(variances).zip(first_order).zip(truth);
         for ((((value, variance), first), truth), sums) in replicates.zip(self.sums) {
+            keep_apart();
             let error = *value - Lane::splat(*truth);
             let square = error * error;
             let (cube, fourth) = (square * error, square * square);

@@ -2,7 +2,7 @@
 
 use super::columns::{ColumnPlan, ColumnValues};
 use super::statistics::LaneStatistics;
-use crate::lanes::{LANES, Lane};
+use crate::lanes::{LANES, Lane, keep_apart};
 
 /// A replicate whose pivot keeps less than this share of its diagonal entry is left to the solver that goes one by one.
 const SOUND: f64 = 1e-12;
@@ -100,11 +100,13 @@ impl<const N: usize, const D: usize> Core<N, D> {
         locals.resize(plan.local.len(), D);
         let mut equations = Equations::<D>::within::<N>(regression.parts);
         for &group in &plan.pooled {
+            keep_apart();
             equations.add(&regression.row::<N, D>(group));
         }
         let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
         let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
         for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
+            keep_apart();
             if column.own_mean {
                 // Nothing of its group was put in, so nothing is to be taken out.
                 let row = regression.row::<N, D>(plan.support[column.entries.start]);
@@ -119,6 +121,7 @@ impl<const N: usize, const D: usize> Core<N, D> {
         let (factor, sound) = Factor::new(equations.normal);
         let parameters = factor.solve(equations.right);
         for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
+            keep_apart();
             *value = *value - dot(slope, &parameters);
         }
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
@@ -183,6 +186,7 @@ impl<const D: usize> Equations<D> {
     fn eliminate(&mut self, support: impl Iterator<Item = (Row<D>, Lane)>) -> ([Lane; D], Lane, Lane) {
         let (mut own, mut target, mut cross) = (Lane::ZERO, Lane::ZERO, [Lane::ZERO; D]);
         for (row, w) in support {
+            keep_apart();
             let weight = w * row.count;
             own += weight * w;
             target += weight * row.target;

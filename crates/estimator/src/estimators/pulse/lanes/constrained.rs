@@ -7,7 +7,7 @@ use super::statistics::LaneStatistics;
 use crate::estimators::pulse::arrow::LocalColumn;
 use crate::estimators::pulse::efficient::{CONVERGED, MOST_STEPS};
 use crate::estimators::pulse::experiments::Experiments;
-use crate::lanes::{LANES, Lane};
+use crate::lanes::{LANES, Lane, keep_apart};
 
 /// What is constant in the Gauss–Newton iteration of `efficient`.
 #[derive(Debug, Clone)]
@@ -92,6 +92,7 @@ impl Constrained {
             }
             let new = core.parameters[N..2 * N].iter().chain(&locals.values);
             for (old, new) in b.iter_mut().chain(&mut w).zip(new) {
+                keep_apart();
                 *old = new.where_or(&moving, *old);
             }
             core = solve(&b, &w, locals);
@@ -104,6 +105,7 @@ impl Constrained {
     fn linearise<const N: usize>(&self, values: &mut ColumnValues, b: &[Lane; N], w: &[Lane]) {
         let (weights, _) = values.weights.as_chunks_mut::<N>();
         for ((level, w), weights) in self.levels.iter().zip(w).zip(weights) {
+            keep_apart();
             for (lag, (&q, b)) in level.groups.iter().zip(b).enumerate() {
                 values.shared[q * self.plan.width + lag] = *w;
                 values.offset[q] = Lane::ZERO - *b * *w;
@@ -128,6 +130,7 @@ fn change<const N: usize, const D: usize>(
         of_b = of_b.larger((*new - *old).abs());
     }
     for (old, new) in w.iter().zip(&locals.values) {
+        keep_apart();
         of_w = of_w.larger((*new - *old).abs() / new.abs().larger(Lane::splat(1.0)));
     }
     (of_b / largest).larger(of_w)

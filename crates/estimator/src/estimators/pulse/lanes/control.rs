@@ -2,7 +2,7 @@
 
 use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
-use crate::lanes::Lane;
+use crate::lanes::{Lane, keep_apart};
 
 /// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score over the number of samples.
 ///
@@ -81,11 +81,13 @@ impl SizedWork for FirstOrder<'_> {
         first_order.resize(control.parameters.len(), Lane::ZERO);
         let (from_core, _) = control.from_core.as_chunks::<D>();
         for ((answer, weights), first) in control.parameters.iter().zip(from_core).zip(first_order) {
+            keep_apart();
             let mut sum = Lane::ZERO;
             for d in 0..D {
                 sum += core[d] * weights[d];
             }
             for &(group, weight) in &answer.own {
+                keep_apart();
                 sum += residuals[group] * weight;
             }
             *first = sum * per_sample + step * answer.step_slope;
@@ -117,6 +119,7 @@ impl LaneControl {
             }
             let groups = part.means.chunks_exact(N + 1).zip(&part.counts);
             for ((mean, &count), ((weights, &limit), into)) in groups.zip(&mut constants) {
+                keep_apart();
                 let mut residual = mean[0] - reference - Lane::splat(limit);
                 for l in 0..N {
                     residual += (mean[l + 1] - reference) * a[l];

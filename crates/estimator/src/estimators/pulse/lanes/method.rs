@@ -9,7 +9,7 @@ use super::statistics::LaneStatistics;
 use crate::estimators::pulse::PulseMethod;
 use crate::estimators::pulse::experiments::{Experiments, first_level_value, satellite_value};
 use crate::estimators::pulse::{linear_arx, memoryless, paper};
-use crate::lanes::{LANES, Lane};
+use crate::lanes::{LANES, Lane, keep_apart};
 
 /// A level's value relative to the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -141,6 +141,7 @@ impl SizedWork for Fit<'_> {
         // Zero times a number is zero, times anything else it is not.
         let mut spoilt = Lane::ZERO;
         for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate() {
+            keep_apart();
             (*value, *variance) =
                 if k < 2 * N { reading.coefficient(k) } else { reading.level(method.levels[k - 2 * N]) };
             spoilt += (*value + *variance) * 0.0;
