@@ -36,16 +36,19 @@ pub(super) fn draw(world: &World, seed: u64, replicates: Range<u32>) -> Vec<Repl
             noise[(r - start) as usize].pulses[k] = moments(record);
         });
     }
-    if let Some(plan) = &world.steps {
-        let mut steps = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
-        for k in 0..2 {
-            steps.run(seed, world.stream + 2 + k as u32, replicates.clone(), |r, record| {
-                noise[(r - start) as usize].steps[k] =
-                    record.checkpoints.iter().map(|c| c.folds[0][0] / c.samples as f64).collect();
-            });
-        }
+    for k in 0..2 {
+        draw_steps(world, k, seed, replicates.clone(), |r, means| {
+            noise[(r - start) as usize].steps[k] = means.to_vec();
+        });
     }
     noise
+}
+
+/// Visits the mean noise of every replicate in step experiment `k`, one a number of samples; nothing where no method asks for it.
+fn draw_steps(world: &World, k: usize, seed: u64, replicates: Range<u32>, visit: impl FnMut(u32, &[f64])) {
+    if let Some(steps) = &world.steps {
+        steps.draw(Width::detect(), seed, world.stream + 2 + k as u32, replicates, visit);
+    }
 }
 
 fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
@@ -98,14 +101,11 @@ pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Ve
                 into.iter_mut().flatten().zip(all.iter().flatten()).for_each(|(m, one)| m.set(lane, one));
             }
         });
-        let Some(plan) = &world.steps else { continue };
-        pass(plan, 2 + k, &mut |r, record| {
+        draw_steps(world, k, seed, replicates.clone(), |r, means| {
             let (group, lane) = place(r);
             let into = &mut noise[group].steps[k];
-            into.resize(record.checkpoints.len(), Lane::ZERO);
-            for (mean, c) in into.iter_mut().zip(&record.checkpoints) {
-                mean.0[lane] = c.folds[0][0] / c.samples as f64;
-            }
+            into.resize(means.len(), Lane::ZERO);
+            into.iter_mut().zip(means).for_each(|(into, mean)| into.0[lane] = *mean);
         });
     }
     noise

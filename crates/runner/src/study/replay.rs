@@ -8,7 +8,7 @@ use crate::results::Series;
 use crate::scenario::Scenario;
 use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
 use switchback_estimator::excitation::Direction;
-use switchback_estimator::simulation::noise::{NoisePlan, StreamId, samples};
+use switchback_estimator::simulation::noise::{StreamId, samples};
 
 /// What one replicate gave in one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,7 +110,7 @@ pub fn records(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedRecord
     let worlds = world::plan(scenario)?;
     let of_world = |world: &World| {
         let noise = OpenNoise::draw(world, scenario.seed(), replicate);
-        world.settings.iter().map(|s| noise.records(scenario, world, s)).collect::<Vec<_>>()
+        world.settings.iter().map(|s| noise.records(scenario, s)).collect::<Vec<_>>()
     };
     Ok(worlds.iter().flat_map(of_world).collect())
 }
@@ -120,36 +120,32 @@ struct OpenNoise {
     /// Samples before `t = 0`.
     lead: usize,
     pulses: [Vec<f64>; 2],
-    steps: Option<[Vec<f64>; 2]>,
+    /// Means of the step noise, by experiment and number of samples: all that the step experiments are used for.
+    steps: [Vec<f64>; 2],
 }
 
 impl OpenNoise {
     fn draw(world: &World, seed: u64, replicate: u32) -> Self {
-        let lead = world.pulses.lags;
-        let open = |plan: &NoisePlan, stream: u32| {
+        let plan = &world.pulses;
+        let open = |k: usize| {
             let count = plan.checkpoints.last().copied().unwrap_or_default();
-            let id = StreamId { seed, experiment: world.stream + stream, replicate };
+            let id = StreamId { seed, experiment: world.stream + k as u32, replicate };
             let noise = samples(plan, id, count).expect("a world's noise plan is valid");
             // Before the burn-in there was rest.
             let mut e = vec![0.0; plan.lags.saturating_sub(noise.burn_in)];
             e.extend(&noise.e[noise.burn_in.saturating_sub(plan.lags)..]);
             e
         };
-        Self {
-            lead,
-            pulses: [0, 1].map(|k| open(&world.pulses, k)),
-            steps: world.steps.as_ref().map(|plan| [2, 3].map(|k| open(plan, k))),
-        }
+        let means = draw(world, seed, replicate..replicate + 1);
+        let steps = |k: usize| (0..plan.checkpoints.len()).map(|c| means[0].step_means(c)[k]).collect();
+        Self { lead: plan.lags, pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
     }
 
-    fn records(&self, scenario: &Scenario, world: &World, setting: &Setting) -> ReplayedRecords {
+    fn records(&self, scenario: &Scenario, setting: &Setting) -> ReplayedRecords {
         let case = &scenario.cases()[setting.case];
         let border = &case.borders[setting.border];
         let experiment = |k: usize| {
-            let mean = |n: usize| {
-                let e = self.steps.as_ref().map_or(0.0, |e| e[k][..n].iter().sum::<f64>() / n as f64);
-                setting.bench.satellite_output(k) + setting.sigma * e
-            };
+            let mean = |e: &f64| setting.bench.satellite_output(k) + setting.sigma * e;
             let (v, response) = setting.bench.simulate(
                 &case.system,
                 &border.hysteresis,
@@ -164,7 +160,7 @@ impl OpenNoise {
                 lead: self.lead,
                 v,
                 y,
-                step_means: world.pulses.checkpoints.iter().map(|&n| mean(n)).collect(),
+                step_means: self.steps[k].iter().map(mean).collect(),
             }
         };
         ReplayedRecords {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
-use switchback_estimator::simulation::noise::NoisePlan;
+use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
 pub(super) const STREAMS: u32 = 4;
@@ -25,8 +25,8 @@ pub(super) struct World {
     pub(super) stream: u32,
     /// What to record of the pulse experiments' noise.
     pub(super) pulses: NoisePlan,
-    /// What to record of the step experiments' noise; `None` where no method asks for them.
-    pub(super) steps: Option<NoisePlan>,
+    /// The mean noise in a step experiment; `None` where no method asks for it.
+    pub(super) steps: Option<MeanNoise>,
     /// Whether any method looks at the descendant, at the ascendant experiment.
     pub(super) experiments: [bool; 2],
     pub(super) settings: Vec<Setting>,
@@ -97,16 +97,10 @@ impl World {
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
         let needs_steps = settings.iter().flat_map(|s| &s.methods).any(|c| c.kind.needs_step());
-        let steps = needs_steps.then(|| NoisePlan {
-            ar: ar.clone(),
-            ma: ma.clone(),
-            lags: 0,
-            periods: vec![1],
-            checkpoints: checkpoints.to_vec(),
-            burn_in,
-        });
         let pulses =
             NoisePlan { ar, ma, lags: case.order, periods, checkpoints: checkpoints.to_vec(), burn_in };
+        let steps =
+            needs_steps.then(|| MeanNoise::new(&pulses).expect("a scenario's filter and samples are valid"));
         let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
         let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
         Self { stream, pulses, steps, experiments, settings }

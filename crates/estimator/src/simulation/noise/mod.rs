@@ -2,12 +2,13 @@
 //!
 //! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box
 //! and Muller's transform without a branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at
-//! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). [`samples`]
-//! gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
+//! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). Where they need
+//! the mean only, [`MeanNoise`] draws it from its law. [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
 
 mod aligned;
 mod chacha;
 mod kernels;
+mod means;
 mod normal;
 mod oracle;
 mod pass;
@@ -19,6 +20,7 @@ mod tests;
 mod white;
 mod width;
 
+pub use means::MeanNoise;
 pub use oracle::record_by_definition;
 pub use pass::NoisePass;
 pub use plan::{NoisePlan, NoisePlanError};

@@ -2,5 +2,6 @@
 
 mod cipher;
 mod law;
+mod means;
 mod pass;
 mod transform;
