@@ -74,8 +74,8 @@ fn cell(c: &mut Criterion) {
     let mut superposition = LaneSuperposition::new(&design, &response, SAMPLES);
     let replicate =
         |r: u32| NoiseMoments::from_samples(&noise(r, SAMPLES + 2), design.order, design.period());
-    let mut moments = LaneMoments::splat(&replicate(0));
-    (1..LANES).for_each(|lane| moments.set(lane, &replicate(lane as u32)));
+    let mut moments = LaneMoments::zeros(design.order, design.period());
+    (0..LANES).for_each(|lane| moments.set(lane, &replicate(lane as u32)));
     superposition.load(&moments);
     let mut statistics = superposition.statistics();
 

@@ -113,7 +113,7 @@ proptest! {
             (0..LANES as u64).map(|l| [0, 1].map(|k| bench.moments(seed * 100 + 2 * l + k))).collect();
         let step_noise = noise(seed, LANES).iter().map(|x| x / (bench.samples as f64).sqrt()).collect::<Vec<_>>();
         let lanes: [_; 2] = std::array::from_fn(|k| {
-            let mut all = LaneMoments::splat(&moments[0][k]);
+            let mut all = LaneMoments::zeros(order, bench.designs[k].period());
             moments.iter().enumerate().for_each(|(l, m)| all.set(l, &m[k]));
             let mut superposition = LaneSuperposition::new(&bench.designs[k], &bench.responses[k], bench.samples);
             superposition.load(&all);

@@ -3,7 +3,7 @@
 use super::world::World;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
-use switchback_estimator::simulation::noise::{NoisePass, NoisePlan, NoiseRecord, Width};
+use switchback_estimator::simulation::noise::{NoisePass, NoiseRecord, Width};
 use switchback_estimator::simulation::{LaneMoments, NoiseMoments};
 
 /// Moments of one replicate: for both experiments, by number of samples and period; means of the step noise by number of samples.
@@ -85,20 +85,24 @@ pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Ve
         })
         .collect();
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
-    let pass = |plan: &NoisePlan, k: usize, visit: &mut dyn FnMut(u32, &NoiseRecord)| {
-        let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
-        pass.run(seed, world.stream + k as u32, replicates.clone(), visit);
-    };
+    let plan = &world.pulses;
+    let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
     for k in (0..2).filter(|k| world.experiments[*k]) {
-        pass(&world.pulses, k, &mut |r, record| {
-            let (group, lane) = place(r);
-            let into = &mut noise[group].pulses[k];
-            if lane == 0 {
-                let splat = |all: Vec<NoiseMoments>| all.iter().map(LaneMoments::splat).collect();
-                *into = moments(record).into_iter().map(splat).collect();
-            } else {
-                let all = moments(record);
-                into.iter_mut().flatten().zip(all.iter().flatten()).for_each(|(m, one)| m.set(lane, one));
+        for group in &mut noise {
+            let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
+            group.pulses[k] =
+                plan.checkpoints.iter().map(|_| plan.periods.iter().map(zeros).collect()).collect();
+        }
+        pass.run_abreast(seed, world.stream + k as u32, replicates.clone(), |first, records| {
+            let (lanes, abreast) = (records.lanes(), records.lanes().min(LANES));
+            for from in (0..lanes).step_by(abreast) {
+                let (group, lane) = place(first + from as u32);
+                let Some(into) = noise.get_mut(group) else { break };
+                for (c, periods) in into.pulses[k].iter_mut().enumerate() {
+                    for (period, moments) in periods.iter_mut().enumerate() {
+                        moments.take(lane..lane + abreast, records, from, (c, period));
+                    }
+                }
             }
         });
         draw_steps(world, k, seed, replicates.clone(), |r, means| {

@@ -8,6 +8,7 @@
 mod aligned;
 mod chacha;
 mod kernels;
+mod lane_records;
 mod means;
 mod normal;
 mod oracle;
@@ -20,6 +21,8 @@ mod tests;
 mod white;
 mod width;
 
+pub use lane_records::LaneRecords;
+pub(crate) use lane_records::LaneView;
 pub use means::MeanNoise;
 pub use oracle::record_by_definition;
 pub use pass::NoisePass;

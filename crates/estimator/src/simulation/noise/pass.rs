@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::aligned::Aligned;
 use super::kernels::{Advance, Fold, MovingAverage};
+use super::lane_records::{LaneCheckpoint, LaneRecords};
 use super::plan::{NoisePlan, NoisePlanError};
 use super::record::NoiseRecord;
 use super::white::{BLOCK, StreamId, WhiteNoise};
@@ -42,10 +43,8 @@ pub struct NoisePass {
     /// Autoproducts of the whole blocks, and of the current one.
     products: Aligned,
     block_products: Aligned,
-    /// Autoproducts of one replicate.
-    autoproducts: Vec<f64>,
     folds: Vec<FoldSums>,
-    records: Vec<NoiseRecord>,
+    records: LaneRecords,
 }
 
 /// Running sums of one period.
@@ -84,9 +83,8 @@ impl NoisePass {
             e: Aligned::zeros((plan.history() + BLOCK) * lanes),
             products: Aligned::zeros((plan.lags + 1) * lanes),
             block_products: Aligned::zeros((plan.lags + 1) * lanes),
-            autoproducts: vec![0.0; plan.lags + 1],
             folds: folds.collect(),
-            records: vec![NoiseRecord::zeros(&plan); lanes],
+            records: LaneRecords::zeros(&plan, lanes),
             plan,
         })
     }
@@ -102,14 +100,30 @@ impl NoisePass {
         replicates: Range<u32>,
         mut visit: impl FnMut(u32, &NoiseRecord),
     ) {
+        let mut record = NoiseRecord::zeros(&self.plan);
+        self.run_abreast(seed, experiment, replicates.clone(), |first, records| {
+            for (lane, replicate) in (first..replicates.end).take(records.lanes()).enumerate() {
+                records.read(lane, &mut record);
+                visit(replicate, &record);
+            }
+        });
+    }
+
+    /// Visits the records of as many replicates as there are lanes at a time, named by the first of them; the lanes after the last
+    /// replicate of the range hold others. For those who go on in lanes.
+    pub fn run_abreast(
+        &mut self,
+        seed: u64,
+        experiment: u32,
+        replicates: Range<u32>,
+        mut visit: impl FnMut(u32, &LaneRecords),
+    ) {
         let mut noise =
             WhiteNoise::new(self.width, StreamId { seed, experiment, replicate: replicates.start });
         for first in replicates.clone().step_by(self.width.lanes()) {
             noise.restart(experiment, first);
             self.run_lanes(&mut noise);
-            for (replicate, record) in (first..replicates.end).zip(&self.records) {
-                visit(replicate, record);
-            }
+            visit(first, &self.records);
         }
     }
 
@@ -207,39 +221,31 @@ impl NoisePass {
         self.products.fill(0.0);
         self.block_products.fill(0.0);
         let (n, lanes) = (self.plan.lags, self.width.lanes());
-        for (l, record) in self.records.iter_mut().enumerate() {
-            for (i, head) in record.head.iter_mut().enumerate() {
-                *head = self.e[(to - n + i) * lanes + l];
-            }
-        }
+        self.records.head.copy_from_slice(&self.e[(to - n) * lanes..to * lanes]);
     }
 
     /// Records checkpoint `index`, which comes just before row `to`.
     fn record(&mut self, index: usize, to: usize) {
-        let n = self.plan.lags;
-        let lanes = self.width.lanes();
-        for (l, record) in self.records.iter_mut().enumerate() {
-            let NoiseRecord { head, checkpoints } = record;
-            let checkpoint = &mut checkpoints[index];
-            for (i, tail) in checkpoint.tail.iter_mut().enumerate() {
-                *tail = self.e[(to - n + i) * lanes + l];
-            }
-            for (k, sum) in self.autoproducts.iter_mut().enumerate() {
-                *sum = self.products[k * lanes + l] + self.block_products[k * lanes + l];
-            }
-            checkpoint.set_lag_products(&self.autoproducts, head);
-            for (sums, &period) in checkpoint.folds.iter_mut().zip(&self.plan.periods) {
-                read_fold(sums, period, &self.folds, |row| row * lanes + l);
-            }
+        let (n, lanes) = (self.plan.lags, self.width.lanes());
+        let LaneCheckpoint { autoproducts, folds, tail, .. } = &mut self.records.checkpoints[index];
+        tail.copy_from_slice(&self.e[(to - n) * lanes..to * lanes]);
+        let products = self.products.iter().zip(&*self.block_products);
+        autoproducts.iter_mut().zip(products).for_each(|(sum, (total, block))| *sum = total + block);
+        for sums in folds {
+            let period = sums.len() / lanes;
+            read_fold(sums, period, &self.folds);
         }
     }
 }
 
 /// Sums the fold of `period` out of the running fold of a multiple of it.
-fn read_fold(sums: &mut [f64], period: usize, folds: &[FoldSums], at: impl Fn(usize) -> usize) {
+fn read_fold(sums: &mut [f64], period: usize, folds: &[FoldSums]) {
     let fold = folds.iter().find(|f| f.period % period == 0).expect("every period divides a running one");
-    sums.fill(0.0);
-    for row in 0..fold.period {
-        sums[row % period] += fold.sums[at(row)];
+    let mut runs = fold.sums.chunks_exact(sums.len());
+    if let Some(first) = runs.next() {
+        sums.copy_from_slice(first);
+    }
+    for run in runs {
+        sums.iter_mut().zip(run).for_each(|(sum, x)| *sum += x);
     }
 }
