@@ -214,37 +214,50 @@ struct Load<'a> {
 impl Work for Load<'_> {
     #[inline(always)]
     fn run(self) {
-        let Self {
-            superposition: LaneSuperposition { width, groups, counts, uneven, noise, noise_within, cross, .. },
-            moments,
-        } = self;
-        let width = *width;
+        let Self { superposition, moments } = self;
+        // Loops of a known length unroll.
+        match superposition.width {
+            2 => superposition.take_in(moments, 2),
+            3 => superposition.take_in(moments, 3),
+            4 => superposition.take_in(moments, 4),
+            5 => superposition.take_in(moments, 5),
+            width => superposition.take_in(moments, width),
+        }
+    }
+}
+
+impl LaneSuperposition {
+    #[inline(always)]
+    fn take_in(&mut self, moments: &LaneMoments, width: usize) {
+        let Self { groups, counts, uneven, noise, noise_within, cross, .. } = self;
         noise.fill(Lane::ZERO);
         for (fold, &q) in moments.folds.chunks_exact(width).zip(&*groups) {
-            for (sum, x) in noise[q * width..(q + 1) * width].iter_mut().zip(fold) {
-                keep_apart();
-                *sum += *x;
+            keep_apart();
+            let sums = &mut noise[q * width..(q + 1) * width];
+            for l in 0..width {
+                sums[l] += fold[l];
             }
         }
         noise_within.copy_from_slice(&moments.products);
+        let noise_within = &mut noise_within[..width * width];
         for (mean, &count) in noise.chunks_exact_mut(width).zip(&*counts).filter(|(_, count)| **count > 0.0) {
             keep_apart();
+            let share = 1.0 / count;
             for i in 0..width {
-                keep_apart();
                 let sum = mean[i];
-                mean[i] = sum * (1.0 / count);
+                mean[i] = sum * share;
                 for l in 0..=i {
-                    keep_apart();
                     noise_within[i * width + l] -= sum * mean[l];
                 }
             }
         }
         cross.fill(Lane::ZERO);
+        let cross = &mut cross[..width * width];
         for (p, z) in &*uneven {
-            let fold = &moments.folds[p * width..(p + 1) * width];
+            keep_apart();
+            let (fold, z) = (&moments.folds[p * width..(p + 1) * width], &z[..width]);
             for i in 0..width {
                 for l in 0..=i {
-                    keep_apart();
                     cross[i * width + l] += fold[l] * z[i] + fold[i] * z[l];
                 }
             }

@@ -1,6 +1,7 @@
 //! Running sums over replicates, and the performance measures they give.
 
 use super::Measured;
+use super::lane_errors::TERMS;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// What one replicate tells of one parameter.
@@ -74,10 +75,8 @@ impl ErrorSums {
         }
     }
 
-    /// Adds `count` replicates, given what they add up to: error and its powers, variance and its square, coverage, remainder and its
-    /// square, remainder of the square and its square.
-    #[inline(always)]
-    pub(super) fn add(&mut self, count: f64, totals: [f64; 11]) {
+    /// Adds `count` replicates, given what their [terms](TERMS) add up to.
+    pub(super) fn add(&mut self, count: f64, totals: [f64; TERMS]) {
         for k in 0..4 {
             self.error[k] += totals[k];
         }

@@ -17,16 +17,46 @@ pub struct LaneErrors<'a> {
     pub first_order: &'a [Lane],
 }
 
-impl LaneErrors<'_> {
-    /// Adds the replicates in some of the lanes to the sums of each parameter.
-    pub fn add_to(self, sums: &mut [ErrorSums], lanes: Range<usize>) {
-        widest(Add { errors: self, sums, lanes });
+/// Sums of a replicate's terms: error and its powers, variance and its square, coverage, remainder and its square, remainder of the
+/// square and its square.
+pub(super) const TERMS: usize = 11;
+
+/// The running sums of a cell's parameters, lane by lane, on their way to [`ErrorSums`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct LaneSums {
+    /// Replicates so far.
+    count: usize,
+    terms: Vec<[Lane; TERMS]>,
+}
+
+impl LaneSums {
+    /// Nothing yet, of so many parameters.
+    pub fn new(parameters: usize) -> Self {
+        Self { count: 0, terms: vec![[Lane::ZERO; TERMS]; parameters] }
+    }
+
+    /// Adds the replicates in some of the lanes.
+    pub fn add(&mut self, errors: LaneErrors<'_>, lanes: Range<usize>) {
+        self.count += lanes.len();
+        widest(Add { errors, sums: &mut self.terms, lanes });
+    }
+
+    /// Hands everything over to the sums of each parameter, and begins anew.
+    pub fn drain_into(&mut self, sums: &mut [ErrorSums]) {
+        if self.count > 0 {
+            for (terms, sums) in self.terms.iter_mut().zip(sums) {
+                sums.add(self.count as f64, terms.map(Lane::total));
+                *terms = [Lane::ZERO; TERMS];
+            }
+            self.count = 0;
+        }
     }
 }
 
+/// [`LaneSums::add`] on its way.
 struct Add<'a> {
     errors: LaneErrors<'a>,
-    sums: &'a mut [ErrorSums],
+    sums: &'a mut [[Lane; TERMS]],
     lanes: Range<usize>,
 }
 
@@ -35,8 +65,8 @@ impl Work for Add<'_> {
     fn run(self) {
         let LaneErrors { truth, values, variances, first_order } = self.errors;
         let quantile = normal_quantile_975();
-        let count = self.lanes.len() as f64;
         let chosen: [bool; LANES] = std::array::from_fn(|l| self.lanes.contains(&l));
+        let all = self.lanes.len() == LANES;
         let replicates = values.iter().zip(variances).zip(first_order).zip(truth);
         for ((((value, variance), first), truth), sums) in replicates.zip(self.sums) {
             keep_apart();
@@ -59,12 +89,10 @@ impl Work for Add<'_> {
                 square_remainder,
                 square_remainder * square_remainder,
             ];
-            // A lane that is left out may hold anything, so it is not multiplied by zero.
-            let totals = match self.lanes.len() {
-                LANES => terms.map(Lane::total),
-                _ => terms.map(|term| term.where_or(&chosen, Lane::ZERO).total()),
-            };
-            sums.add(count, totals);
+            for k in 0..TERMS {
+                // A lane that is left out may hold anything, so it is not multiplied by zero.
+                sums[k] += if all { terms[k] } else { terms[k].where_or(&chosen, Lane::ZERO) };
+            }
         }
     }
 }
@@ -89,9 +117,11 @@ mod tests {
                 variances: &[left_out(variances)],
                 first_order: &[left_out(first)],
             };
-            let mut fast = [ErrorSums::default()];
-            errors.add_to(&mut fast, lanes.clone());
-            errors.add_to(&mut fast, lanes.clone());
+            let (mut fast, mut running) = ([ErrorSums::default()], LaneSums::new(1));
+            running.add(errors, lanes.clone());
+            running.add(errors, lanes.clone());
+            running.drain_into(&mut fast);
+            running.drain_into(&mut fast);
             let mut slow = ErrorSums::default();
             for l in lanes.clone().chain(lanes) {
                 slow.push(ReplicateError { error: values[l] - 0.3, se: variances[l].sqrt(), first_order: Some(first[l]) });

@@ -7,7 +7,7 @@ mod line;
 
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
-pub use lane_errors::LaneErrors;
+pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};
 
 /// A measured number with its Monte-Carlo standard error.

@@ -8,7 +8,7 @@ use super::world::{Contender, Setting, World};
 use switchback_estimator::estimators::pulse::StepMean;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneStatistics, LaneStep};
 use switchback_estimator::simulation::LaneSuperposition;
-use switchback_estimator::statistics::{LaneErrors, ReplicateError};
+use switchback_estimator::statistics::{LaneErrors, LaneSums, ReplicateError};
 
 /// The cells of one border, m and N, with their sums.
 pub(super) struct Family<'a> {
@@ -22,8 +22,8 @@ pub(super) struct Family<'a> {
 /// The cells of a family at one noise level, a method each.
 struct NoiseLevel<'a> {
     setting: &'a Setting,
-    active: &'a [bool],
-    cells: &'a mut [Vec<CellSums>],
+    /// The active ones.
+    cells: Vec<Cell<'a>>,
 }
 
 impl<'a> Family<'a> {
@@ -49,7 +49,12 @@ impl<'a> Family<'a> {
                     let methods = setting.methods.len();
                     let (own, rest) = cells.split_at_mut(methods);
                     cells = rest;
-                    family.levels.push(NoiseLevel { setting, active: &active[..methods], cells: own });
+                    let contenders = setting.methods.iter().zip(own).zip(&active[..methods]);
+                    let cells = contenders
+                        .filter(|(_, active)| **active)
+                        .map(|((contender, sums), _)| Cell::new(contender, sums))
+                        .collect();
+                    family.levels.push(NoiseLevel { setting, cells });
                     active = &active[methods..];
                 }
             }
@@ -59,7 +64,8 @@ impl<'a> Family<'a> {
 
     /// Estimates every active cell from the noise of some replicates of a round, in order.
     pub(super) fn run(mut self, noise: &[LaneNoise], round: &Round) {
-        if !self.levels.iter().any(|level| level.active.contains(&true)) {
+        self.levels.retain(|level| !level.cells.is_empty());
+        if self.levels.is_empty() {
             return;
         }
         let mut superpositions = self.bench.superpositions(self.samples);
@@ -76,12 +82,41 @@ impl<'a> Family<'a> {
             lanes.first = noise.first;
             for level in &mut self.levels {
                 lanes.superpose(level.setting, &superpositions, noise, (self.checkpoint, self.samples));
-                let contenders = level.setting.methods.iter().zip(level.active).zip(&mut *level.cells);
-                for ((contender, _), cell) in contenders.filter(|((_, active), _)| **active) {
-                    lanes.estimate(contender, self.bench, &sections[..noise.live], cell);
+                for cell in &mut level.cells {
+                    lanes.estimate(self.bench, &sections[..noise.live], cell);
                 }
             }
         }
+        self.levels.iter_mut().flat_map(|level| &mut level.cells).for_each(Cell::settle);
+    }
+}
+
+/// One method at one noise level.
+struct Cell<'a> {
+    contender: &'a Contender,
+    sums: &'a mut [CellSums],
+    /// Replicates of section `section` that are not in its sums yet.
+    running: LaneSums,
+    section: usize,
+}
+
+impl<'a> Cell<'a> {
+    fn new(contender: &'a Contender, sums: &'a mut [CellSums]) -> Self {
+        Self { contender, sums, running: LaneSums::new(contender.parameters.len()), section: 0 }
+    }
+
+    /// Puts the running sums where they belong.
+    fn settle(&mut self) {
+        self.running.drain_into(&mut self.sums[self.section].parameters);
+    }
+
+    /// The sums of a section, and the running ones that belong there.
+    fn enter(&mut self, section: usize) -> (&mut CellSums, &mut LaneSums) {
+        if section != self.section {
+            self.settle();
+            self.section = section;
+        }
+        (&mut self.sums[section], &mut self.running)
     }
 }
 
@@ -123,7 +158,8 @@ impl Lanes {
     }
 
     /// Adds one method's errors to the sums of a cell; `sections` tells where each replicate belongs.
-    fn estimate(&mut self, contender: &Contender, bench: &Bench, sections: &[usize], cell: &mut [CellSums]) {
+    fn estimate(&mut self, bench: &Bench, sections: &[usize], cell: &mut Cell<'_>) {
+        let contender = cell.contender;
         let [descendant, ascendant] = &self.statistics;
         let both = [descendant, ascendant];
         let parts = match contender.kind.experiments() {
@@ -142,13 +178,13 @@ impl Lanes {
         // Replicates that follow each other in a section are added in one go.
         let mut next = 0;
         for run in sections.chunk_by(|s, t| s == t) {
-            let sums = &mut cell[run[0]];
+            let (sums, running) = cell.enter(run[0]);
             sums.replicates += run.len();
             let end = next + run.len();
             while next < end {
                 let sound = (next..end).take_while(|l| self.fit.sound[*l]).count();
                 if sound > 0 {
-                    errors.add_to(&mut sums.parameters, next..next + sound);
+                    running.add(errors, next..next + sound);
                     next += sound;
                 } else {
                     self.estimate_alone(next, contender, bench, sums);

@@ -122,7 +122,8 @@ impl<const N: usize, const D: usize> Core<N, D> {
         let parameters = factor.solve(equations.right);
         for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
             keep_apart();
-            *value = *value - dot(slope, &parameters);
+            *value =
+                *value - if plan.apart { dot(&slope[..N], &parameters) } else { dot(slope, &parameters) };
         }
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
         let freedom = (samples - (D + plan.local.len()) as f64).max(1.0);

@@ -15,6 +15,8 @@ pub(super) struct ColumnPlan {
     pub(super) local: Vec<LocalPlan>,
     /// Groups of the local columns, one column after the other.
     pub(super) support: Vec<usize>,
+    /// Whether no shared column touches a group that has its own mean, so that the local columns depend on `a` alone.
+    pub(super) apart: bool,
 }
 
 /// Where a local column is not zero.
@@ -47,6 +49,7 @@ impl ColumnPlan {
             pooled: Vec::new(),
             local: Vec::new(),
             support: Vec::new(),
+            apart: true,
         };
         let mut saturated = vec![false; columns.offset.len()];
         let mut weights = Vec::new();
@@ -58,6 +61,7 @@ impl ColumnPlan {
             if own_mean {
                 saturated[column.support[0].0] = true;
             }
+            plan.apart &= own_mean && columns.shared.row(column.support[0].0).iter().all(|x| *x == 0.0);
             plan.local.push(LocalPlan { entries: first..plan.support.len(), own_mean });
         }
         plan.pooled = (0..saturated.len()).filter(|q| !saturated[*q]).collect();

@@ -8,6 +8,8 @@ use crate::lanes::Lane;
 pub(super) struct Reading<'a, const N: usize, const D: usize> {
     core: &'a Core<N, D>,
     locals: &'a Locals,
+    /// Whether the local columns depend on `a` alone.
+    apart: bool,
     base: Lane,
     base_gradient: [Lane; D],
     step: Option<StepError>,
@@ -29,7 +31,11 @@ pub(super) type Read = (Lane, Lane);
 
 impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
     #[inline(always)]
-    pub(super) fn new(core: &'a Core<N, D>, locals: &'a Locals, step: Option<LaneStep>) -> Self {
+    pub(super) fn new(
+        core: &'a Core<N, D>,
+        (locals, apart): (&'a Locals, bool),
+        step: Option<LaneStep>,
+    ) -> Self {
         let (a, rest) = core.parameters.split_at(N);
         let b = &rest[..N];
         let one = Lane::splat(1.0);
@@ -61,7 +67,7 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         for i in 0..N {
             weights[i] = b[i] * inverse_norm;
         }
-        Self { core, locals, base, base_gradient, step, inverse_norm, weights }
+        Self { core, locals, apart, base, base_gradient, step, inverse_norm, weights }
     }
 
     /// `aᵢ` or `bᵢ`: core parameter `k`.
@@ -113,8 +119,13 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         *own += weight * weight * self.locals.inverse[local];
         *weights += weight;
         let slope = self.locals.slope::<D>(local);
-        for k in 0..D {
+        for k in 0..N {
             gradient[k] -= weight * slope[k];
+        }
+        if !self.apart {
+            for k in N..D {
+                gradient[k] -= weight * slope[k];
+            }
         }
     }
 

@@ -137,7 +137,8 @@ impl SizedWork for Fit<'_> {
         }
         values.resize(2 * N + method.levels.len(), Lane::ZERO);
         variances.resize(values.len(), Lane::ZERO);
-        let reading = Reading::new(&core, locals, step);
+        let apart = method.constrained.is_none() && method.plan.apart;
+        let reading = Reading::new(&core, (locals, apart), step);
         // Zero times a number is zero, times anything else it is not.
         let mut spoilt = Lane::ZERO;
         for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate() {
