@@ -36,8 +36,8 @@ impl Regression<'_> {
         for i in 0..N {
             regressors[i] = self.shift - mean[i + 1];
         }
-        for k in N..D {
-            regressors[k] = shared[k - N];
+        for (regressor, x) in regressors[N..].iter_mut().zip(shared) {
+            *regressor = *x;
         }
         let target = mean[0] - self.shift - self.values.offset[group];
         Row { regressors, target, count: part.counts[q], share: part.shares[q] }
@@ -122,8 +122,7 @@ impl<const N: usize, const D: usize> Core<N, D> {
         let parameters = factor.solve(equations.right);
         for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
             keep_apart();
-            *value =
-                *value - if plan.apart { dot(&slope[..N], &parameters) } else { dot(slope, &parameters) };
+            *value -= if plan.apart { dot(&slope[..N], &parameters) } else { dot(slope, &parameters) };
         }
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
         let freedom = (samples - (D + plan.local.len()) as f64).max(1.0);
