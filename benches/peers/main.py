@@ -53,7 +53,7 @@ def main():
 def parse():
     parser = argparse.ArgumentParser(prog="benches/peers/run.sh", description=__doc__)
     parser.add_argument("--rounds", type=int, default=5, help="measurements of every tool (5)")
-    parser.add_argument("--replicates", type=int, default=960, help="replicates of one of Switchback's runs (960)")
+    parser.add_argument("--replicates", type=int, default=9600, help="replicates of one of Switchback's runs (9600)")
     parser.add_argument("--check-only", action="store_true", help="compare the estimates and stop")
     parser.add_argument("--out", type=Path, default=ROOT / "reports" / "speed", help="where the table goes")
     return parser.parse_args()

@@ -70,29 +70,27 @@ impl Work for Add<'_> {
         let replicates = values.iter().zip(variances).zip(first_order).zip(truth);
         for ((((value, variance), first), truth), sums) in replicates.zip(self.sums) {
             keep_apart();
+            // A lane that is left out may hold anything, so it is not multiplied by zero.
+            let mut add = |k: usize, term: Lane| {
+                sums[k] += if all { term } else { term.where_or(&chosen, Lane::ZERO) };
+            };
             let error = *value - Lane::splat(*truth);
             let square = error * error;
-            let (cube, fourth) = (square * error, square * square);
+            add(0, error);
+            add(1, square);
+            add(2, square * error);
+            add(3, square * square);
+            add(4, *variance);
+            add(5, *variance * *variance);
+            add(6, square.at_most(*variance * (quantile * quantile)));
+            keep_apart();
             let remainder = error - *first;
+            add(7, remainder);
+            add(8, remainder * remainder);
+            keep_apart();
             let square_remainder = remainder * (error + *first);
-            let covered = square.at_most(*variance * (quantile * quantile));
-            let terms = [
-                error,
-                square,
-                cube,
-                fourth,
-                *variance,
-                *variance * *variance,
-                covered,
-                remainder,
-                remainder * remainder,
-                square_remainder,
-                square_remainder * square_remainder,
-            ];
-            for k in 0..TERMS {
-                // A lane that is left out may hold anything, so it is not multiplied by zero.
-                sums[k] += if all { terms[k] } else { terms[k].where_or(&chosen, Lane::ZERO) };
-            }
+            add(9, square_remainder);
+            add(10, square_remainder * square_remainder);
         }
     }
 }

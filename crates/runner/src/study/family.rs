@@ -68,22 +68,20 @@ impl<'a> Family<'a> {
         if self.levels.is_empty() {
             return;
         }
-        let mut superpositions = self.bench.superpositions(self.samples);
-        let mut lanes = Lanes::new(&superpositions);
-        for noise in noise {
-            for (superposition, pulses) in superpositions.iter_mut().zip(&noise.pulses) {
-                if let Some(periods) = pulses.get(self.checkpoint) {
-                    superposition.load(&periods[self.period]);
-                }
+        let empty = Lanes::new(self.bench.superpositions(self.samples));
+        let mut abreast = vec![empty; ABREAST.min(noise.len())];
+        let mut memory = Memory::default();
+        for noise in noise.chunks(ABREAST) {
+            let all = &mut abreast[..noise.len()];
+            for (lanes, noise) in all.iter_mut().zip(noise) {
+                lanes.load(noise, round, (self.checkpoint, self.period));
             }
-            let section = |l: usize| round.section(noise.first as usize + l);
-            let sections: [usize; LANES] =
-                std::array::from_fn(|l| if l < noise.live { section(l) } else { 0 });
-            lanes.first = noise.first;
             for level in &mut self.levels {
-                lanes.superpose(level.setting, &superpositions, noise, (self.checkpoint, self.samples));
+                for (lanes, noise) in all.iter_mut().zip(noise) {
+                    lanes.superpose(level.setting, noise, (self.checkpoint, self.samples));
+                }
                 for cell in &mut level.cells {
-                    lanes.estimate(self.bench, &sections[..noise.live], cell);
+                    all.iter().for_each(|lanes| lanes.estimate(self.bench, cell, &mut memory));
                 }
             }
         }
@@ -120,45 +118,67 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// Eight replicates at one noise level, with the memory to estimate from them.
+/// Groups of eight replicates that a cell takes in before the next: so many statistics, and one cell's sums, stay in the cache.
+const ABREAST: usize = 4;
+
+/// Eight replicates at one noise level.
+#[derive(Clone)]
 struct Lanes {
     first: u32,
+    /// Sections of the replicates, in order.
+    sections: Vec<usize>,
+    /// Whether there is noise of the experiment: whether any method looks at it.
+    used: [bool; 2],
+    superpositions: [LaneSuperposition; 2],
     statistics: [LaneStatistics; 2],
     steps: [LaneStep; 2],
+}
+
+/// What one cell leaves to the next.
+#[derive(Default)]
+struct Memory {
     fit: LaneFit,
-    score: Vec<Lane>,
+    residuals: Vec<Lane>,
     first_order: Vec<Lane>,
 }
 
 impl Lanes {
-    fn new(superpositions: &[LaneSuperposition; 2]) -> Self {
+    fn new(superpositions: [LaneSuperposition; 2]) -> Self {
         Self {
             first: 0,
+            sections: Vec::with_capacity(LANES),
+            used: [false; 2],
             statistics: [0, 1].map(|k| superpositions[k].statistics()),
+            superpositions,
             steps: [LaneStep { mean: Lane::ZERO, samples: 0.0 }; 2],
-            fit: LaneFit::default(),
-            score: Vec::new(),
-            first_order: Vec::new(),
         }
     }
 
-    fn superpose(
-        &mut self,
-        setting: &Setting,
-        superpositions: &[LaneSuperposition; 2],
-        noise: &LaneNoise,
-        (checkpoint, samples): (usize, usize),
-    ) {
+    /// Takes in the noise of other replicates.
+    fn load(&mut self, noise: &LaneNoise, round: &Round, (checkpoint, period): (usize, usize)) {
+        self.first = noise.first;
+        self.sections.clear();
+        self.sections.extend((0..noise.live).map(|l| round.section(noise.first as usize + l)));
         for k in 0..2 {
-            superpositions[k].at(setting.sigma, &mut self.statistics[k]);
+            self.used[k] = !noise.pulses[k].is_empty();
+            if self.used[k] {
+                self.superpositions[k].load(&noise.pulses[k][checkpoint][period]);
+            }
+        }
+    }
+
+    fn superpose(&mut self, setting: &Setting, noise: &LaneNoise, (checkpoint, samples): (usize, usize)) {
+        for k in (0..2).filter(|k| self.used[*k]) {
+            self.superpositions[k].at(setting.sigma, &mut self.statistics[k]);
             let unit = noise.steps[k].get(checkpoint).copied().unwrap_or(Lane::ZERO);
             let mean = unit * setting.sigma + Lane::splat(setting.bench.satellite_output(k));
             self.steps[k] = LaneStep { mean, samples: samples as f64 };
         }
     }
 
-    /// Adds one method's errors to the sums of a cell; `sections` tells where each replicate belongs.
-    fn estimate(&mut self, bench: &Bench, sections: &[usize], cell: &mut Cell<'_>) {
+    /// Adds one method's errors to the sums of a cell.
+    fn estimate(&self, bench: &Bench, cell: &mut Cell<'_>, memory: &mut Memory) {
+        let Memory { fit, residuals, first_order } = memory;
         let contender = cell.contender;
         let [descendant, ascendant] = &self.statistics;
         let both = [descendant, ascendant];
@@ -167,22 +187,22 @@ impl Lanes {
             _ => &both[..],
         };
         let step = contender.kind.needs_step().then(|| self.steps[contender.kind.experiments()[0]]);
-        contender.lanes.fit(parts, step, &mut self.fit);
-        contender.control.first_order(parts, step.map(|s| s.mean), &mut self.score, &mut self.first_order);
+        contender.lanes.fit(parts, step, fit);
+        contender.control.first_order(parts, step.map(|s| s.mean), residuals, first_order);
         let errors = LaneErrors {
             truth: &contender.truth,
-            values: &self.fit.values,
-            variances: &self.fit.variances,
-            first_order: &self.first_order,
+            values: &fit.values,
+            variances: &fit.variances,
+            first_order,
         };
         // Replicates that follow each other in a section are added in one go.
         let mut next = 0;
-        for run in sections.chunk_by(|s, t| s == t) {
+        for run in self.sections.chunk_by(|s, t| s == t) {
             let (sums, running) = cell.enter(run[0]);
             sums.replicates += run.len();
             let end = next + run.len();
             while next < end {
-                let sound = (next..end).take_while(|l| self.fit.sound[*l]).count();
+                let sound = (next..end).take_while(|l| fit.sound[*l]).count();
                 if sound > 0 {
                     running.add(errors, next..next + sound);
                     next += sound;

@@ -161,7 +161,8 @@ impl Solution {
         };
         let answers: Vec<_> =
             self.quantities.iter().map(|q| self.fit.answer(&self.columns, &q.gradient)).collect();
-        let scaled = |own: &[(usize, f64)]| own.iter().map(|(q, weight)| (*q, scale * weight)).collect();
+        let own = answers.iter().flat_map(|(_, own)| own).map(|(q, weight)| (*q, scale * weight)).collect();
+        let mut own_end = 0;
         LaneControl {
             reference: self.reference,
             a: self.fit.core.rows(0, self.order).iter().copied().collect(),
@@ -173,8 +174,12 @@ impl Solution {
             parameters: answers
                 .iter()
                 .zip(&self.quantities)
-                .map(|((_, own), q)| Answer { own: scaled(own), step_slope: q.step_slope })
+                .map(|((_, own), q)| {
+                    own_end += own.len();
+                    Answer { own_end, step_slope: q.step_slope }
+                })
                 .collect(),
+            own,
             means,
             step_mean: match self.level {
                 Level::Constant => 0.0,

@@ -26,6 +26,8 @@ pub struct LaneControl {
     pub(crate) to_core: Vec<f64>,
     /// One a parameter.
     pub(crate) parameters: Vec<Answer>,
+    /// Group and `h`, parameter by parameter.
+    pub(crate) own: Vec<(usize, f64)>,
     /// `H`, one row a parameter.
     pub(crate) from_core: Vec<f64>,
     /// `y₀`, that is `ŷ₀` at the limit.
@@ -35,8 +37,8 @@ pub struct LaneControl {
 /// What one parameter takes of the score beside the core's.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
-    /// Group and `h`.
-    pub(crate) own: Vec<(usize, f64)>,
+    /// Its entries of [`LaneControl::own`] begin where those of the one before end, and end here.
+    pub(crate) own_end: usize,
     /// `s`, the derivative in `ŷ₀`.
     pub(crate) step_slope: f64,
 }
@@ -80,16 +82,18 @@ impl SizedWork for FirstOrder<'_> {
         };
         first_order.resize(control.parameters.len(), Lane::ZERO);
         let (from_core, _) = control.from_core.as_chunks::<D>();
+        let mut own_start = 0;
         for ((answer, weights), first) in control.parameters.iter().zip(from_core).zip(first_order) {
             keep_apart();
             let mut sum = Lane::ZERO;
             for d in 0..D {
                 sum += core[d] * weights[d];
             }
-            for &(group, weight) in &answer.own {
+            for &(group, weight) in &control.own[own_start..answer.own_end] {
                 keep_apart();
                 sum += residuals[group] * weight;
             }
+            own_start = answer.own_end;
             *first = sum * per_sample + step * answer.step_slope;
         }
     }

@@ -1,0 +1,7 @@
+//! Superposition for eight replicates abreast.
+
+mod moments;
+mod superposition;
+
+pub use moments::LaneMoments;
+pub use superposition::LaneSuperposition;
