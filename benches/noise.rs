@@ -55,7 +55,7 @@ fn white(c: &mut Criterion) {
     group.finish();
 }
 
-/// Second-order noise, as for a leaf spring: folds of one design (m = 8, s = 2) and of a sweep over m with
+/// Second-order noise, as for a leaf spring: folds of one design (m = 8, s = 2), and of a sweep over m with
 /// its step experiments.
 fn pass(c: &mut Criterion) {
     let mut group = c.benchmark_group("pass");

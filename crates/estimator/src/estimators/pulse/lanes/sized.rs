@@ -40,3 +40,30 @@ pub(super) fn run(order: usize, size: usize, work: impl SizedWork) -> bool {
     }
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Sizes<'a>(&'a mut (usize, usize));
+
+    impl SizedWork for Sizes<'_> {
+        fn run<const N: usize, const D: usize>(self) {
+            *self.0 = (N, D);
+        }
+    }
+
+    #[test]
+    fn every_order_up_to_the_largest_has_its_code_with_and_without_a_constant() {
+        for order in 1..=LARGEST_ORDER {
+            for size in [2 * order, 2 * order + 1] {
+                let mut ran = (0, 0);
+                assert!(run(order, size, Sizes(&mut ran)));
+                assert_eq!(ran, (order, size));
+            }
+        }
+        let mut ran = (0, 0);
+        assert!(!run(LARGEST_ORDER + 1, 2 * LARGEST_ORDER + 2, Sizes(&mut ran)));
+        assert_eq!(ran, (0, 0));
+    }
+}
