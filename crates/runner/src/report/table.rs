@@ -21,6 +21,7 @@ pub fn table(results: &Results) -> String {
     }
     let mut text = align(&lines);
     text.push_str(LEGEND);
+    text.push_str(&slopes(results));
     text.push_str(&expectations(results));
     text.push_str(&failures(results));
     text
@@ -30,6 +31,16 @@ const LEGEND: &str = "\
 A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.
 sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound. A bias that stays: the largest.
 ";
+
+/// Over which N slopes are fitted.
+fn slopes(results: &Results) -> String {
+    match &results.slope_samples[..] {
+        [first, .., last] => {
+            format!("Slopes are fitted over N = {first} to {last}, that of the bias where it is resolved.\n")
+        }
+        _ => String::new(),
+    }
+}
 
 fn header() -> Vec<String> {
     ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]

@@ -51,6 +51,9 @@ pub struct Results {
     pub engine: Engine,
     /// Whether cells share their noise.
     pub coupling: Coupling,
+    /// The numbers of samples that slopes are fitted over.
+    #[serde(default)]
+    pub slope_samples: Vec<usize>,
     /// What the axes are called.
     pub labels: Labels,
     /// The scenario file as JSON.

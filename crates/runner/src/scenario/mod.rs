@@ -133,6 +133,15 @@ pub struct Sweep {
     pub points: Vec<usize>,
     /// Methods, distinct.
     pub methods: Vec<Method>,
+    /// The least `N` of a fitted slope, one of `samples`.
+    pub slope_from: usize,
+}
+
+impl Sweep {
+    /// The numbers of samples that slopes are fitted over.
+    pub fn slope_samples(&self) -> &[usize] {
+        &self.samples[self.samples.partition_point(|n| *n < self.slope_from)..]
+    }
 }
 
 impl Case {

@@ -60,6 +60,21 @@ fn a_good_scenario_keeps_its_values_and_gets_the_defaults() {
 }
 
 #[test]
+fn slopes_are_fitted_over_the_last_two_decades_or_what_the_file_says() {
+    for (samples, slopes) in [
+        ("[1000, 3000]", &[1000, 3000][..]),
+        ("[300, 1000, 3000, 10000, 30000, 100000]", &[1000, 3000, 10000, 30000, 100000]),
+        ("[100, 1000, 100000]", &[100, 1000, 100000]),
+        ("[100, 200, 10000, 1000000]", &[200, 10000, 1000000]),
+        ("[100, 300, 900]\nslope_from = 300", &[300, 900]),
+    ] {
+        let text = GOOD.replace("[1000, 3000]", samples);
+        let scenario = Scenario::parse("slopes.toml", &text).expect("a valid scenario");
+        assert_eq!(scenario.sweep().slope_samples(), slopes, "{samples}");
+    }
+}
+
+#[test]
 fn a_case_overrides_parts_and_keeps_the_rest() {
     let text = format!(
         r#"{GOOD}
@@ -139,6 +154,7 @@ fn impossible_values_are_refused_where_they_stand() {
         ("[0.02, 0.1]", "[]", "sweep.noise = []"),
         ("[1000, 3000]", "[3000, 1000]", "sweep.samples[1] = 1000"),
         ("[1000, 3000]", "[21, 3000]", "sweep.samples[0] = 21"),
+        ("points = [4, 8]", "points = [4, 8]\nslope_from = 2000", "sweep.slope_from = 2000"),
         ("points = [4, 8]", "points = [0, 8]", "sweep.points[0] = 0"),
         ("[\"joint\", \"memoryless\"]", "[\"joint\", \"joint\"]", "sweep.methods[1] = \"joint\""),
     ] {

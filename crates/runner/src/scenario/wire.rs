@@ -72,6 +72,7 @@ pub(super) struct WireSweep {
     pub(super) points: Spanned<Vec<Spanned<usize>>>,
     pub(super) borders: Option<Spanned<Vec<Spanned<String>>>>,
     pub(super) methods: Spanned<Vec<Spanned<String>>>,
+    pub(super) slope_from: Option<Spanned<usize>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -15,6 +15,7 @@ mod moments;
 mod replay;
 mod sections;
 mod tabulate;
+mod views;
 mod world;
 
 use crate::results::{BorderCurve, Engine, Results, SCHEMA};
@@ -84,7 +85,8 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let workloads: Vec<&dyn Workload> = pulses.chain(free.iter().map(|w| w as &dyn Workload)).collect();
     let sections = execute::run(scenario, &workloads, &specs, progress);
     let cells = tabulate::cells(&specs, &sections);
-    let summaries = judge::summaries(&specs, &sections);
+    let views = views::of_cells(&sections, specs.len());
+    let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
     let expectations = expectations::check(scenario, &summaries);
     Ok(Results {
         schema: SCHEMA,
@@ -96,6 +98,7 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
         command,
         engine: Engine::Superposed,
         coupling: scenario.coupling(),
+        slope_samples: scenario.sweep().slope_samples().to_vec(),
         labels: scenario.labels().clone(),
         scenario: scenario.source().clone(),
         curves: curves(scenario),

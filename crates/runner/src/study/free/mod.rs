@@ -51,7 +51,13 @@ fn cells(case: &Case, sweep: &Sweep) -> Vec<(Case, Sweep)> {
                     let methods = vec![Method::Free];
                     cells.push((
                         Case { borders: vec![border.clone()], ..case.clone() },
-                        Sweep { noise: vec![noise], samples: vec![samples], points: vec![points], methods },
+                        Sweep {
+                            noise: vec![noise],
+                            samples: vec![samples],
+                            points: vec![points],
+                            methods,
+                            slope_from: samples,
+                        },
                     ));
                 }
             }
