@@ -1,5 +1,6 @@
 //! The table at the end of a run.
 
+use super::paired;
 use super::row::{Row, rows};
 use crate::results::{Fitted, Group, Results};
 
@@ -22,6 +23,7 @@ pub fn table(results: &Results) -> String {
     let mut text = align(&lines);
     text.push_str(LEGEND);
     text.push_str(&slopes(results));
+    text.push_str(&paired::lines(results));
     text.push_str(&expectations(results));
     text.push_str(&failures(results));
     text

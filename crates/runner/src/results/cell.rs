@@ -70,6 +70,13 @@ pub struct Parameter {
     pub bound_sd: Option<f64>,
 }
 
+impl Cell {
+    /// The parameter of that name.
+    pub fn find(&self, name: &str) -> Option<&Parameter> {
+        self.parameters.iter().find(|p| p.name == name)
+    }
+}
+
 impl Parameter {
     /// The bias with the smaller error: controlled where it exists, else plain.
     pub fn best_bias(&self) -> Option<Measured> {

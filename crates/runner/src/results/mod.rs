@@ -8,6 +8,7 @@ mod csv;
 mod curve;
 mod json;
 mod measured;
+mod paired;
 mod pooled;
 mod series;
 mod summary;
@@ -19,6 +20,7 @@ pub use csv::to_csv;
 pub use curve::{BorderCurve, CurvePoint};
 pub use json::{ResultsError, read, to_json};
 pub use measured::{Measured, MeasuredError};
+pub use paired::{Comparison, Overall, Paired, PairedError, PairedGroup, PairedParameter, Pairing, Subject};
 pub use pooled::{root_mean_square, root_mean_square_exact};
 pub use series::{Group, Series};
 pub use summary::{Expectation, Fitted, Summary, Verdict};
@@ -49,7 +51,7 @@ pub struct Results {
     pub command: String,
     /// How the replicates were computed.
     pub engine: Engine,
-    /// Whether cells share their noise.
+    /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
     pub coupling: Coupling,
     /// The numbers of samples that slopes are fitted over.
     #[serde(default)]
@@ -64,6 +66,9 @@ pub struct Results {
     pub expectations: Vec<Expectation>,
     /// One entry a curve and parameter group.
     pub summaries: Vec<Summary>,
+    /// Methods and borders against each other on the same noise; `None` where every cell has its own.
+    #[serde(default)]
+    pub paired: Option<Pairing>,
     /// One entry a cell.
     pub cells: Vec<Cell>,
 }

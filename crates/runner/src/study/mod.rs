@@ -12,6 +12,7 @@ mod family;
 mod free;
 mod judge;
 mod moments;
+mod paired;
 mod replay;
 mod sections;
 mod tabulate;
@@ -19,8 +20,9 @@ mod views;
 mod world;
 
 use crate::results::{BorderCurve, Engine, Results, SCHEMA};
-use crate::scenario::Scenario;
+use crate::scenario::{Coupling, Scenario};
 use cell::{CellSpec, Workload};
+use std::ops::Range;
 use thiserror::Error;
 
 pub use execute::Progress;
@@ -85,8 +87,10 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let workloads: Vec<&dyn Workload> = pulses.chain(free.iter().map(|w| w as &dyn Workload)).collect();
     let sections = execute::run(scenario, &workloads, &specs, progress);
     let cells = tabulate::cells(&specs, &sections);
-    let views = views::of_cells(&sections, specs.len());
+    let views = views::of_cells(&specs, &sections);
     let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
+    let paired = (scenario.coupling() == Coupling::Shared)
+        .then(|| paired::pairing(&specs, &views, &cells_of_worlds(&workloads)));
     let expectations = expectations::check(scenario, &summaries);
     Ok(Results {
         schema: SCHEMA,
@@ -104,8 +108,22 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
         curves: curves(scenario),
         expectations,
         summaries,
+        paired,
         cells,
     })
+}
+
+/// Where the cells of each workload stand among all cells.
+fn cells_of_worlds(workloads: &[&dyn Workload]) -> Vec<Range<usize>> {
+    let mut first = 0;
+    workloads
+        .iter()
+        .map(|workload| {
+            let cells = first..first + workload.cells();
+            first = cells.end;
+            cells
+        })
+        .collect()
 }
 
 fn curves(scenario: &Scenario) -> Vec<BorderCurve> {

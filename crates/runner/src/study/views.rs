@@ -3,11 +3,12 @@
 //! A section holds the same replicates in every cell, and cells of a sweep share their noise: a figure that joins cells (a slope, a ratio of
 //! two methods' variances) leaves the same noise out of all of them at once, so its error knows how they go together.
 
+use super::cell::CellSpec;
 use super::sections::{SECTIONS, Sections};
 use crate::results::{Fitted, Measured};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
-use switchback_estimator::statistics::{self, Performance, jackknife_se};
+use switchback_estimator::statistics::{self, ErrorSums, Performance, jackknife_se};
 
 /// All replicates, or all but one section.
 pub(super) type View = Option<usize>;
@@ -18,6 +19,8 @@ pub(super) struct Figures {
     pub(super) bias: statistics::Measured,
     pub(super) bias_controlled: Option<statistics::Measured>,
     pub(super) variance: f64,
+    /// The same with the exactly known variance of the first-order part put in place of its sample variance.
+    pub(super) variance_controlled: Option<f64>,
     /// Mean squared error.
     pub(super) mse: f64,
     pub(super) coverage: f64,
@@ -31,15 +34,19 @@ pub(super) struct CellViews {
 }
 
 /// One entry a cell.
-pub(super) fn of_cells(sections: &Sections, cells: usize) -> Vec<CellViews> {
-    (0..cells).into_par_iter().map(|cell| CellViews::new(sections, cell)).collect()
+pub(super) fn of_cells(specs: &[CellSpec], sections: &Sections) -> Vec<CellViews> {
+    specs.par_iter().enumerate().map(|(cell, spec)| CellViews::new(spec, sections, cell)).collect()
 }
 
 impl CellViews {
-    fn new(sections: &Sections, cell: usize) -> Self {
+    fn new(spec: &CellSpec, sections: &Sections, cell: usize) -> Self {
         let figures = |view: View| {
             let sums = sections.cell(cell, view);
-            sums.parameters.iter().map(|p| p.performance(None).map(Figures::from)).collect::<Vec<_>>()
+            let of = |(k, sums): (usize, &ErrorSums)| {
+                let known = spec.theory.as_ref().map(|sd| sd[k] * sd[k]);
+                sums.performance(known).map(Figures::from)
+            };
+            sums.parameters.iter().enumerate().map(of).collect::<Vec<_>>()
         };
         Self { whole: figures(None), without: (0..SECTIONS).map(|section| figures(Some(section))).collect() }
     }
@@ -66,6 +73,7 @@ impl From<Performance> for Figures {
             bias: performance.bias,
             bias_controlled: performance.bias_controlled,
             variance: performance.sd.value * performance.sd.value,
+            variance_controlled: performance.sd_controlled.map(|sd| sd.value * sd.value),
             mse: performance.mse.value,
             coverage: performance.coverage.value,
         }
