@@ -25,7 +25,7 @@ pub use pooled::{root_mean_square, root_mean_square_exact};
 pub use series::{Group, Series};
 pub use summary::{Expectation, Fitted, Summary, Verdict};
 
-use crate::scenario::{Coupling, Labels};
+use crate::scenario::{Coupling, Engine, Labels};
 use serde::{Deserialize, Serialize};
 
 /// Version of the layout of `results.json`; a reader refuses any other.
@@ -71,18 +71,6 @@ pub struct Results {
     pub paired: Option<Pairing>,
     /// One entry a cell.
     pub cells: Vec<Cell>,
-}
-
-/// How the replicates were computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Engine {
-    /// One noise pass a replicate serves every cell by superposition.
-    Superposed,
-    /// Every cell is simulated on its own.
-    Direct,
-    /// Superposition where the input is deterministic and the noise fits, direct simulation elsewhere.
-    Mixed,
 }
 
 impl Results {

@@ -1,7 +1,7 @@
 //! A made-up table that follows the laws of theory, so that figures and reports can be tried without an engine.
 
 use super::*;
-use crate::scenario::Method;
+use crate::scenario::{Engine, Method};
 
 /// Two leaf springs, three methods (one of them inconsistent), two `m`, two noise levels, five `N`.
 pub(crate) fn results() -> Results {

@@ -48,7 +48,7 @@ fn a_good_scenario_keeps_its_values_and_gets_the_defaults() {
     assert_eq!(scenario.name(), "good");
     assert_eq!(scenario.seed(), 20090706);
     assert_eq!(scenario.replication(), Replication { replicates: 500, stopping: None });
-    assert_eq!(scenario.coupling(), Coupling::Shared);
+    assert_eq!((scenario.coupling(), scenario.engine()), (Coupling::Shared, Engine::Superposed));
     assert_eq!(scenario.labels().input, "deflection [mm]");
     assert_eq!(scenario.labels().output, "output y");
     let [case] = scenario.cases() else { panic!("one case by default") };
@@ -149,6 +149,7 @@ fn impossible_values_are_refused_where_they_stand() {
         ("replicates = 500", "replicates = 1", "replicates = 1"),
         ("replicates = 500", "replicates = 500\nmax_replicates = 900", "max_replicates = 900"),
         ("replicates = 500", "replicates = 500\nprecision = { bias_mcse = 0.1 }", "precision"),
+        ("replicates = 500", "replicates = 500\nengine = \"direkt\"", "engine = \"direkt\""),
         ("[0.02, 0.1]", "[0.02, 0.0]", "sweep.noise[1] = 0.0"),
         ("[0.02, 0.1]", "[0.02, nan]", "sweep.noise[1] = nan"),
         ("[0.02, 0.1]", "[]", "sweep.noise = []"),
@@ -173,6 +174,9 @@ fn a_misspelt_method_border_or_check_is_answered_with_the_valid_names() {
     assert!(remedy.contains("coarse"), "{remedy}");
     let (_, remedy, _) = refusal("\"coverage\"]", "\"covrage\"]");
     assert!(remedy.contains("coverage"), "{remedy}");
+    let (message, remedy, _) = refusal("seed = 20090706", "seed = 1\nengine = \"dirct\"");
+    assert!(message.contains("no such engine"), "{message}");
+    assert!(remedy.contains("did you mean \"direct\"? valid: superposed, direct"), "{remedy}");
     let (_, remedy, _) = refusal("kind = \"table\"", "kind = \"tabel\"");
     assert!(remedy.contains("\"table\""), "{remedy}");
 }

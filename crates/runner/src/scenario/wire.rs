@@ -12,6 +12,7 @@ pub(super) struct WireScenario {
     pub(super) max_replicates: Option<Spanned<usize>>,
     pub(super) precision: Option<Spanned<WirePrecision>>,
     pub(super) coupling: Option<Spanned<String>>,
+    pub(super) engine: Option<Spanned<String>>,
     pub(super) system: Spanned<WireSystem>,
     #[serde(default)]
     pub(super) case: Vec<WireCase>,

@@ -1,8 +1,9 @@
 //! Running the replicates, in parallel and reproducibly.
 
 use super::cell::{CellSpec, Workload};
-use super::sections::{SECTIONS, Sections};
+use super::sections::{CellSums, SECTIONS, Sections};
 use crate::scenario::{Scenario, Stopping};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Replicates of one noise pass: a whole number of lanes at every width.
@@ -77,6 +78,31 @@ impl Round {
     /// The section that a replicate belongs to: sections are contiguous and of (nearly) equal size.
     pub(super) fn section(&self, replicate: usize) -> usize {
         ((replicate - self.range.start + 1) * SECTIONS).div_ceil(self.range.len()) - 1
+    }
+}
+
+/// Runs the replicates `chunk` one by one in parallel: each section's part is summed on its own, and the parts are added in order.
+pub(super) fn by_sections(
+    round: &Round,
+    chunk: Range<usize>,
+    cells: &mut [Vec<CellSums>],
+    replicate: impl Fn(u32, &mut [CellSums]) + Sync,
+) {
+    let replicates: Vec<usize> = chunk.collect();
+    let parts: Vec<&[usize]> = replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
+    let empty: Vec<CellSums> =
+        cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
+    let sums: Vec<Vec<CellSums>> = parts
+        .par_iter()
+        .map(|part| {
+            let mut sums = empty.clone();
+            part.iter().for_each(|&r| replicate(r as u32, &mut sums));
+            sums
+        })
+        .collect();
+    for (part, sums) in parts.iter().zip(&sums) {
+        let section = round.section(part[0]);
+        cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod bench;
 mod cell;
+mod direct;
 mod execute;
 mod expectations;
 mod family;
@@ -19,9 +20,10 @@ mod tabulate;
 mod views;
 mod world;
 
-use crate::results::{BorderCurve, Engine, Results, SCHEMA};
-use crate::scenario::{Coupling, Scenario};
+use crate::results::{BorderCurve, Results, SCHEMA};
+use crate::scenario::{Coupling, Engine, Scenario};
 use cell::{CellSpec, Workload};
+use direct::DirectWorld;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -83,8 +85,13 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let free = free::plan(scenario)?;
     let specs: Vec<CellSpec> =
         pulses.iter().flat_map(|w| w.specs(scenario)).chain(free.iter().flat_map(|w| w.specs())).collect();
-    let pulses = pulses.iter().map(|w| w as &dyn Workload);
-    let workloads: Vec<&dyn Workload> = pulses.chain(free.iter().map(|w| w as &dyn Workload)).collect();
+    let direct: Vec<DirectWorld<'_>> = pulses.iter().map(|world| DirectWorld::new(world, scenario)).collect();
+    let pulses: Vec<&dyn Workload> = match scenario.engine() {
+        Engine::Superposed => pulses.iter().map(|w| w as &dyn Workload).collect(),
+        Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
+    };
+    let workloads: Vec<&dyn Workload> =
+        pulses.into_iter().chain(free.iter().map(|w| w as &dyn Workload)).collect();
     let sections = execute::run(scenario, &workloads, &specs, progress);
     let cells = tabulate::cells(&specs, &sections);
     let views = views::of_cells(&specs, &sections);
@@ -100,7 +107,7 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
         seed: scenario.seed(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command,
-        engine: Engine::Superposed,
+        engine: scenario.engine(),
         coupling: scenario.coupling(),
         slope_samples: scenario.sweep().slope_samples().to_vec(),
         labels: scenario.labels().clone(),
