@@ -3,6 +3,7 @@
 use super::paired;
 use super::row::{Row, rows};
 use crate::results::{Fitted, Group, Results};
+use std::collections::BTreeMap;
 
 /// The table that ends a run: slopes with intervals, coverage, efficiency and verdict, then what was expected, then failures.
 ///
@@ -25,6 +26,7 @@ pub fn table(results: &Results) -> String {
     text.push_str(&slopes(results));
     text.push_str(&paired::lines(results));
     text.push_str(&expectations(results));
+    text.push_str(&precision(results));
     text.push_str(&failures(results));
     text
 }
@@ -124,6 +126,28 @@ fn expectations(results: &Results) -> String {
         })
     };
     told(true).chain(told(false)).collect()
+}
+
+/// How many replicates the cells took to be as precise as asked, and how many are not.
+fn precision(results: &Results) -> String {
+    if results.cells.iter().all(|c| c.precise.is_none()) {
+        return String::new();
+    }
+    let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+    results.cells.iter().for_each(|c| *counts.entry(c.replicates).or_default() += 1);
+    let taken: Vec<String> = counts.iter().map(|(r, cells)| format!("{r} in {cells}")).collect();
+    let short: Vec<_> = results.cells.iter().filter(|c| c.precise == Some(false)).collect();
+    let reached = match short.first() {
+        None => "every cell is as precise as asked".to_owned(),
+        Some(first) => format!(
+            "{} of {} cells are not as precise as asked (the first: {}, N = {}); raise max_replicates",
+            short.len(),
+            results.cells.len(),
+            first.series,
+            first.samples
+        ),
+    };
+    format!("Replicates: {} cells; {reached}.\n", taken.join(", "))
 }
 
 fn failures(results: &Results) -> String {

@@ -13,6 +13,9 @@ pub struct Cell {
     pub samples: usize,
     /// Replicates run, failed ones included.
     pub replicates: usize,
+    /// Whether they are as precise as the scenario asks; absent where it does not ask.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precise: Option<bool>,
     /// Replicates that gave no estimate; never redrawn.
     pub failures: Failures,
     /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.

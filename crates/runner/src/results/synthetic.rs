@@ -109,7 +109,8 @@ fn cell(series: &Series, samples: usize) -> Cell {
         },
         _ => Failures::default(),
     };
-    Cell { series: series.clone(), samples, replicates: REPLICATES as usize, failures, parameters }
+    let replicates = REPLICATES as usize;
+    Cell { series: series.clone(), samples, replicates, precise: None, failures, parameters }
 }
 
 fn parameter(

@@ -24,6 +24,7 @@ use crate::results::{BorderCurve, Results, SCHEMA};
 use crate::scenario::{Coupling, Engine, Scenario};
 use cell::{CellSpec, Workload};
 use direct::DirectWorld;
+use execute::Outcome;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -92,8 +93,8 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     };
     let workloads: Vec<&dyn Workload> =
         pulses.into_iter().chain(free.iter().map(|w| w as &dyn Workload)).collect();
-    let sections = execute::run(scenario, &workloads, &specs, progress);
-    let cells = tabulate::cells(&specs, &sections);
+    let Outcome { sections, precise } = execute::run(scenario, &workloads, &specs, progress);
+    let cells = tabulate::cells(&specs, &sections, precise.as_deref());
     let views = views::of_cells(&specs, &sections);
     let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
     let paired = (scenario.coupling() == Coupling::Shared)
