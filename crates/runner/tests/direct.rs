@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use std::path::Path;
-use switchback::results::Results;
+use switchback::results::{Results, to_json};
 use switchback::scenario::{Engine, Scenario};
 use switchback::study::{Progress, run};
 
@@ -56,6 +56,20 @@ fn estimates_agree(superposed: &Results, direct: &Results) {
 fn the_quick_scenario_comes_out_the_same() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/quick.toml");
     both_agree(&Scenario::read(&path).expect("a shipped scenario"));
+}
+
+#[test]
+fn threads_do_not_matter_to_it() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/quick.toml");
+    let scenario = Scenario::read(&path).expect("a shipped scenario").on(Engine::Direct);
+    let bytes = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        to_json(
+            &pool.install(|| run(&scenario, "switchback quick.toml".to_owned(), &Silent)).expect("a study"),
+        )
+    };
+    let one = bytes(1);
+    assert!([2, 8].into_iter().all(|threads| bytes(threads) == one));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::progress::Meter;
 use crate::scenario::{Engine, Scenario};
 use crate::{blind, report, study};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use miette::IntoDiagnostic;
+use miette::{IntoDiagnostic, miette};
 use std::path::{Path, PathBuf};
 
 /// Run the study that a scenario file describes, and write its report.
@@ -42,6 +42,10 @@ pub fn run(args: &Args) -> CommandResult {
         .build()
         .into_diagnostic()?;
     if blind::is_blind(&args.scenario) {
+        if args.engine.is_some() {
+            let path = args.scenario.display();
+            return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
+        }
         return workers.install(|| super::blind::run(&args.scenario, args.out.as_deref(), args.quiet));
     }
     let read = Scenario::read(&args.scenario)?;

@@ -10,7 +10,9 @@ use std::fmt;
 /// random numbers), so what the noise does to both sides of a comparison cancels.
 ///
 /// A parameter is compared with that of the first method of the sweep that estimates it (same border, `m`, noise and `N`), and with
-/// that of the sweep's first border (same method, `m`, noise and `N`).
+/// that of the sweep's first border (same method, `m`, noise and `N`). `free` drives the system otherwise and has noise of its own, so it is
+/// compared over borders only. Where a precision is asked for, a cell that went on longer than the other keeps the noise they share, section by
+/// section, and the errors hold all the same.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pairing {
@@ -133,13 +135,18 @@ pub struct PairedError(f64, f64, f64);
 /// Figures are kept to this share of their error.
 const RESOLUTION: f64 = 1e-3;
 
+/// A paired error below this share of the unpaired one is rounding: both sides are the same estimates.
+const ROUNDING: f64 = 1e-9;
+
 impl Paired {
     /// A figure and its two errors; `None` unless all are finite and no error is negative.
     pub fn new(value: f64, mcse: f64, unpaired_mcse: f64) -> Option<Self> {
         let valid =
             value.is_finite() && [mcse, unpaired_mcse].iter().all(|error| error.is_finite() && *error >= 0.0);
+        let floor = ROUNDING * unpaired_mcse;
+        let mcse = if mcse < floor { 0.0 } else { mcse };
         valid.then(|| Self {
-            value: rounded(value, RESOLUTION * mcse.min(unpaired_mcse)),
+            value: rounded(value, (RESOLUTION * mcse.min(unpaired_mcse)).max(floor)),
             mcse: rounded(mcse, RESOLUTION * mcse),
             unpaired_mcse: rounded(unpaired_mcse, RESOLUTION * unpaired_mcse),
         })
@@ -223,6 +230,13 @@ mod tests {
         assert_eq!(serde_json::from_str::<Paired>("[0.71235,0.01,0.1]").expect("it reads back"), ratio);
         assert!(serde_json::from_str::<Paired>("[0.7,-0.01,0.1]").is_err());
         assert!(Paired::new(f64::NAN, 0.1, 0.1).is_none());
+    }
+
+    #[test]
+    fn the_same_estimates_twice_differ_by_nothing() {
+        let same = Paired::new(1.0 + 4e-16, 3e-17, 0.1).expect("finite");
+        assert_eq!((same.value(), same.mcse(), same.unpaired_mcse()), (1.0, 0.0, 0.1));
+        assert_eq!(Paired::new(3e-19, 1e-20, 1e-4).expect("finite").value(), 0.0);
     }
 
     #[test]

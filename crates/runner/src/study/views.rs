@@ -88,11 +88,11 @@ pub(super) struct Jackknifed {
 }
 
 impl Jackknifed {
-    /// Computes a figure over all replicates and over all but each section.
+    /// Computes a figure over all replicates and over all but each section; `None` where it does not exist in each of these views.
     pub(super) fn of(figure: impl Fn(View) -> Option<f64>) -> Option<Self> {
         let value = figure(None)?;
-        let leave_one_out: Vec<f64> = (0..SECTIONS).filter_map(|section| figure(Some(section))).collect();
-        Some(Self { value, se: jackknife_se(&leave_one_out)? })
+        let leave_one_out: Option<Vec<f64>> = (0..SECTIONS).map(|section| figure(Some(section))).collect();
+        Some(Self { value, se: jackknife_se(&leave_one_out?)? })
     }
 
     pub(super) fn interval(self, quantile: f64) -> Option<Fitted> {
