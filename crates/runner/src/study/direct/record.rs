@@ -1,9 +1,10 @@
 //! Records in the open: the operator, the difference equation and the noise, run sample by sample.
 
 use crate::scenario::{Border, Case, Disturbance};
+use crate::study::moments::draw;
 use crate::study::world::{Setting, World};
 use switchback_estimator::linear::filter;
-use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
+use switchback_estimator::simulation::noise::{NoiseSamples, StreamId, samples};
 
 /// What is left of a transient when a simulated record begins.
 const SETTLED: f64 = 1e-16;
@@ -12,7 +13,8 @@ const SETTLED: f64 = 1e-16;
 #[derive(Debug)]
 pub(in crate::study) struct OpenNoise {
     pulses: [NoiseSamples; 2],
-    steps: Option<[NoiseSamples; 2]>,
+    /// Means of the step noise, by experiment and number of samples: all that step experiments are used for.
+    steps: [Vec<f64>; 2],
 }
 
 /// One pulse experiment and the step experiment at its satellite.
@@ -30,15 +32,15 @@ pub(in crate::study) struct OpenRecord {
 
 impl OpenNoise {
     pub(in crate::study) fn draw(world: &World, seed: u64, replicate: u32) -> Self {
-        let open = |plan: &NoisePlan, stream: u32| {
+        let plan = &world.pulses;
+        let open = |k: usize| {
             let count = plan.checkpoints.last().copied().unwrap_or_default();
-            let id = StreamId { seed, experiment: world.stream + stream, replicate };
+            let id = StreamId { seed, experiment: world.stream + k as u32, replicate };
             samples(plan, id, count).expect("a world's noise plan is valid")
         };
-        Self {
-            pulses: [0, 1].map(|k| open(&world.pulses, k)),
-            steps: world.steps.as_ref().map(|plan| [2, 3].map(|k| open(plan, k))),
-        }
+        let means = draw(world, seed, replicate..replicate + 1);
+        let steps = |k: usize| (0..plan.checkpoints.len()).map(|c| means[0].step_means(c)[k]).collect();
+        Self { pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
     }
 
     /// Experiment `k` of a setting.
@@ -59,18 +61,12 @@ impl OpenNoise {
         let mut white = vec![0.0; before - noise.burn_in];
         white.extend(noise.w.iter().map(|w| setting.sigma * w));
         let y = disturbed(case, &u, &white, 0.0);
-        let step_mean = |&n: &usize| {
-            let mean = self
-                .steps
-                .as_ref()
-                .map_or(0.0, |steps| steps[k].e[steps[k].burn_in..][..n].iter().sum::<f64>() / n as f64);
-            bench.satellite_output(k) + setting.sigma * mean
-        };
+        let step_mean = |e: &f64| bench.satellite_output(k) + setting.sigma * e;
         OpenRecord {
             lead,
             v: v[before - lead..].to_vec(),
             y: y[before - lead..].to_vec(),
-            step_means: world.pulses.checkpoints.iter().map(step_mean).collect(),
+            step_means: self.steps[k].iter().map(step_mean).collect(),
         }
     }
 }
