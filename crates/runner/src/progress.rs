@@ -29,8 +29,9 @@ impl Meter {
         let terminal = std::io::stderr().is_terminal();
         let target =
             if quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let style = ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left"))
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let style =
+            ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}{{msg}}, {{eta}} left"))
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = ProgressBar::with_draw_target(Some(0), target).with_style(style);
         Self { bar, plain: !quiet && !terminal, what, planned: AtomicU64::new(0), done: AtomicU64::new(0) }
     }
@@ -45,6 +46,14 @@ impl Progress for Meter {
     fn planned(&self, replicates: u64) {
         self.planned.store(replicates, Ordering::Relaxed);
         self.bar.set_length(replicates);
+    }
+
+    fn imprecise(&self, cells: usize, of: usize) {
+        self.bar.set_message(format!(", {cells} of {of} cells not precise enough yet"));
+        if self.plain {
+            let done = self.done.load(Ordering::Relaxed);
+            eprintln!("after {done} {} {cells} of {of} cells are not precise enough yet", self.what);
+        }
     }
 
     fn advanced(&self, replicates: u64) {

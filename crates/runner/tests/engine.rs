@@ -164,12 +164,14 @@ fn cells_stop_when_they_are_precise_enough() {
     };
     // The relative error of a standard deviation is (2(R − 1))^-1/2, so 0.03 takes 557 replicates.
     let enough = study("replicates = 40\nprecision = { sd_relative_mcse = 0.03 }\nmax_replicates = 5000", 2);
+    assert!(enough.cells.iter().all(|c| c.precise == Some(true)));
     for (replicates, error) in sd_errors(&enough) {
         assert!(error <= 0.0301 && (557..2500).contains(&replicates), "{error} after {replicates}");
     }
     let cut_short =
         study("replicates = 40\nprecision = { sd_relative_mcse = 0.03 }\nmax_replicates = 200", 2);
-    assert!(cut_short.cells.iter().all(|c| c.replicates == 200), "the limit holds in every cell");
+    let at_limit = |c: &Cell| (c.replicates, c.precise) == (200, Some(false));
+    assert!(cut_short.cells.iter().all(at_limit), "the limit holds in every cell, and every cell says so");
     // How fast the error of a bias falls differs from cell to cell: those that meet the demand first stop first.
     let uneven = study("replicates = 40\nprecision = { bias_mcse = 0.01 }\nmax_replicates = 600", 2);
     let counts: Vec<usize> = uneven.cells.iter().map(|c| c.replicates).collect();

@@ -3,6 +3,7 @@
 use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
+use switchback::scenario::Engine;
 
 fn switchback() -> Command {
     Command::cargo_bin("switchback").expect("the program is built")
@@ -97,6 +98,23 @@ fn every_byte_is_the_same_at_one_two_and_eight_threads() {
     });
     assert_eq!(runs[0], runs[1]);
     assert_eq!(runs[0], runs[2]);
+}
+
+#[test]
+fn the_engine_is_chosen_on_the_command_line_or_in_the_scenario_and_the_results_name_it() {
+    let folder = Folder::with(SMALL);
+    assert_eq!(folder.run(&["--engine", "direct", "--out", "flag", "--quiet"]).status.code(), Some(0));
+    let key = SMALL.replace("seed = 3", "seed = 3\nengine = \"direct\"");
+    fs::write(folder.0.path().join("study.toml"), key).expect("it can be written");
+    assert_eq!(folder.run(&["--out", "key", "--quiet"]).status.code(), Some(0));
+    let results = ["flag", "key"].map(|name| switchback::results::read(&folder.0.path().join(name)));
+    let [flag, key] = results.map(|r| r.expect("results"));
+    assert_eq!((flag.engine, key.engine), (Engine::Direct, Engine::Direct));
+    assert_eq!((flag.command.as_str(), &flag.cells), ("switchback study.toml --engine direct", &key.cells));
+    let unknown = folder.run(&["--engine", "dirct"]);
+    let told = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(told.contains("dirct") && told.contains("superposed, direct"), "{told}");
 }
 
 #[test]

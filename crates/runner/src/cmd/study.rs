@@ -3,9 +3,10 @@
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{OutputFolder, print};
 use crate::progress::Meter;
-use crate::scenario::Scenario;
+use crate::scenario::{Engine, Scenario};
 use crate::{blind, report, study};
-use miette::IntoDiagnostic;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use miette::{IntoDiagnostic, miette};
 use std::path::{Path, PathBuf};
 
 /// Run the study that a scenario file describes, and write its report.
@@ -22,6 +23,10 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
+    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
+    engine: Option<Engine>,
+
     /// Neither progress nor table, only errors.
     #[arg(long)]
     quiet: bool,
@@ -37,13 +42,21 @@ pub fn run(args: &Args) -> CommandResult {
         .build()
         .into_diagnostic()?;
     if blind::is_blind(&args.scenario) {
+        if args.engine.is_some() {
+            let path = args.scenario.display();
+            return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
+        }
         return workers.install(|| super::blind::run(&args.scenario, args.out.as_deref(), args.quiet));
     }
-    let scenario = Scenario::read(&args.scenario)?;
+    let read = Scenario::read(&args.scenario)?;
+    let scenario = match args.engine {
+        Some(engine) => read.on(engine),
+        None => read,
+    };
     let default = || Path::new("reports").join(scenario.name());
     let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
     let meter = Meter::new(args.quiet);
-    let results = workers.install(|| study::run(&scenario, command(&args.scenario), &meter));
+    let results = workers.install(|| study::run(&scenario, command(args), &meter));
     meter.finish();
     let results = results.into_diagnostic()?;
     let place = folder.path().display().to_string();
@@ -55,7 +68,13 @@ pub fn run(args: &Args) -> CommandResult {
 }
 
 /// The command that makes the results again, without the place where this machine keeps the file.
-fn command(scenario: &Path) -> String {
-    let name = scenario.file_name().unwrap_or_default().to_string_lossy();
-    format!("switchback {name}")
+fn command(args: &Args) -> String {
+    let name = args.scenario.file_name().unwrap_or_default().to_string_lossy();
+    let engine = args.engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
+    format!("switchback {name}{engine}")
+}
+
+/// The engine of a name that is one of them.
+fn engine(name: String) -> Engine {
+    Engine::from_name(&name).unwrap_or(Engine::Superposed)
 }

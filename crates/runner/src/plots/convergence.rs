@@ -1,12 +1,13 @@
 //! Bias and standard deviation against N.
 
+use super::MOST_ROWS;
 use super::axis::{Axis, plain};
-use super::canvas::{Canvas, Dash, Pen, TextLook};
+use super::canvas::{Dash, Pen};
 use super::legend::{Entry, Sample};
 use super::palette::{GREY, INK, OKABE_ITO, tint};
 use super::panel::{Mark, Panel};
 use super::selection::{Selection, thinned};
-use super::sheet::{Frames, Grid, Sheet};
+use super::sheet::{Grid, Sheet};
 use crate::results::{Cell, Group, Measured, Parameter, Results, root_mean_square, root_mean_square_exact};
 use plotters::style::RGBColor;
 
@@ -19,8 +20,6 @@ pub(super) enum Measure {
     Sd,
 }
 
-/// More rows than this would not be looked at; beyond it only the largest `m` is drawn.
-const MOST_ROWS: usize = 8;
 const THEORY_WIDTH: f64 = 1.6;
 
 /// One row of the figure.
@@ -66,7 +65,7 @@ pub(super) fn figure(
                     panel.x_name("samples N");
                 }
                 if column == 0 {
-                    name_row(canvas, frames, r, row);
+                    frames.name_row(canvas, r, (row.border, row.points));
                 }
                 for (k, &noise) in noises.iter().enumerate() {
                     let cells = selection.curve(row.border, row.points, noise);
@@ -98,14 +97,6 @@ fn rows<'r>(selection: &Selection<'r>) -> Vec<Row<'r>> {
         points = points.split_off(points.len() - 1);
     }
     borders.iter().flat_map(|&border| points.iter().map(move |&points| Row { border, points })).collect()
-}
-
-fn name_row(canvas: &Canvas<'_>, frames: &Frames, index: usize, row: &Row<'_>) {
-    let (_, top) = frames.corner(index, 0);
-    let middle = top + frames.size().1 / 2.0;
-    canvas.text(row.border, (20.0, middle), TextLook::new(17.0).bold().middle().upwards());
-    let points = format!("m = {}", row.points);
-    canvas.text(&points, (42.0, middle), TextLook::new(15.0).middle().upwards().colour(GREY));
 }
 
 fn title(measure: Measure, selection: &Selection<'_>, results: &Results, over_baseline: bool) -> String {

@@ -12,6 +12,7 @@ mod convergence;
 pub mod gap;
 pub mod identify;
 pub mod legend;
+mod paired;
 pub mod palette;
 pub mod panel;
 mod selection;
@@ -19,6 +20,9 @@ pub mod sheet;
 
 use crate::results::Results;
 use convergence::Measure;
+
+/// More rows of diagrams than this would not be looked at; beyond it only the largest `m` is drawn.
+const MOST_ROWS: usize = 8;
 
 /// A drawn figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,7 +34,7 @@ pub struct Figure {
 }
 
 /// Every figure of a consistency study: for each case and method bias and standard deviation against `N`, and the
-/// borders where the method estimates them.
+/// borders where the method estimates them; then methods and borders against each other.
 pub fn consistency(results: &Results) -> Vec<Figure> {
     let mut figures = Vec::new();
     for selection in selection::selections(results) {
@@ -42,6 +46,7 @@ pub fn consistency(results: &Results) -> Vec<Figure> {
             figures.push(Figure { name: selection.file("borders", results), svg });
         }
     }
+    figures.extend(paired::figures(results));
     figures
 }
 
@@ -74,7 +79,7 @@ mod tests {
             names[..3],
             ["bias-paper-descendant.svg", "sd-paper-descendant.svg", "borders-paper-descendant.svg"]
         );
-        assert_eq!(names.len(), 9);
+        assert_eq!(names[9..], ["paired-methods.svg", "paired-borders.svg"]);
         assert_eq!(figures, consistency(&results));
     }
 

@@ -95,7 +95,8 @@ pub(super) fn thinned<T: Copy>(items: &[T], most: usize) -> Vec<T> {
     (0..most).map(|i| items[i * (items.len() - 1) / (most - 1)]).collect()
 }
 
-fn distinct<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+/// The entries in their order, each once.
+pub(super) fn distinct<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();
     for item in items {
         if !found.contains(&item) {
@@ -106,7 +107,7 @@ fn distinct<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
 }
 
 /// Lower-case letters, digits and single hyphens: fit for a file name anywhere.
-fn slug(text: &str) -> String {
+pub(super) fn slug(text: &str) -> String {
     let kept: String =
         text.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { ' ' }).collect();
     kept.split_whitespace().collect::<Vec<_>>().join("-")

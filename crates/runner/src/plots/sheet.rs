@@ -78,4 +78,12 @@ impl Frames {
         let x = self.grid.left + (width + self.grid.between) * column as f64;
         (x, self.top + self.grid.above + (height + self.grid.above) * row as f64)
     }
+
+    /// Writes what a row shows, and its number of points `m`, upwards at its left.
+    pub fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, points): (&str, usize)) {
+        let middle = self.corner(row, 0).1 + self.size().1 / 2.0;
+        canvas.text(name, (20.0, middle), TextLook::new(17.0).bold().middle().upwards());
+        let points = format!("m = {points}");
+        canvas.text(&points, (42.0, middle), TextLook::new(15.0).middle().upwards().colour(GREY));
+    }
 }

@@ -3,6 +3,7 @@
 //! Nothing is printed or written here; callers get text and [`Artefacts`].
 
 mod page;
+mod paired;
 mod row;
 mod table;
 

@@ -3,6 +3,7 @@
 use super::table;
 use crate::plots::Figure;
 use crate::results::Results;
+use crate::scenario::Coupling;
 use std::fmt::Write;
 
 /// The page: question, command, table, figures.
@@ -10,10 +11,15 @@ pub(super) fn page(results: &Results, figures: &[Figure]) -> String {
     let mut text = format!("# {}\n\n{}\n\n", results.name, results.question);
     let _ = writeln!(
         text,
-        "Made by `{}` with Switchback {}, seed {}.\n\n```text\n{}```",
+        "Made by `{}` with Switchback {}, seed {}; {} engine, {}.\n\n```text\n{}```",
         results.command,
         results.version,
         results.seed,
+        results.engine.name(),
+        match results.coupling {
+            Coupling::Shared => "cells share their noise",
+            Coupling::Independent => "every cell has its own noise",
+        },
         table(results)
     );
     for figure in figures {

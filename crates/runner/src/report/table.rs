@@ -1,7 +1,9 @@
 //! The table at the end of a run.
 
+use super::paired;
 use super::row::{Row, rows};
 use crate::results::{Fitted, Group, Results};
+use std::collections::BTreeMap;
 
 /// The table that ends a run: slopes with intervals, coverage, efficiency and verdict, then what was expected, then failures.
 ///
@@ -21,7 +23,10 @@ pub fn table(results: &Results) -> String {
     }
     let mut text = align(&lines);
     text.push_str(LEGEND);
+    text.push_str(&slopes(results));
+    text.push_str(&paired::lines(results));
     text.push_str(&expectations(results));
+    text.push_str(&precision(results));
     text.push_str(&failures(results));
     text
 }
@@ -30,6 +35,16 @@ const LEGEND: &str = "\
 A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.
 sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound. A bias that stays: the largest.
 ";
+
+/// Over which N slopes are fitted.
+fn slopes(results: &Results) -> String {
+    match &results.slope_samples[..] {
+        [first, .., last] => {
+            format!("Slopes are fitted over N = {first} to {last}, that of the bias where it is resolved.\n")
+        }
+        _ => String::new(),
+    }
+}
 
 fn header() -> Vec<String> {
     ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
@@ -111,6 +126,28 @@ fn expectations(results: &Results) -> String {
         })
     };
     told(true).chain(told(false)).collect()
+}
+
+/// How many replicates the cells took to be as precise as asked, and how many are not.
+fn precision(results: &Results) -> String {
+    if results.cells.iter().all(|c| c.precise.is_none()) {
+        return String::new();
+    }
+    let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+    results.cells.iter().for_each(|c| *counts.entry(c.replicates).or_default() += 1);
+    let taken: Vec<String> = counts.iter().map(|(r, cells)| format!("{r} in {cells}")).collect();
+    let short: Vec<_> = results.cells.iter().filter(|c| c.precise == Some(false)).collect();
+    let reached = match short.first() {
+        None => "every cell is as precise as asked".to_owned(),
+        Some(first) => format!(
+            "{} of {} cells are not as precise as asked (the first: {}, N = {}); raise max_replicates",
+            short.len(),
+            results.cells.len(),
+            first.series,
+            first.samples
+        ),
+    };
+    format!("Replicates: {} cells; {reached}.\n", taken.join(", "))
 }
 
 fn failures(results: &Results) -> String {

@@ -13,6 +13,9 @@ pub struct Cell {
     pub samples: usize,
     /// Replicates run, failed ones included.
     pub replicates: usize,
+    /// Whether they are as precise as the scenario asks; absent where it does not ask.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precise: Option<bool>,
     /// Replicates that gave no estimate; never redrawn.
     pub failures: Failures,
     /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.
@@ -68,6 +71,13 @@ pub struct Parameter {
     pub theory_sd: Option<f64>,
     /// The Cramér–Rao bound, as a standard deviation.
     pub bound_sd: Option<f64>,
+}
+
+impl Cell {
+    /// The parameter of that name.
+    pub fn find(&self, name: &str) -> Option<&Parameter> {
+        self.parameters.iter().find(|p| p.name == name)
+    }
 }
 
 impl Parameter {

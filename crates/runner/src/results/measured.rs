@@ -73,7 +73,7 @@ impl From<Measured> for (f64, f64) {
 }
 
 /// The decimal number with fewest digits within `resolution` of `x`; `x` itself where the resolution is zero.
-fn rounded(x: f64, resolution: f64) -> f64 {
+pub(super) fn rounded(x: f64, resolution: f64) -> f64 {
     if resolution <= 0.0 || x == 0.0 {
         return x;
     }

@@ -8,6 +8,7 @@ mod csv;
 mod curve;
 mod json;
 mod measured;
+mod paired;
 mod pooled;
 mod series;
 mod summary;
@@ -19,11 +20,12 @@ pub use csv::to_csv;
 pub use curve::{BorderCurve, CurvePoint};
 pub use json::{ResultsError, read, to_json};
 pub use measured::{Measured, MeasuredError};
+pub use paired::{Comparison, Overall, Paired, PairedError, PairedGroup, PairedParameter, Pairing, Subject};
 pub use pooled::{root_mean_square, root_mean_square_exact};
 pub use series::{Group, Series};
 pub use summary::{Expectation, Fitted, Summary, Verdict};
 
-use crate::scenario::{Coupling, Labels};
+use crate::scenario::{Coupling, Engine, Labels};
 use serde::{Deserialize, Serialize};
 
 /// Version of the layout of `results.json`; a reader refuses any other.
@@ -49,8 +51,11 @@ pub struct Results {
     pub command: String,
     /// How the replicates were computed.
     pub engine: Engine,
-    /// Whether cells share their noise.
+    /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
     pub coupling: Coupling,
+    /// The numbers of samples that slopes are fitted over.
+    #[serde(default)]
+    pub slope_samples: Vec<usize>,
     /// What the axes are called.
     pub labels: Labels,
     /// The scenario file as JSON.
@@ -61,20 +66,11 @@ pub struct Results {
     pub expectations: Vec<Expectation>,
     /// One entry a curve and parameter group.
     pub summaries: Vec<Summary>,
+    /// Methods and borders against each other on the same noise; `None` where every cell has its own.
+    #[serde(default)]
+    pub paired: Option<Pairing>,
     /// One entry a cell.
     pub cells: Vec<Cell>,
-}
-
-/// How the replicates were computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Engine {
-    /// One noise pass a replicate serves every cell by superposition.
-    Superposed,
-    /// Every cell is simulated on its own.
-    Direct,
-    /// Superposition where the input is deterministic and the noise fits, direct simulation elsewhere.
-    Mixed,
 }
 
 impl Results {

@@ -12,10 +12,13 @@ pub struct Summary {
     pub series: Series,
     /// The parameters.
     pub group: Group,
-    /// Fitted slope of log sd against log N; theory says −1/2.
+    /// Slope of log sd against log N, fitted over [`Results::slope_samples`](super::Results::slope_samples); theory says −1/2.
     pub sd_slope: Option<Fitted>,
-    /// Fitted slope of log |bias| against log N where it is resolved; theory says −1.
+    /// Slope of log |bias| against log N, fitted over those of them where it is resolved; theory says −1.
     pub bias_slope: Option<Fitted>,
+    /// Where that is.
+    #[serde(default)]
+    pub bias_slope_samples: Vec<usize>,
     /// What the bias (root mean square over the group) tends to as `N` grows; 0 for a consistent method.
     pub plateau: Option<Fitted>,
     /// Mean coverage of the 95 % intervals at the largest `N`.

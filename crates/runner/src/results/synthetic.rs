@@ -1,7 +1,7 @@
 //! A made-up table that follows the laws of theory, so that figures and reports can be tried without an engine.
 
 use super::*;
-use crate::scenario::Method;
+use crate::scenario::{Engine, Method};
 
 /// Two leaf springs, three methods (one of them inconsistent), two `m`, two noise levels, five `N`.
 pub(crate) fn results() -> Results {
@@ -27,6 +27,7 @@ pub(crate) fn results() -> Results {
         command: "switchback scenarios/synthetic.toml".to_owned(),
         engine: Engine::Superposed,
         coupling: Coupling::Shared,
+        slope_samples: vec![1_000, 3_000, 10_000, 30_000, 100_000],
         labels: Labels { input: "deflection [mm]".to_owned(), output: "displacement [mm]".to_owned() },
         scenario: serde_json::json!({ "sweep": { "noise": [0.02, 0.1, 0.5] } }),
         curves: borders.iter().map(|b| curve(b)).collect(),
@@ -43,8 +44,10 @@ pub(crate) fn results() -> Results {
             },
         ],
         summaries: Vec::new(),
+        paired: None,
         cells,
     };
+    results.paired = Some(pairing(&results.cells));
     results.summaries = results.series().into_iter().flat_map(summaries).collect();
     results
 }
@@ -106,7 +109,8 @@ fn cell(series: &Series, samples: usize) -> Cell {
         },
         _ => Failures::default(),
     };
-    Cell { series: series.clone(), samples, replicates: REPLICATES as usize, failures, parameters }
+    let replicates = REPLICATES as usize;
+    Cell { series: series.clone(), samples, replicates, precise: None, failures, parameters }
 }
 
 fn parameter(
@@ -144,6 +148,67 @@ fn parameter(
     }
 }
 
+/// Each cell over the same of the first method, and of the first border.
+fn pairing(cells: &[Cell]) -> Pairing {
+    let ratio = |over: &Parameter, of: &Parameter| {
+        let variance = |p: &Parameter| p.sd.map_or(f64::NAN, |sd| sd.value().powi(2));
+        let value = variance(of) / variance(over);
+        Paired::new(value, 0.02 * value, 0.06 * value).expect("finite")
+    };
+    let mut pairing = Pairing::default();
+    for cell in cells {
+        let find = |series: &Series| cells.iter().find(|c| c.series == *series && c.samples == cell.samples);
+        let method = Series { method: Method::PaperDescendant, ..cell.series.clone() };
+        let border = Series { border: cells[0].series.border.clone(), ..cell.series.clone() };
+        for over in [method, border].into_iter().filter(|over| *over != cell.series) {
+            let other = find(&over).expect("every method and border has every cell");
+            let twins = || cell.parameters.iter().filter_map(|of| Some((other.find(&of.name)?, of)));
+            let at = pairing.comparisons.iter().position(|c| c.series == cell.series && c.over == over);
+            let at = at.unwrap_or_else(|| {
+                let (series, groups, parameters) = (cell.series.clone(), Vec::new(), Vec::new());
+                pairing.comparisons.push(Comparison { series, over, groups, samples: 100_000, parameters });
+                pairing.comparisons.len() - 1
+            });
+            let of_group = |group| {
+                let (over, of) = twins().find(|(o, _)| o.group == group)?;
+                let (variance_ratio, samples) = (ratio(over, of), cell.samples);
+                Some(PairedGroup {
+                    samples,
+                    group,
+                    variance_ratio,
+                    variance_ratio_controlled: None,
+                    mse_ratio: variance_ratio,
+                })
+            };
+            pairing.comparisons[at].groups.extend(Group::ALL.into_iter().filter_map(of_group));
+            if cell.samples == 100_000 {
+                pairing.comparisons[at].parameters.extend(twins().map(|(over, of)| PairedParameter {
+                    name: of.name.clone(),
+                    variance_ratio: ratio(over, of),
+                    variance_ratio_controlled: None,
+                    mse_ratio: ratio(over, of),
+                    bias_difference: Paired::new(1e-5, 2e-6, 2e-5).expect("finite"),
+                }));
+            }
+        }
+    }
+    let overall = |subject, over: &str| Overall {
+        case: "all assumptions hold".to_owned(),
+        subject,
+        over: vec![over.to_owned()],
+        samples: 100_000,
+        parameters: 24,
+        variance_ratio: Paired::new(0.712, 0.005, 0.04).expect("finite"),
+        variance_ratio_controlled: Paired::new(0.7154, 0.0003, 0.0004),
+        mse_ratio: Paired::new(0.713, 0.005, 0.04).expect("finite"),
+    };
+    pairing.overall = vec![
+        overall(Subject::Method(Method::Joint), "paper-descendant"),
+        overall(Subject::Border("hardening stiffness".to_owned()), "constant stiffness"),
+    ];
+    pairing
+}
+
 fn summaries(series: &Series) -> Vec<Summary> {
     let consistent = series.method != Method::Memoryless;
     let groups = Group::ALL
@@ -155,6 +220,7 @@ fn summaries(series: &Series) -> Vec<Summary> {
         group,
         sd_slope: Fitted::new(-0.5, (-0.512, -0.487)),
         bias_slope: if consistent { Fitted::new(-0.99, (-1.08, -0.9)) } else { None },
+        bias_slope_samples: if consistent { vec![1_000, 3_000, 10_000] } else { Vec::new() },
         plateau: Fitted::new(if consistent { 0.0 } else { 0.04 }, (-0.001, 0.041)),
         coverage: Measured::new(if consistent { 0.951 } else { 0.1 }, 0.006),
         sd_over_theory: if consistent { Measured::new(1.004, 0.012) } else { None },

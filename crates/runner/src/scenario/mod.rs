@@ -33,6 +33,7 @@ pub struct Scenario {
     seed: u64,
     replication: Replication,
     coupling: Coupling,
+    engine: Engine,
     labels: Labels,
     cases: Vec<Case>,
     sweep: Sweep,
@@ -67,6 +68,35 @@ pub enum Coupling {
     Shared,
     /// Every cell has its own noise.
     Independent,
+}
+
+/// How the replicates are computed; both engines see the same noise and give the same estimates to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Engine {
+    /// One pass over the noise of a replicate serves every cell: their sufficient statistics follow by superposition.
+    Superposed,
+    /// Every cell is simulated sample by sample and fitted from its record: slow, to check the other with. Pulse methods are solved by dense QR,
+    /// `free` from the sums of its record.
+    Direct,
+}
+
+impl Engine {
+    /// Every engine, the default first.
+    pub const ALL: [Self; 2] = [Self::Superposed, Self::Direct];
+
+    /// The name used in scenario files, results and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Superposed => "superposed",
+            Self::Direct => "direct",
+        }
+    }
+
+    /// The engine of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|e| e.name() == name)
+    }
 }
 
 /// What the axes are called: quantity and unit.
@@ -133,6 +163,15 @@ pub struct Sweep {
     pub points: Vec<usize>,
     /// Methods, distinct.
     pub methods: Vec<Method>,
+    /// The least `N` of a fitted slope, one of `samples`.
+    pub slope_from: usize,
+}
+
+impl Sweep {
+    /// The numbers of samples that slopes are fitted over.
+    pub fn slope_samples(&self) -> &[usize] {
+        &self.samples[self.samples.partition_point(|n| *n < self.slope_from)..]
+    }
 }
 
 impl Case {
@@ -187,6 +226,17 @@ impl Scenario {
     /// Whether the cells share their noise.
     pub fn coupling(&self) -> Coupling {
         self.coupling
+    }
+
+    /// How the replicates are computed.
+    pub fn engine(&self) -> Engine {
+        self.engine
+    }
+
+    /// The same scenario on another engine.
+    #[must_use]
+    pub fn on(self, engine: Engine) -> Self {
+        Self { engine, ..self }
     }
 
     /// What the axes are called.

@@ -48,7 +48,7 @@ fn a_good_scenario_keeps_its_values_and_gets_the_defaults() {
     assert_eq!(scenario.name(), "good");
     assert_eq!(scenario.seed(), 20090706);
     assert_eq!(scenario.replication(), Replication { replicates: 500, stopping: None });
-    assert_eq!(scenario.coupling(), Coupling::Shared);
+    assert_eq!((scenario.coupling(), scenario.engine()), (Coupling::Shared, Engine::Superposed));
     assert_eq!(scenario.labels().input, "deflection [mm]");
     assert_eq!(scenario.labels().output, "output y");
     let [case] = scenario.cases() else { panic!("one case by default") };
@@ -57,6 +57,21 @@ fn a_good_scenario_keeps_its_values_and_gets_the_defaults() {
     assert_eq!(scenario.sweep().methods, [Method::Joint, Method::Memoryless]);
     assert_eq!(case.expect.within_error, [Check::SdSlope, Check::Coverage]);
     assert_eq!(scenario.source()["sweep"]["noise"][1], 0.1);
+}
+
+#[test]
+fn slopes_are_fitted_over_the_last_two_decades_or_what_the_file_says() {
+    for (samples, slopes) in [
+        ("[1000, 3000]", &[1000, 3000][..]),
+        ("[300, 1000, 3000, 10000, 30000, 100000]", &[1000, 3000, 10000, 30000, 100000]),
+        ("[100, 1000, 100000]", &[100, 1000, 100000]),
+        ("[100, 200, 10000, 1000000]", &[200, 10000, 1000000]),
+        ("[100, 300, 900]\nslope_from = 300", &[300, 900]),
+    ] {
+        let text = GOOD.replace("[1000, 3000]", samples);
+        let scenario = Scenario::parse("slopes.toml", &text).expect("a valid scenario");
+        assert_eq!(scenario.sweep().slope_samples(), slopes, "{samples}");
+    }
 }
 
 #[test]
@@ -134,11 +149,13 @@ fn impossible_values_are_refused_where_they_stand() {
         ("replicates = 500", "replicates = 1", "replicates = 1"),
         ("replicates = 500", "replicates = 500\nmax_replicates = 900", "max_replicates = 900"),
         ("replicates = 500", "replicates = 500\nprecision = { bias_mcse = 0.1 }", "precision"),
+        ("replicates = 500", "replicates = 500\nengine = \"direkt\"", "engine = \"direkt\""),
         ("[0.02, 0.1]", "[0.02, 0.0]", "sweep.noise[1] = 0.0"),
         ("[0.02, 0.1]", "[0.02, nan]", "sweep.noise[1] = nan"),
         ("[0.02, 0.1]", "[]", "sweep.noise = []"),
         ("[1000, 3000]", "[3000, 1000]", "sweep.samples[1] = 1000"),
         ("[1000, 3000]", "[21, 3000]", "sweep.samples[0] = 21"),
+        ("points = [4, 8]", "points = [4, 8]\nslope_from = 2000", "sweep.slope_from = 2000"),
         ("points = [4, 8]", "points = [0, 8]", "sweep.points[0] = 0"),
         ("[\"joint\", \"memoryless\"]", "[\"joint\", \"joint\"]", "sweep.methods[1] = \"joint\""),
     ] {
@@ -157,6 +174,9 @@ fn a_misspelt_method_border_or_check_is_answered_with_the_valid_names() {
     assert!(remedy.contains("coarse"), "{remedy}");
     let (_, remedy, _) = refusal("\"coverage\"]", "\"covrage\"]");
     assert!(remedy.contains("coverage"), "{remedy}");
+    let (message, remedy, _) = refusal("seed = 20090706", "seed = 1\nengine = \"dirct\"");
+    assert!(message.contains("no such engine"), "{message}");
+    assert!(remedy.contains("did you mean \"direct\"? valid: superposed, direct"), "{remedy}");
     let (_, remedy, _) = refusal("kind = \"table\"", "kind = \"tabel\"");
     assert!(remedy.contains("\"table\""), "{remedy}");
 }

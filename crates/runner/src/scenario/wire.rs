@@ -12,6 +12,7 @@ pub(super) struct WireScenario {
     pub(super) max_replicates: Option<Spanned<usize>>,
     pub(super) precision: Option<Spanned<WirePrecision>>,
     pub(super) coupling: Option<Spanned<String>>,
+    pub(super) engine: Option<Spanned<String>>,
     pub(super) system: Spanned<WireSystem>,
     #[serde(default)]
     pub(super) case: Vec<WireCase>,
@@ -72,6 +73,7 @@ pub(super) struct WireSweep {
     pub(super) points: Spanned<Vec<Spanned<usize>>>,
     pub(super) borders: Option<Spanned<Vec<Spanned<String>>>>,
     pub(super) methods: Spanned<Vec<Spanned<String>>>,
+    pub(super) slope_from: Option<Spanned<usize>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

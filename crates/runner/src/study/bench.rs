@@ -5,8 +5,8 @@ use crate::scenario::{Border, Case, Disturbance, Method};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
 use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
-use switchback_estimator::hysteresis::SwitchedHysteresis;
-use switchback_estimator::linear::{LinearSystem, filter, settling_samples};
+use switchback_estimator::hysteresis::Branch;
+use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::{
     LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
 };
@@ -16,9 +16,6 @@ pub(super) const DIRECTIONS: [Direction; 2] = [Direction::Descendant, Direction:
 
 /// Samples of the expected statistics that stand for endless data: terms of order 1/N vanish beside 1e-9.
 const ENDLESS: f64 = 1e12;
-
-/// What is left of a transient when a simulated record begins.
-const SETTLED: f64 = 1e-16;
 
 /// Both experiments on one hysteresis, unrolled.
 #[derive(Debug, Clone)]
@@ -136,22 +133,14 @@ impl Bench {
         self.satellites[experiment]
     }
 
-    /// Input and noise-free output of an experiment by running the operator and the difference equation until they have settled, from
-    /// `lead` samples before phase 0 on, `samples` of them. Slow; what the closed form must equal.
-    pub(super) fn simulate(
-        &self,
-        system: &LinearSystem,
-        hysteresis: &SwitchedHysteresis,
-        experiment: usize,
-        (lead, samples): (usize, usize),
-    ) -> (Vec<f64>, Vec<f64>) {
-        let settled =
-            (system.settling_samples(SETTLED) + lead).next_multiple_of(self.period()) + self.period();
-        let mut v = self.experiments[experiment].record_input(settled + samples - lead);
-        let u = hysteresis.output(&v, hysteresis.u_low());
-        let mut y = filter(system.a(), system.b(), &u, &[], 0.0, 0.0);
-        let start = 1 + settled - lead;
-        (v.split_off(start), y.split_off(start))
+    /// The border that an experiment reveals.
+    pub(super) fn branch(&self, experiment: usize) -> Branch {
+        self.designs[experiment].branch
+    }
+
+    /// The input of an experiment: one sample that loads the border, then `samples` from phase 0 on.
+    pub(super) fn input(&self, experiment: usize, samples: usize) -> Vec<f64> {
+        self.experiments[experiment].record_input(samples)
     }
 
     /// The statistics of both experiments with the noise of one replicate.

@@ -1,8 +1,9 @@
 //! Running the replicates, in parallel and reproducibly.
 
 use super::cell::{CellSpec, Workload};
-use super::sections::{SECTIONS, Sections};
-use crate::scenario::{Scenario, Stopping};
+use super::sections::{CellSums, SECTIONS, Sections};
+use crate::scenario::{Replication, Scenario, Stopping};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Replicates of one noise pass: a whole number of lanes at every width.
@@ -13,10 +14,13 @@ const CHUNK: usize = 8 * BATCH;
 
 /// Told how the work goes on; called from several threads.
 pub trait Progress: Sync {
-    /// So many replicates of the study are to be run, as far as is known now.
+    /// So many replicates of the study are to be run, as far as is known now: where a precision is asked for, a forecast from the errors
+    /// so far.
     fn planned(&self, replicates: u64);
     /// So many more are done.
     fn advanced(&self, replicates: u64);
+    /// So many of all cells are not precise enough yet; told only where a precision is asked for.
+    fn imprecise(&self, _cells: usize, _of: usize) {}
 }
 
 /// Runs replicates until the scenario has enough of them.
@@ -27,16 +31,16 @@ pub(super) fn run(
     workloads: &[&dyn Workload],
     specs: &[CellSpec],
     progress: &dyn Progress,
-) -> Sections {
+) -> Outcome {
     let parameters: Vec<usize> = specs.iter().map(|s| s.parameters.len()).collect();
     let mut sections = Sections::new(&parameters);
     let mut active = vec![true; parameters.len()];
     let replication = scenario.replication();
+    let mut next = Next::first(&replication);
     let mut done = 0;
-    let mut target = replication.replicates;
-    while done < target {
-        progress.planned(target as u64);
-        let round = Round { seed: scenario.seed(), range: done..target };
+    while done < next.target {
+        progress.planned(next.forecast as u64);
+        let round = Round { seed: scenario.seed(), range: done..next.target };
         for chunk in round.chunks() {
             let mut first_cell = 0;
             for workload in workloads {
@@ -53,12 +57,21 @@ pub(super) fn run(
             }
             progress.advanced((chunk.end - chunk.start) as u64);
         }
-        done = target;
+        done = next.target;
         if let Some(stopping) = replication.stopping {
-            target = next_target(&stopping, &sections, &mut active, done);
+            next = Next::after(&stopping, &sections, &mut active, done);
+            progress.imprecise(active.iter().filter(|active| **active).count(), active.len());
         }
     }
-    sections
+    let precise = replication.stopping.map(|_| active.iter().map(|active| !active).collect());
+    Outcome { sections, precise }
+}
+
+/// What all replicates left behind.
+pub(super) struct Outcome {
+    pub(super) sections: Sections,
+    /// Whether each cell is as precise as the scenario asks; `None` where it does not ask.
+    pub(super) precise: Option<Vec<bool>>,
 }
 
 /// The replicates between two looks at the stopping rule.
@@ -80,22 +93,69 @@ impl Round {
     }
 }
 
-/// Up to how many replicates the next round goes, after the cells that are precise enough have been set aside.
-fn next_target(stopping: &Stopping, sections: &Sections, active: &mut [bool], done: usize) -> usize {
-    let mut factor: f64 = 0.0;
-    for (cell, active) in active.iter_mut().enumerate() {
-        if *active {
-            let excess = excess(stopping, sections, cell);
-            *active = excess > 1.0;
-            factor = factor.max(excess);
+/// Runs the replicates `chunk` one by one in parallel: each section's part is summed on its own, and the parts are added in order.
+pub(super) fn by_sections(
+    round: &Round,
+    chunk: Range<usize>,
+    cells: &mut [Vec<CellSums>],
+    replicate: impl Fn(u32, &mut [CellSums]) + Sync,
+) {
+    let replicates: Vec<usize> = chunk.collect();
+    let parts: Vec<&[usize]> = replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
+    let empty: Vec<CellSums> =
+        cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
+    let sums: Vec<Vec<CellSums>> = parts
+        .par_iter()
+        .map(|part| {
+            let mut sums = empty.clone();
+            part.iter().for_each(|&r| replicate(r as u32, &mut sums));
+            sums
+        })
+        .collect();
+    for (part, sums) in parts.iter().zip(&sums) {
+        let section = round.section(part[0]);
+        cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
+    }
+}
+
+/// Up to how many replicates the next round goes, and how many the study will take in all as far as is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Next {
+    target: usize,
+    forecast: usize,
+}
+
+impl Next {
+    /// Before anything is known of biases; the error of a standard deviation depends on the number of replicates alone.
+    fn first(replication: &Replication) -> Self {
+        let target = replication.replicates;
+        let forecast = replication.stopping.map_or(target, |stopping| {
+            let for_sd = stopping.sd_relative_mcse.map_or(0.0, |share| 1.0 + 0.5 / (share * share));
+            target.max((for_sd.ceil() as usize).min(stopping.max_replicates))
+        });
+        Self { target, forecast }
+    }
+
+    /// After so many, when the cells that are precise enough have been set aside.
+    fn after(stopping: &Stopping, sections: &Sections, active: &mut [bool], done: usize) -> Self {
+        let mut factor: f64 = 0.0;
+        for (cell, active) in active.iter_mut().enumerate() {
+            if *active {
+                let excess = excess(stopping, sections, cell);
+                *active = excess > 1.0;
+                factor = factor.max(excess);
+            }
         }
+        if factor <= 1.0 || done >= stopping.max_replicates {
+            return Self { target: done, forecast: done };
+        }
+        // Errors fall as R^-1/2; at most four times as many at once, in case the estimate of the error is off.
+        let wanted = |factor: f64| {
+            let replicates = (done as f64 * factor).ceil() as usize;
+            replicates.max(done + SECTIONS * BATCH).min(stopping.max_replicates)
+        };
+        Self { target: wanted((factor * factor).min(4.0)), forecast: wanted(factor * factor) }
     }
-    if factor <= 1.0 || done >= stopping.max_replicates {
-        return done;
-    }
-    // Errors fall as R^-1/2; at most four times as many at once, in case the estimate of the error is off.
-    let wanted = (done as f64 * (factor * factor).min(4.0)).ceil() as usize;
-    wanted.max(done + SECTIONS * BATCH).min(stopping.max_replicates)
 }
 
 /// The cell's largest Monte-Carlo error over the one allowed.
@@ -115,4 +175,30 @@ fn excess(stopping: &Stopping, sections: &Sections, cell: usize) -> f64 {
         .map_or(0.0, |allowed| worst(&|p| p.bias_controlled.unwrap_or(p.bias).mcse / p.sd.value / allowed));
     let sd = stopping.sd_relative_mcse.map_or(0.0, |allowed| worst(&|p| p.sd.mcse / p.sd.value / allowed));
     bias.max(sd)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use switchback_estimator::statistics::ReplicateError;
+
+    #[test]
+    fn the_forecast_is_what_the_largest_error_calls_for() {
+        let stopping = Stopping { bias_mcse: None, sd_relative_mcse: Some(0.01), max_replicates: 100_000 };
+        let first = Next::first(&Replication { replicates: 40, stopping: Some(stopping) });
+        assert_eq!(first, Next { target: 40, forecast: 5001 });
+        let mut sections = Sections::new(&[1]);
+        for error in (0..400).map(|r| f64::from(r % 2) - 0.5) {
+            sections.by_cell()[0][0].parameters[0].push(ReplicateError { error, se: 0.5, first_order: None });
+        }
+        let mut active = [true];
+        let next = Next::after(&stopping, &sections, &mut active, 400);
+        // The relative error is (2·399)^-1/2, 3.54 times the one allowed.
+        assert_eq!((next, active), (Next { target: 1600, forecast: 5013 }, [true]));
+        let limited = Stopping { max_replicates: 1000, ..stopping };
+        assert_eq!(Next::after(&limited, &sections, &mut active, 400), Next { target: 1000, forecast: 1000 });
+        let modest = Stopping { sd_relative_mcse: Some(0.04), ..stopping };
+        let done = Next::after(&modest, &sections, &mut active, 400);
+        assert_eq!((done, active), (Next { target: 400, forecast: 400 }, [false]));
+    }
 }

@@ -1,10 +1,9 @@
 //! What the curves over N amount to: slopes, plateaus and a verdict, with jackknifed errors.
 
 use super::cell::CellSpec;
-use super::sections::{SECTIONS, Sections};
-use crate::results::{Fitted, Group, Measured, Summary, Verdict};
-use statrs::distribution::{ContinuousCDF, StudentsT};
-use switchback_estimator::statistics::{Performance, jackknife_se, weighted_line};
+use super::views::{CellViews, Figures, Jackknifed, View, mean, quantile};
+use crate::results::{Group, Summary, Verdict};
+use switchback_estimator::statistics::weighted_line;
 
 /// A bias counts as resolved at an N where it exceeds this many of its Monte-Carlo errors.
 const RESOLVED: f64 = 3.0;
@@ -16,14 +15,14 @@ const IMMATERIAL: f64 = 0.3;
 /// A standard deviation that falls more slowly than this power of N does not fall as theory says.
 const SLOWEST_DECAY: f64 = -0.35;
 
-/// One entry a series and group of parameters.
-pub(super) fn summaries(specs: &[CellSpec], sections: &Sections) -> Vec<Summary> {
+/// One entry a series and group of parameters; slopes are fitted over the samples from `slope_from` on.
+pub(super) fn summaries(specs: &[CellSpec], views: &[CellViews], slope_from: usize) -> Vec<Summary> {
     let mut curves: Vec<Curve<'_>> = Vec::new();
-    for (index, spec) in specs.iter().enumerate() {
-        let point = Point::new(spec, index, sections);
+    for (spec, views) in specs.iter().zip(views) {
+        let point = Point { spec, samples: spec.samples as f64, views };
         match curves.iter_mut().find(|c| c.spec.series == spec.series) {
             Some(curve) => curve.points.push(point),
-            None => curves.push(Curve { spec, points: vec![point] }),
+            None => curves.push(Curve { spec, points: vec![point], slope_from }),
         }
     }
     curves.iter().flat_map(Curve::summaries).collect()
@@ -34,70 +33,15 @@ struct Curve<'a> {
     /// The first of them, for what all have in common.
     spec: &'a CellSpec,
     points: Vec<Point<'a>>,
+    /// Least N of a fitted slope: below, terms of higher order may still show.
+    slope_from: usize,
 }
 
-/// One cell: the performance of every parameter, over all replicates and over all but each section.
+/// One cell.
 struct Point<'a> {
     spec: &'a CellSpec,
     samples: f64,
-    whole: Vec<Option<Performance>>,
-    without: Vec<Vec<Option<Performance>>>,
-}
-
-impl<'a> Point<'a> {
-    fn new(spec: &'a CellSpec, index: usize, sections: &Sections) -> Self {
-        let performance = |without| {
-            let sums = sections.cell(index, without);
-            sums.parameters.iter().map(|p| p.performance(None)).collect::<Vec<_>>()
-        };
-        Self {
-            spec,
-            samples: spec.samples as f64,
-            whole: performance(None),
-            without: (0..SECTIONS).map(|section| performance(Some(section))).collect(),
-        }
-    }
-
-    /// Performance of parameter `k` in one view: all replicates (`None`), or all but a section.
-    fn performance(&self, view: View, k: usize) -> Option<Performance> {
-        match view {
-            None => self.whole[k],
-            Some(section) => self.without[section][k],
-        }
-    }
-}
-
-/// All replicates, or all but one section.
-type View = Option<usize>;
-
-/// A figure of a curve with its jackknifed standard error.
-#[derive(Debug, Clone, Copy)]
-struct Jackknifed {
-    value: f64,
-    se: f64,
-}
-
-impl Jackknifed {
-    /// Computes a figure over all replicates and over all but each section.
-    fn of(figure: impl Fn(View) -> Option<f64>) -> Option<Self> {
-        let value = figure(None)?;
-        let leave_one_out: Vec<f64> = (0..SECTIONS).filter_map(|section| figure(Some(section))).collect();
-        Some(Self { value, se: jackknife_se(&leave_one_out)? })
-    }
-
-    fn interval(self, quantile: f64) -> Option<Fitted> {
-        Fitted::new(self.value, (self.value - quantile * self.se, self.value + quantile * self.se))
-    }
-
-    fn measured(self) -> Option<Measured> {
-        Measured::new(self.value, self.se)
-    }
-}
-
-/// Two-sided quantile of Student's t with the degrees of freedom of the jackknife.
-fn quantile(error: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, (SECTIONS - 1) as f64)
-        .map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - error / 2.0))
+    views: &'a CellViews,
 }
 
 impl Curve<'_> {
@@ -118,24 +62,27 @@ impl Curve<'_> {
     fn summary(&self, group: Group, parameters: &[usize]) -> Summary {
         let usual = quantile(0.05);
         let sd_slope = Jackknifed::of(|view| self.sd_slope(view, parameters));
+        let resolved = self.resolved(parameters);
+        let bias_slope = bias_slope(&resolved, parameters);
         let plateau = self.plateau(parameters);
         let (verdict, reason) = self.verdict(sd_slope, plateau.as_ref());
         Summary {
             series: self.spec.series.clone(),
             group,
             sd_slope: sd_slope.and_then(|s| s.interval(usual)),
-            bias_slope: self.bias_slope(parameters).and_then(|s| s.interval(usual)),
+            bias_slope: bias_slope.and_then(|s| s.interval(usual)),
+            bias_slope_samples: resolved.iter().map(|p| p.spec.samples).collect(),
             plateau: plateau.and_then(|p| p.jackknifed.interval(usual)),
-            coverage: Jackknifed::of(|view| self.last_mean(view, parameters, |p, _| Some(p.coverage.value)))
+            coverage: Jackknifed::of(|view| self.last_mean(view, parameters, |p, _| Some(p.coverage)))
                 .and_then(Jackknifed::measured),
             sd_over_theory: Jackknifed::of(|view| {
                 let theory = self.last()?.spec.theory.as_ref()?;
-                self.last_mean(view, parameters, |p, k| Some((p.sd.value / theory[k]).powi(2))).map(f64::sqrt)
+                self.last_mean(view, parameters, |p, k| Some(p.variance / theory[k].powi(2))).map(f64::sqrt)
             })
             .and_then(Jackknifed::measured),
             variance_over_bound: Jackknifed::of(|view| {
                 let bound = self.last()?.spec.bound.as_ref()?;
-                self.last_mean(view, parameters, |p, k| Some((p.sd.value / bound[k]).powi(2)))
+                self.last_mean(view, parameters, |p, k| Some(p.variance / bound[k].powi(2)))
             })
             .and_then(Jackknifed::measured),
             verdict,
@@ -152,52 +99,38 @@ impl Curve<'_> {
         &self,
         view: View,
         parameters: &[usize],
-        measure: impl Fn(&Performance, usize) -> Option<f64>,
+        measure: impl Fn(&Figures, usize) -> Option<f64>,
     ) -> Option<f64> {
         let last = self.last()?;
         let values: Option<Vec<f64>> =
-            parameters.iter().map(|&k| measure(&last.performance(view, k)?, k)).collect();
+            parameters.iter().map(|&k| measure(&last.views.at(view, k)?, k)).collect();
         mean(&values?)
+    }
+
+    /// The points that slopes are fitted over.
+    fn sloping(&self) -> impl Iterator<Item = &Point<'_>> {
+        self.points.iter().filter(|point| point.spec.samples >= self.slope_from)
     }
 
     /// Slope of log root-mean-square sd against log N.
     fn sd_slope(&self, view: View, parameters: &[usize]) -> Option<f64> {
         let points: Option<Vec<_>> = self
-            .points
-            .iter()
+            .sloping()
             .map(|point| {
-                let squares: Option<Vec<f64>> =
-                    parameters.iter().map(|&k| Some(point.performance(view, k)?.sd.value.powi(2))).collect();
-                Some((point.samples.ln(), mean(&squares?)?.sqrt().ln(), 1.0))
+                let variances: Option<Vec<f64>> =
+                    parameters.iter().map(|&k| Some(point.views.at(view, k)?.variance)).collect();
+                Some((point.samples.ln(), mean(&variances?)?.sqrt().ln(), 1.0))
             })
             .collect();
         weighted_line(&points?).map(|line| line.slope)
     }
 
-    /// Slope of log root-mean-square bias against log N, over the N where the bias is resolved; needs two of them.
-    fn bias_slope(&self, parameters: &[usize]) -> Option<Jackknifed> {
-        let size = |point: &Point<'_>, view: View| -> Option<(f64, f64)> {
-            let biases: Option<Vec<_>> = parameters.iter().map(|&k| best_bias(point, view, k)).collect();
-            let biases = biases?;
-            let squares = mean(&biases.iter().map(|b| b.0 * b.0).collect::<Vec<_>>())?;
-            let errors = mean(&biases.iter().map(|b| b.1 * b.1).collect::<Vec<_>>())?;
-            Some((squares.sqrt(), errors.sqrt()))
-        };
-        let resolved: Vec<&Point<'_>> = self
-            .points
-            .iter()
-            .filter(|point| size(point, None).is_some_and(|(size, error)| size > RESOLVED * error))
-            .collect();
-        Jackknifed::of(|view| {
-            let points: Option<Vec<_>> = resolved
-                .iter()
-                .map(|point| {
-                    let (size, error) = size(point, view)?;
-                    Some((point.samples.ln(), size.ln(), (size / error).powi(2)))
-                })
-                .collect();
-            weighted_line(&points?).map(|line| line.slope)
-        })
+    /// Those of them whose bias is resolved.
+    fn resolved(&self, parameters: &[usize]) -> Vec<&Point<'_>> {
+        let size = |point: &Point<'_>| point.size_of_bias(None, parameters);
+        self.sloping()
+            .filter(|point| size(point).is_some_and(|(size, error)| size > RESOLVED * error))
+            .collect()
     }
 
     /// What stays of the bias, fitted as `p + c/N` with each point weighted by its Monte-Carlo error: the parameter of the group whose `p` is
@@ -209,13 +142,13 @@ impl Curve<'_> {
                     .points
                     .iter()
                     .map(|point| {
-                        let (bias, error) = best_bias(point, view, k)?;
+                        let (bias, error) = point.bias(view, k)?;
                         Some((1.0 / point.samples, bias, 1.0 / (error * error)))
                     })
                     .collect();
                 weighted_line(&points?).map(|line| line.intercept)
             })?;
-            let sd = self.last()?.performance(None, k)?.sd.value;
+            let sd = self.last()?.views.at(None, k)?.variance.sqrt();
             Some(Plateau { parameter: k, jackknifed, sd, tested: 1 })
         };
         let found = parameters.iter().filter_map(|&k| of(k)).filter(|p| p.jackknifed.se > 0.0);
@@ -269,13 +202,33 @@ impl Plateau {
     }
 }
 
-/// Bias and its error: controlled where there is a control variate.
-fn best_bias(point: &Point<'_>, view: View, k: usize) -> Option<(f64, f64)> {
-    let performance = point.performance(view, k)?;
-    let bias = performance.bias_controlled.unwrap_or(performance.bias);
-    (bias.mcse > 0.0).then_some((bias.value, bias.mcse))
+impl Point<'_> {
+    /// Bias and its error: controlled where there is a control variate.
+    fn bias(&self, view: View, k: usize) -> Option<(f64, f64)> {
+        let bias = self.views.at(view, k)?.best_bias();
+        (bias.mcse > 0.0).then_some((bias.value, bias.mcse))
+    }
+
+    /// Root-mean-square bias of a group and its error.
+    fn size_of_bias(&self, view: View, parameters: &[usize]) -> Option<(f64, f64)> {
+        let biases: Option<Vec<_>> = parameters.iter().map(|&k| self.bias(view, k)).collect();
+        let biases = biases?;
+        let squares = mean(&biases.iter().map(|b| b.0 * b.0).collect::<Vec<_>>())?;
+        let errors = mean(&biases.iter().map(|b| b.1 * b.1).collect::<Vec<_>>())?;
+        Some((squares.sqrt(), errors.sqrt()))
+    }
 }
 
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+/// Slope of log root-mean-square bias against log N over points where it is resolved; needs two of them.
+fn bias_slope(resolved: &[&Point<'_>], parameters: &[usize]) -> Option<Jackknifed> {
+    Jackknifed::of(|view| {
+        let points: Option<Vec<_>> = resolved
+            .iter()
+            .map(|point| {
+                let (size, error) = point.size_of_bias(view, parameters)?;
+                Some((point.samples.ln(), size.ln(), (size / error).powi(2)))
+            })
+            .collect();
+        weighted_line(&points?).map(|line| line.slope)
+    })
 }

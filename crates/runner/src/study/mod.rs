@@ -2,24 +2,32 @@
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
 //! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight abreast
-//! (`family`); batches of noise and families of cells run in parallel (`execute`). Results depend on the scenario and its seed only.
+//! (`family`); batches of noise and families of cells run in parallel (`execute`). The oracle of all this is an engine of its own, which
+//! simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N (`judge`) and compared between cells
+//! on the same noise (`paired`). Results depend on the scenario and its seed only.
 
 mod bench;
 mod cell;
+mod direct;
 mod execute;
 mod expectations;
 mod family;
 mod free;
 mod judge;
 mod moments;
+mod paired;
 mod replay;
 mod sections;
 mod tabulate;
+mod views;
 mod world;
 
-use crate::results::{BorderCurve, Engine, Results, SCHEMA};
-use crate::scenario::Scenario;
+use crate::results::{BorderCurve, Results, SCHEMA};
+use crate::scenario::{Coupling, Engine, Scenario};
 use cell::{CellSpec, Workload};
+use direct::DirectWorld;
+use execute::Outcome;
+use std::ops::Range;
 use thiserror::Error;
 
 pub use execute::Progress;
@@ -80,11 +88,19 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let free = free::plan(scenario)?;
     let specs: Vec<CellSpec> =
         pulses.iter().flat_map(|w| w.specs(scenario)).chain(free.iter().flat_map(|w| w.specs())).collect();
-    let pulses = pulses.iter().map(|w| w as &dyn Workload);
-    let workloads: Vec<&dyn Workload> = pulses.chain(free.iter().map(|w| w as &dyn Workload)).collect();
-    let sections = execute::run(scenario, &workloads, &specs, progress);
-    let cells = tabulate::cells(&specs, &sections);
-    let summaries = judge::summaries(&specs, &sections);
+    let direct: Vec<DirectWorld<'_>> = pulses.iter().map(|world| DirectWorld::new(world, scenario)).collect();
+    let pulses: Vec<&dyn Workload> = match scenario.engine() {
+        Engine::Superposed => pulses.iter().map(|w| w as &dyn Workload).collect(),
+        Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
+    };
+    let workloads: Vec<&dyn Workload> =
+        pulses.into_iter().chain(free.iter().map(|w| w as &dyn Workload)).collect();
+    let Outcome { sections, precise } = execute::run(scenario, &workloads, &specs, progress);
+    let cells = tabulate::cells(&specs, &sections, precise.as_deref());
+    let views = views::of_cells(&specs, &sections);
+    let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
+    let paired = (scenario.coupling() == Coupling::Shared)
+        .then(|| paired::pairing(&specs, &views, &cells_of_worlds(&workloads)));
     let expectations = expectations::check(scenario, &summaries);
     Ok(Results {
         schema: SCHEMA,
@@ -94,15 +110,30 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
         seed: scenario.seed(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command,
-        engine: Engine::Superposed,
+        engine: scenario.engine(),
         coupling: scenario.coupling(),
+        slope_samples: scenario.sweep().slope_samples().to_vec(),
         labels: scenario.labels().clone(),
         scenario: scenario.source().clone(),
         curves: curves(scenario),
         expectations,
         summaries,
+        paired,
         cells,
     })
+}
+
+/// Where the cells of each workload stand among all cells.
+fn cells_of_worlds(workloads: &[&dyn Workload]) -> Vec<Range<usize>> {
+    let mut first = 0;
+    workloads
+        .iter()
+        .map(|workload| {
+            let cells = first..first + workload.cells();
+            first = cells.end;
+            cells
+        })
+        .collect()
 }
 
 fn curves(scenario: &Scenario) -> Vec<BorderCurve> {

@@ -2,13 +2,13 @@
 
 use super::StudyError;
 use super::bench::DIRECTIONS;
+use super::direct::{OpenNoise, OpenRecord};
 use super::moments::{ReplicateNoise, draw};
 use super::world::{self, Contender, Setting, World};
 use crate::results::Series;
 use crate::scenario::Scenario;
 use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
 use switchback_estimator::excitation::Direction;
-use switchback_estimator::simulation::noise::{StreamId, samples};
 
 /// What one replicate gave in one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,7 +102,7 @@ impl Sample {
     }
 }
 
-/// The records behind [`replay`], simulated one by one: the noise-free response of a settled system plus the noise of the replicate.
+/// The records behind [`replay`], simulated sample by sample from a settled system on: what the direct engine fits.
 ///
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
@@ -110,66 +110,32 @@ pub fn records(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedRecord
     let worlds = world::plan(scenario)?;
     let of_world = |world: &World| {
         let noise = OpenNoise::draw(world, scenario.seed(), replicate);
-        world.settings.iter().map(|s| noise.records(scenario, s)).collect::<Vec<_>>()
+        world.settings.iter().map(|s| open(scenario, world, s, &noise)).collect::<Vec<_>>()
     };
     Ok(worlds.iter().flat_map(of_world).collect())
 }
 
-/// The noise of one replicate of a world, sample by sample.
-struct OpenNoise {
-    /// Samples before `t = 0`.
-    lead: usize,
-    pulses: [Vec<f64>; 2],
-    /// Means of the step noise, by experiment and number of samples: all that the step experiments are used for.
-    steps: [Vec<f64>; 2],
-}
-
-impl OpenNoise {
-    fn draw(world: &World, seed: u64, replicate: u32) -> Self {
-        let plan = &world.pulses;
-        let open = |k: usize| {
-            let count = plan.checkpoints.last().copied().unwrap_or_default();
-            let id = StreamId { seed, experiment: world.stream + k as u32, replicate };
-            let noise = samples(plan, id, count).expect("a world's noise plan is valid");
-            // Before the burn-in there was rest.
-            let mut e = vec![0.0; plan.lags.saturating_sub(noise.burn_in)];
-            e.extend(&noise.e[noise.burn_in.saturating_sub(plan.lags)..]);
-            e
-        };
-        let means = draw(world, seed, replicate..replicate + 1);
-        let steps = |k: usize| (0..plan.checkpoints.len()).map(|c| means[0].step_means(c)[k]).collect();
-        Self { lead: plan.lags, pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
-    }
-
-    fn records(&self, scenario: &Scenario, setting: &Setting) -> ReplayedRecords {
-        let case = &scenario.cases()[setting.case];
-        let border = &case.borders[setting.border];
-        let experiment = |k: usize| {
-            let mean = |e: &f64| setting.bench.satellite_output(k) + setting.sigma * e;
-            let (v, response) = setting.bench.simulate(
-                &case.system,
-                &border.hysteresis,
-                k,
-                (self.lead, self.pulses[k].len()),
-            );
-            let y = response.iter().zip(&self.pulses[k]).map(|(z, e)| z + setting.sigma * e).collect();
-            ReplayedExperiment {
-                direction: DIRECTIONS[k],
-                levels: setting.bench.levels(k).to_vec(),
-                satellite: setting.bench.satellite(k),
-                lead: self.lead,
-                v,
-                y,
-                step_means: self.steps[k].iter().map(mean).collect(),
-            }
-        };
-        ReplayedRecords {
-            case: case.name.clone(),
-            border: border.name.clone(),
-            points: setting.bench.points,
-            noise: setting.sigma,
-            span: border.hysteresis.span(),
-            experiments: [0, 1].map(experiment),
+fn open(scenario: &Scenario, world: &World, setting: &Setting, noise: &OpenNoise) -> ReplayedRecords {
+    let case = &scenario.cases()[setting.case];
+    let border = &case.borders[setting.border];
+    let experiment = |k: usize| {
+        let OpenRecord { lead, v, y, step_means } = noise.record(world, (case, border), setting, k);
+        ReplayedExperiment {
+            direction: DIRECTIONS[k],
+            levels: setting.bench.levels(k).to_vec(),
+            satellite: setting.bench.satellite(k),
+            lead,
+            v,
+            y,
+            step_means,
         }
+    };
+    ReplayedRecords {
+        case: case.name.clone(),
+        border: border.name.clone(),
+        points: setting.bench.points,
+        noise: setting.sigma,
+        span: border.hysteresis.span(),
+        experiments: [0, 1].map(experiment),
     }
 }

@@ -6,7 +6,7 @@ use crate::results::{Cell, Failures, Measured, Parameter};
 use switchback_estimator::statistics::{self, ErrorSums};
 
 /// One entry a cell, in their order.
-pub(super) fn cells(specs: &[CellSpec], sections: &Sections) -> Vec<Cell> {
+pub(super) fn cells(specs: &[CellSpec], sections: &Sections, precise: Option<&[bool]>) -> Vec<Cell> {
     specs
         .iter()
         .enumerate()
@@ -18,6 +18,7 @@ pub(super) fn cells(specs: &[CellSpec], sections: &Sections) -> Vec<Cell> {
                 samples: spec.samples,
                 parameters: parameters.collect(),
                 replicates: sums.replicates,
+                precise: precise.map(|precise| precise[index]),
                 failures: Failures { count: sums.failed, replicates: sums.failures, reason: sums.reason },
             }
         })

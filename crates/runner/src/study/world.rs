@@ -63,8 +63,8 @@ pub(super) struct Contender {
 
 /// Lays out the worlds of a scenario.
 ///
-/// With shared noise there is one world a case, and all of them use the same streams; with independent noise, one a bench, noise level
-/// and number of samples, each with its own.
+/// With shared noise there is one world a case, and all of them use the same streams; with independent noise, one a cell, each with
+/// its own.
 pub(super) fn plan(scenario: &Scenario) -> Result<Vec<World>, StudyError> {
     let samples = &scenario.sweep().samples;
     let mut worlds = Vec::new();
@@ -74,9 +74,12 @@ pub(super) fn plan(scenario: &Scenario) -> Result<Vec<World>, StudyError> {
             Coupling::Shared => worlds.push(World::new(case, 0, samples, settings)),
             Coupling::Independent => {
                 for setting in settings {
-                    for n in samples {
+                    for (n, method) in
+                        samples.iter().flat_map(|n| setting.methods.iter().map(move |m| (n, m)))
+                    {
                         let stream = STREAMS * worlds.len() as u32;
-                        worlds.push(World::new(case, stream, &[*n], vec![setting.clone()]));
+                        let alone = Setting { methods: vec![method.clone()], ..setting.clone() };
+                        worlds.push(World::new(case, stream, &[*n], vec![alone]));
                     }
                 }
             }

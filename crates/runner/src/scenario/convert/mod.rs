@@ -8,7 +8,7 @@ mod sweep;
 use super::border::WireBorder;
 use super::error::Fault;
 use super::wire::{WirePrecision, WireScenario, WireSystem};
-use super::{Coupling, Labels, Replication, Scenario, Stopping};
+use super::{Coupling, Engine, Labels, Replication, Scenario, Stopping};
 use cases::cases;
 use check::{positive, unknown};
 use expect::{expect, methods};
@@ -24,6 +24,7 @@ pub(in crate::scenario) fn scenario(
 ) -> Result<Scenario, Fault> {
     let replication = replication(&wire)?;
     let coupling = coupling(wire.coupling.as_ref())?;
+    let engine = engine(wire.engine.as_ref())?;
     let (borders, sweep_methods) = (selected(borders, &wire.sweep)?, methods(&wire.sweep)?);
     let expect = expect(&wire.expect, &sweep_methods)?;
     let cases = cases(&wire, &borders, &expect, &sweep_methods)?;
@@ -35,6 +36,7 @@ pub(in crate::scenario) fn scenario(
         seed: wire.seed,
         replication,
         coupling,
+        engine,
         labels,
         cases,
         sweep,
@@ -94,6 +96,11 @@ fn coupling(wire: Option<&Spanned<String>>) -> Result<Coupling, Fault> {
         "independent" => Ok(Coupling::Independent),
         _ => Err(unknown(name, "coupling", &["shared", "independent"])),
     }
+}
+
+fn engine(wire: Option<&Spanned<String>>) -> Result<Engine, Fault> {
+    let Some(name) = wire else { return Ok(Engine::Superposed) };
+    Engine::from_name(name.get_ref()).ok_or_else(|| unknown(name, "engine", &Engine::ALL.map(Engine::name)))
 }
 
 fn labels(system: &WireSystem) -> Labels {

@@ -38,7 +38,30 @@ pub(super) fn sweep(wire: &WireSweep, methods: Vec<Method>, cases: &[Case]) -> R
     if let Some(i) = (1..noise.len()).find(|&i| noise[..i].contains(&noise[i])) {
         return Err(Fault::new(wire.noise.get_ref()[i].span(), "given twice", "remove one of them"));
     }
-    Ok(Sweep { noise, samples: samples(wire, &points, cases)?, points, methods })
+    let samples = samples(wire, &points, cases)?;
+    let slope_from = slope_from(wire, &samples)?;
+    Ok(Sweep { noise, samples, points, methods, slope_from })
+}
+
+/// Slopes are fitted over this many decades of `N`, unless the scenario says otherwise.
+const SLOPE_DECADES: u32 = 2;
+
+/// … and over this many points at least, as far as there are so many.
+const SLOPE_POINTS: usize = 3;
+
+/// Where fitted slopes begin: what the scenario says, else the last decades of `N`, where terms of higher order no longer show.
+fn slope_from(wire: &WireSweep, samples: &[usize]) -> Result<usize, Fault> {
+    let Some(from) = &wire.slope_from else {
+        let longest = samples.last().copied().unwrap_or_default();
+        let decades = samples.partition_point(|n| n * 10usize.pow(SLOPE_DECADES) < longest);
+        return Ok(samples[decades.min(samples.len().saturating_sub(SLOPE_POINTS))]);
+    };
+    if samples.contains(from.get_ref()) {
+        return Ok(*from.get_ref());
+    }
+    let list: Vec<String> = samples.iter().map(usize::to_string).collect();
+    let remedy = format!("write one of {}", list.join(", "));
+    Err(Fault::new(from.span(), "is not among sweep.samples", remedy))
 }
 
 /// Record lengths: ascending, and none shorter than a period of any experiment.

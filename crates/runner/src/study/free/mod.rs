@@ -6,6 +6,7 @@
 
 mod drive;
 mod setting;
+mod simulate;
 mod world;
 
 pub(super) use world::FreeWorld;
@@ -13,6 +14,7 @@ pub(super) use world::FreeWorld;
 use super::StudyError;
 use crate::scenario::{Case, Coupling, Method, Scenario, Sweep};
 use drive::Program;
+use world::Design;
 
 /// Noise streams from here on belong to this method, above all that pulse worlds use.
 const FIRST_STREAM: u32 = 1 << 31;
@@ -27,13 +29,14 @@ pub(super) fn plan(scenario: &Scenario) -> Result<Vec<FreeWorld>, StudyError> {
         return Ok(worlds);
     }
     let program = Program { seed: scenario.seed(), period: sweep.samples[0] };
+    let design = Design { program, engine: scenario.engine() };
     for case in scenario.cases() {
         match scenario.coupling() {
-            Coupling::Shared => worlds.push(FreeWorld::new(case, sweep, program, FIRST_STREAM)?),
+            Coupling::Shared => worlds.push(FreeWorld::new(case, sweep, FIRST_STREAM, design)?),
             Coupling::Independent => {
                 for (case, sweep) in cells(case, sweep) {
                     let stream = FIRST_STREAM + worlds.len() as u32;
-                    worlds.push(FreeWorld::new(&case, &sweep, program, stream)?);
+                    worlds.push(FreeWorld::new(&case, &sweep, stream, design)?);
                 }
             }
         }
@@ -51,7 +54,13 @@ fn cells(case: &Case, sweep: &Sweep) -> Vec<(Case, Sweep)> {
                     let methods = vec![Method::Free];
                     cells.push((
                         Case { borders: vec![border.clone()], ..case.clone() },
-                        Sweep { noise: vec![noise], samples: vec![samples], points: vec![points], methods },
+                        Sweep {
+                            noise: vec![noise],
+                            samples: vec![samples],
+                            points: vec![points],
+                            methods,
+                            slope_from: samples,
+                        },
                     ));
                 }
             }

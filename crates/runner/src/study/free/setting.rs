@@ -32,7 +32,7 @@ pub(super) struct Setting {
     pub(super) response: usize,
     /// Index of the grid.
     pub(super) grid: usize,
-    sigma: f64,
+    pub(super) sigma: f64,
     /// Sums of the noise-free output against the input's regressors, at each checkpoint.
     input: Vec<DMatrix<f64>>,
     /// One a checkpoint.

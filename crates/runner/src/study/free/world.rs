@@ -2,19 +2,26 @@
 
 use super::drive::{self, Program};
 use super::setting::{GridOnDrive, Ingredients, NoiseSums, Response, Setting};
-use crate::scenario::{Case, Sweep};
+use super::simulate::Simulator;
+use crate::scenario::{Case, Engine, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{CellSpec, Workload};
-use crate::study::execute::Round;
+use crate::study::execute::{Round, by_sections};
 use crate::study::sections::CellSums;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::Estimate;
-use switchback_estimator::estimators::free::Regression;
-use switchback_estimator::simulation::noise::{NoisePlan, StreamId, samples};
+use switchback_estimator::estimators::free::{Moments, Regression};
+use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
 use switchback_estimator::statistics::ReplicateError;
+
+/// What all worlds of a scenario have in common.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Design {
+    pub(super) program: Program,
+    pub(super) engine: Engine,
+}
 
 /// Everything that the noise of one replicate serves.
 #[derive(Debug)]
@@ -27,11 +34,14 @@ pub(in crate::study) struct FreeWorld {
     responses: Vec<Response>,
     grids: Vec<GridOnDrive>,
     settings: Vec<Setting>,
+    /// The direct engine's, which simulates every setting on its own.
+    simulator: Option<Simulator>,
 }
 
 impl FreeWorld {
     /// Every border, number of knots and noise level of a case.
-    pub(super) fn new(case: &Case, sweep: &Sweep, program: Program, stream: u32) -> Result<Self, StudyError> {
+    pub(super) fn new(case: &Case, sweep: &Sweep, stream: u32, of: Design) -> Result<Self, StudyError> {
+        let Design { program, engine } = of;
         let interval = case.interval();
         let longest = sweep.samples.last().copied().unwrap_or_default();
         let v = drive::input(interval, program, case.order, longest);
@@ -86,6 +96,7 @@ impl FreeWorld {
             responses,
             grids,
             settings,
+            simulator: (engine == Engine::Direct).then(|| Simulator::new(case, &v)),
         })
     }
 
@@ -95,29 +106,51 @@ impl FreeWorld {
     }
 
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
-        let noise = Noise::new(self, StreamId { seed, experiment: self.stream, replicate });
-        let cells = self.settings.iter().flat_map(|setting| (0..self.checkpoints).map(move |c| (setting, c)));
-        for (((setting, checkpoint), active), sums) in cells.zip(active).zip(sums) {
-            if *active {
-                self.estimate(setting, checkpoint, noise.sums(setting, checkpoint), replicate, sums);
+        let noise = samples(&self.noise, StreamId { seed, experiment: self.stream, replicate }, self.length)
+            .expect("a world's noise plan is valid");
+        let shared = self.simulator.is_none().then(|| Noise::new(self, &noise));
+        let cells = active.chunks(self.checkpoints).zip(sums.chunks_mut(self.checkpoints));
+        for (setting, (active, sums)) in self.settings.iter().zip(cells) {
+            let moments = match (&self.simulator, &shared) {
+                (Some(simulator), _) => {
+                    self.of_record(setting, &simulator.output(setting.response, setting.sigma, &noise))
+                }
+                (None, shared) => {
+                    let of = |c| Some(self.superposed(setting, c, shared.as_ref()?.sums(setting, c)));
+                    (0..self.checkpoints).filter_map(of).collect()
+                }
+            };
+            for (checkpoint, moments) in moments.iter().enumerate().filter(|(c, _)| active[*c]) {
+                self.estimate((setting, checkpoint), moments, replicate, &mut sums[checkpoint]);
             }
         }
     }
 
+    /// The moments of a record at every checkpoint, summed from it.
+    fn of_record(&self, setting: &Setting, y: &[f64]) -> Vec<Moments> {
+        let regression = &self.grids[setting.grid].regression;
+        let (lags, input) = (regression.lag_products(y, y), regression.input_products(y));
+        (0..self.checkpoints).map(|c| regression.moments(c, &lags[c], &input[c])).collect()
+    }
+
+    /// The moments at a checkpoint, by superposition.
+    fn superposed(&self, setting: &Setting, checkpoint: usize, noise: NoiseSums<'_>) -> Moments {
+        let regression = &self.grids[setting.grid].regression;
+        setting.moments(regression, &self.responses[setting.response], checkpoint, noise)
+    }
+
     fn estimate(
         &self,
-        setting: &Setting,
-        checkpoint: usize,
-        noise: NoiseSums<'_>,
+        (setting, checkpoint): (&Setting, usize),
+        moments: &Moments,
         replicate: u32,
         sums: &mut CellSums,
     ) {
         let regression = &self.grids[setting.grid].regression;
-        let moments = setting.moments(regression, &self.responses[setting.response], checkpoint, noise);
         sums.replicates += 1;
-        match regression.estimate(&moments) {
+        match regression.estimate(moments) {
             Ok(estimate) if parameters(&estimate).all(|(x, se)| x.is_finite() && se.is_finite()) => {
-                let first_order = setting.limits[checkpoint].first_order(&moments);
+                let first_order = setting.limits[checkpoint].first_order(moments);
                 let truth = &setting.specs[checkpoint].truth;
                 for ((((value, se), first), truth), sums) in
                     parameters(&estimate).zip(first_order).zip(truth).zip(&mut sums.parameters)
@@ -136,25 +169,10 @@ impl Workload for FreeWorld {
         self.settings.len() * self.checkpoints
     }
 
-    /// Each section's part of the chunk is summed on its own, and the parts are added in order.
     fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
-        let replicates: Vec<usize> = chunk.collect();
-        let parts: Vec<&[usize]> =
-            replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
-        let empty: Vec<CellSums> =
-            cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
-        let sums: Vec<Vec<CellSums>> = parts
-            .par_iter()
-            .map(|part| {
-                let mut sums = empty.clone();
-                part.iter().for_each(|&r| self.replicate(round.seed, r as u32, active, &mut sums));
-                sums
-            })
-            .collect();
-        for (part, sums) in parts.iter().zip(&sums) {
-            let section = round.section(part[0]);
-            cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
-        }
+        by_sections(round, chunk, cells, |replicate, sums| {
+            self.replicate(round.seed, replicate, active, sums);
+        });
     }
 }
 
@@ -180,8 +198,7 @@ struct Noise {
 }
 
 impl Noise {
-    fn new(world: &FreeWorld, stream: StreamId) -> Self {
-        let noise = samples(&world.noise, stream, world.length).expect("a world's noise plan is valid");
+    fn new(world: &FreeWorld, noise: &NoiseSamples) -> Self {
         let e = &noise.e[noise.burn_in..];
         // Lag products depend on the rows alone, which every grid shares.
         let rows = &world.grids[0].regression;

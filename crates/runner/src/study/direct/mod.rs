@@ -1,0 +1,127 @@
+//! The engine that takes nothing for granted: every cell is simulated sample by sample and fitted by dense least squares.
+//!
+//! The difference equation is run with the noise in it, every row of the regression is written out, and the rows are solved by QR: no closed-form
+//! response, no superposition, no sufficient statistics but for the control variate. It sees the noise of the other engine, replicate by
+//! replicate, so both give the same estimates to rounding; it is some thousand times slower.
+
+mod fit;
+mod qr;
+mod record;
+mod regression;
+
+pub(super) use record::{OpenNoise, OpenRecord, disturbed};
+
+use super::cell::Workload;
+use super::execute::{Round, by_sections};
+use super::sections::CellSums;
+use super::world::{Contender, Setting, World};
+use crate::scenario::{Case, Scenario};
+use regression::Experiment;
+use std::ops::Range;
+use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
+use switchback_estimator::statistics::ReplicateError;
+
+/// A world whose cells are simulated one by one.
+pub(super) struct DirectWorld<'a> {
+    world: &'a World,
+    scenario: &'a Scenario,
+}
+
+impl<'a> DirectWorld<'a> {
+    pub(super) fn new(world: &'a World, scenario: &'a Scenario) -> Self {
+        Self { world, scenario }
+    }
+
+    fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
+        let noise = OpenNoise::draw(self.world, seed, replicate);
+        let mut cells = active.iter().zip(sums);
+        for setting in &self.world.settings {
+            let case = &self.scenario.cases()[setting.case];
+            let border = &case.borders[setting.border];
+            let records = [0, 1].map(|k| noise.record(self.world, (case, border), setting, k));
+            let bench = Simulated::new(case, setting, &records);
+            for (checkpoint, &samples) in self.world.pulses.checkpoints.iter().enumerate() {
+                let steps = [0, 1]
+                    .map(|k| StepMean { mean: records[k].step_means[checkpoint], samples: samples as f64 });
+                for contender in &setting.methods {
+                    let Some((active, sums)) = cells.next() else { return };
+                    if *active {
+                        bench.estimate(contender, steps, samples, replicate, sums);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Workload for DirectWorld<'_> {
+    fn cells(&self) -> usize {
+        self.world.cells().count()
+    }
+
+    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
+        by_sections(round, chunk, cells, |replicate, sums| {
+            self.replicate(round.seed, replicate, active, sums);
+        });
+    }
+}
+
+/// Both experiments of one setting in one replicate.
+struct Simulated {
+    order: usize,
+    experiments: [Experiment; 2],
+}
+
+impl Simulated {
+    fn new(case: &Case, setting: &Setting, records: &[OpenRecord; 2]) -> Self {
+        let order = case.order;
+        let experiment = |k: usize| {
+            let (record, levels) = (&records[k], setting.bench.levels(k).to_vec());
+            let level = |v: f64| levels.iter().position(|l| *l == v);
+            let seen = |t: usize| (1..=order).find_map(|lag| Some((level(record.v[t - lag])?, lag)));
+            Experiment {
+                branch: setting.bench.branch(k),
+                satellite: setting.bench.satellite(k),
+                y: record.y[record.lead - order..].to_vec(),
+                seen: (record.lead..record.v.len()).map(seen).collect(),
+                levels,
+            }
+        };
+        Self { order, experiments: [0, 1].map(experiment) }
+    }
+
+    fn estimate(
+        &self,
+        contender: &Contender,
+        steps: [StepMean; 2],
+        samples: usize,
+        replicate: u32,
+        sums: &mut CellSums,
+    ) {
+        sums.replicates += 1;
+        let estimates = match fit::fit(contender.kind, self.order, &self.experiments, steps, samples) {
+            Ok(estimates) => estimates,
+            Err(error) => return sums.fail(replicate, error.to_string()),
+        };
+        let data = [0, 1].map(|k| self.statistics(k, samples));
+        let first_order =
+            contender.kind.with_input(&data, steps, |method| contender.limit.first_order(&method));
+        for ((((value, se), first), truth), sums) in
+            estimates.into_iter().zip(first_order).zip(&contender.truth).zip(&mut sums.parameters)
+        {
+            sums.push(ReplicateError { error: value - truth, se, first_order: Some(first) });
+        }
+    }
+
+    /// What the control variate is made of.
+    fn statistics(&self, k: usize, samples: usize) -> PulseData {
+        let Experiment { branch, levels, satellite, y, seen } = &self.experiments[k];
+        let mut statistics = GroupedStatistics::new(self.order, 1 + levels.len() * self.order);
+        for (window, seen) in y.windows(self.order + 1).zip(seen).take(samples) {
+            let group = seen.map_or(0, |(level, lag)| PulseData::group(self.order, level, lag));
+            let latest_first: Vec<f64> = window.iter().rev().copied().collect();
+            statistics.push(group, &latest_first);
+        }
+        PulseData::from_statistics(*branch, levels.clone(), *satellite, statistics)
+    }
+}
