@@ -1,8 +1,11 @@
 //! The records of a rig in dimensionless form: what every fit works on.
 
+use std::sync::Arc;
+
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
+use crate::motion::{Motion, motions};
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -20,6 +23,8 @@ pub(crate) struct Track {
     pub(crate) period: Option<usize>,
     /// First sample from which residuals are counted.
     pub(crate) from: usize,
+    /// How `v` moves, without play.
+    pub(crate) moves: Arc<[Motion]>,
 }
 
 impl Track {
@@ -103,10 +108,14 @@ impl Campaign {
                 y,
                 clock,
                 period,
+                moves: Arc::default(),
             });
             clock += r.record.len();
         }
         let threshold = reversal_threshold(&tracks);
+        for track in &mut tracks {
+            track.moves = motions(&track.v, 0.0, threshold).into();
+        }
         let levels = levels(&tracks);
         Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, threshold })
     }

@@ -16,7 +16,9 @@ mod experiments;
 mod explain;
 mod gains;
 mod given;
+mod jacobian;
 mod knots;
+mod linear;
 mod localise;
 mod motion;
 mod nominal;
@@ -30,6 +32,7 @@ mod simulate;
 mod spectral;
 mod spectrum;
 mod weights;
+mod whitener;
 pub mod workbench;
 
 pub use diagnose::{CandidateFit, Plan, diagnose};
