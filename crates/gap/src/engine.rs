@@ -121,9 +121,7 @@ pub(crate) fn fit(
             };
             let step = factor.solve(&normal.gradient);
             for (j, se) in own_se.iter_mut().enumerate() {
-                let mut unit = vec![0.0; normal.size];
-                unit[p.len() + j] = 1.0;
-                *se = (factor.solve(&unit)[p.len() + j].max(0.0) * state.variance).sqrt();
+                *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance).sqrt();
             }
             if step.iter().any(|x| !x.is_finite()) {
                 damping = (damping * 100.0).max(1e-8);

@@ -1,6 +1,7 @@
 //! The sim-to-real gap of a switched-hysteresis model.
 
 mod assembly;
+mod attribution;
 mod borders;
 mod campaign;
 mod closure;
@@ -27,15 +28,17 @@ mod omnibus;
 mod order;
 mod rows;
 mod score;
+mod search;
 mod settings;
 mod simulate;
 mod spectral;
 mod spectrum;
 mod weights;
 mod whitener;
+mod workers;
 pub mod workbench;
 
-pub use diagnose::{CandidateFit, Plan, diagnose};
+pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
     RecordGap, ResidualPicture, Status, Verdict,
@@ -43,5 +46,6 @@ pub use diagnosis::{
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
 pub use settings::{Model, NominalModel, Settings};
+pub use workers::{Serial, Workers};
 #[cfg(test)]
 mod testing;

@@ -160,6 +160,13 @@ impl Factor {
         let x = self.cholesky.solve(&rhs);
         x.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
     }
+
+    /// Diagonal entry of `M⁻¹`.
+    pub(crate) fn inverse_diagonal(&self, i: usize) -> f64 {
+        let mut unit = vec![0.0; self.scale.len()];
+        unit[i] = 1.0;
+        self.solve(&unit)[i]
+    }
 }
 
 #[cfg(test)]
