@@ -20,6 +20,13 @@ pub(crate) struct Attribution<'a, W> {
     pub(crate) workers: &'a W,
 }
 
+/// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.
+struct Look {
+    effect: Effect,
+    gain: f64,
+    laws: Vec<Explanation>,
+}
+
 /// Share of the best gain that makes an effect promising, and how many are fitted to convergence at least.
 const PROMISING: f64 = 0.15;
 const FINISHED: usize = 4;
@@ -34,7 +41,7 @@ const SEEDS: usize = 2;
 const PAIRS: usize = 2;
 /// Deviance that must be left before a second effect is looked for, and that it must gain: in all, and as a share of what
 /// the first gained. Laws are never exact, so a little is always left that some other effect can take.
-pub(crate) const SECOND: f64 = 150.0;
+const SECOND: f64 = 150.0;
 const SECOND_SHARE: f64 = 0.12;
 
 impl<W: Workers> Attribution<'_, W> {
@@ -50,17 +57,22 @@ impl<W: Workers> Attribution<'_, W> {
     /// The best pair of effects, where the best single one leaves much that a second explains.
     pub(crate) fn pair(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
         let first = singles.first()?;
+        let gained_by_first = self.gain(Some(first)).max(1.0);
+        if left < SECOND.max(SECOND_SHARE * gained_by_first) {
+            return None;
+        }
         let others: Vec<Effect> =
             self.settings.effects.iter().copied().filter(|e| *e != Effect::BorderResolution).collect();
-        let pairs = singles.iter().take(SEEDS).flat_map(|seed| {
+        let seeds =
+            singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
+        let pairs = seeds.flat_map(|seed| {
             let rest: Vec<Effect> = others.iter().copied().filter(|e| *e != seed.parts[0].effect).collect();
             self.on_top_of(seed, &rest, PAIRS)
         });
         let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
         let gained = first.bic() - pair.bic();
         let after = omnibus(self.campaign, &pair.fit).map_or(left, |o: Omnibus| o.excess());
-        let share = gained / self.gain(Some(first)).max(1.0);
-        (gained > SECOND && share > SECOND_SHARE && after < 0.3 * left).then_some(pair)
+        (gained > SECOND.max(SECOND_SHARE * gained_by_first) && after < 0.3 * left).then_some(pair)
     }
 
     /// Penalised deviance gained over the nominal model.
@@ -72,32 +84,43 @@ impl<W: Workers> Attribution<'_, W> {
     fn on_top_of(&self, known: &Explanation, effects: &[Effect], finished: usize) -> Vec<Explanation> {
         let w = innovations(self.campaign, &known.fit, |t| t.is_fit());
         let scene = Scene { campaign: self.campaign, fit: &known.fit, innovations: &w };
-        let mut looks = self.workers.map(effects, |&effect| sketch(&scene, known, effect));
-        looks.retain(|laws| !laws.is_empty());
-        looks.sort_by(|x, y| x[0].bic().total_cmp(&y[0].bic()));
+        let looks = self.workers.map(effects, |&effect| (effect, sketch(&scene, known, effect)));
         let gain = |e: &Explanation| known.bic() - e.bic();
-        let most = looks.first().map_or(0.0, |laws| gain(&laws[0]));
-        let mut promising: Vec<Explanation> = Vec::new();
-        let mut done: Vec<Explanation> = Vec::new();
-        for (rank, laws) in looks.into_iter().enumerate() {
-            let best = gain(&laws[0]);
-            if rank < finished || best > PROMISING * most.max(SIGNIFICANT) {
-                promising.extend(laws.into_iter().filter(|law| gain(law) >= LAW * best).take(LAWS));
-            } else {
-                done.extend(laws.into_iter().take(1));
+        let mut looks: Vec<Look> = looks
+            .into_iter()
+            .filter(|(_, laws)| !laws.is_empty())
+            .map(|(effect, laws)| Look { effect, gain: gain(&laws[0]), laws })
+            .collect();
+        looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
+        let most = looks.first().map_or(0.0, |look| look.gain);
+        let mut promising: Vec<(Effect, Explanation)> = Vec::new();
+        let mut done: Vec<(Effect, Explanation)> = Vec::new();
+        let mut twins: Vec<Effect> = Vec::new();
+        for (rank, look) in looks.into_iter().enumerate() {
+            // A look may miss a narrow optimum: no twin of a promising effect is ruled out by it.
+            let worth = rank < finished
+                || look.gain > PROMISING * most.max(SIGNIFICANT)
+                || twins.contains(&look.effect);
+            if worth && look.gain > SIGNIFICANT {
+                twins.extend(look.effect.twins());
             }
+            let least = look.gain - (1.0 - LAW) * look.gain.abs();
+            let laws = look.laws.into_iter().filter(|law| gain(law) >= least).take(LAWS);
+            let laws = laws.map(|law| (look.effect, law));
+            if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
-        done.extend(self.workers.map(&promising, |law| finish(self.campaign, known, law)));
-        done.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        let held = known.fit.own.len();
+        let finished = |(effect, law): &(Effect, Explanation)| (*effect, finish(self.campaign, held, law));
+        done.extend(self.workers.map(&promising, finished));
+        done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
         // Several laws of one effect: the best counts.
-        let mut seen: Vec<Option<Effect>> = Vec::new();
-        done.retain(|e| {
-            let effect = e.parts.last().map(|p| p.effect);
-            let new = !seen.contains(&effect);
-            seen.push(effect);
+        let mut seen: Vec<Effect> = Vec::new();
+        done.retain(|(effect, _)| {
+            let new = !seen.contains(effect);
+            seen.push(*effect);
             new
         });
-        done
+        done.into_iter().map(|(_, e)| e).collect()
     }
 
     /// The nominal fit placed its knots with the effect's trace in the residual: the rivals get theirs anew.

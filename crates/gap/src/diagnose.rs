@@ -2,7 +2,7 @@
 
 use switchback_estimator::rig::Rig;
 
-use crate::attribution::{Attribution, SECOND};
+use crate::attribution::Attribution;
 use crate::campaign::Campaign;
 use crate::closure::{Simulated, measure};
 use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
@@ -122,7 +122,6 @@ impl Plan {
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
         let mut joint = None;
         if significant
-            && left > SECOND
             && self.settings.max_effects > 1
             && let Some(pair) = attribution.pair(&singles, left)
         {

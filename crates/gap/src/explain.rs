@@ -7,6 +7,7 @@ use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search};
 use crate::engine::Fit;
+use crate::search::finish;
 
 /// One effect of an explanation: which, and how its own parameters change the assembly.
 #[derive(Clone)]
@@ -49,30 +50,22 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
-    /// The same explanation with border knots placed anew.
-    pub(crate) fn with_knots_refined(mut self, campaign: &Campaign) -> Self {
-        let before = self.clone();
-        let parts = self.parts.clone();
-        // Parameters with corners stay where their profile put them.
-        let held = parts.iter().any(|p| p.search == Search::Profile);
+    /// The same explanation with border knots placed anew: the own parameters stay while the knots move, then everything is
+    /// fitted together. Parameters with corners stay where their profile put them.
+    pub(crate) fn with_knots_refined(self, campaign: &Campaign) -> Self {
         let own = self.fit.own.clone();
-        let own_se = self.fit.own_se.clone();
-        if held {
-            let values: Vec<f64> = own.iter().map(|o| o.value).collect();
-            let mut free = self.fit.clone();
-            free.own.clear();
-            free.own_se.clear();
-            free.parameters -= own.len() as f64;
-            let assembly = assembled(&parts, &values);
-            let mut refined = crate::knots::replace(campaign, &free, &|_| assembly.clone());
-            refined.own = own;
-            refined.own_se = own_se;
-            refined.parameters += refined.own.len() as f64;
-            self.fit = refined;
-        } else {
-            self.fit = crate::knots::replace(campaign, &self.fit, &|values| assembled(&parts, values));
-        }
-        if self.bic() > before.bic() { before } else { self }
+        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+        let mut free = self.fit.clone();
+        free.own.clear();
+        free.own_se.clear();
+        free.parameters -= own.len() as f64;
+        let assembly = assembled(&self.parts, &values);
+        let mut fit = crate::knots::replace(campaign, &free, &|_| assembly.clone());
+        fit.parameters += own.len() as f64;
+        fit.own = own;
+        fit.own_se.clone_from(&self.fit.own_se);
+        let refined = finish(campaign, 0, &Self { fit, ..self.clone() });
+        if refined.bic() < self.bic() { refined } else { self }
     }
 }
 

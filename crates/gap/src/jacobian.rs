@@ -29,7 +29,12 @@ enum Store {
 
 impl Jacobian {
     /// The derivatives at `p`; each row times its weight.
-    pub(crate) fn new(design: &Design, p: &Linear, whitener: &Whitener, weights: Option<&[Vec<f64>]>) -> Self {
+    pub(crate) fn new(
+        design: &Design,
+        p: &Linear,
+        whitener: &Whitener,
+        weights: Option<&[Vec<f64>]>,
+    ) -> Self {
         let spread = !design.poles.is_empty() || !whitener.ma.is_empty() || whitener.ar.len() > LEAD;
         let columns = p.len();
         let store = if spread {

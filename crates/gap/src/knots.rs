@@ -136,6 +136,8 @@ fn is_steep(fit: &Fit, s: usize, cell: usize) -> bool {
     knots[cell + 1] - knots[cell] < WIDE && slope(cell).is_some_and(|x| x > 3.0 * median)
 }
 
+/// A jump that costs no more than this before it is moved may pay after.
+const HOPEFUL: f64 = 200.0;
 /// A cell wider than this is no candidate for a jump, in strokes.
 const WIDE: f64 = 0.12;
 
@@ -176,9 +178,13 @@ fn collapsed(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
                 grid.knots[s].retain(|k| (*k != l || is_level[0]) && (*k != r || is_level[1]));
                 let beside_level = beside.contains(&Some(jump));
                 grid.insert(s, jump, !beside_level);
-                polished(campaign, refitted(campaign, &best, &grid, build)?, build)
+                looked_at(campaign, &best, &grid, build)
             });
-            if let Some(next) = trials.min_by(|x, y| cost(x).total_cmp(&cost(y)))
+            let next = trials
+                .min_by(|x, y| cost(x).total_cmp(&cost(y)))
+                .filter(|next| cost(next) < cost(&best) + HOPEFUL)
+                .and_then(|next| polished(campaign, refitted(campaign, &next, &next.grid, build)?, build));
+            if let Some(next) = next
                 && cost(&next) < cost(&best) + 4.0
             {
                 best = next;
@@ -202,6 +208,11 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
     fit(Ground { campaign, grid }, build, &fitted.own, &start, 5)
+}
+
+/// The same model on another grid, one step from the present parameters.
+fn looked_at(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
+    fit(Ground { campaign, grid }, build, &fitted.own, &carried_over(fitted, grid), 1)
 }
 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
@@ -245,8 +256,9 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     let mut changed = false;
     for group in trials.chunk_by(|x, y| x.0 == y.0 && x.1 == y.1) {
         let first = trials.iter().position(|t| t == &group[0]).unwrap_or(0);
-        let best_of =
-            (0..group.len()).map(|i| (gains.of(&[&scored[first + i]]), group[i])).max_by(|x, y| x.0.total_cmp(&y.0));
+        let best_of = (0..group.len())
+            .map(|i| (gains.of(&[&scored[first + i]]), group[i]))
+            .max_by(|x, y| x.0.total_cmp(&y.0));
         if let Some((gain, (s, from, to))) = best_of
             && gain > 6.0
         {
@@ -265,8 +277,7 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
     let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let normal =
-        Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    let normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
     let Some(factor) = normal.factor(1e-9) else { return best };
     let base = best.linear.a.len() + best.linear.b.len();
     let mut grid = best.grid.clone();

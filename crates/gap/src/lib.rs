@@ -35,8 +35,8 @@ mod spectral;
 mod spectrum;
 mod weights;
 mod whitener;
-mod workers;
 pub mod workbench;
+mod workers;
 
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{

@@ -24,11 +24,11 @@ pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, effect: Effect) -> 
     laws
 }
 
-/// A sketch fitted to convergence.
-pub(crate) fn finish(campaign: &Campaign, known: &Explanation, sketch: &Explanation) -> Explanation {
+/// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
+pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
-    let task = Task { ground: Ground { campaign, grid: &grid }, build: &build, held: known.fit.own.len() };
+    let task = Task { ground: Ground { campaign, grid: &grid }, build: &build, held };
     let law = sketch.parts.last().map(|part| part.search);
     let fit = match law {
         Some(Search::Profile) => task.pattern(sketch.fit.clone()),
@@ -37,12 +37,7 @@ pub(crate) fn finish(campaign: &Campaign, known: &Explanation, sketch: &Explanat
     Explanation { fit, ..sketch.clone() }
 }
 
-fn look(
-    campaign: &Campaign,
-    known: &Explanation,
-    effect: Effect,
-    law: &Variant,
-) -> Option<Explanation> {
+fn look(campaign: &Campaign, known: &Explanation, effect: Effect, law: &Variant) -> Option<Explanation> {
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
     let mut parts = known.parts.clone();
     parts.push(Part { effect, apply: law.apply.clone(), count: law.starts[0].len(), search: law.search });

@@ -23,9 +23,7 @@ impl Weights {
     pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
         match &self.scale {
             None => signals.concat(),
-            Some(scale) => {
-                signals.iter().flatten().zip(scale.iter().flatten()).map(|(w, s)| w * s).collect()
-            }
+            Some(scale) => signals.iter().flatten().zip(scale.iter().flatten()).map(|(w, s)| w * s).collect(),
         }
     }
 }

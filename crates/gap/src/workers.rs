@@ -4,7 +4,7 @@
 /// diagnosis does not depend on who did what.
 pub trait Workers: Sync {
     /// `work` applied to each item.
-    fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R>;
+    fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R>;
 }
 
 /// One piece after the other.
@@ -12,7 +12,7 @@ pub trait Workers: Sync {
 pub struct Serial;
 
 impl Workers for Serial {
-    fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
         items.iter().map(work).collect()
     }
 }
