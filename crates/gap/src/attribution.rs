@@ -17,6 +17,8 @@ pub(crate) struct Attribution<'a, W> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) settings: &'a Settings,
     pub(crate) nominal: &'a Explanation,
+    /// The nominal model with border knots placed from the data: what effects are added to.
+    pub(crate) detailed: &'a Explanation,
     pub(crate) workers: &'a W,
 }
 
@@ -47,11 +49,26 @@ const SECOND_SHARE: f64 = 0.12;
 impl<W: Workers> Attribution<'_, W> {
     /// Every effect on its own, best first.
     pub(crate) fn singles(&self) -> Vec<Explanation> {
-        let mut singles = self.on_top_of(self.nominal, &self.settings.effects, FINISHED);
+        let mut singles = self.on_top_of(self.detailed, &self.settings.effects, FINISHED);
+        if self.settings.effects.contains(&Effect::BorderResolution) {
+            self.compare_with_detail(&mut singles);
+        }
         if self.gain(singles.first()) > 0.5 * SIGNIFICANT {
             singles = self.knots_placed_anew(singles);
         }
         singles
+    }
+
+    /// Knots placed from the data are themselves the explanation that the grid was too coarse.
+    fn compare_with_detail(&self, singles: &mut Vec<Explanation>) {
+        let known = Explanation::detailed(self.detailed.fit.clone());
+        let found = singles.iter_mut().find(|s| s.parts[0].effect == Effect::BorderResolution);
+        match found {
+            Some(finer) if finer.bic() <= known.bic() => {}
+            Some(finer) => *finer = known,
+            None => singles.push(known),
+        }
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     }
 
     /// The best pair of effects, where the best single one leaves much that a second explains.
@@ -63,10 +80,12 @@ impl<W: Workers> Attribution<'_, W> {
         }
         let others: Vec<Effect> =
             self.settings.effects.iter().copied().filter(|e| *e != Effect::BorderResolution).collect();
-        let seeds =
-            singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
+        let seeds = singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
         let pairs = seeds.flat_map(|seed| {
-            let rest: Vec<Effect> = others.iter().copied().filter(|e| *e != seed.parts[0].effect).collect();
+            let present = seed.parts[0].effect;
+            // What a twin adds is the difference between two laws of one thing, no second effect.
+            let another = |e: &Effect| *e != present && !present.twins().contains(e);
+            let rest: Vec<Effect> = others.iter().copied().filter(another).collect();
             self.on_top_of(seed, &rest, PAIRS)
         });
         let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
@@ -124,18 +143,41 @@ impl<W: Workers> Attribution<'_, W> {
     }
 
     /// The nominal fit placed its knots with the effect's trace in the residual: the rivals get theirs anew.
+    ///
+    /// Where details of the borders matter beside an effect, the effect alone is the one on an even grid.
     fn knots_placed_anew(&self, singles: Vec<Explanation>) -> Vec<Explanation> {
         let most = self.gain(singles.first());
         let numbered: Vec<(usize, Explanation)> = singles.into_iter().enumerate().collect();
         let mut out = self.workers.map(&numbered, |(rank, single)| {
+            let is_grid = single.parts[0].effect == Effect::BorderResolution;
             let rival = *rank < REPLACED && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
-            if rival && single.parts[0].effect != Effect::BorderResolution {
-                single.clone().with_knots_refined(self.campaign)
-            } else {
-                single.clone()
+            match (is_grid, rival) {
+                (true, _) => single.clone(),
+                (false, true) => self.without_details(single.clone().with_knots_refined(self.campaign)),
+                (false, false) if self.has_details() => single.clone().handicapped(SIGNIFICANT),
+                (false, false) => single.clone(),
             }
         });
         out.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         out
     }
+
+    /// Whether the nominal model lacks details of the borders.
+    fn has_details(&self) -> bool {
+        self.nominal.fit.grid != self.detailed.fit.grid
+    }
+
+    /// The explanation on an even grid, where the details that its knots follow are material.
+    fn without_details(&self, single: Explanation) -> Explanation {
+        match single.on_an_even_grid(self.campaign) {
+            Some(even) if even.bic() - single.bic() > detail(self.campaign) => even,
+            _ => single,
+        }
+    }
+}
+
+/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's
+/// hundredth, which is a tenth of the noise's standard deviation.
+pub(crate) fn detail(campaign: &Campaign) -> f64 {
+    0.01 * campaign.fit_samples() as f64
 }

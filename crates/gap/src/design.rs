@@ -174,8 +174,8 @@ fn clipped(track: &Track, limits: Saturation) -> Vec<bool> {
 
 /// `x` of one track and its summed log slope.
 fn undo_sensor(track: &Track, assembly: &Assembly) -> (Vec<f64>, f64) {
-    let powers = &assembly.curve.powers;
-    if powers.is_empty() {
+    let curve = &assembly.curve;
+    if curve.is_straight() {
         return (track.y.clone(), 0.0);
     }
     let mut log_slope = 0.0;
@@ -184,17 +184,12 @@ fn undo_sensor(track: &Track, assembly: &Assembly) -> (Vec<f64>, f64) {
         .iter()
         .enumerate()
         .map(|(t, &y)| {
-            let (mut value, mut slope, mut power) = (y, 1.0, y);
-            for (k, c) in powers.iter().enumerate() {
-                slope += c * (k + 2) as f64 * power;
-                power *= y;
-                value += c * power;
-            }
+            let (x, slope) = curve.undo(y);
             if t >= track.from {
                 // A characteristic that folds back is no sensor: the floor makes it expensive, not undefined.
                 log_slope += slope.max(1e-3).ln();
             }
-            value
+            x
         })
         .collect();
     (x, log_slope)

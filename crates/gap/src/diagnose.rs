@@ -2,7 +2,7 @@
 
 use switchback_estimator::rig::Rig;
 
-use crate::attribution::Attribution;
+use crate::attribution::{Attribution, detail};
 use crate::campaign::Campaign;
 use crate::closure::{Simulated, measure};
 use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
@@ -51,6 +51,8 @@ struct Plan {
     campaign: Campaign,
     /// The nominal model as identified here.
     nominal: Explanation,
+    /// The same with border knots placed from the data.
+    detailed: Explanation,
     nominal_innovations: Vec<Vec<f64>>,
     /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
     foreign: Option<Vec<Vec<f64>>>,
@@ -92,11 +94,14 @@ impl Plan {
             Model::Predicted => Some(predictions(rig, &campaign, &judged)?),
         };
         note_what_the_records_lack(&campaign, &mut limitations);
-        let nominal_innovations = innovations(&campaign, &nominal, |t| t.is_fit());
+        let detailed = Explanation::nominal(nominal);
+        let nominal = coarse(&campaign, &detailed);
+        let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
         Ok(Self {
             settings: settings.clone(),
             campaign,
-            nominal: Explanation::nominal(nominal),
+            nominal,
+            detailed,
             nominal_innovations,
             foreign,
             judged,
@@ -110,6 +115,7 @@ impl Plan {
             campaign: &self.campaign,
             settings: &self.settings,
             nominal: &self.nominal,
+            detailed: &self.detailed,
             workers,
         };
         let mut singles = attribution.singles();
@@ -294,6 +300,14 @@ struct Conclusion {
 
 /// Gap that noise cannot make.
 const SYSTEMATIC: f64 = 0.003;
+/// The model without the knots that follow details, where these matter; else the model itself.
+fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
+    match detailed.on_an_even_grid(campaign) {
+        Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
+        _ => detailed.clone(),
+    }
+}
+
 /// The hold-out records; without any, the fit records, with a word about it.
 fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {
     let numbers = |fit: bool| {

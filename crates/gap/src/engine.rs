@@ -250,7 +250,7 @@ fn derivatives(
 }
 
 /// The prior on border values: neighbours on a straight line, jumps free.
-fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
+pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
     let present = p.flat();
     // The gauge: no step may trade the scale of b for that of f, which the data cannot see.
     let gauge: Vec<(usize, f64)> = p.b.iter().enumerate().map(|(j, b)| (p.a.len() + j, *b)).collect();

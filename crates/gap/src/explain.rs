@@ -1,12 +1,13 @@
 //! Effects as an explanation: the best of their variants, fitted together with the nominal model.
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search};
-use crate::engine::Fit;
+use crate::engine::{Build, Fit};
 use crate::search::finish;
 
 /// One effect of an explanation: which, and how its own parameters change the assembly.
@@ -40,6 +41,17 @@ impl Explanation {
         Self { parts: Vec::new(), fit, handicap: 0.0 }
     }
 
+    /// The nominal model on a grid whose knots follow details of the borders.
+    pub(crate) fn detailed(fit: Fit) -> Self {
+        let part = Part {
+            effect: Effect::BorderResolution,
+            apply: Arc::new(|_, _| {}),
+            count: 0,
+            search: Search::Smooth,
+        };
+        Self { parts: vec![part], fit, handicap: 0.0 }
+    }
+
     /// Penalised deviance: Bayesian information criterion plus the handicap.
     pub(crate) fn bic(&self) -> f64 {
         self.fit.deviance + self.handicap + self.fit.parameters * (self.fit.samples as f64).ln()
@@ -50,9 +62,30 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
-    /// The same explanation with border knots placed anew: the own parameters stay while the knots move, then everything is
-    /// fitted together. Parameters with corners stay where their profile put them.
+    /// The same explanation, less likely by a handicap.
+    pub(crate) fn handicapped(mut self, by: f64) -> Self {
+        self.handicap += by;
+        self
+    }
+
+    /// The same explanation with border knots placed anew, where that is better.
     pub(crate) fn with_knots_refined(self, campaign: &Campaign) -> Self {
+        let refined =
+            self.on_knots(campaign, |free, build| Some(crate::knots::replace(campaign, free, build)));
+        match refined {
+            Some(refined) if refined.bic() < self.bic() => refined,
+            _ => self,
+        }
+    }
+
+    /// The same explanation without the knots that follow details of the borders.
+    pub(crate) fn on_an_even_grid(&self, campaign: &Campaign) -> Option<Self> {
+        self.on_knots(campaign, |free, build| crate::knots::evenly(campaign, free, build))
+    }
+
+    /// The same explanation on other knots: the own parameters stay while the knots move, then everything is fitted together.
+    /// Parameters with corners stay where their profile put them.
+    fn on_knots(&self, campaign: &Campaign, place: impl Fn(&Fit, &Build<'_>) -> Option<Fit>) -> Option<Self> {
         let own = self.fit.own.clone();
         let values: Vec<f64> = own.iter().map(|o| o.value).collect();
         let mut free = self.fit.clone();
@@ -60,12 +93,12 @@ impl Explanation {
         free.own_se.clear();
         free.parameters -= own.len() as f64;
         let assembly = assembled(&self.parts, &values);
-        let mut fit = crate::knots::replace(campaign, &free, &|_| assembly.clone());
+        let mut fit = place(&free, &|_| assembly.clone())?;
         fit.parameters += own.len() as f64;
         fit.own = own;
         fit.own_se.clone_from(&self.fit.own_se);
-        let refined = finish(campaign, 0, &Self { fit, ..self.clone() });
-        if refined.bic() < self.bic() { refined } else { self }
+        let placed = Self { fit, ..self.clone() };
+        Some(if placed.fit.own.is_empty() { placed } else { finish(campaign, 0, &placed) })
     }
 }
 

@@ -4,7 +4,7 @@ use crate::assembly::convolve;
 use crate::borders::{Grid, side};
 use crate::campaign::Campaign;
 use crate::design::{Design, Whitener};
-use crate::engine::{Build, Fit, Ground, fit};
+use crate::engine::{Build, Fit, Ground, fit, priors};
 use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
 
@@ -89,6 +89,13 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
     }
     let placed = collapsed(campaign, pruned(campaign, best, build), build);
     halved(campaign, placed, build)
+}
+
+/// The model on an even grid through the levels of the experiments, as fine as smooth borders ask for: no knot is placed to
+/// follow a detail.
+pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let fit = refitted(campaign, fitted, &first_grid(campaign), build)?;
+    Some(halved(campaign, fit, build))
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
@@ -277,7 +284,9 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
     let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    // Without the gauge no border value would be determined.
+    priors(&mut normal, &best.grid, &best.linear, &best.assembly);
     let Some(factor) = normal.factor(1e-9) else { return best };
     let base = best.linear.a.len() + best.linear.b.len();
     let mut grid = best.grid.clone();
@@ -316,9 +325,11 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     if grid == best.grid {
         return best;
     }
+    let price = (best.samples as f64).ln();
+    let cost = |f: &Fit| f.deviance + price * f.grid.len() as f64;
     match refitted(campaign, &best, &grid, build) {
-        Some(f) => f,
-        None => best,
+        Some(f) if cost(&f) < cost(&best) => f,
+        _ => best,
     }
 }
 

@@ -29,6 +29,7 @@ mod order;
 mod rows;
 mod score;
 mod search;
+mod sensor;
 mod settings;
 mod simulate;
 mod spectral;

@@ -83,7 +83,9 @@ pub(crate) fn rows(
         row.extend_from_slice(&builder.current);
         for (j, column) in assembly.border_columns.iter().enumerate() {
             let s = match column {
-                BorderColumn::BranchSlow { clock: c } => clock(*c, campaign, track, t, m.path),
+                BorderColumn::BranchSlow { clock: c } | BorderColumn::SideSlow { clock: c, .. } => {
+                    clock(*c, campaign, track, t, m.path)
+                }
                 _ => 0.0,
             };
             held[j] = column_value(column, m, s, held[j]);
@@ -109,6 +111,15 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
             _ => m.branch * (-(speed / scale).powf(power)).exp(),
         },
         BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
+        BorderColumn::RestingRise { scale } => -m.branch * (-(m.rest as f64) / scale).exp_m1(),
+        BorderColumn::SideSlow { branch, .. } if m.moves => {
+            if m.branch == branch {
+                s
+            } else {
+                0.0
+            }
+        }
+        BorderColumn::SideSlow { .. } => held,
         BorderColumn::BranchSlow { .. } => {
             if m.moves {
                 m.branch * s
