@@ -41,9 +41,9 @@ const RIVAL: f64 = 0.4;
 /// First effects that a second one is looked for on top of, and pairs fitted to convergence on each.
 const SEEDS: usize = 2;
 const PAIRS: usize = 2;
-/// Deviance that must be left before a second effect is looked for, and that it must gain: in all, and as a share of what
+/// Deviance that a second effect must gain: a sample, which is half a standard deviation of the noise, and as a share of what
 /// the first gained. Laws are never exact, so a little is always left that some other effect can take.
-const SECOND: f64 = 150.0;
+const SECOND: f64 = 0.22;
 const SECOND_SHARE: f64 = 0.12;
 
 impl<W: Workers> Attribution<'_, W> {
@@ -75,7 +75,9 @@ impl<W: Workers> Attribution<'_, W> {
     pub(crate) fn pair(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
         let first = singles.first()?;
         let gained_by_first = self.gain(Some(first)).max(1.0);
-        if left < SECOND.max(SECOND_SHARE * gained_by_first) {
+        let samples = self.campaign.fit_samples() as f64;
+        let least = (SECOND * samples).max(SECOND_SHARE * gained_by_first);
+        if left < 0.4 * least {
             return None;
         }
         let others: Vec<Effect> =
@@ -91,7 +93,7 @@ impl<W: Workers> Attribution<'_, W> {
         let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
         let gained = first.bic() - pair.bic();
         let after = omnibus(self.campaign, &pair.fit).map_or(left, |o: Omnibus| o.excess());
-        (gained > SECOND.max(SECOND_SHARE * gained_by_first) && after < 0.3 * left).then_some(pair)
+        (gained > least && after < 0.3 * left).then_some(pair)
     }
 
     /// Penalised deviance gained over the nominal model.

@@ -58,7 +58,7 @@ pub(crate) struct Campaign {
 /// reaches further back, so that all are scored on the same samples.
 pub(crate) const WARM_UP: usize = 12;
 
-/// Positions of the input closer than this are the same, in strokes.
+/// Positions of the input closer than this are the same, in strokes; and readings, in standard deviations.
 const RESOLUTION: f64 = 1e-10;
 
 impl Campaign {
@@ -96,7 +96,13 @@ impl Campaign {
                 .iter()
                 .map(|v| ((v - v_low) / v_width / RESOLUTION).round() * RESOLUTION)
                 .collect();
-            let y = r.record.y().iter().map(|y| (y - y_mean) / y_scale).collect();
+            // Rounded too, so that readings at the end of a sensor's range are equal.
+            let y = r
+                .record
+                .y()
+                .iter()
+                .map(|y| ((y - y_mean) / y_scale / RESOLUTION).round() * RESOLUTION)
+                .collect();
             let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
             let period = period_of(&v);
             tracks.push(Track {

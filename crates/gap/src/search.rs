@@ -95,10 +95,10 @@ impl Task<'_> {
     }
 
     /// `A` and `B` by least squares, the borders as they are: behind a filter the nominal `A` may hold a pole that the
-    /// filter ought to have, and no small step gets out of that. Nothing without a recursive filter.
+    /// filter ought to have (and B a delay), and no small step gets out of that. Nothing without a filter.
     fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
         let assembly = self.assembly(own);
-        if assembly.denominator.len() < 2 {
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 {
             return None;
         }
         let mut p = self.padded(start, &assembly);
