@@ -4,6 +4,8 @@
 //! v → delay → play → borders (transition, wear) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
+use crate::sensor::SensorCurve;
+
 /// How the working point passes from one border to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Transition {
@@ -69,8 +71,12 @@ pub(crate) enum BorderColumn {
     LowSpeed { power: f64, scale: f64, while_resting: Resting },
     /// `branch·ln(1 + rest/scale)` while the input rests.
     RestingLog { scale: f64 },
+    /// `branch·(1 − e^(−rest/scale))`, an after-effect that ends, while the input rests.
+    RestingRise { scale: f64 },
     /// `branch·s(clock)`.
     BranchSlow { clock: Clock },
+    /// `s(clock)` on the ascending (+1) or the descending (−1) border, 0 on the other.
+    SideSlow { clock: Clock, branch: f64 },
 }
 
 /// What a speed-dependent term does while the input rests.
@@ -93,13 +99,6 @@ pub(crate) enum EquationColumn {
     Decay { track: usize, radius: f64, frequency: f64, sine: bool },
     /// A bump function of a track: linear interpolation between `pieces` equal pieces.
     Local { track: usize, piece: usize, pieces: usize },
-}
-
-/// The sensor's characteristic as its inverse `x = y + Σ θ_k p_k(y)`, `p` the powers 2, 3, ….
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct SensorCurve {
-    /// Coefficients of `y²`, `y³`, ….
-    pub(crate) powers: Vec<f64>,
 }
 
 /// The sensor's range.

@@ -1,8 +1,11 @@
 //! The records of a rig in dimensionless form: what every fit works on.
 
+use std::sync::Arc;
+
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
+use crate::motion::{Motion, motions};
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -20,6 +23,8 @@ pub(crate) struct Track {
     pub(crate) period: Option<usize>,
     /// First sample from which residuals are counted.
     pub(crate) from: usize,
+    /// How `v` moves, without play.
+    pub(crate) moves: Arc<[Motion]>,
 }
 
 impl Track {
@@ -53,7 +58,7 @@ pub(crate) struct Campaign {
 /// reaches further back, so that all are scored on the same samples.
 pub(crate) const WARM_UP: usize = 12;
 
-/// Positions of the input closer than this are the same, in strokes.
+/// Positions of the input closer than this are the same, in strokes; and readings, in standard deviations.
 const RESOLUTION: f64 = 1e-10;
 
 impl Campaign {
@@ -91,7 +96,13 @@ impl Campaign {
                 .iter()
                 .map(|v| ((v - v_low) / v_width / RESOLUTION).round() * RESOLUTION)
                 .collect();
-            let y = r.record.y().iter().map(|y| (y - y_mean) / y_scale).collect();
+            // Rounded too, so that readings at the end of a sensor's range are equal.
+            let y = r
+                .record
+                .y()
+                .iter()
+                .map(|y| ((y - y_mean) / y_scale / RESOLUTION).round() * RESOLUTION)
+                .collect();
             let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
             let period = period_of(&v);
             tracks.push(Track {
@@ -103,10 +114,14 @@ impl Campaign {
                 y,
                 clock,
                 period,
+                moves: Arc::default(),
             });
             clock += r.record.len();
         }
         let threshold = reversal_threshold(&tracks);
+        for track in &mut tracks {
+            track.moves = motions(&track.v, 0.0, threshold).into();
+        }
         let levels = levels(&tracks);
         Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, threshold })
     }

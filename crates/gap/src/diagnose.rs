@@ -1,45 +1,58 @@
-//! The diagnosis itself: plan, candidate fits, conclusion.
+//! The diagnosis itself: the nominal model, attribution, verdict, report.
 
 use switchback_estimator::rig::Rig;
 
+use crate::attribution::{Attribution, detail};
 use crate::campaign::Campaign;
 use crate::closure::{Simulated, measure};
 use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
 use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
 use crate::effect::Effect;
-use crate::effects::Scene;
 use crate::engine::Fit;
 use crate::error::DiagnoseError;
-use crate::explain::{Explanation, explain};
+use crate::explain::Explanation;
 use crate::localise::localise;
 use crate::nominal::identify;
 use crate::omnibus::{Omnibus, omnibus};
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
+use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.
 ///
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
-/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. The same as
-/// [`Plan::new`], [`Plan::fit_candidate`] for each effect, and [`Plan::conclude`].
+/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
 /// [limitation](Diagnosis::limitations).
 pub fn diagnose(rig: &Rig, model: Model, settings: &Settings) -> Result<Diagnosis, DiagnoseError> {
-    let plan = Plan::new(rig, model, settings)?;
-    let fits = plan.effects().iter().map(|&e| plan.fit_candidate(e)).collect();
-    Ok(plan.conclude(fits))
+    diagnose_with(&Serial, rig, model, settings)
 }
 
-/// A diagnosis split into independent units of work, so that a caller may fit the candidates in parallel.
-#[derive(Debug, Clone)]
-pub struct Plan {
+/// [`diagnose`], its independent pieces of work given to `workers`; the answer does not depend on them.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_with(
+    workers: &impl Workers,
+    rig: &Rig,
+    model: Model,
+    settings: &Settings,
+) -> Result<Diagnosis, DiagnoseError> {
+    Ok(Plan::new(rig, model, settings)?.conclude(workers))
+}
+
+/// What is known before any effect is tried.
+#[derive(Debug)]
+struct Plan {
     settings: Settings,
     campaign: Campaign,
     /// The nominal model as identified here.
     nominal: Explanation,
+    /// The same with border knots placed from the data.
+    detailed: Explanation,
     nominal_innovations: Vec<Vec<f64>>,
     /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
     foreign: Option<Vec<Vec<f64>>>,
@@ -48,31 +61,9 @@ pub struct Plan {
     limitations: Vec<String>,
 }
 
-/// One fitted candidate, to be handed back to [`Plan::conclude`].
-#[derive(Debug, Clone)]
-pub struct CandidateFit {
-    effect: Effect,
-    explanation: Option<Explanation>,
-}
-
-impl CandidateFit {
-    /// The effect that was fitted.
-    pub fn effect(&self) -> Effect {
-        self.effect
-    }
-
-    /// Whether the records allow the effect at all (without ties, no saturation; without a lattice, no rounding).
-    pub fn is_possible(&self) -> bool {
-        self.explanation.is_some()
-    }
-}
-
 impl Plan {
-    /// Identifies the nominal model and prepares the candidates.
-    ///
-    /// # Errors
-    /// As [`diagnose`].
-    pub fn new(rig: &Rig, model: Model, settings: &Settings) -> Result<Self, DiagnoseError> {
+    /// Identifies the nominal model.
+    fn new(rig: &Rig, model: Model, settings: &Settings) -> Result<Self, DiagnoseError> {
         let campaign = Campaign::new(rig)?;
         let mut limitations = Vec::new();
         let order = match (&model, rig.order) {
@@ -103,11 +94,14 @@ impl Plan {
             Model::Predicted => Some(predictions(rig, &campaign, &judged)?),
         };
         note_what_the_records_lack(&campaign, &mut limitations);
-        let nominal_innovations = innovations(&campaign, &nominal, |t| t.is_fit());
+        let detailed = Explanation::nominal(nominal);
+        let nominal = coarse(&campaign, &detailed);
+        let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
         Ok(Self {
             settings: settings.clone(),
             campaign,
-            nominal: Explanation::nominal(nominal),
+            nominal,
+            detailed,
             nominal_innovations,
             foreign,
             judged,
@@ -115,29 +109,18 @@ impl Plan {
         })
     }
 
-    /// The effects to fit.
-    pub fn effects(&self) -> &[Effect] {
-        &self.settings.effects
-    }
-
-    /// Fits one effect together with the nominal model. Pure and independent of the other candidates.
-    pub fn fit_candidate(&self, effect: Effect) -> CandidateFit {
-        let scene = Scene {
+    /// Ranks the candidates and draws the conclusions.
+    fn conclude(self, workers: &impl Workers) -> Diagnosis {
+        let attribution = Attribution {
             campaign: &self.campaign,
-            fit: &self.nominal.fit,
-            innovations: &self.nominal_innovations,
+            settings: &self.settings,
+            nominal: &self.nominal,
+            detailed: &self.detailed,
+            workers,
         };
-        let explanation = explain(&scene, &self.nominal, effect);
-        CandidateFit { effect, explanation }
-    }
-
-    /// Ranks the candidates and draws the conclusions. The order of `fits` does not matter.
-    pub fn conclude(self, fits: Vec<CandidateFit>) -> Diagnosis {
-        let mut singles: Vec<Explanation> = fits.into_iter().filter_map(|f| f.explanation).collect();
-        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        let mut singles = attribution.singles();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
-            self.place_knots_anew(&mut singles);
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
@@ -145,9 +128,8 @@ impl Plan {
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
         let mut joint = None;
         if significant
-            && left > SECOND
             && self.settings.max_effects > 1
-            && let Some(pair) = self.second_effect(&singles, left)
+            && let Some(pair) = attribution.pair(&singles, left)
         {
             tests = omnibus(&self.campaign, &pair.fit);
             left = tests.as_ref().map_or(0.0, Omnibus::excess);
@@ -179,19 +161,6 @@ impl Plan {
         self.report(Conclusion { singles, odds, verdict, augmented })
     }
 
-    /// The nominal fit placed its knots with the effect's trace in the residual: the promising candidates get theirs anew.
-    fn place_knots_anew(&self, singles: &mut [Explanation]) {
-        let gain = |e: &Explanation| self.nominal.bic() - e.bic();
-        let most = singles.first().map_or(0.0, gain);
-        for single in singles.iter_mut().take(REFINED) {
-            let is_grid = single.parts[0].effect == Effect::BorderResolution;
-            if gain(single) > SIGNIFICANT.max(PROMISING * most) && !is_grid {
-                *single = single.clone().with_knots_refined(&self.campaign);
-            }
-        }
-        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-    }
-
     /// Noise moves no simulation error: where the held-out error exceeds the floor of the best noise explanation by far,
     /// the noise is no cause of it, however well it predicts one step ahead.
     fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
@@ -201,25 +170,6 @@ impl Plan {
         if gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC {
             singles.retain(|s| !s.parts[0].effect.is_noise());
         }
-    }
-
-    /// A second effect on top of the likeliest ones, where it explains most of what they leave.
-    fn second_effect(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
-        let first = singles.first()?;
-        let w = innovations(&self.campaign, &first.fit, |t| t.is_fit());
-        let scene = Scene { campaign: &self.campaign, fit: &first.fit, innovations: &w };
-        let present = first.parts[0].effect;
-        let pair = self
-            .effects()
-            .iter()
-            .filter(|e| **e != present && **e != Effect::BorderResolution)
-            .filter_map(|&e| explain(&scene, first, e))
-            .min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
-        let pair = pair.with_knots_refined(&self.campaign);
-        let gained = first.bic() - pair.bic();
-        let after = omnibus(&self.campaign, &pair.fit).map_or(left, |o| o.excess());
-        let share = gained / (self.nominal.bic() - first.bic()).max(1.0);
-        (gained > SECOND && share > SECOND_SHARE && after < 0.3 * left).then_some(pair)
     }
 
     fn report(self, c: Conclusion) -> Diagnosis {
@@ -348,15 +298,15 @@ struct Conclusion {
     augmented: Explanation,
 }
 
-/// Candidates whose knots are placed anew at most, and the share of the best gain that makes one promising.
-const REFINED: usize = 5;
-const PROMISING: f64 = 0.2;
 /// Gap that noise cannot make.
 const SYSTEMATIC: f64 = 0.003;
-/// Deviance that must be left before a second effect is looked for, and that it must gain: in all, and as a share of what
-/// the first gained. Laws are never exact, so a little is always left that some other effect can take.
-const SECOND: f64 = 150.0;
-const SECOND_SHARE: f64 = 0.12;
+/// The model without the knots that follow details, where these matter; else the model itself.
+fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
+    match detailed.on_an_even_grid(campaign) {
+        Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
+        _ => detailed.clone(),
+    }
+}
 
 /// The hold-out records; without any, the fit records, with a word about it.
 fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {

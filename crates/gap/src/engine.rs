@@ -10,7 +10,8 @@
 use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
-use crate::design::{Around, Design, Linear, Whitener};
+use crate::design::{Design, Linear, Whitener};
+use crate::jacobian::Jacobian;
 use crate::normal::Normal;
 use crate::weights::{Weights, weigh};
 
@@ -108,12 +109,8 @@ pub(crate) fn fit(
     let mut damping = 1e-9;
     for _ in 0..rounds {
         let extra = derivatives(&ground, build, &own, &design, &state, &p);
-        let around = Around {
-            innovations: &state.innovations,
-            weights: state.weights.scale.as_deref(),
-            extra: &extra,
-        };
-        let mut normal = design.normal(&p, &state.whitener, &around);
+        let jacobian = Jacobian::new(&design, &p, &state.whitener, state.weights.scale.as_deref());
+        let mut normal = jacobian.normal(&state.weights.applied(&state.innovations), &extra);
         priors(&mut normal, ground.grid, &p, &state.assembly);
         let mut better = None;
         let mut step_norm = 0.0;
@@ -124,9 +121,7 @@ pub(crate) fn fit(
             };
             let step = factor.solve(&normal.gradient);
             for (j, se) in own_se.iter_mut().enumerate() {
-                let mut unit = vec![0.0; normal.size];
-                unit[p.len() + j] = 1.0;
-                *se = (factor.solve(&unit)[p.len() + j].max(0.0) * state.variance).sqrt();
+                *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance).sqrt();
             }
             if step.iter().any(|x| !x.is_finite()) {
                 damping = (damping * 100.0).max(1e-8);
@@ -212,7 +207,7 @@ pub(crate) fn fit(
     })
 }
 
-/// Numerical derivatives of the innovations with respect to the own parameters, one set of tracks a parameter.
+/// Numerical derivatives of the weighted innovations with respect to the own parameters, one column each.
 ///
 /// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
 /// squares monotone in the deviance.
@@ -223,7 +218,7 @@ fn derivatives(
     design: &Design,
     state: &State,
     p: &Linear,
-) -> Vec<Vec<Vec<f64>>> {
+) -> Vec<Vec<f64>> {
     let n = design.samples() as f64;
     (0..own.len())
         .map(|j| {
@@ -244,17 +239,18 @@ fn derivatives(
             let whitener = Whitener::new(&assembly.noise, &p.a);
             let moved = there.innovations(p, &whitener);
             let factor = (-(there.log_slope() - design.log_slope()) / n).exp();
-            moved
+            let slopes: Vec<Vec<f64>> = moved
                 .iter()
                 .zip(&state.innovations)
                 .map(|(m, w)| m.iter().zip(w).map(|(m, w)| (m * factor - w) / h).collect())
-                .collect()
+                .collect();
+            state.weights.applied(&slopes)
         })
         .collect()
 }
 
 /// The prior on border values: neighbours on a straight line, jumps free.
-fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
+pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
     let present = p.flat();
     // The gauge: no step may trade the scale of b for that of f, which the data cannot see.
     let gauge: Vec<(usize, f64)> = p.b.iter().enumerate().map(|(j, b)| (p.a.len() + j, *b)).collect();

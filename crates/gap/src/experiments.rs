@@ -11,6 +11,7 @@ use switchback_estimator::rig::{Role, Usage};
 use crate::campaign::{Campaign, Track, WARM_UP};
 use crate::diagnosis::{ExperimentKind, NextExperiment, Status, Verdict};
 use crate::explain::Explanation;
+use crate::motion::motions;
 use crate::simulate::free_run;
 
 /// Samples of a proposed record.
@@ -39,6 +40,7 @@ pub(crate) fn propose(
             clock: campaign.total,
             period: None,
             from: WARM_UP.min(v.len()),
+            moves: motions(&v, 0.0, campaign.threshold).into(),
             v,
         };
         let runs: Vec<Vec<f64>> =

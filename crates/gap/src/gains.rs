@@ -1,58 +1,58 @@
 //! Score tests: what added columns would gain, without a re-fit.
 
+use crate::jacobian::Jacobian;
 use crate::normal::{Factor, Normal};
 
-/// Score-test gains of added columns.
-pub(crate) struct Gains {
-    factor: Factor,
-    base: usize,
-    cross: Vec<Vec<f64>>,
-    solved: Vec<Vec<f64>>,
-    corner: Vec<Vec<f64>>,
-    gradient: Vec<f64>,
-    gradient_base: Vec<f64>,
+/// A model at its fit, to which columns may be added.
+pub(crate) struct Gains<'a> {
+    jacobian: &'a Jacobian,
+    /// Weighted innovations.
+    w: &'a [f64],
     variance: f64,
+    factor: Factor,
+    /// `(XᵀX)⁻¹Xᵀw`: zero but for rounding where the fit has converged.
+    left: Vec<f64>,
 }
 
-impl Gains {
-    /// Splits normal equations into `base` present parameters and the added columns.
-    pub(crate) fn new(normal: &Normal, base: usize, variance: f64) -> Option<Self> {
-        let added = normal.size - base;
-        let factor = normal.leading(base).factor(1e-8)?;
-        let cross: Vec<Vec<f64>> =
-            (0..added).map(|j| (0..base).map(|i| normal.entry(i, base + j)).collect()).collect();
-        let solved = cross.iter().map(|c: &Vec<f64>| factor.solve(c)).collect();
-        let corner =
-            (0..added).map(|i| (0..added).map(|j| normal.entry(base + i, base + j)).collect()).collect();
-        Some(Self {
-            factor,
-            base,
-            cross,
-            solved,
-            corner,
-            gradient: normal.gradient[base..].to_vec(),
-            gradient_base: normal.gradient[..base].to_vec(),
-            variance,
-        })
+/// A column with what it shares with the present parameters.
+pub(crate) struct Scored {
+    column: Vec<f64>,
+    cross: Vec<f64>,
+    solved: Vec<f64>,
+    gradient: f64,
+}
+
+impl<'a> Gains<'a> {
+    /// The present parameters' derivatives and the innovations, both weighted.
+    pub(crate) fn new(jacobian: &'a Jacobian, w: &'a [f64], variance: f64) -> Option<Self> {
+        let normal = jacobian.normal(w, &[]);
+        let factor = normal.factor(1e-8)?;
+        let left = factor.solve(&normal.gradient);
+        Some(Self { jacobian, w, variance, factor, left })
+    }
+
+    /// Prepares a weighted column.
+    pub(crate) fn score(&self, column: Vec<f64>) -> Scored {
+        let cross = self.jacobian.cross(&column);
+        let solved = self.factor.solve(&cross);
+        let plain: f64 = column.iter().zip(self.w).map(|(c, w)| c * w).sum();
+        let gradient = plain - cross.iter().zip(&self.left).map(|(c, l)| c * l).sum::<f64>();
+        Scored { column, cross, solved, gradient }
     }
 
     /// Approximate gain in deviance from adding these columns, `gᵀ S⁻¹ g / σ²` with `S` the Schur complement.
-    pub(crate) fn of(&self, columns: &[usize]) -> f64 {
-        let k = columns.len();
-        let present = self.factor.solve(&self.gradient_base);
-        let mut small = Normal::new(k);
-        let mut g = vec![0.0; k];
-        for (i, &c) in columns.iter().enumerate() {
-            g[i] = self.gradient[c] - (0..self.base).map(|m| self.cross[c][m] * present[m]).sum::<f64>();
-            for (j, &d) in columns.iter().enumerate().skip(i) {
-                let s = self.corner[c][d]
-                    - (0..self.base).map(|m| self.cross[c][m] * self.solved[d][m]).sum::<f64>();
-                let floor = if i == j { 1e-9 * self.corner[c][c] } else { 0.0 };
-                small.set(i, j, s.max(if i == j { floor } else { f64::NEG_INFINITY }));
+    pub(crate) fn of(&self, columns: &[&Scored]) -> f64 {
+        let mut small = Normal::new(columns.len());
+        for (i, c) in columns.iter().enumerate() {
+            small.gradient[i] = c.gradient;
+            for (j, d) in columns.iter().enumerate().skip(i) {
+                let corner: f64 = c.column.iter().zip(&d.column).map(|(x, y)| x * y).sum();
+                let s = corner - c.cross.iter().zip(&d.solved).map(|(x, y)| x * y).sum::<f64>();
+                small.set(i, j, if i == j { s.max(1e-9 * corner) } else { s });
             }
         }
         let Some(factor) = small.factor(1e-9) else { return 0.0 };
-        let x = factor.solve(&g);
-        x.iter().zip(&g).map(|(x, g)| x * g).sum::<f64>() / self.variance
+        let x = factor.solve(&small.gradient);
+        x.iter().zip(&small.gradient).map(|(x, g)| x * g).sum::<f64>() / self.variance
     }
 }

@@ -3,10 +3,10 @@
 use crate::assembly::convolve;
 use crate::borders::{Grid, side};
 use crate::campaign::Campaign;
-use crate::design::{Around, Design, Whitener};
-use crate::engine::{Build, Fit, Ground, fit};
-use crate::gains::Gains;
-use crate::motion::motions;
+use crate::design::{Design, Whitener};
+use crate::engine::{Build, Fit, Ground, fit, priors};
+use crate::gains::{Gains, Scored};
+use crate::jacobian::Jacobian;
 
 /// Cells of the first grid between the ends of the stroke.
 const FIRST_CELLS: usize = 10;
@@ -59,7 +59,7 @@ pub(crate) fn first_grid(campaign: &Campaign) -> Grid {
 fn visited(campaign: &Campaign) -> [Vec<f64>; 2] {
     let mut out = [Vec::new(), Vec::new()];
     for track in campaign.fit().filter(|t| !t.is_pulsed()) {
-        for (m, v) in motions(&track.v, 0.0, campaign.threshold).iter().zip(&track.v) {
+        for (m, v) in track.moves.iter().zip(&track.v) {
             if m.moves {
                 out[side(m.branch)].push(*v);
             }
@@ -89,6 +89,13 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
     }
     let placed = collapsed(campaign, pruned(campaign, best, build), build);
     halved(campaign, placed, build)
+}
+
+/// The model on an even grid through the levels of the experiments, as fine as smooth borders ask for: no knot is placed to
+/// follow a detail.
+pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let fit = refitted(campaign, fitted, &first_grid(campaign), build)?;
+    Some(halved(campaign, fit, build))
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
@@ -136,6 +143,8 @@ fn is_steep(fit: &Fit, s: usize, cell: usize) -> bool {
     knots[cell + 1] - knots[cell] < WIDE && slope(cell).is_some_and(|x| x > 3.0 * median)
 }
 
+/// A jump that costs no more than this before it is moved may pay after.
+const HOPEFUL: f64 = 200.0;
 /// A cell wider than this is no candidate for a jump, in strokes.
 const WIDE: f64 = 0.12;
 
@@ -176,9 +185,13 @@ fn collapsed(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
                 grid.knots[s].retain(|k| (*k != l || is_level[0]) && (*k != r || is_level[1]));
                 let beside_level = beside.contains(&Some(jump));
                 grid.insert(s, jump, !beside_level);
-                polished(campaign, refitted(campaign, &best, &grid, build)?, build)
+                looked_at(campaign, &best, &grid, build)
             });
-            if let Some(next) = trials.min_by(|x, y| cost(x).total_cmp(&cost(y)))
+            let next = trials
+                .min_by(|x, y| cost(x).total_cmp(&cost(y)))
+                .filter(|next| cost(next) < cost(&best) + HOPEFUL)
+                .and_then(|next| polished(campaign, refitted(campaign, &next, &next.grid, build)?, build));
+            if let Some(next) = next
                 && cost(&next) < cost(&best) + 4.0
             {
                 best = next;
@@ -202,6 +215,11 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
     fit(Ground { campaign, grid }, build, &fitted.own, &start, 5)
+}
+
+/// The same model on another grid, one step from the present parameters.
+fn looked_at(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
+    fit(Ground { campaign, grid }, build, &fitted.own, &carried_over(fitted, grid), 1)
 }
 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
@@ -230,22 +248,24 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     if trials.is_empty() {
         return None;
     }
-    let extra: Vec<Vec<Vec<f64>>> = trials
+    let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
+    let innovations = innovations.concat();
+    let gains = Gains::new(&jacobian, &innovations, best.variance)?;
+    let scored: Vec<Scored> = trials
         .iter()
         .map(|&(s, from, to)| {
             let (low, high) = (from.min(to), from.max(to));
-            column(campaign, best, &design, &whitener, s, |v| f64::from(u8::from(v > low && v <= high)))
+            let step = |v| f64::from(u8::from(v > low && v <= high));
+            gains.score(column(campaign, best, &design, &whitener, s, step))
         })
         .collect();
-    let around = Around { innovations: &innovations, weights: None, extra: &extra };
-    let normal = design.normal(&best.linear, &whitener, &around);
-    let gains = Gains::new(&normal, best.linear.len(), best.variance)?;
     let mut grid = best.grid.clone();
     let mut changed = false;
     for group in trials.chunk_by(|x, y| x.0 == y.0 && x.1 == y.1) {
         let first = trials.iter().position(|t| t == &group[0]).unwrap_or(0);
-        let best_of =
-            (0..group.len()).map(|i| (gains.of(&[first + i]), group[i])).max_by(|x, y| x.0.total_cmp(&y.0));
+        let best_of = (0..group.len())
+            .map(|i| (gains.of(&[&scored[first + i]]), group[i]))
+            .max_by(|x, y| x.0.total_cmp(&y.0));
         if let Some((gain, (s, from, to))) = best_of
             && gain > 6.0
         {
@@ -264,8 +284,9 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
     let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let around = Around { innovations: &innovations, weights: None, extra: &[] };
-    let normal = design.normal(&best.linear, &whitener, &around);
+    let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    // Without the gauge no border value would be determined.
+    priors(&mut normal, &best.grid, &best.linear, &best.assembly);
     let Some(factor) = normal.factor(1e-9) else { return best };
     let base = best.linear.a.len() + best.linear.b.len();
     let mut grid = best.grid.clone();
@@ -304,9 +325,11 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     if grid == best.grid {
         return best;
     }
+    let price = (best.samples as f64).ln();
+    let cost = |f: &Fit| f.deviance + price * f.grid.len() as f64;
     match refitted(campaign, &best, &grid, build) {
-        Some(f) => f,
-        None => best,
+        Some(f) if cost(&f) < cost(&best) => f,
+        _ => best,
     }
 }
 
@@ -339,24 +362,22 @@ fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     if places.is_empty() {
         return None;
     }
-    // Two columns a place: a step and a bend.
-    let mut extra: Vec<Vec<Vec<f64>>> = Vec::new();
-    for place in &places {
-        let at = place.v;
-        extra.push(column(campaign, best, &design, &whitener, place.side, |v| f64::from(u8::from(v > at))));
-        extra.push(column(campaign, best, &design, &whitener, place.side, |v| (v - at).max(0.0)));
-    }
-    let around = Around { innovations: &innovations, weights: None, extra: &extra };
-    let normal = design.normal(&best.linear, &whitener, &around);
-    let gains = Gains::new(&normal, best.linear.len(), best.variance)?;
+    let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
+    let innovations = innovations.concat();
+    let gains = Gains::new(&jacobian, &innovations, best.variance)?;
     let mut grid = best.grid.clone();
     let mut changed = false;
-    for (i, place) in places.iter().enumerate() {
+    for place in &places {
         if grid.knots[place.side].len() + 2 > MOST {
             continue;
         }
-        let bend = gains.of(&[2 * i + 1]);
-        let both = gains.of(&[2 * i, 2 * i + 1]);
+        let at = place.v;
+        let of_shape = |shape: &dyn Fn(f64) -> f64| {
+            gains.score(column(campaign, best, &design, &whitener, place.side, shape))
+        };
+        let bend = of_shape(&|v| (v - at).max(0.0));
+        let step = of_shape(&|v| f64::from(u8::from(v > at)));
+        let (bend, both) = (gains.of(&[&bend]), gains.of(&[&step, &bend]));
         if both > bend + 12.0 && both > KNOT_GAIN + 8.0 {
             changed |= grid.insert(place.side, place.v, true);
         } else if bend > KNOT_GAIN {
@@ -373,7 +394,7 @@ fn suspicious(campaign: &Campaign, best: &Fit, design: &Design, innovations: &[V
     for ((track, part), w) in campaign.fit().zip(&design.tracks).zip(innovations) {
         let at = |t: usize| if t >= part.from && t < track.v.len() { w[t - part.from] } else { 0.0 };
         let mut current: Option<usize> = None;
-        for (t, m) in motions(&track.v, best.assembly.play, campaign.threshold).iter().enumerate() {
+        for (t, m) in part.moves.iter().enumerate() {
             if m.moves {
                 visits[side(m.branch)].push((track.v[t], 0.0));
                 current = Some(side(m.branch));
@@ -424,14 +445,15 @@ fn column(
     whitener: &Whitener,
     border: usize,
     shape: impl Fn(f64) -> f64,
-) -> Vec<Vec<f64>> {
+) -> Vec<f64> {
     let b = convolve(&best.linear.b, &design.taps);
     campaign
         .fit()
         .zip(&design.tracks)
-        .map(|(track, part)| {
+        .flat_map(|(track, part)| {
             let mut now = 0.0;
-            let g: Vec<f64> = motions(&track.v, best.assembly.play, campaign.threshold)
+            let g: Vec<f64> = part
+                .moves
                 .iter()
                 .zip(&track.v)
                 .map(|(m, v)| {

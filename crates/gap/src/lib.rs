@@ -1,6 +1,7 @@
 //! The sim-to-real gap of a switched-hysteresis model.
 
 mod assembly;
+mod attribution;
 mod borders;
 mod campaign;
 mod closure;
@@ -16,7 +17,9 @@ mod experiments;
 mod explain;
 mod gains;
 mod given;
+mod jacobian;
 mod knots;
+mod linear;
 mod localise;
 mod motion;
 mod nominal;
@@ -25,14 +28,18 @@ mod omnibus;
 mod order;
 mod rows;
 mod score;
+mod search;
+mod sensor;
 mod settings;
 mod simulate;
 mod spectral;
 mod spectrum;
 mod weights;
+mod whitener;
 pub mod workbench;
+mod workers;
 
-pub use diagnose::{CandidateFit, Plan, diagnose};
+pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
     RecordGap, ResidualPicture, Status, Verdict,
@@ -40,5 +47,6 @@ pub use diagnosis::{
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
 pub use settings::{Model, NominalModel, Settings};
+pub use workers::{Serial, Workers};
 #[cfg(test)]
 mod testing;

@@ -6,7 +6,7 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Whitener};
 use crate::diagnosis::Cell;
 use crate::engine::Fit;
-use crate::motion::{Motion, motions};
+use crate::motion::Motion;
 
 /// Residual and circumstances of one sample.
 struct Sample {
@@ -29,7 +29,7 @@ pub(crate) fn localise(campaign: &Campaign, fit: &Fit, variance: f64) -> Vec<Cel
     let innovations = design.innovations(&fit.linear, &whitener);
     let mut samples = Vec::new();
     for (record, (track, w)) in campaign.tracks.iter().zip(&innovations).enumerate() {
-        let moves = motions(&track.v, 0.0, campaign.threshold);
+        let moves = &track.moves;
         for (k, w) in w.iter().enumerate() {
             // The innovation at t answers to the input one sample before.
             let t = track.from + k - 1;

@@ -24,7 +24,7 @@ impl Normal {
         }
     }
 
-    /// Adds one row. Zeros cost a comparison only, so sparse rows are cheap.
+    /// Adds one row, mostly zeros.
     pub(crate) fn add(&mut self, row: &[f64], w: f64) {
         self.index.clear();
         self.value.clear();
@@ -34,22 +34,51 @@ impl Normal {
                 self.value.push(x);
             }
         }
-        if 2 * self.index.len() > self.size {
-            for i in 0..self.size {
-                let x = row[i];
-                self.gradient[i] += x * w;
-                let target = &mut self.matrix[i * self.size + i..(i + 1) * self.size];
-                for (m, y) in target.iter_mut().zip(&row[i..]) {
-                    *m += x * y;
-                }
-            }
-            return;
-        }
-        for (k, (&i, &x)) in self.index.iter().zip(&self.value).enumerate() {
+        let (index, value) = (std::mem::take(&mut self.index), std::mem::take(&mut self.value));
+        self.add_sparse(&index, &value, w);
+        (self.index, self.value) = (index, value);
+    }
+
+    /// Adds one sparse row, its indices increasing.
+    pub(crate) fn add_sparse(&mut self, index: &[u32], value: &[f64], w: f64) {
+        for (k, (&i, &x)) in index.iter().zip(value).enumerate() {
             self.gradient[i as usize] += x * w;
-            let base = i as usize * self.size;
-            for (&j, &y) in self.index[k..].iter().zip(&self.value[k..]) {
-                self.matrix[base + j as usize] += x * y;
+            let target = &mut self.matrix[i as usize * self.size..(i as usize + 1) * self.size];
+            for (&j, &y) in index[k..].iter().zip(&value[k..]) {
+                target[j as usize] += x * y;
+            }
+        }
+    }
+
+    /// Adds dense rows of the first `columns` parameters, row-major.
+    pub(crate) fn add_dense(&mut self, rows: &[f64], columns: usize, w: &[f64]) {
+        // Four rows at a time: the matrix is read and written once for all of them.
+        for (rows, w) in rows.chunks(4 * columns).zip(w.chunks(4)) {
+            match w {
+                [w0, w1, w2, w3] => {
+                    let (r01, r23) = rows.split_at(2 * columns);
+                    let ((r0, r1), (r2, r3)) = (r01.split_at(columns), r23.split_at(columns));
+                    for i in 0..columns {
+                        let (x0, x1, x2, x3) = (r0[i], r1[i], r2[i], r3[i]);
+                        self.gradient[i] += (x0 * w0 + x1 * w1) + (x2 * w2 + x3 * w3);
+                        let target = &mut self.matrix[i * self.size + i..i * self.size + columns];
+                        let rest = r0[i..].iter().zip(&r1[i..]).zip(r2[i..].iter().zip(&r3[i..]));
+                        for (m, ((y0, y1), (y2, y3))) in target.iter_mut().zip(rest) {
+                            *m += (x0 * y0 + x1 * y1) + (x2 * y2 + x3 * y3);
+                        }
+                    }
+                }
+                few => {
+                    for (row, w) in rows.chunks(columns).zip(few) {
+                        for i in 0..columns {
+                            self.gradient[i] += row[i] * w;
+                            let target = &mut self.matrix[i * self.size + i..i * self.size + columns];
+                            for (m, y) in target.iter_mut().zip(&row[i..]) {
+                                *m += row[i] * y;
+                            }
+                        }
+                    }
+                }
             }
         }
     }
@@ -77,18 +106,6 @@ impl Normal {
     /// Sets an entry of the symmetric matrix.
     pub(crate) fn set(&mut self, i: usize, j: usize, x: f64) {
         self.matrix[i.min(j) * self.size + i.max(j)] = x;
-    }
-
-    /// The equations of the first `size` parameters alone.
-    pub(crate) fn leading(&self, size: usize) -> Self {
-        let mut out = Self::new(size);
-        for i in 0..size {
-            out.gradient[i] = self.gradient[i];
-            for j in i..size {
-                out.set(i, j, self.entry(i, j));
-            }
-        }
-        out
     }
 
     /// The equations with all but the chosen parameters held.
@@ -143,6 +160,13 @@ impl Factor {
         let x = self.cholesky.solve(&rhs);
         x.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
     }
+
+    /// Diagonal entry of `M⁻¹`.
+    pub(crate) fn inverse_diagonal(&self, i: usize) -> f64 {
+        let mut unit = vec![0.0; self.scale.len()];
+        unit[i] = 1.0;
+        self.solve(&unit)[i]
+    }
 }
 
 #[cfg(test)]
@@ -155,6 +179,17 @@ mod tests {
         let mut n = Normal::new(6);
         n.add(&rows[0], 1.0);
         n.add(&rows[1], -2.0);
+        let mut dense = Normal::new(6);
+        dense.add_dense(&rows.concat(), 6, &[1.0, -2.0]);
+        assert_eq!((&n.matrix, &n.gradient), (&dense.matrix, &dense.gradient));
+        // Four rows at a time and one at a time.
+        let six: Vec<f64> = (0..36).map(|i| f64::from(i * i % 7)).collect();
+        let w = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let mut dense = Normal::new(6);
+        dense.add_dense(&six, 6, &w);
+        let mut sparse = Normal::new(6);
+        six.chunks(6).zip(w).for_each(|(row, w)| sparse.add(row, w));
+        assert_eq!((&dense.matrix, &dense.gradient), (&sparse.matrix, &sparse.gradient));
         for i in 0..6 {
             let g: f64 = rows[0][i] - 2.0 * rows[1][i];
             assert!((n.gradient[i] - g).abs() < 1e-15);

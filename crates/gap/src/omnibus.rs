@@ -2,11 +2,11 @@
 
 use crate::assembly::convolve;
 use crate::campaign::Campaign;
-use crate::design::{Around, Design, Whitener};
+use crate::design::{Design, Whitener};
 use crate::effect::Stage;
 use crate::engine::Fit;
-use crate::gains::Gains;
-use crate::motion::motions;
+use crate::gains::{Gains, Scored};
+use crate::jacobian::Jacobian;
 
 /// What the tests found.
 #[derive(Debug, Clone)]
@@ -90,7 +90,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     for (number, (track, part)) in campaign.fit().zip(&design.tracks).enumerate() {
         let u = design.input(part, &fit.linear.f);
         let raw: Vec<f64> = (0..u.len()).map(|t| part.rows.dot(t, &fit.linear.f)).collect();
-        let moves = motions(&track.v, 0.0, campaign.threshold);
+        let moves = &track.moves;
         let mut columns: Vec<(Group, Vec<f64>)> = Vec::new();
         // Columns beside u: they pass B.
         let through = |g: Vec<f64>| whitener.column(&g, &b, part.from);
@@ -148,13 +148,14 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             extra[j].push(column);
         }
     }
-    let around = Around { innovations: &innovations, weights: weights.scale.as_deref(), extra: &extra };
-    let normal = design.normal(&fit.linear, &whitener, &around);
-    let gains = Gains::new(&normal, fit.linear.len(), fit.variance)?;
-    let all: Vec<usize> = (0..names.len()).collect();
+    let jacobian = Jacobian::new(&design, &fit.linear, &whitener, weights.scale.as_deref());
+    let weighted = weights.applied(&innovations);
+    let gains = Gains::new(&jacobian, &weighted, fit.variance)?;
+    let all: Vec<Scored> = extra.iter().map(|column| gains.score(weights.applied(column))).collect();
     let mut groups: Vec<(Group, f64, usize)> = Vec::new();
     for group in [Group::Lags, Group::Motion, Group::Reversal, Group::Time, Group::Level] {
-        let members: Vec<usize> = all.iter().copied().filter(|&j| names[j] == group).collect();
+        let members: Vec<&Scored> =
+            names.iter().zip(&all).filter(|(name, _)| **name == group).map(|(_, c)| c).collect();
         groups.push((group, gains.of(&members), members.len()));
     }
     let scaled: Vec<Vec<f64>> = match &weights.scale {
@@ -173,7 +174,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     groups.push((Group::Scatter, scatter.0, scatter.1));
     Some(Omnibus {
         groups,
-        regressors: (gains.of(&all), all.len()),
+        regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
         period: period_lack(campaign, &scaled, second),

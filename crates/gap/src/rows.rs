@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
 use crate::borders::{Grid, side};
 use crate::campaign::{Campaign, Track};
-use crate::motion::{Motion, motions};
+use crate::motion::Motion;
 
 /// Sparse rows, one a sample.
 #[derive(Debug, Clone)]
@@ -16,13 +16,13 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    fn with_capacity(samples: usize) -> Self {
+    pub(crate) fn with_capacity(samples: usize) -> Self {
         let mut start = Vec::with_capacity(samples + 1);
         start.push(0);
         Self { start, index: Vec::with_capacity(2 * samples), value: Vec::with_capacity(2 * samples) }
     }
 
-    fn push(&mut self, row: &[(u32, f64)], scale: f64) {
+    pub(crate) fn push(&mut self, row: &[(u32, f64)], scale: f64) {
         for &(i, x) in row {
             if x != 0.0 {
                 self.index.push(i);
@@ -59,8 +59,12 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
 }
 
 /// The rows of one track: first the border values of `grid`, then the assembly's border columns.
-pub(crate) fn rows(campaign: &Campaign, track: &Track, grid: &Grid, assembly: &Assembly) -> Rows {
-    let moves = motions(&track.v, assembly.play, campaign.threshold);
+pub(crate) fn rows(
+    (campaign, track): (&Campaign, &Track),
+    moves: &[Motion],
+    grid: &Grid,
+    assembly: &Assembly,
+) -> Rows {
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
     let mut builder = Builder::new(grid, assembly, track.v[0]);
@@ -79,7 +83,9 @@ pub(crate) fn rows(campaign: &Campaign, track: &Track, grid: &Grid, assembly: &A
         row.extend_from_slice(&builder.current);
         for (j, column) in assembly.border_columns.iter().enumerate() {
             let s = match column {
-                BorderColumn::BranchSlow { clock: c } => clock(*c, campaign, track, t, m.path),
+                BorderColumn::BranchSlow { clock: c } | BorderColumn::SideSlow { clock: c, .. } => {
+                    clock(*c, campaign, track, t, m.path)
+                }
                 _ => 0.0,
             };
             held[j] = column_value(column, m, s, held[j]);
@@ -105,6 +111,15 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
             _ => m.branch * (-(speed / scale).powf(power)).exp(),
         },
         BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
+        BorderColumn::RestingRise { scale } => -m.branch * (-(m.rest as f64) / scale).exp_m1(),
+        BorderColumn::SideSlow { branch, .. } if m.moves => {
+            if m.branch == branch {
+                s
+            } else {
+                0.0
+            }
+        }
+        BorderColumn::SideSlow { .. } => held,
         BorderColumn::BranchSlow { .. } => {
             if m.moves {
                 m.branch * s
@@ -196,11 +211,11 @@ impl<'a> Builder<'a> {
 
 /// How `u` answers to a small change of `v`, as rows: per unit of `v` while moving (over a fiftieth of the stroke, so
 /// that a jump counts as a steep slope), and by a switch to the other border while resting.
-pub(crate) fn sensitivity_rows(campaign: &Campaign, track: &Track, grid: &Grid) -> [Rows; 2] {
+pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid) -> [Rows; 2] {
     const HALF: f64 = 0.01;
     let mut moving = Rows::with_capacity(track.v.len());
     let mut resting = Rows::with_capacity(track.v.len());
-    for (m, &v) in motions(&track.v, 0.0, campaign.threshold).iter().zip(&track.v) {
+    for (m, &v) in track.moves.iter().zip(&track.v) {
         let mut slope = Vec::new();
         let mut gap = Vec::new();
         let own = side(m.branch);
@@ -251,8 +266,12 @@ pub(crate) fn equation_columns(
                 if only != number || t < track.from.min(6) {
                     return 0.0;
                 }
+                let size = (radius.ln() * t as f64).exp();
+                if size < 1e-9 {
+                    return 0.0;
+                }
                 let angle = frequency * t as f64;
-                radius.powi(t as i32) * if sine { angle.sin() } else { angle.cos() }
+                size * if sine { angle.sin() } else { angle.cos() }
             }
             EquationColumn::Local { track: only, piece, pieces } => {
                 if only != number {

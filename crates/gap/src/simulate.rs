@@ -30,7 +30,7 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
         x.push(now.clamp(-limit, limit));
     }
     let sensed = |x: f64| {
-        let y = sense(&fit.assembly.curve.powers, x);
+        let y = fit.assembly.curve.read(x);
         match fit.assembly.saturation {
             Some(s) => y.clamp(s.low, s.high),
             None => y,
@@ -38,28 +38,6 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
     };
     let mut y = track.y[..part.from].to_vec();
     y.extend(x[part.from..].iter().map(|x| sensed(*x)));
-    y
-}
-
-/// Solves `x = y + Σ θₖ y^(k+2)` for the `y` that continues from small outputs, by Newton's method.
-fn sense(powers: &[f64], x: f64) -> f64 {
-    if powers.is_empty() {
-        return x;
-    }
-    let mut y = x;
-    for _ in 0..30 {
-        let (mut value, mut slope, mut power) = (y, 1.0, y);
-        for (k, c) in powers.iter().enumerate() {
-            slope += c * (k + 2) as f64 * power;
-            power *= y;
-            value += c * power;
-        }
-        let step = (value - x) / slope.max(0.05);
-        y -= step.clamp(-1.0, 1.0);
-        if step.abs() < 1e-12 {
-            break;
-        }
-    }
     y
 }
 

@@ -18,6 +18,16 @@ pub(crate) struct Weights {
     pub(crate) mixture: Option<(f64, f64)>,
 }
 
+impl Weights {
+    /// Signals on the counted samples times the factors, all tracks one after the other.
+    pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
+        match &self.scale {
+            None => signals.concat(),
+            Some(scale) => signals.iter().flatten().zip(scale.iter().flatten()).map(|(w, s)| w * s).collect(),
+        }
+    }
+}
+
 /// Weighs the innovations by the law.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
     if design.tracks.iter().any(|t| t.clipped.is_some()) {

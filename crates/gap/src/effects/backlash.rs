@@ -12,8 +12,9 @@
 use super::{Search, Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let widths = [0.008, 0.015, 0.025, 0.04, 0.06, 0.085, 0.12, 0.16, 0.22, 0.3, 0.42];
-    let starts = widths.iter().map(|&w| vec![own("play", "strokes", w, (0.002, 0.7), 0.16 * w)]).collect();
+    // The profile is not smooth: a width off by half has lost the trace.
+    let widths = std::iter::successors(Some(0.003), |w| Some(1.45 * w)).take_while(|w| *w < 0.6);
+    let starts = widths.map(|w: f64| vec![own("play", "strokes", w, (0.002, 0.7), 0.16 * w)]).collect();
     let mut variant = Variant::new(starts, |p, assembly| assembly.play = p[0]);
     variant.search = Search::Profile;
     vec![variant]

@@ -3,6 +3,7 @@
 //! ```text
 //! u = (1 − w/2)·C(v) + (w/2)·C_other(v),   w = Σ cₖ sₖ(clock)         the loop narrows in proportion
 //! u = C(v) + c·branch·clock                                          both borders move apart evenly
+//! u = C(v) + c·clock on one border                                   one face wears
 //! ```
 //!
 //! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel. Stage: operator.
@@ -26,6 +27,11 @@ pub(super) fn variants() -> Vec<Variant> {
         out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
             assembly.border_columns.push(BorderColumn::BranchSlow { clock });
         }));
+        for branch in [-1.0, 1.0] {
+            out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
+                assembly.border_columns.push(BorderColumn::SideSlow { clock, branch });
+            }));
+        }
     }
     out
 }

@@ -1,7 +1,7 @@
 //! The equation error is not white.
 //!
 //! ```text
-//! ξ = w / D(q⁻¹), D of degree 1, 2 or 4;   or ξ = (1 + c q⁻¹) w
+//! ξ = w / D(q⁻¹), D of degree 1, 2, 4 or 6;   or ξ = (1 + c q⁻¹) w
 //! ```
 //!
 //! Parameters: coefficients of `D`, or `c`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
@@ -10,11 +10,19 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let mut out: Vec<Variant> = [1, 2, 4]
+    let mut out: Vec<Variant> = [1, 2, 4, 6]
         .into_iter()
         .map(|degree| {
-            let start = (0..degree).map(|_| own("d", "1", 0.0, (-2.5, 2.5), 0.003)).collect();
-            Variant::new(vec![start], |p, assembly| {
+            // A pole of the noise near one is far from white noise: the nominal A has it.
+            let starts = [0.0, -0.6, -0.95]
+                .iter()
+                .take(if degree > 2 { 1 } else { 3 })
+                .map(|&first| {
+                    let value = |i| if i == 0 { first } else { 0.0 };
+                    (0..degree).map(|i| own("d", "1", value(i), (-2.5, 2.5), 0.003)).collect()
+                })
+                .collect();
+            Variant::new(starts, |p, assembly| {
                 assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, p);
             })
         })

@@ -1,15 +1,20 @@
 //! A slow after-effect of the operator's output.
 //!
 //! ```text
-//! ũ = u + κ·(1−p)/(1−p q⁻¹) u,  p = exp(−1/τ)        first-order creep
-//! u = C(v) + c·branch·ln(1 + rest/τ)                 logarithmic creep at rest
+//! ũ = u + κ·(1−p)/(1−p q⁻¹) u,  p = exp(−1/τ)                first-order creep
+//! ũ = u + κ/4·Σₖ (1−pₖ)/(1−pₖ q⁻¹) u,  pₖ = exp(−1/(ρᵏτ)), k = 0…3   logarithmic creep over ρ³
+//! u = C(v) + c·branch·ln(1 + rest/τ)                         logarithmic creep at rest
+//! u = C(v) + c·branch·(1 − exp(−rest/τ))                     creep at rest that ends
 //! ```
 //!
-//! Parameters: `kappa` (−0.9…3), time constant `tau` in samples (8…5000). Stage: operator. After each move the output goes on
+//! Equal weights on time constants spread evenly in their logarithm make the step response grow with the logarithm of
+//! time (Krejci and Kuhnen, "Inverse control of systems with hysteresis and creep", IEE Proc. Control Theory Appl. 148, 2001).
+//! Parameters: `kappa` (−0.9…3), time constant `tau` in samples (8…5000; the shortest
+//! of several 1…1000), their ratio `rho` (1.5…20). Stage: operator. After each move the output goes on
 //! drifting the same way. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{BorderColumn, EquationColumn};
+use crate::assembly::{BorderColumn, EquationColumn, convolve};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
@@ -38,5 +43,45 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let logarithmic = Variant::conditional(starts, |p, assembly| {
         assembly.border_columns.push(BorderColumn::RestingLog { scale: p[0].exp() });
     });
-    vec![linear, logarithmic]
+    let starts = [3.0, 30.0]
+        .iter()
+        .map(|&tau: &f64| vec![own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
+        .collect();
+    let ending = Variant::conditional(starts, |p, assembly| {
+        assembly.border_columns.push(BorderColumn::RestingRise { scale: p[0].exp() });
+    });
+    vec![linear, spread(fitted_tracks(scene.campaign)), logarithmic, ending]
+}
+
+fn spread(tracks: Vec<usize>) -> Variant {
+    let starts = [1.5, 6.0, 25.0]
+        .iter()
+        .map(|&tau: &f64| {
+            vec![
+                own("kappa", "1", 0.2, (-0.9, 3.0), 0.002),
+                own("log_tau", "ln samples", tau.ln(), (0.0, 7.0), 0.02),
+                own("log_rho", "1", 1.6, (0.4, 3.0), 0.02),
+            ]
+        })
+        .collect();
+    Variant::conditional(starts, move |p, assembly| {
+        let poles = [0.0, 1.0, 2.0, 3.0].map(|k| (-(-p[1] - k * p[2]).exp()).exp());
+        let without = |left_out: Option<usize>| {
+            let others = poles.iter().enumerate().filter(|(k, _)| Some(*k) != left_out);
+            others.fold(vec![1.0], |product, (_, pole)| convolve(&product, &[1.0, -pole]))
+        };
+        let denominator = without(None);
+        let mut numerator = denominator.clone();
+        for (k, pole) in poles.iter().enumerate() {
+            let weight = 0.25 * p[0] * (1.0 - pole);
+            numerator.iter_mut().zip(without(Some(k))).for_each(|(n, w)| *n += weight * w);
+        }
+        assembly.filter(&numerator, &denominator);
+        for &track in &tracks {
+            for radius in [poles[2], poles[3]] {
+                let decay = EquationColumn::Decay { track, radius, frequency: 0.0, sine: false };
+                assembly.equation_columns.push(decay);
+            }
+        }
+    })
 }

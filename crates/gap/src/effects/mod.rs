@@ -103,7 +103,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::SensorDrift => sensor_drift::variants(scene),
         Effect::SensorSaturation => sensor_saturation::variants(scene),
         Effect::SensorQuantisation => sensor_quantisation::variants(scene),
-        Effect::SensorNonlinearity => sensor_nonlinearity::variants(),
+        Effect::SensorNonlinearity => sensor_nonlinearity::variants(scene),
         Effect::BorderResolution => border_resolution::variants(scene),
     }
 }

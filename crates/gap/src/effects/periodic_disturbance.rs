@@ -1,7 +1,8 @@
 //! A sinusoid of unknown frequency.
 //!
 //! ```text
-//! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign
+//! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign;
+//!                                      or the first three harmonics of one wave
 //! ```
 //!
 //! Parameter: angular frequency `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
@@ -30,10 +31,18 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }
         }
     });
+    let harmonics = Variant::new(starts.clone(), |p, assembly| {
+        for harmonic in [1.0, 2.0, 3.0] {
+            for sine in [false, true] {
+                let frequency = harmonic * p[0];
+                assembly.equation_columns.push(EquationColumn::Line { frequency, track: None, sine });
+            }
+        }
+    });
     let campaign = Variant::new(starts, |p, assembly| {
         for sine in [false, true] {
             assembly.equation_columns.push(EquationColumn::Line { frequency: p[0], track: None, sine });
         }
     });
-    vec![a_record, campaign]
+    vec![a_record, campaign, harmonics]
 }

@@ -2,18 +2,53 @@
 //!
 //! ```text
 //! y = min(max(x, low), high): many samples equal the extreme value exactly
+//! x = y + w·(e^z − 1 − z),  z = (y − k)/w beyond a knee k: the range ends softly
 //! ```
 //!
-//! Parameters: the limits, read off the ties. Samples at a limit, and those whose regressors reach one, only say that `x`
+//! Parameters: the limits, read off the ties; or knee `k` and width `w`, at the upper end, the lower, or both. Samples at a limit, and those whose regressors reach one, only say that `x`
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
-use super::{Scene, Variant};
+use super::{Scene, Variant, own};
 use crate::assembly::Saturation;
+use crate::sensor::Knee;
 
 /// Ties at an extreme that chance does not make, in samples.
 const TIES: usize = 6;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    hard(scene).into_iter().chain(soft(scene)).collect()
+}
+
+/// Knees at either end of the readings or at both.
+fn soft(scene: &Scene<'_>) -> Vec<Variant> {
+    let readings = || scene.campaign.fit().flat_map(|t| &t.y);
+    let low = readings().fold(f64::INFINITY, |l, &y| l.min(y));
+    let high = readings().fold(f64::NEG_INFINITY, |h, &y| h.max(y));
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    [&[1.0][..], &[-1.0], &[1.0, -1.0]]
+        .into_iter()
+        .map(|ends| {
+            let starts = [0.5, 0.75]
+                .iter()
+                .map(|&at| {
+                    vec![
+                        own("knee", "share of the half range", at, (0.1, 0.98), 0.005),
+                        own("width", "share of the half range", 1.0, (0.05, 20.0), 0.005),
+                    ]
+                })
+                .collect();
+            Variant::conditional(starts, move |p, assembly| {
+                assembly.curve.knees.extend(ends.iter().map(|&sign| Knee {
+                    level: middle + sign * p[0] * half,
+                    width: p[1] * half,
+                    sign,
+                }));
+            })
+        })
+        .collect()
+}
+
+fn hard(scene: &Scene<'_>) -> Vec<Variant> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for y in scene.campaign.fit().flat_map(|t| &t.y) {
         low = low.min(*y);

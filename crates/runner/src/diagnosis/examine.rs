@@ -1,9 +1,9 @@
-//! The diagnosis, one candidate a task.
+//! The diagnosis, its independent pieces on all cores.
 
 use super::{DiagnosisError, Source, Subject};
 use rayon::prelude::*;
 use switchback_estimator::rig::Rig;
-use switchback_gap::{Diagnosis, Plan, Settings};
+use switchback_gap::{Diagnosis, Settings, Workers, diagnose_with};
 
 /// A diagnosis with the rig it is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,16 +16,23 @@ pub struct Report {
     pub diagnosis: Diagnosis,
 }
 
-/// Diagnoses with the default settings; the candidates are fitted in parallel, and the result does not depend on it.
+/// Pieces of a diagnosis as tasks of the thread pool.
+struct Pool;
+
+impl Workers for Pool {
+    fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+        items.par_iter().map(|item| work(item)).collect()
+    }
+}
+
+/// Diagnoses with the default settings on all cores; the result does not depend on how many there are.
 ///
 /// # Errors
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
 pub fn examine(subject: Subject) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
-    let refused = |error| DiagnosisError::new(&rig.name, &error);
-    let plan = Plan::new(&rig, model, &Settings::default()).map_err(refused)?;
-    let fits = plan.effects().par_iter().map(|&effect| plan.fit_candidate(effect)).collect();
-    let mut diagnosis = plan.conclude(fits);
+    let mut diagnosis = diagnose_with(&Pool, &rig, model, &Settings::default())
+        .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
     diagnosis.limitations.extend(notes);
     Ok(Report { rig, source, diagnosis })
 }

@@ -1,0 +1,185 @@
+//! Which effects explain what the nominal model misses: a cheap look at every law, then the promising ones to
+//! convergence, border knots placed anew, and a second effect where the first leaves much.
+
+use crate::campaign::Campaign;
+use crate::decide::SIGNIFICANT;
+use crate::effect::Effect;
+use crate::effects::Scene;
+use crate::explain::Explanation;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::score::innovations;
+use crate::search::{finish, sketch};
+use crate::settings::Settings;
+use crate::workers::Workers;
+
+/// What is to be explained, and with what.
+pub(crate) struct Attribution<'a, W> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) settings: &'a Settings,
+    pub(crate) nominal: &'a Explanation,
+    /// The nominal model with border knots placed from the data: what effects are added to.
+    pub(crate) detailed: &'a Explanation,
+    pub(crate) workers: &'a W,
+}
+
+/// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.
+struct Look {
+    effect: Effect,
+    gain: f64,
+    laws: Vec<Explanation>,
+}
+
+/// Share of the best gain that makes an effect promising, and how many are fitted to convergence at least.
+const PROMISING: f64 = 0.15;
+const FINISHED: usize = 4;
+/// Laws of one effect fitted to convergence at most, and the share of its best gain that a further one needs.
+const LAWS: usize = 2;
+const LAW: f64 = 0.6;
+/// Candidates whose knots are placed anew at most, and the share of the best gain that they need.
+const REPLACED: usize = 4;
+const RIVAL: f64 = 0.4;
+/// First effects that a second one is looked for on top of, and pairs fitted to convergence on each.
+const SEEDS: usize = 2;
+const PAIRS: usize = 2;
+/// Deviance that a second effect must gain: a sample, which is half a standard deviation of the noise, and as a share of what
+/// the first gained. Laws are never exact, so a little is always left that some other effect can take.
+const SECOND: f64 = 0.22;
+const SECOND_SHARE: f64 = 0.12;
+
+impl<W: Workers> Attribution<'_, W> {
+    /// Every effect on its own, best first.
+    pub(crate) fn singles(&self) -> Vec<Explanation> {
+        let mut singles = self.on_top_of(self.detailed, &self.settings.effects, FINISHED);
+        if self.settings.effects.contains(&Effect::BorderResolution) {
+            self.compare_with_detail(&mut singles);
+        }
+        if self.gain(singles.first()) > 0.5 * SIGNIFICANT {
+            singles = self.knots_placed_anew(singles);
+        }
+        singles
+    }
+
+    /// Knots placed from the data are themselves the explanation that the grid was too coarse.
+    fn compare_with_detail(&self, singles: &mut Vec<Explanation>) {
+        let known = Explanation::detailed(self.detailed.fit.clone());
+        let found = singles.iter_mut().find(|s| s.parts[0].effect == Effect::BorderResolution);
+        match found {
+            Some(finer) if finer.bic() <= known.bic() => {}
+            Some(finer) => *finer = known,
+            None => singles.push(known),
+        }
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    }
+
+    /// The best pair of effects, where the best single one leaves much that a second explains.
+    pub(crate) fn pair(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
+        let first = singles.first()?;
+        let gained_by_first = self.gain(Some(first)).max(1.0);
+        let samples = self.campaign.fit_samples() as f64;
+        let least = (SECOND * samples).max(SECOND_SHARE * gained_by_first);
+        if left < 0.4 * least {
+            return None;
+        }
+        let others: Vec<Effect> =
+            self.settings.effects.iter().copied().filter(|e| *e != Effect::BorderResolution).collect();
+        let seeds = singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
+        let pairs = seeds.flat_map(|seed| {
+            let present = seed.parts[0].effect;
+            // What a twin adds is the difference between two laws of one thing, no second effect.
+            let another = |e: &Effect| *e != present && !present.twins().contains(e);
+            let rest: Vec<Effect> = others.iter().copied().filter(another).collect();
+            self.on_top_of(seed, &rest, PAIRS)
+        });
+        let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
+        let gained = first.bic() - pair.bic();
+        let after = omnibus(self.campaign, &pair.fit).map_or(left, |o: Omnibus| o.excess());
+        (gained > least && after < 0.3 * left).then_some(pair)
+    }
+
+    /// Penalised deviance gained over the nominal model.
+    fn gain(&self, explanation: Option<&Explanation>) -> f64 {
+        explanation.map_or(0.0, |e| self.nominal.bic() - e.bic())
+    }
+
+    /// Each effect added to what is known, best first: all looked at, the promising ones fitted to convergence.
+    fn on_top_of(&self, known: &Explanation, effects: &[Effect], finished: usize) -> Vec<Explanation> {
+        let w = innovations(self.campaign, &known.fit, |t| t.is_fit());
+        let scene = Scene { campaign: self.campaign, fit: &known.fit, innovations: &w };
+        let looks = self.workers.map(effects, |&effect| (effect, sketch(&scene, known, effect)));
+        let gain = |e: &Explanation| known.bic() - e.bic();
+        let mut looks: Vec<Look> = looks
+            .into_iter()
+            .filter(|(_, laws)| !laws.is_empty())
+            .map(|(effect, laws)| Look { effect, gain: gain(&laws[0]), laws })
+            .collect();
+        looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
+        let most = looks.first().map_or(0.0, |look| look.gain);
+        let mut promising: Vec<(Effect, Explanation)> = Vec::new();
+        let mut done: Vec<(Effect, Explanation)> = Vec::new();
+        let mut twins: Vec<Effect> = Vec::new();
+        for (rank, look) in looks.into_iter().enumerate() {
+            // A look may miss a narrow optimum: no twin of a promising effect is ruled out by it.
+            let worth = rank < finished
+                || look.gain > PROMISING * most.max(SIGNIFICANT)
+                || twins.contains(&look.effect);
+            if worth && look.gain > SIGNIFICANT {
+                twins.extend(look.effect.twins());
+            }
+            let least = look.gain - (1.0 - LAW) * look.gain.abs();
+            let laws = look.laws.into_iter().filter(|law| gain(law) >= least).take(LAWS);
+            let laws = laws.map(|law| (look.effect, law));
+            if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
+        }
+        let held = known.fit.own.len();
+        let finished = |(effect, law): &(Effect, Explanation)| (*effect, finish(self.campaign, held, law));
+        done.extend(self.workers.map(&promising, finished));
+        done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
+        // Several laws of one effect: the best counts.
+        let mut seen: Vec<Effect> = Vec::new();
+        done.retain(|(effect, _)| {
+            let new = !seen.contains(effect);
+            seen.push(*effect);
+            new
+        });
+        done.into_iter().map(|(_, e)| e).collect()
+    }
+
+    /// The nominal fit placed its knots with the effect's trace in the residual: the rivals get theirs anew.
+    ///
+    /// Where details of the borders matter beside an effect, the effect alone is the one on an even grid.
+    fn knots_placed_anew(&self, singles: Vec<Explanation>) -> Vec<Explanation> {
+        let most = self.gain(singles.first());
+        let numbered: Vec<(usize, Explanation)> = singles.into_iter().enumerate().collect();
+        let mut out = self.workers.map(&numbered, |(rank, single)| {
+            let is_grid = single.parts[0].effect == Effect::BorderResolution;
+            let rival = *rank < REPLACED && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
+            match (is_grid, rival) {
+                (true, _) => single.clone(),
+                (false, true) => self.without_details(single.clone().with_knots_refined(self.campaign)),
+                (false, false) if self.has_details() => single.clone().handicapped(SIGNIFICANT),
+                (false, false) => single.clone(),
+            }
+        });
+        out.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        out
+    }
+
+    /// Whether the nominal model lacks details of the borders.
+    fn has_details(&self) -> bool {
+        self.nominal.fit.grid != self.detailed.fit.grid
+    }
+
+    /// The explanation on an even grid, where the details that its knots follow are material.
+    fn without_details(&self, single: Explanation) -> Explanation {
+        match single.on_an_even_grid(self.campaign) {
+            Some(even) if even.bic() - single.bic() > detail(self.campaign) => even,
+            _ => single,
+        }
+    }
+}
+
+/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's
+/// hundredth, which is a tenth of the noise's standard deviation.
+pub(crate) fn detail(campaign: &Campaign) -> f64 {
+    0.01 * campaign.fit_samples() as f64
+}

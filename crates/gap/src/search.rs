@@ -1,0 +1,184 @@
+//! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
+
+use crate::assembly::Assembly;
+use crate::campaign::Campaign;
+use crate::design::{Design, Linear};
+use crate::effect::Effect;
+use crate::effects::{Scene, Search, Variant, variants};
+use crate::engine::{Build, Fit, Ground, Own, fit};
+use crate::explain::{Explanation, Part, assembled};
+use crate::normal::Normal;
+
+/// Gauss–Newton rounds of a look, and of the final fit.
+const LOOK: usize = 2;
+const FINAL: usize = 14;
+/// Points of one pattern search at most.
+const PATTERN_TRIALS: usize = 30;
+
+/// A cheap look at one more effect on top of what is known: its laws, each near its best start, likeliest first. Empty where the
+/// records rule the effect out.
+pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, effect: Effect) -> Vec<Explanation> {
+    let mut laws: Vec<Explanation> =
+        variants(effect, scene).iter().filter_map(|law| look(scene.campaign, known, effect, law)).collect();
+    laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    laws
+}
+
+/// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
+pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
+    let build = |values: &[f64]| assembled(&sketch.parts, values);
+    let grid = sketch.fit.grid.clone();
+    let task = Task { ground: Ground { campaign, grid: &grid }, build: &build, held };
+    let law = sketch.parts.last().map(|part| part.search);
+    let fit = match law {
+        Some(Search::Profile) => task.pattern(sketch.fit.clone()),
+        _ => task.settled(sketch.fit.clone()),
+    };
+    Explanation { fit, ..sketch.clone() }
+}
+
+fn look(campaign: &Campaign, known: &Explanation, effect: Effect, law: &Variant) -> Option<Explanation> {
+    let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
+    let mut parts = known.parts.clone();
+    parts.push(Part { effect, apply: law.apply.clone(), count: law.starts[0].len(), search: law.search });
+    let build = |values: &[f64]| assembled(&parts, values);
+    let base = match &law.grid {
+        Some(grid) => crate::knots::carried_over(&known.fit, grid),
+        None => known.fit.linear.clone(),
+    };
+    let task = Task { ground: Ground { campaign, grid }, build: &build, held: known.fit.own.len() };
+    // The own parameters of what is known, then those of the law.
+    let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
+    let starts = law.starts.iter().map(|own| joined(own));
+    let fit = match law.search {
+        Search::Smooth => best(starts.filter_map(|own| task.together(&own, &base, LOOK))),
+        Search::Profile => best(starts.filter_map(|own| task.held(&own, &base, LOOK))),
+        Search::Conditional => {
+            let held = best(starts.flat_map(|own| {
+                let afresh = task.dynamics_refitted(&own, &base);
+                [task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))].into_iter().flatten()
+            }))?;
+            task.together(&held.own, &held.linear, LOOK)
+        }
+    }?;
+    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap })
+}
+
+/// One law's search.
+struct Task<'a> {
+    ground: Ground<'a>,
+    build: &'a Build<'a>,
+    /// Own parameters that belong to effects already known.
+    held: usize,
+}
+
+impl Task<'_> {
+    fn assembly(&self, own: &[Own]) -> Assembly {
+        (self.build)(&own.iter().map(|o| o.value).collect::<Vec<_>>())
+    }
+
+    /// Everything fitted together.
+    fn together(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
+        let start = self.padded(start, &self.assembly(own));
+        fit(self.ground, self.build, own, &start, rounds)
+    }
+
+    /// The fit with the own parameters held, which is a nearly linear problem.
+    fn held(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
+        let assembly = self.assembly(own);
+        let start = self.padded(start, &assembly);
+        let mut fitted = fit(self.ground, &|_| assembly.clone(), &[], &start, rounds)?;
+        fitted.own = own.to_vec();
+        fitted.own_se = vec![f64::NAN; own.len()];
+        fitted.parameters += own.len() as f64;
+        Some(fitted)
+    }
+
+    /// `A` and `B` by least squares, the borders as they are: behind a filter the nominal `A` may hold a pole that the
+    /// filter ought to have (and B a delay), and no small step gets out of that. Nothing without a filter.
+    fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
+        let assembly = self.assembly(own);
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 {
+            return None;
+        }
+        let mut p = self.padded(start, &assembly);
+        let design = Design::new(self.ground.campaign, self.ground.grid, &assembly, |t| t.is_fit());
+        let (na, nb) = (p.a.len(), p.b.len());
+        let mut normal = Normal::new(na + nb);
+        let mut row = vec![0.0; na + nb];
+        for track in &design.tracks {
+            let u = design.input(track, &p.f);
+            for t in track.from..track.x.len() {
+                (0..na).for_each(|i| row[i] = -track.x[t - i - 1]);
+                for j in 0..nb {
+                    let past = |lag: usize| u[t.saturating_sub(j + 1 + lag)];
+                    row[na + j] = design.taps.iter().enumerate().map(|(k, c)| c * past(k)).sum();
+                }
+                normal.add(&row, track.x[t]);
+            }
+        }
+        let solved = normal.factor(1e-10)?.solve(&normal.gradient);
+        p.a.copy_from_slice(&solved[..na]);
+        p.b.copy_from_slice(&solved[na..]);
+        Some(p)
+    }
+
+    /// Alternates between everything together and the own parameters held, until neither moves: where own parameters
+    /// and dynamics trade against each other, a joint step may stall far from the best point.
+    fn settled(&self, sketch: Fit) -> Fit {
+        let Some(mut top) = self.together(&sketch.own, &sketch.linear, FINAL) else { return sketch };
+        for _ in 0..3 {
+            let next = self
+                .held(&top.own, &top.linear, 4)
+                .filter(|held| held.deviance < top.deviance - 1.0)
+                .and_then(|held| self.together(&held.own, &held.linear, FINAL));
+            match next {
+                Some(next) if next.deviance < top.deviance - 1.0 => top = next,
+                _ => break,
+            }
+        }
+        top
+    }
+
+    /// A pattern search over own parameters whose likelihood has corners; steps start at each parameter's `step`.
+    fn pattern(&self, sketch: Fit) -> Fit {
+        let mut top = sketch;
+        let mut share = 1.0;
+        let mut left = PATTERN_TRIALS;
+        while share > 0.02 && left > 0 {
+            let mut improved = false;
+            for j in self.held..top.own.len() {
+                for direction in [-1.0, 1.0] {
+                    let mut own = top.own.clone();
+                    let o = &mut own[j];
+                    o.value = (o.value + direction * share * o.step).clamp(o.low, o.high);
+                    left = left.saturating_sub(1);
+                    if let Some(f) = self.held(&own, &top.linear, 2)
+                        && f.deviance < top.deviance
+                    {
+                        top = f;
+                        improved = true;
+                        break;
+                    }
+                }
+            }
+            if !improved {
+                share *= 0.4;
+            }
+        }
+        self.held(&top.own, &top.linear, FINAL).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
+    }
+
+    /// The linear parameters with zeros for what the assembly adds.
+    fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
+        let mut p = start.clone();
+        p.b.resize(p.a.len() + assembly.extra_b, 0.0);
+        p.f.resize(self.ground.grid.len() + assembly.border_columns.len(), 0.0);
+        p.d.resize(assembly.equation_columns.len(), 0.0);
+        p
+    }
+}
+
+fn best(fits: impl Iterator<Item = Fit>) -> Option<Fit> {
+    fits.min_by(|x, y| x.deviance.total_cmp(&y.deviance))
+}
