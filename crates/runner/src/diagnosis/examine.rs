@@ -21,7 +21,7 @@ struct Pool;
 
 impl Workers for Pool {
     fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-        items.par_iter().map(|item| work(item)).collect()
+        items.par_iter().map(work).collect()
     }
 }
 
