@@ -35,7 +35,7 @@ pub(crate) enum Clock {
     Campaign,
     /// Samples of each record anew.
     Record,
-    /// Travel of each record anew.
+    /// Travel of the whole campaign.
     Travel,
 }
 
@@ -119,6 +119,8 @@ pub(crate) struct NoiseLaw {
     pub(crate) output_ratio: f64,
     /// Variance of the noise on `v` over that of the equation error, while moving and while resting.
     pub(crate) input_ratio: Option<[f64; 2]>,
+    /// Step of the lattice that the sensor rounds to; its noise is part of `output_ratio`.
+    pub(crate) lattice: Option<f64>,
     /// Share and standard deviation ratio of the wide component of a normal mixture.
     pub(crate) mixture: Option<(f64, f64)>,
 }

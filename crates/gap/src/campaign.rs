@@ -19,6 +19,8 @@ pub(crate) struct Track {
     pub(crate) y: Vec<f64>,
     /// Sample of the campaign at which the record starts, counting the records in the order of the file.
     pub(crate) clock: usize,
+    /// Travel of the campaign before the record starts, strokes.
+    pub(crate) travelled: f64,
     /// Period of the input in samples, where it repeats exactly.
     pub(crate) period: Option<usize>,
     /// First sample from which residuals are counted.
@@ -50,6 +52,8 @@ pub(crate) struct Campaign {
     pub(crate) levels: Vec<f64>,
     /// Samples of the whole campaign.
     pub(crate) total: usize,
+    /// Travel of the whole campaign, strokes.
+    pub(crate) travel: f64,
     /// A move smaller than this does not count as a reversal (noise on `v`).
     pub(crate) threshold: f64,
 }
@@ -113,17 +117,21 @@ impl Campaign {
                 v,
                 y,
                 clock,
+                travelled: 0.0,
                 period,
                 moves: Arc::default(),
             });
             clock += r.record.len();
         }
         let threshold = reversal_threshold(&tracks);
+        let mut travel = 0.0;
         for track in &mut tracks {
             track.moves = motions(&track.v, 0.0, threshold).into();
+            track.travelled = travel;
+            travel += track.moves.last().map_or(0.0, |m| m.path);
         }
         let levels = levels(&tracks);
-        Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, threshold })
+        Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, travel, threshold })
     }
 
     pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {

@@ -158,7 +158,7 @@ impl Plan {
             Status::None => self.nominal.clone(),
             _ => joint.clone().unwrap_or(best),
         };
-        self.report(Conclusion { singles, odds, verdict, augmented })
+        self.report(Conclusion { singles, odds, verdict, augmented, left })
     }
 
     /// Noise moves no simulation error: where the held-out error exceeds the floor of the best noise explanation by far,
@@ -210,6 +210,7 @@ impl Plan {
             candidates,
             probability_none: c.odds.none,
             probability_unexplained: c.odds.unexplained,
+            left: c.left,
             next_experiment,
             series: self.series(&runs),
             residuals_before: before,
@@ -296,6 +297,7 @@ struct Conclusion {
     odds: Odds,
     verdict: crate::diagnosis::Verdict,
     augmented: Explanation,
+    left: f64,
 }
 
 /// Gap that noise cannot make.

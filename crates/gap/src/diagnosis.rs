@@ -222,6 +222,8 @@ pub struct Diagnosis {
     pub probability_none: f64,
     /// Probability that the cause is none of the candidates.
     pub probability_unexplained: f64,
+    /// Deviance that causes in general would still gain beside what the verdict rests on, beyond chance.
+    pub left: f64,
     /// The record that would separate the rivals, where there are rivals.
     pub next_experiment: Option<NextExperiment>,
     /// Hold-out records: measured, nominal, augmented.

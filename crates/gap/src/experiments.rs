@@ -38,6 +38,7 @@ pub(crate) fn propose(
             usage: Usage::Holdout,
             y: vec![0.0; v.len()],
             clock: campaign.total,
+            travelled: campaign.travel,
             period: None,
             from: WARM_UP.min(v.len()),
             moves: motions(&v, 0.0, campaign.threshold).into(),

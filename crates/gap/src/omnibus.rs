@@ -21,6 +21,9 @@ pub(crate) struct Omnibus {
     pub(crate) scatter: (f64, usize),
     /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
     pub(crate) period: (f64, usize),
+    /// Share of the innovations' variance that no rounding of the sensor makes: rounding is no noise, it repeats with the
+    /// input and shows wherever the tests look.
+    pub(crate) unrounded: f64,
 }
 
 /// What a group of columns stands for.
@@ -47,6 +50,9 @@ impl Group {
     }
 }
 
+/// Share of the innovations' variance from which rounding explains whatever the tests find.
+const SUSPECT: f64 = 0.4;
+
 /// Lags of the Ljung–Box statistic.
 pub(crate) const LAGS: usize = 20;
 
@@ -60,7 +66,7 @@ impl Omnibus {
         let regressors = over(self.regressors.0, self.regressors.1);
         let period = over(self.period.0, self.period.1);
         let colour = over(self.ljung_box, LAGS);
-        regressors.max(period) + colour + over(self.scatter.0, self.scatter.1)
+        self.unrounded * (regressors.max(period) + colour + over(self.scatter.0, self.scatter.1))
     }
 
     /// The stage that the residual points at.
@@ -166,18 +172,22 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             .collect(),
         None => innovations,
     };
-    let count: usize = scaled.iter().map(Vec::len).sum();
+    // Samples without weight say nothing.
+    let count = scaled.iter().flatten().filter(|w| **w != 0.0).count().max(1);
     let r = crate::spectrum::autocorrelation(&scaled, LAGS);
     let ljung_box = r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
     let scatter = scatter(campaign, &scaled);
     groups.push((Group::Scatter, scatter.0, scatter.1));
+    let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
+    let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
     Some(Omnibus {
         groups,
         regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
         period: period_lack(campaign, &scaled, second),
+        unrounded: (1.0 - rounding / SUSPECT).clamp(0.0, 1.0),
     })
 }
 
@@ -186,14 +196,15 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
 /// The size is the square, cut at nine variances so that a few outliers do not decide.
 fn scatter(campaign: &Campaign, innovations: &[Vec<f64>]) -> (f64, usize) {
     const COLUMNS: usize = 7;
-    let count: usize = innovations.iter().map(Vec::len).sum();
-    let variance = innovations.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
+    let counted = || innovations.iter().flatten().filter(|w| **w != 0.0);
+    let count = counted().count().max(1) as f64;
+    let variance = counted().map(|w| w * w).sum::<f64>() / count;
     let size = |w: f64| (w * w / variance).min(9.0);
-    let mean = innovations.iter().flatten().map(|w| size(*w)).sum::<f64>() / count as f64;
-    let spread = innovations.iter().flatten().map(|w| (size(*w) - mean).powi(2)).sum::<f64>() / count as f64;
+    let mean = counted().map(|w| size(*w)).sum::<f64>() / count;
+    let spread = counted().map(|w| (size(*w) - mean).powi(2)).sum::<f64>() / count;
     let mut normal = crate::normal::Normal::new(COLUMNS);
     for (track, w) in campaign.fit().zip(innovations) {
-        for (k, w) in w.iter().enumerate() {
+        for (k, w) in w.iter().enumerate().filter(|(_, w)| **w != 0.0) {
             let t = track.from + k;
             let step = (track.v[t - 1] - track.v[t - 2]).abs();
             let y = track.y[t - 1];
@@ -219,7 +230,11 @@ fn period_lack(campaign: &Campaign, innovations: &[Vec<f64>], variance: f64) -> 
             continue;
         }
         for phase in 0..period {
-            let values: Vec<f64> = w[start + phase..].iter().copied().step_by(period).collect();
+            let repeats = w[start + phase..].iter().copied().step_by(period);
+            let values: Vec<f64> = repeats.filter(|w| *w != 0.0).collect();
+            if values.len() < 4 {
+                continue;
+            }
             let n = values.len() as f64;
             let mean = values.iter().sum::<f64>() / n;
             sum += mean * mean * n / variance;

@@ -53,8 +53,7 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
     match clock {
         Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
         Clock::Record => t as f64 / track.v.len() as f64,
-        // A hundred strokes of travel count as one, so that the clock is about as long as the others.
-        Clock::Travel => path / 100.0,
+        Clock::Travel => (track.travelled + path) / campaign.travel,
     }
 }
 

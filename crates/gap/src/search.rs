@@ -2,7 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
-use crate::design::{Design, Linear};
+use crate::design::{Design, Linear, Whitener};
 use crate::effect::Effect;
 use crate::effects::{Scene, Search, Variant, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
@@ -98,7 +98,8 @@ impl Task<'_> {
     /// filter ought to have (and B a delay), and no small step gets out of that. Nothing without a filter.
     fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
         let assembly = self.assembly(own);
-        if assembly.denominator.len() < 2 && assembly.delay == 0.0 {
+        let whitener = Whitener::new(&assembly.noise, &start.a);
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && whitener.ar.is_empty() {
             return None;
         }
         let mut p = self.padded(start, &assembly);
@@ -108,13 +109,14 @@ impl Task<'_> {
         let mut row = vec![0.0; na + nb];
         for track in &design.tracks {
             let u = design.input(track, &p.f);
-            for t in track.from..track.x.len() {
-                (0..na).for_each(|i| row[i] = -track.x[t - i - 1]);
-                for j in 0..nb {
-                    let past = |lag: usize| u[t.saturating_sub(j + 1 + lag)];
-                    row[na + j] = design.taps.iter().enumerate().map(|(k, c)| c * past(k)).sum();
-                }
-                normal.add(&row, track.x[t]);
+            let x = whitener.apply(track.x.clone());
+            let ahead =
+                |t: usize| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum();
+            let u = whitener.apply((0..u.len()).map(ahead).collect());
+            for t in track.from..x.len() {
+                (0..na).for_each(|i| row[i] = -x[t - i - 1]);
+                (0..nb).for_each(|j| row[na + j] = u[t - j - 1]);
+                normal.add(&row, x[t]);
             }
         }
         let solved = normal.factor(1e-10)?.solve(&normal.gradient);

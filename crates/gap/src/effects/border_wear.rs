@@ -6,7 +6,7 @@
 //! u = C(v) + c·clock on one border                                   one face wears
 //! ```
 //!
-//! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel. Stage: operator.
+//! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel of the campaign. Stage: operator.
 //! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
 
 use super::{Variant, own};
@@ -16,9 +16,6 @@ pub(super) fn variants() -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 2] {
-            if degree == 2 && clock == Clock::Travel {
-                continue;
-            }
             let start = (0..degree).map(|_| own("narrowing", "1", 0.0, (-1.5, 1.5), 0.002)).collect();
             out.push(Variant::new(vec![start], move |p, assembly| {
                 assembly.wear = Some(Slow { clock, coefficients: p.to_vec(), wave: None });

@@ -14,15 +14,15 @@ pub(super) fn variants() -> Vec<Variant> {
         .into_iter()
         .map(|degree| {
             // A pole of the noise near one is far from white noise: the nominal A has it.
-            let starts = [0.0, -0.6, -0.95]
+            let starts = [0.0, -0.5, -0.8, -0.95]
                 .iter()
-                .take(if degree > 2 { 1 } else { 3 })
+                .take(if degree > 2 { 1 } else { 4 })
                 .map(|&first| {
                     let value = |i| if i == 0 { first } else { 0.0 };
                     (0..degree).map(|i| own("d", "1", value(i), (-2.5, 2.5), 0.003)).collect()
                 })
                 .collect();
-            Variant::new(starts, |p, assembly| {
+            Variant::conditional(starts, |p, assembly| {
                 assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, p);
             })
         })

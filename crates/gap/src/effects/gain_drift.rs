@@ -15,7 +15,7 @@ use crate::assembly::{Clock, EquationColumn, Slow};
 
 pub(super) fn variants() -> Vec<Variant> {
     let mut out = Vec::new();
-    for clock in [Clock::Campaign, Clock::Record] {
+    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 3] {
             let start: Vec<_> =
                 (0..degree).map(|_| own("gain_change", "1", 0.0, (-1.0, 1.0), 0.001)).collect();

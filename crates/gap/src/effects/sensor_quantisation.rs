@@ -22,7 +22,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         return Vec::new();
     }
     let own = super::own("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
-    let mut variant = Variant::new(vec![vec![own]], |p, assembly| assembly.noise.output_ratio = p[0].exp());
+    let mut variant = Variant::new(vec![vec![own]], move |p, assembly| {
+        assembly.noise.output_ratio = p[0].exp();
+        assembly.noise.lattice = Some(step);
+    });
     variant.handicap = LATTICE;
     vec![variant]
 }

@@ -34,6 +34,28 @@ pub struct Baseline {
     pub plain_bic: Option<&'static str>,
 }
 
+/// What the fits left and gained.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Evidence {
+    /// Deviance that causes in general would still gain.
+    pub left: f64,
+    /// Best candidates: effect, gain in penalised deviance, held-out gain in nats a sample, held-out closure.
+    pub candidates: Vec<(&'static str, f64, f64, Option<f64>)>,
+}
+
+impl Evidence {
+    /// Candidates kept.
+    const KEPT: usize = 4;
+
+    fn of(d: &Diagnosis) -> Self {
+        let mut candidates: Vec<_> =
+            d.candidates.iter().map(|c| (c.effect.name(), -c.bic, c.heldout_log_score, c.closure)).collect();
+        candidates.sort_by(|x, y| y.1.total_cmp(&x.1));
+        candidates.truncate(Self::KEPT);
+        Self { left: d.left, candidates }
+    }
+}
+
 /// The closure stated against the closure that the stated models really have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosureCheck {
@@ -68,6 +90,8 @@ pub struct Case {
     pub reply: Reply,
     /// What simpler rules would have said.
     pub baseline: Baseline,
+    /// What the verdict rests on.
+    pub evidence: Evidence,
     /// How far the gap closes, where that was stated and the effects move the simulation.
     pub closure: Option<ClosureCheck>,
     /// Where, an axis at a time; only for rigs with an effect and a reply.
@@ -93,6 +117,7 @@ impl Case {
             size: if effects.is_empty() { 0.0 } else { least },
             reply: diagnosis.map_or_else(Reply::refused, Reply::of),
             baseline: diagnosis.map_or(Baseline::SILENT, Baseline::of),
+            evidence: diagnosis.map_or_else(Evidence::default, Evidence::of),
             closure: diagnosis.and_then(|d| closure(d, made)),
             places: match diagnosis {
                 Some(d) if !effects.is_empty() => check(&d.where_, &made.rig, &made.truth),

@@ -30,6 +30,8 @@ pub(super) fn answers(cases: &[Case]) -> String {
         "closure_low",
         "closure_high",
         "closure_actual",
+        "left",
+        "gains",
     ];
     let rows = cases.iter().map(|c| {
         let figure = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.4}"));
@@ -57,9 +59,20 @@ pub(super) fn answers(cases: &[Case]) -> String {
             figure(c.closure.map(|x| x.ci90[0])),
             figure(c.closure.map(|x| x.ci90[1])),
             figure(c.closure.map(|x| x.actual)),
+            format!("{:.0}", c.evidence.left),
+            gains(c),
         ]
     });
     csv(&header, rows)
+}
+
+/// `effect:ΔBIC:nats:closure` of the best candidates.
+fn gains(case: &Case) -> String {
+    let one = |&(effect, gain, nats, closure): &(&str, f64, f64, Option<f64>)| {
+        let closure = closure.map_or_else(String::new, |c| format!("{c:.3}"));
+        format!("{effect}:{gain:.0}:{nats:.4}:{closure}")
+    };
+    case.evidence.candidates.iter().map(one).collect::<Vec<_>>().join("|")
 }
 
 pub(super) fn confusion(table: &Confusion) -> String {
