@@ -73,6 +73,8 @@ pub(crate) enum BorderColumn {
     RestingLog { scale: f64 },
     /// `branch·(1 − e^(−rest/scale))`, an after-effect that ends, while the input rests.
     RestingRise { scale: f64 },
+    /// `branch·ln(1 + t/scale)`, `t` the time since the last reversal.
+    ReversalLog { scale: f64 },
     /// `branch·s(clock)`.
     BranchSlow { clock: Clock },
     /// `s(clock)` on the ascending (+1) or the descending (−1) border, 0 on the other.
@@ -132,6 +134,8 @@ pub(crate) struct Assembly {
     pub(crate) extra_b: usize,
     /// Delay of the input, samples.
     pub(crate) delay: f64,
+    /// Standard deviation of noise on the position that acts, strokes; the branch follows the sign of the noisy moves.
+    pub(crate) jitter: f64,
     /// Full width of the play, strokes.
     pub(crate) play: f64,
     pub(crate) transition: Option<Transition>,

@@ -14,6 +14,7 @@ use crate::explain::Explanation;
 use crate::localise::localise;
 use crate::nominal::identify;
 use crate::omnibus::{Omnibus, omnibus};
+use crate::repeats::Repeating;
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
@@ -119,6 +120,7 @@ impl Plan {
             workers,
         };
         let mut singles = attribution.singles();
+        self.hear_the_held_out(&mut singles);
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
@@ -131,11 +133,14 @@ impl Plan {
             && self.settings.max_effects > 1
             && let Some(pair) = attribution.pair(&singles, left)
         {
-            tests = omnibus(&self.campaign, &pair.fit);
-            left = tests.as_ref().map_or(0.0, Omnibus::excess);
-            joint = Some(pair);
+            let beside_pair = omnibus(&self.campaign, &pair.fit);
+            let left_by_pair = beside_pair.as_ref().map_or(0.0, Omnibus::excess);
+            let together = odds(self.nominal.bic(), &[pair.bic()], left_by_pair).effects[0];
+            if together >= self.settings.name_at && self.better_held_out(&pair.fit, &best.fit) {
+                (tests, left, joint) = (beside_pair, left_by_pair, Some(pair));
+            }
         }
-        let bics: Vec<f64> = singles.iter().map(Explanation::bic).collect();
+        let bics: Vec<f64> = singles.iter().map(Explanation::evidence).collect();
         let odds = match &joint {
             // With two effects named together the singles are no rivals any more.
             Some(pair) => {
@@ -161,13 +166,47 @@ impl Plan {
         self.report(Conclusion { singles, odds, verdict, augmented, left })
     }
 
-    /// Noise moves no simulation error: where the held-out error exceeds the floor of the best noise explanation by far,
-    /// the noise is no cause of it, however well it predicts one step ahead.
+    /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
+    /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
+    fn hear_the_held_out(&self, singles: &mut [Explanation]) {
+        let Some(nominal) = heldout_log_score(&self.campaign, &self.nominal.fit) else { return };
+        let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
+        let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
+        for single in singles.iter_mut() {
+            let lost = heldout_log_score(&self.campaign, &single.fit).map_or(0.0, |s| nominal - s);
+            let slow = single.parts.iter().any(|p| p.effect.is_slow());
+            single.held_out = if slow { 0.0 } else { 2.0 * samples * lost.max(0.0) };
+        }
+        singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
+    }
+
+    /// Whether one fit predicts the held-out records better than another; true without any.
+    fn better_held_out(&self, fit: &Fit, than: &Fit) -> bool {
+        let score = |fit: &Fit| heldout_log_score(&self.campaign, fit);
+        score(fit).zip(score(than)).is_none_or(|(one, other)| one > other)
+    }
+
+    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation,
+    /// the noise is no cause of it, however well it predicts one step ahead. Without repetition, the held-out error must
+    /// not exceed the floor by far.
     fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
         let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
-        let runs = self.simulations(&best.fit);
-        let gap = measure(&self.campaign, &runs, self.noise_floor(&best.fit), (self.settings.seed, 100));
-        if gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC {
+        let mut repeating = Repeating::default();
+        for (number, track) in self.campaign.tracks.iter().enumerate() {
+            let run = free_run(&self.campaign, &best.fit, number, track);
+            let error: Vec<f64> = track.y.iter().zip(&run).map(|(y, run)| y - run).collect();
+            repeating.add(track, &error);
+        }
+        let systematic = match repeating.share() {
+            Some(share) => share > REPEATS,
+            None => {
+                let runs = self.simulations(&best.fit);
+                let floor = self.noise_floor(&best.fit);
+                let gap = measure(&self.campaign, &runs, floor, (self.settings.seed, 100));
+                gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC
+            }
+        };
+        if systematic {
             singles.retain(|s| !s.parts[0].effect.is_noise());
         }
     }
@@ -300,6 +339,8 @@ struct Conclusion {
     left: f64,
 }
 
+/// Share of the simulation error that may repeat with the input under an explanation by noise.
+const REPEATS: f64 = 0.12;
 /// Gap that noise cannot make.
 const SYSTEMATIC: f64 = 0.003;
 /// The model without the knots that follow details, where these matter; else the model itself.

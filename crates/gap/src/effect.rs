@@ -192,6 +192,11 @@ impl Effect {
         }
     }
 
+    /// Whether the effect follows a clock, so that its laws need not hold beyond the records they were fitted to.
+    pub(crate) fn is_slow(self) -> bool {
+        matches!(self, Self::BorderWear | Self::GainDrift | Self::SensorDrift)
+    }
+
     /// Whether the effect changes only what is random, so that it moves no simulation error.
     pub fn is_noise(self) -> bool {
         matches!(self, Self::InputNoise | Self::ColouredNoise | Self::OutputNoise | Self::Outliers)

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use statrs::function::erf::erfc;
+
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
 use crate::borders::{Grid, side};
 use crate::campaign::{Campaign, Track};
@@ -74,7 +76,9 @@ pub(crate) fn rows(
         if m.reversal {
             builder.turn(m);
         }
-        if m.moves {
+        if assembly.jitter > 0.0 {
+            builder.jittered(ascending(m.step, assembly.jitter), track.v[t]);
+        } else if m.moves {
             let narrowing = assembly.wear.as_ref().map_or(0.0, slow);
             builder.step(m, track.v[t], narrowing);
         }
@@ -110,6 +114,7 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
             _ => m.branch * (-(speed / scale).powf(power)).exp(),
         },
         BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
+        BorderColumn::ReversalLog { scale } => m.branch * (m.since as f64 / scale).ln_1p(),
         BorderColumn::RestingRise { scale } => -m.branch * (-(m.rest as f64) / scale).exp_m1(),
         BorderColumn::SideSlow { branch, .. } if m.moves => {
             if m.branch == branch {
@@ -192,6 +197,13 @@ impl<'a> Builder<'a> {
         self.current = if terms.len() > 2 { self.merged(&terms) } else { terms };
     }
 
+    /// The mean over both borders where noise on the position decides the branch.
+    fn jittered(&mut self, ascending: f64, v: f64) {
+        let both = [(0, 1.0 - ascending), (1, ascending)];
+        let terms = both.map(|(side, p)| self.grid.hat(side, v).map(|(i, w)| (i as u32, p * w)));
+        self.current = terms.concat();
+    }
+
     /// Sums repeated indices and drops negligible weights.
     fn merged(&mut self, terms: &[(u32, f64)]) -> Vec<(u32, f64)> {
         for &(i, w) in terms {
@@ -208,9 +220,15 @@ impl<'a> Builder<'a> {
     }
 }
 
+/// Probability that the noisy position rises: `P(step + n₁ − n₀ > 0)`, both noises normal with standard deviation `jitter`.
+fn ascending(step: f64, jitter: f64) -> f64 {
+    0.5 * erfc(-0.5 * step / jitter)
+}
+
 /// How `u` answers to a small change of `v`, as rows: per unit of `v` while moving (over a fiftieth of the stroke, so
-/// that a jump counts as a steep slope), and by a switch to the other border while resting.
-pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid) -> [Rows; 2] {
+/// that a jump counts as a steep slope), and by a switch to the other border while resting, or at any
+/// time where noise on the position of standard deviation `jitter` switches branches.
+pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows; 2] {
     const HALF: f64 = 0.01;
     let mut moving = Rows::with_capacity(track.v.len());
     let mut resting = Rows::with_capacity(track.v.len());
@@ -218,12 +236,19 @@ pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid) -> [Rows; 2] {
         let mut slope = Vec::new();
         let mut gap = Vec::new();
         let own = side(m.branch);
-        if m.moves {
+        let spread = if jitter > 0.0 {
+            let p = ascending(m.step, jitter);
+            (p * (1.0 - p)).sqrt()
+        } else {
+            f64::from(u8::from(!m.moves))
+        };
+        if m.moves || jitter > 0.0 {
             slope.extend(grid.hat(own, v + HALF).map(|(i, w)| (i as u32, w / (2.0 * HALF))));
             slope.extend(grid.hat(own, v - HALF).map(|(i, w)| (i as u32, -w / (2.0 * HALF))));
-        } else {
-            gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, w)));
-            gap.extend(grid.hat(0, v).map(|(i, w)| (i as u32, -w)));
+        }
+        if spread > 0.0 {
+            gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, spread * w)));
+            gap.extend(grid.hat(0, v).map(|(i, w)| (i as u32, -spread * w)));
         }
         moving.push(&slope, 1.0);
         resting.push(&gap, 1.0);

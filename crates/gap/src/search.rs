@@ -61,7 +61,7 @@ fn look(campaign: &Campaign, known: &Explanation, effect: Effect, law: &Variant)
             task.together(&held.own, &held.linear, LOOK)
         }
     }?;
-    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap })
+    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap, held_out: 0.0 })
 }
 
 /// One law's search.
