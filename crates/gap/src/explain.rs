@@ -14,6 +14,8 @@ use crate::search::finish;
 #[derive(Clone)]
 pub(crate) struct Part {
     pub(crate) effect: Effect,
+    /// Which of the effect's laws.
+    pub(crate) law: usize,
     pub(crate) apply: Apply,
     /// Number of own parameters.
     pub(crate) count: usize,
@@ -47,6 +49,7 @@ impl Explanation {
     pub(crate) fn detailed(fit: Fit) -> Self {
         let part = Part {
             effect: Effect::BorderResolution,
+            law: 0,
             apply: Arc::new(|_, _| {}),
             count: 0,
             search: Search::Smooth,
