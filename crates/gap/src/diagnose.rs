@@ -174,8 +174,8 @@ impl Plan {
         let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
         for single in singles.iter_mut() {
             let lost = heldout_log_score(&self.campaign, &single.fit).map_or(0.0, |s| nominal - s);
-            let slow = single.parts.iter().any(|p| p.effect.is_slow());
-            single.held_out = if slow { 0.0 } else { 2.0 * samples * lost.max(0.0) };
+            let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
+            single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
         }
         singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
     }
@@ -186,9 +186,9 @@ impl Plan {
         score(fit).zip(score(than)).is_none_or(|(one, other)| one > other)
     }
 
-    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation,
-    /// the noise is no cause of it, however well it predicts one step ahead. Without repetition, the held-out error must
-    /// not exceed the floor by far.
+    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
+    /// an effect that does move it takes much of it away on the held-out records, the noise is no cause of it, however
+    /// well it predicts one step ahead.
     fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
         let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
         let mut repeating = Repeating::default();
@@ -197,18 +197,28 @@ impl Plan {
             let error: Vec<f64> = track.y.iter().zip(&run).map(|(y, run)| y - run).collect();
             repeating.add(track, &error);
         }
-        let systematic = match repeating.share() {
-            Some(share) => share > REPEATS,
-            None => {
-                let runs = self.simulations(&best.fit);
-                let floor = self.noise_floor(&best.fit);
-                let gap = measure(&self.campaign, &runs, floor, (self.settings.seed, 100));
-                gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC
-            }
-        };
-        if systematic {
+        let error = |s: &Explanation| self.simulation_error(&s.fit);
+        let gained = self.nominal.evidence() - best.evidence();
+        let rivals = singles.iter().filter(|s| {
+            let effect = s.parts[0].effect;
+            let serious = self.nominal.evidence() - s.evidence() > SERIOUS * gained;
+            serious && !effect.is_noise() && !effect.is_of_its_record()
+        });
+        let least = rivals.map(error).fold(f64::INFINITY, f64::min);
+        let repeats = repeating.share().is_some_and(|share| share > REPEATS);
+        if repeats || least < SYSTEMATIC * error(best) {
             singles.retain(|s| !s.parts[0].effect.is_noise());
         }
+    }
+
+    /// Squared error of the free-run simulation, summed over the judged records.
+    fn simulation_error(&self, fit: &Fit) -> f64 {
+        let error = |&number: &usize| {
+            let track = &self.campaign.tracks[number];
+            let run = free_run(&self.campaign, fit, number, track);
+            track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).powi(2)).sum::<f64>()
+        };
+        self.judged.iter().map(error).sum()
     }
 
     fn report(self, c: Conclusion) -> Diagnosis {
@@ -341,8 +351,10 @@ struct Conclusion {
 
 /// Share of the simulation error that may repeat with the input under an explanation by noise.
 const REPEATS: f64 = 0.12;
-/// Gap that noise cannot make.
-const SYSTEMATIC: f64 = 0.003;
+/// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that
+/// it must gain to be heard.
+const SYSTEMATIC: f64 = 0.88;
+const SERIOUS: f64 = 0.2;
 /// The model without the knots that follow details, where these matter; else the model itself.
 fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
     match detailed.on_an_even_grid(campaign) {

@@ -192,9 +192,10 @@ impl Effect {
         }
     }
 
-    /// Whether the effect follows a clock, so that its laws need not hold beyond the records they were fitted to.
-    pub(crate) fn is_slow(self) -> bool {
-        matches!(self, Self::BorderWear | Self::GainDrift | Self::SensorDrift)
+    /// Whether the effect follows a clock or has a phase of its own in every record, so that what was fitted need not hold
+    /// in other records.
+    pub(crate) fn is_of_its_record(self) -> bool {
+        matches!(self, Self::BorderWear | Self::GainDrift | Self::SensorDrift | Self::PeriodicDisturbance)
     }
 
     /// Whether the effect changes only what is random, so that it moves no simulation error.
