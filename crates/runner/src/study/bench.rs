@@ -3,12 +3,14 @@
 use super::StudyError;
 use crate::scenario::{Border, Case, Disturbance, Method};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
-use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
+use switchback_estimator::estimators::pulse::{
+    ErrorTerms, Limit, PulseData, PulseFitError, PulseMethod, StepMean,
+};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::Branch;
 use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::{
-    LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
+    LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
 };
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
@@ -166,6 +168,24 @@ impl Bench {
     pub(super) fn limit(&self, method: PulseKind, sigma: f64) -> Result<Limit, PulseFitError> {
         let data = self.expected(sigma);
         method.with_input(&data, self.steps(sigma, [0.0; 2], ENDLESS), Limit::of)
+    }
+
+    /// The exact means of the error terms at a method's limit, for records of `samples` samples.
+    pub(super) fn mean_terms(
+        &self,
+        method: PulseKind,
+        limit: &Limit,
+        sigma: f64,
+        samples: usize,
+    ) -> ErrorTerms {
+        let NoiseFilter { ar, ma } = &self.noise;
+        let noise = NoiseMoments::expected_over(ar, ma, self.designs[0].order, self.period(), samples);
+        let data = self.data(sigma, [&noise, &noise]);
+        let designs: Vec<&PeriodicDesign> = method.experiments().iter().map(|&k| &self.designs[k]).collect();
+        let covariance = SumCovariance::new(&designs, (ar, ma), sigma, samples);
+        method.with_input(&data, self.steps(sigma, [0.0; 2], samples as f64), |expected| {
+            limit.mean_terms(&expected, |x, y| covariance.at(x, y))
+        })
     }
 
     /// A method for these experiments, eight replicates at a time.

@@ -12,8 +12,9 @@ use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
-use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
+use switchback_estimator::statistics::{ErrorSums, ReplicateError};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
 pub(super) const STREAMS: u32 = 4;
@@ -53,6 +54,8 @@ pub(super) struct Contender {
     pub(super) truth: Vec<f64>,
     /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
     pub(super) limit: Limit,
+    /// Means of the error terms at the limit, one entry a number of samples of the world.
+    pub(super) means: Vec<ErrorTerms>,
     /// The method, and the control variate, for eight replicates at a time.
     pub(super) lanes: LaneMethod,
     pub(super) control: LaneControl,
@@ -95,6 +98,11 @@ impl World {
         periods.dedup();
         for setting in &mut settings {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
+            for contender in &mut setting.methods {
+                let mean =
+                    |&n: &usize| setting.bench.mean_terms(contender.kind, &contender.limit, setting.sigma, n);
+                contender.means = checkpoints.iter().map(mean).collect();
+            }
         }
         let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
@@ -203,9 +211,35 @@ impl Contender {
             lanes: bench.lanes(kind),
             control: limit.lanes(),
             limit,
+            means: Vec::new(),
             theory,
             bound: if theory { Some(bench.bound(kind, sigma)?) } else { None },
         })
+    }
+
+    /// The leading terms of one replicate's error, less their means.
+    pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> Centred {
+        let means = &self.means[checkpoint];
+        let less = |terms: Vec<f64>, means: &[f64]| terms.iter().zip(means).map(|(x, m)| x - m).collect();
+        Centred(ErrorTerms {
+            first: less(self.limit.first_order(sample), &means.first),
+            second: less(self.limit.second_order(sample), &means.second),
+        })
+    }
+}
+
+/// The leading terms of one replicate's error, of mean zero.
+pub(super) struct Centred(ErrorTerms);
+
+impl Centred {
+    /// Adds the replicate, given its errors with the standard errors that the method reports.
+    pub(super) fn add(self, errors: impl Iterator<Item = (f64, f64)>, sums: &mut [ErrorSums]) {
+        let Self(ErrorTerms { first, second }) = self;
+        for (((error, se), (first, second_order)), sums) in
+            errors.zip(first.into_iter().zip(second)).zip(sums)
+        {
+            sums.push(ReplicateError { error, se, first_order: Some(first), second_order });
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::data::{PulseData, StepMean};
 use super::fit::{PulseFit, PulseFitError};
 use super::lanes::LaneControl;
+use super::profile::{ErrorTerms, GroupSum};
 use super::solution::Solution;
 use super::{efficient, joint, linear_arx, memoryless, paper};
 
@@ -116,7 +117,31 @@ impl Limit {
     /// The first-order part of the error of the same method's estimate from `sample`: `a`, `b`, then the points of each border.
     pub fn first_order(&self, sample: &PulseMethod<'_>) -> Vec<f64> {
         let experiments = sample.experiments();
-        let scale = self.samples / experiments[0].statistics.samples();
-        self.solution.first_order(&experiments, sample.step(), scale)
+        self.solution.first_order(&experiments, sample.step(), self.scale(&experiments))
+    }
+
+    /// The part of the second order that the profile score holds, in the same order.
+    pub fn second_order(&self, sample: &PulseMethod<'_>) -> Vec<f64> {
+        let experiments = sample.experiments();
+        self.solution.second_order(&experiments, self.scale(&experiments))
+    }
+
+    /// The exact means of both over all noise, to be subtracted from them.
+    ///
+    /// `expected` holds the expectations of the statistics over as many samples as a record has
+    /// ([`crate::simulation::NoiseMoments::expected_over`]), and `covariance` is that of two of their group sums
+    /// ([`crate::simulation::SumCovariance`]).
+    pub fn mean_terms(
+        &self,
+        expected: &PulseMethod<'_>,
+        covariance: impl Fn(GroupSum, GroupSum) -> f64,
+    ) -> ErrorTerms {
+        let experiments = expected.experiments();
+        self.solution.mean_terms(&experiments, expected.step(), self.scale(&experiments), &covariance)
+    }
+
+    /// How many of these records the expected statistics hold.
+    fn scale(&self, experiments: &[&PulseData]) -> f64 {
+        self.samples / experiments[0].statistics.samples()
     }
 }

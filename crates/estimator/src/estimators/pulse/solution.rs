@@ -5,7 +5,8 @@ use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
-use super::lanes::{Answer, LaneControl};
+use super::lanes::{Answer, LaneControl, ProfilePlan};
+use super::profile::{Covariance, ErrorTerms};
 use crate::hysteresis::Branch;
 use nalgebra::DVector;
 
@@ -181,6 +182,7 @@ impl Solution {
                 .collect(),
             own,
             means,
+            profile: ProfilePlan::of(&self.fit, &self.columns, self.order),
             step_mean: match self.level {
                 Level::Constant => 0.0,
                 Level::Step(step) => step.mean,
@@ -198,10 +200,7 @@ impl Solution {
         step: Option<StepMean>,
         scale: f64,
     ) -> Vec<f64> {
-        let about: Vec<GroupedStatistics> =
-            experiments.iter().map(|data| data.about(self.reference).statistics).collect();
-        let stacked = GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>());
-        let response = self.fit.response_to_score(&stacked, &self.columns);
+        let response = self.fit.response_to_score(&self.about_own(experiments), &self.columns);
         let step_change = match (&self.level, step) {
             (Level::Step(own), Some(other)) => other.mean - own.mean,
             _ => 0.0,
@@ -210,6 +209,37 @@ impl Solution {
             .iter()
             .map(|q| scale * response.along(&q.gradient) + q.step_slope * step_change)
             .collect()
+    }
+
+    /// What the profile score of these experiments makes of every quantity beyond [`Self::first_order`].
+    pub(crate) fn second_order(&self, experiments: &[&PulseData], scale: f64) -> Vec<f64> {
+        let shift = self.fit.profile_shift(&self.about_own(experiments), &self.columns);
+        self.from_core(&shift, scale)
+    }
+
+    /// The means of [`Self::first_order`] and [`Self::second_order`] over all noise.
+    pub(crate) fn mean_terms(
+        &self,
+        expected: &[&PulseData],
+        step: Option<StepMean>,
+        scale: f64,
+        covariance: Covariance<'_>,
+    ) -> ErrorTerms {
+        let shift = self.fit.mean_profile_shift(&self.about_own(expected), &self.columns, covariance);
+        ErrorTerms { first: self.first_order(expected, step, scale), second: self.from_core(&shift, scale) }
+    }
+
+    /// The experiments side by side, about the reference of this solution.
+    fn about_own(&self, experiments: &[&PulseData]) -> GroupedStatistics {
+        let about: Vec<GroupedStatistics> =
+            experiments.iter().map(|data| data.about(self.reference).statistics).collect();
+        GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>())
+    }
+
+    /// The change of every quantity that a right-hand side of the core makes.
+    fn from_core(&self, right: &DVector<f64>, scale: f64) -> Vec<f64> {
+        let response = self.fit.respond_to_core(right);
+        self.quantities.iter().map(|q| scale * response.along(&q.gradient)).collect()
     }
 }
 
