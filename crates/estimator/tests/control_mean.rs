@@ -5,7 +5,7 @@ mod sweep;
 use nalgebra::{Cholesky, DMatrix};
 use proptest::prelude::*;
 use sweep::{Bench, methods, systems};
-use switchback_estimator::estimators::pulse::{Limit, PulseData, StepMean};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, StepMean};
 use switchback_estimator::linear::autocovariance;
 use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, SumCovariance, superpose};
 
@@ -67,7 +67,8 @@ proptest! {
             for replicate in &replicates {
                 let replicate = [&replicate[0], &replicate[1]];
                 let sample = &methods(&replicate, steps)[m].0;
-                for (k, terms) in [limit.first_order(sample), limit.second_order(sample)].iter().enumerate() {
+                let ErrorTerms { first, second } = limit.terms(sample);
+                for (k, terms) in [first, second].iter().enumerate() {
                     for (sum, term) in sums[k].iter_mut().zip(terms) {
                         *sum += term / replicates.len() as f64;
                         sizes[k] = sizes[k].max(term.abs());

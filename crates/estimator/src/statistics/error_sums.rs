@@ -11,9 +11,9 @@ pub struct ReplicateError {
     pub error: f64,
     /// Standard error that the method reports.
     pub se: f64,
-    /// First-order part of the error, whose mean is exactly zero (see [`crate::estimators::pulse::Limit`]); the control variate.
+    /// First-order part of the error, less its exact mean (see [`crate::estimators::pulse::Limit`]): the control variate.
     pub first_order: Option<f64>,
-    /// What is known of the second-order part, its mean exactly zero too; it joins the control variate of the bias.
+    /// What is known of the second-order part, less its exact mean: it joins the control variate of the bias.
     pub second_order: f64,
 }
 

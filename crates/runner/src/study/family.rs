@@ -228,7 +228,7 @@ impl Lanes {
                 Ok(fit) => {
                     let errors =
                         fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
-                    contender.terms(self.checkpoint, &method).add(errors, &mut sums.parameters);
+                    sums.push(errors, &contender.terms(self.checkpoint, &method));
                 }
                 Err(error) => sums.fail(self.first + l as u32, error.to_string()),
             }

@@ -1,11 +1,12 @@
 //! Worlds: cells that share their noise.
 
 use super::StudyError;
-use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
+use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
 use super::family::Family;
 use super::moments::{LaneNoise, draw_lanes};
+use super::pulse_kind::PulseKind;
 use super::sections::CellSums;
 use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
@@ -14,7 +15,6 @@ use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
-use switchback_estimator::statistics::{ErrorSums, ReplicateError};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
 pub(super) const STREAMS: u32 = 4;
@@ -218,28 +218,8 @@ impl Contender {
     }
 
     /// The leading terms of one replicate's error, less their means.
-    pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> Centred {
-        let means = &self.means[checkpoint];
-        let less = |terms: Vec<f64>, means: &[f64]| terms.iter().zip(means).map(|(x, m)| x - m).collect();
-        Centred(ErrorTerms {
-            first: less(self.limit.first_order(sample), &means.first),
-            second: less(self.limit.second_order(sample), &means.second),
-        })
-    }
-}
-
-/// The leading terms of one replicate's error, of mean zero.
-pub(super) struct Centred(ErrorTerms);
-
-impl Centred {
-    /// Adds the replicate, given its errors with the standard errors that the method reports.
-    pub(super) fn add(self, errors: impl Iterator<Item = (f64, f64)>, sums: &mut [ErrorSums]) {
-        let Self(ErrorTerms { first, second }) = self;
-        for (((error, se), (first, second_order)), sums) in
-            errors.zip(first.into_iter().zip(second)).zip(sums)
-        {
-            sums.push(ReplicateError { error, se, first_order: Some(first), second_order });
-        }
+    pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> ErrorTerms {
+        self.limit.terms(sample).less(&self.means[checkpoint])
     }
 }
 

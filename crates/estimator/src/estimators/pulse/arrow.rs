@@ -195,32 +195,6 @@ impl ArrowFit {
         self.respond(columns, &residual, &lagged)
     }
 
-    /// `M⁻¹s`: this regression's answer to the score `s = S_{Φy} − Sθ₀` of other statistics, with `θ₀` and `M` its own.
-    pub(crate) fn response_to_score(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
-        let n = statistics.order();
-        let a = self.core.rows(0, n);
-        let mut lagged: Vec<f64> = (1..=n)
-            .map(|i| {
-                -statistics.product(0, i) - (0..n).map(|l| a[l] * statistics.product(i, l + 1)).sum::<f64>()
-            })
-            .collect();
-        for (q, mean) in self.group_means(columns).into_iter().enumerate() {
-            for (i, lagged) in lagged.iter_mut().enumerate() {
-                *lagged += mean * statistics.sum(q, i + 1);
-            }
-        }
-        self.respond(columns, &self.residual_sums(statistics, columns), &lagged)
-    }
-
-    /// `Σ_{t∈q} r(t)` of other statistics, `r` the residual at this regression's parameters.
-    pub(super) fn residual_sums(&self, statistics: &GroupedStatistics, columns: &Columns) -> Vec<f64> {
-        let residual = |(q, mean): (usize, f64)| {
-            let past: f64 = (0..statistics.order()).map(|l| self.core[l] * statistics.sum(q, l + 1)).sum();
-            statistics.sum(q, 0) + past - mean * statistics.count(q)
-        };
-        self.group_means(columns).into_iter().enumerate().map(residual).collect()
-    }
-
     /// How all parameters answer to a right-hand side of the core with the local columns eliminated.
     pub(super) fn respond_to_core(&self, right: &DVector<f64>) -> Response {
         let core = self.factor.solve(right);

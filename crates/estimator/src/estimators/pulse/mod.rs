@@ -16,7 +16,7 @@ mod linear_arx;
 mod memoryless;
 mod method;
 mod paper;
-mod profile;
+mod score;
 mod solution;
 
 pub use data::{PulseData, PulseDataError, StepMean};
@@ -24,4 +24,4 @@ pub use excitation::excitation;
 pub use fit::{Estimated, PulseFit, PulseFitError};
 pub use grouped::GroupedStatistics;
 pub use method::{Limit, PulseMethod};
-pub use profile::{ErrorTerms, GroupSum};
+pub use score::{ErrorTerms, GroupSum};

@@ -107,7 +107,7 @@ impl Simulated {
         let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));
         let errors =
             estimates.into_iter().zip(&contender.truth).map(|((value, se), truth)| (value - truth, se));
-        terms.add(errors, &mut sums.parameters);
+        sums.push(errors, &terms);
     }
 
     /// What the control variate is made of.

@@ -6,16 +6,19 @@ use super::statistics::LaneStatistics;
 use crate::estimators::pulse::ErrorTerms;
 use crate::lanes::{Lane, keep_apart};
 
-/// [`Limit::first_order`](super::super::Limit::first_order) as a constant linear map of the score over the number of samples.
+/// [`Limit::terms`](super::super::Limit::terms) as a constant linear map of the score, and of what the profile score adds to it, over the number
+/// of samples.
 ///
 /// The score is a sum `λ_i` a lag and `r_q` a group, and the normal equations are an arrow: so it is first carried to the core, then
 /// from there and from the few groups of its own to each parameter,
 ///
 /// ```text
 /// g_d = [d ≤ n] λ_d + Σ_q G_q,d r_q        first order of θ_k = (Σ_d H_k,d g_d + Σ_{q ∈ k} h_k,q r_q)/N + s_k (ŷ₀ − y₀)
+/// p_d − g_d                                second             = Σ_d H_k,d (p_d − g_d)/N
 /// ```
 ///
-/// `O((n + p)(Q + K))` for `Q` groups and `K` parameters, not `O(QK)`.
+/// `O((n + p)(Q + K))` for `Q` groups and `K` parameters, not `O(QK)`. A group with a mean of its own adds to `p` nothing at all on `a`, so that
+/// `p − g` is what it adds to `g`, with the sign changed: it costs an addition.
 #[derive(Debug, Clone)]
 pub struct LaneControl {
     /// What the limit was taken about.

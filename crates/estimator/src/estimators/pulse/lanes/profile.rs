@@ -5,7 +5,7 @@ use crate::estimators::pulse::arrow::{ArrowFit, Columns};
 use crate::lanes::{Lane, keep_apart};
 use std::ops::Range;
 
-/// The local columns as the [profile score](crate::estimators::pulse::Limit::second_order) needs them.
+/// The local columns as the [profile score](crate::estimators::pulse::Limit) needs them.
 #[derive(Debug, Clone)]
 pub(crate) struct ProfilePlan {
     /// Whether each group has a local column to itself.

@@ -1,6 +1,6 @@
-//! The profile score: what the local columns' own noise adds to the score of the core.
+//! The score of other statistics at a regression's parameters, and their profile score: what the noise of the local columns adds to it.
 
-use super::arrow::{ArrowFit, Columns};
+use super::arrow::{ArrowFit, Columns, Response};
 use super::grouped::GroupedStatistics;
 use nalgebra::DVector;
 
@@ -11,6 +11,16 @@ pub struct ErrorTerms {
     pub first: Vec<f64>,
     /// Of the second order, what the elimination of the local columns makes.
     pub second: Vec<f64>,
+}
+
+impl ErrorTerms {
+    /// The terms less others, such as their means.
+    pub fn less(mut self, other: &Self) -> Self {
+        let subtract = |x: &mut [f64], y: &[f64]| x.iter_mut().zip(y).for_each(|(x, y)| *x -= y);
+        subtract(&mut self.first, &other.first);
+        subtract(&mut self.second, &other.second);
+        self
+    }
 }
 
 /// A group sum `S_q,l = Σ_{t∈q} y(t−l)`: groups counted through all experiments of a method.
@@ -26,6 +36,32 @@ pub struct GroupSum {
 pub(crate) type Covariance<'a> = &'a dyn Fn(GroupSum, GroupSum) -> f64;
 
 impl ArrowFit {
+    /// `M⁻¹s`: this regression's answer to the score `s = S_{Φy} − Sθ₀` of other statistics, with `θ₀` and `M` its own.
+    pub(crate) fn response_to_score(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
+        let n = statistics.order();
+        let a = self.core.rows(0, n);
+        let mut lagged: Vec<f64> = (1..=n)
+            .map(|i| {
+                -statistics.product(0, i) - (0..n).map(|l| a[l] * statistics.product(i, l + 1)).sum::<f64>()
+            })
+            .collect();
+        for (q, mean) in self.group_means(columns).into_iter().enumerate() {
+            for (i, lagged) in lagged.iter_mut().enumerate() {
+                *lagged += mean * statistics.sum(q, i + 1);
+            }
+        }
+        self.respond(columns, &self.residual_sums(statistics, columns), &lagged)
+    }
+
+    /// `Σ_{t∈q} r(t)` of other statistics, `r` the residual at this regression's parameters.
+    fn residual_sums(&self, statistics: &GroupedStatistics, columns: &Columns) -> Vec<f64> {
+        let residual = |(q, mean): (usize, f64)| {
+            let past: f64 = (0..statistics.order()).map(|l| self.core[l] * statistics.sum(q, l + 1)).sum();
+            statistics.sum(q, 0) + past - mean * statistics.count(q)
+        };
+        self.group_means(columns).into_iter().enumerate().map(residual).collect()
+    }
+
     /// The profile score of other statistics less their score, at this regression's parameters.
     ///
     /// With the local columns eliminated, a target `s_l` of theirs reaches the core through `ĉ_l/D_l`, where `ĉ_l` holds sums of the noisy
