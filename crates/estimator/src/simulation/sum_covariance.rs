@@ -104,3 +104,35 @@ impl SumCovariance {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hysteresis::Branch;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn it_is_the_sum_over_all_pairs_of_samples(
+            groups in prop::collection::vec(0..3_usize, 1..9), samples in 1..70_usize, pole in -0.8..0.8_f64, zero in -0.5..0.5_f64,
+            lags in (0..3_usize, 0..3_usize),
+        ) {
+            let design = PeriodicDesign {
+                branch: Branch::Descending, levels: vec![0.0], satellite: 1.0, order: 2, u: vec![0.0; groups.len()], groups,
+            };
+            let (ar, ma) = ([-pole], [zero]);
+            let fast = SumCovariance::new(&[&design, &design], (&ar, &ma), 0.3, samples);
+            let gamma = autocovariance(&ar, &ma, samples + 2);
+            let groups = &design.groups;
+            let visits = move |q: usize| (0..samples).filter(move |t| groups[t % groups.len()] == q);
+            for (q, r) in (0..9).map(|k| (k / 3, k % 3)) {
+                let pairs = visits(q).flat_map(|t| visits(r).map(move |s| (t + lags.1).abs_diff(s + lags.0)));
+                let slow: f64 = pairs.map(|apart| 0.09 * gamma[apart]).sum();
+                let of = |group, lag| GroupSum { group, lag };
+                let fast_value = fast.at(of(q, lags.0), of(r, lags.1));
+                prop_assert!((fast_value - slow).abs() < 1e-12 * (1.0 + slow.abs()), "{} against {}", fast_value, slow);
+                prop_assert_eq!(fast.at(of(q, lags.0), of(3 + r, lags.1)), 0.0);
+            }
+        }
+    }
+}
