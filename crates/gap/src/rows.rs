@@ -266,7 +266,7 @@ pub(crate) fn equation_columns(
     let count = assembly.equation_columns.len();
     let mut out = vec![0.0; track.v.len() * count];
     for (j, column) in assembly.equation_columns.iter().enumerate() {
-        let cells = out.iter_mut().skip(j).step_by(count).enumerate();
+        let cells = out.iter_mut().skip(j).step_by(count);
         match *column {
             EquationColumn::Line { track: Some(only), .. }
             | EquationColumn::Decay { track: only, .. }
@@ -275,9 +275,9 @@ pub(crate) fn equation_columns(
             EquationColumn::Line { frequency, track: only, sine } => {
                 let first = if only.is_some() { 0.0 } else { track.clock as f64 };
                 let mut wave = Wave::starting(frequency, first);
-                cells.for_each(|(_, cell)| *cell = wave.next(sine));
+                cells.for_each(|cell| *cell = wave.next(sine));
             }
-            EquationColumn::Trend { clock: c, degree } => cells.for_each(|(t, cell)| {
+            EquationColumn::Trend { clock: c, degree } => cells.enumerate().for_each(|(t, cell)| {
                 let at = clock(c, campaign, track, t, track.moves[t].path);
                 *cell = (2.0 * at - 1.0).powi(degree as i32);
             }),
@@ -285,7 +285,7 @@ pub(crate) fn equation_columns(
                 let mut wave = Wave::starting(frequency, 0.0);
                 let mut size = 1.0;
                 let from = track.from.min(6);
-                for (t, cell) in cells {
+                for (t, cell) in cells.enumerate() {
                     let value = size * wave.next(sine);
                     *cell = if t < from { 0.0 } else { value };
                     size *= radius;
@@ -294,7 +294,7 @@ pub(crate) fn equation_columns(
                     }
                 }
             }
-            EquationColumn::Local { piece, pieces, .. } => cells.for_each(|(t, cell)| {
+            EquationColumn::Local { piece, pieces, .. } => cells.enumerate().for_each(|(t, cell)| {
                 let at = t as f64 / track.v.len() as f64 * pieces as f64;
                 *cell = (1.0 - (at - piece as f64).abs()).max(0.0);
             }),
