@@ -39,6 +39,7 @@ fn silent(status: Status) -> Diagnosis {
         candidates: vec![],
         probability_none: 0.9,
         probability_unexplained: 0.1,
+        left: 0.0,
         next_experiment: None,
         series: vec![],
         residuals_before: ResidualPicture::default(),
