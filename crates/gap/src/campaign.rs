@@ -56,6 +56,34 @@ pub(crate) struct Campaign {
     pub(crate) travel: f64,
     /// A move smaller than this does not count as a reversal (noise on `v`).
     pub(crate) threshold: f64,
+    /// What a model is held against.
+    pub(crate) criterion: Criterion,
+}
+
+/// What a model is held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Criterion {
+    /// The next sample, given the measured ones before it: efficient where the equation error is what the model says.
+    OneStep,
+    /// The whole record, given its beginning: the output error of the free run.
+    Simulation {
+        /// Independent errors per sample: errors of simulation are coloured, and each counts for less than one.
+        share: f64,
+    },
+}
+
+impl Criterion {
+    pub(crate) fn simulates(self) -> bool {
+        matches!(self, Self::Simulation { .. })
+    }
+
+    /// Independent errors per sample.
+    pub(crate) fn share(self) -> f64 {
+        match self {
+            Self::OneStep => 1.0,
+            Self::Simulation { share } => share,
+        }
+    }
 }
 
 /// Samples left out at the start of each record, besides those before the input first moves: no candidate's memory
@@ -131,7 +159,36 @@ impl Campaign {
             travel += track.moves.last().map_or(0.0, |m| m.path);
         }
         let levels = levels(&tracks);
-        Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, travel, threshold })
+        Ok(Self {
+            tracks,
+            v_low,
+            v_width,
+            y_mean,
+            y_scale,
+            levels,
+            total: clock,
+            travel,
+            threshold,
+            criterion: Criterion::OneStep,
+        })
+    }
+
+    /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
+    /// input may act within its sample, and a record of the position may trail the force.
+    pub(crate) fn led_by(&self, lead: usize) -> Self {
+        let mut led = self.clone();
+        for track in &mut led.tracks {
+            let last = track.v[track.v.len() - 1];
+            track.v.drain(..lead.min(track.v.len() - 1));
+            track.v.resize(track.y.len(), last);
+            track.moves = motions(&track.v, 0.0, self.threshold).into();
+        }
+        led
+    }
+
+    /// The same records, models held against another criterion.
+    pub(crate) fn judged_by(&self, criterion: Criterion) -> Self {
+        Self { criterion, ..self.clone() }
     }
 
     pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {

@@ -3,7 +3,7 @@
 use switchback_estimator::rig::Rig;
 
 use crate::attribution::{Attribution, detail};
-use crate::campaign::Campaign;
+use crate::campaign::{Campaign, Criterion};
 use crate::closure::{Simulated, measure};
 use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
 use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
@@ -14,9 +14,11 @@ use crate::explain::Explanation;
 use crate::localise::localise;
 use crate::nominal::identify;
 use crate::omnibus::{Omnibus, omnibus};
+use crate::order::choose;
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
+use crate::spectrum::unpredictable_variance;
 use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.
@@ -41,7 +43,7 @@ pub fn diagnose_with(
     model: Model,
     settings: &Settings,
 ) -> Result<Diagnosis, DiagnoseError> {
-    Ok(Plan::new(rig, model, settings)?.conclude(workers))
+    Ok(Plan::new(workers, rig, model, settings)?.conclude(workers))
 }
 
 /// What is known before any effect is tried.
@@ -63,8 +65,14 @@ struct Plan {
 
 impl Plan {
     /// Identifies the nominal model.
-    fn new(rig: &Rig, model: Model, settings: &Settings) -> Result<Self, DiagnoseError> {
-        let campaign = Campaign::new(rig)?;
+    fn new(
+        workers: &impl Workers,
+        rig: &Rig,
+        model: Model,
+        settings: &Settings,
+    ) -> Result<Self, DiagnoseError> {
+        let mut campaign = Campaign::new(rig)?;
+        let mut settings = settings.clone();
         let mut limitations = Vec::new();
         let order = match (&model, rig.order) {
             (Model::Given(m), Some(n)) if m.a.len() != n => {
@@ -76,14 +84,16 @@ impl Plan {
         let nominal = match order {
             Some(n) => identify(&campaign, n.max(1))?,
             None => {
-                let chosen = crate::order::choose(&campaign, settings.max_order)?;
-                limitations.push(format!(
-                    "the rig declares no order: {} was chosen from the fit records",
-                    chosen.linear.a.len()
-                ));
-                chosen
+                let chosen = choose(workers, &campaign, settings.max_order)?;
+                limitations.push(chosen.told());
+                campaign = chosen.campaign;
+                chosen.fit
             }
         };
+        if campaign.criterion.simulates() {
+            // What changes only the noise moves no simulation.
+            settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
+        }
         let judged = judged_tracks(&campaign, &mut limitations);
         let foreign = match &model {
             Model::Identify => None,
@@ -97,16 +107,7 @@ impl Plan {
         let detailed = Explanation::nominal(nominal);
         let nominal = coarse(&campaign, &detailed);
         let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
-        Ok(Self {
-            settings: settings.clone(),
-            campaign,
-            nominal,
-            detailed,
-            nominal_innovations,
-            foreign,
-            judged,
-            limitations,
-        })
+        Ok(Self { settings, campaign, nominal, detailed, nominal_innovations, foreign, judged, limitations })
     }
 
     /// Ranks the candidates and draws the conclusions.
@@ -224,6 +225,9 @@ impl Plan {
     /// Repetition within periodic records needs no model; the augmented model's own floor is the other estimate. Effects
     /// that do not repeat with the input inflate the first, effects left out the second: the smaller one holds.
     fn noise_floor(&self, fit: &Fit) -> (f64, f64) {
+        if self.campaign.criterion.simulates() {
+            return self.unforeseeable(fit);
+        }
         let model = fit.power * noise_gain(fit);
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         match repeat_variance(&self.campaign, |_| true) {
@@ -232,9 +236,29 @@ impl Plan {
         }
     }
 
+    /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
+    /// at most that.
+    fn unforeseeable(&self, fit: &Fit) -> (f64, f64) {
+        let errors: Vec<Vec<f64>> = self
+            .judged
+            .iter()
+            .map(|&number| {
+                let track = &self.campaign.tracks[number];
+                let run = free_run(&self.campaign, fit, number, track);
+                run.iter().zip(&track.y).skip(track.from).map(|(x, y)| y - x).collect()
+            })
+            .collect();
+        let count: usize = errors.iter().map(Vec::len).sum();
+        (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
+    }
+
     /// Variance of the innovations without the gap.
     fn innovation_floor(&self, fit: &Fit) -> f64 {
-        fit.power.min(self.nominal.fit.power).max(1e-300)
+        let power = match self.campaign.criterion {
+            Criterion::OneStep => fit.power,
+            Criterion::Simulation { .. } => self.unforeseeable(fit).0,
+        };
+        power.min(self.nominal.fit.power).max(1e-300)
     }
 
     fn simulations(&self, fit: &Fit) -> Vec<Simulated> {

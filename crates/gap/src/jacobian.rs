@@ -204,6 +204,12 @@ fn dense_rows(
     let tapped = tapped(design, track, p);
     let mut features = Features::new(design, track, k, b.len());
     let first = track.from.saturating_sub(LEAD);
+    // In a simulation the lags are those of the simulated output, the measured one less the error.
+    let error = design.criterion.simulates().then(|| whitener.apply(design.errors(track, p)));
+    let error = |t: usize| match &error {
+        Some(error) if t >= first => error[t - first],
+        _ => 0.0,
+    };
     let mut raw = Ring::new(size, whitener.ar.len() + 1);
     let mut white = Ring::new(size, whitener.ma.len() + 1);
     for t in 0..track.x.len() {
@@ -213,7 +219,8 @@ fn dense_rows(
         }
         let row = raw.row_mut(t);
         for i in 0..na {
-            row[i] = track.x[t.saturating_sub(i + 1)];
+            let past = t.saturating_sub(i + 1);
+            row[i] = track.x[past] - error(past);
         }
         for j in 0..nb {
             row[na + j] = -tapped[t.saturating_sub(j + 1)];

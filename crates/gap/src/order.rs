@@ -1,39 +1,185 @@
-//! The order of the linear part, where the rig does not declare it.
+//! Order, lead and criterion of the nominal model, where the rig declares no order.
 
-use crate::campaign::Campaign;
-use crate::engine::Fit;
+use crate::assembly::Assembly;
+use crate::campaign::{Campaign, Criterion};
+use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
-use crate::given::stable;
-use crate::nominal::identify;
+use crate::given::settles;
+use crate::knots::{first_grid, refine};
+use crate::nominal::{first_fit, identify};
+use crate::score::innovations;
 use crate::simulate::free_run;
+use crate::spectrum::{autocorrelation, unpredictable_variance};
+use crate::workers::Workers;
 
-/// Identifies orders `1…most` and keeps the smallest that simulates the fit records within 3 % of the best one.
+/// A structure chosen from the fit records.
+#[derive(Debug)]
+pub(crate) struct Chosen {
+    /// The records with the lead and the criterion chosen.
+    pub(crate) campaign: Campaign,
+    pub(crate) fit: Fit,
+    lead: usize,
+}
+
+/// Largest lead tried, samples.
+const LEADS: usize = 2;
+/// A structure this much worse than the best, as a ratio of mean squares, is as good if it is simpler.
+const AS_GOOD: f64 = 1.03;
+/// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
+const EFFICIENT: f64 = 0.8;
+/// Share of the innovations' variance foretold by their past, from which the equation error is not white for any use.
+const COLOURED: f64 = 0.1;
+/// Rounds of fitting as a simulator while structures are compared.
+const ROUNDS: usize = 10;
+
+/// One structure tried: mean square simulation errors of the fit one step ahead and of the fit as a simulator.
+struct Tried {
+    lead: usize,
+    order: usize,
+    one_step: f64,
+    /// Share of the innovations' variance that their own past foretells.
+    colour: f64,
+    simulator: Option<Fit>,
+}
+
+impl Tried {
+    fn is_white(&self) -> bool {
+        self.colour < COLOURED
+    }
+
+    fn simulated(&self) -> f64 {
+        self.simulator.as_ref().map_or(f64::INFINITY, |f| f.power)
+    }
+}
+
+/// Chooses among orders `1…most` and leads of up to [`LEADS`] samples by the simulation error on the fit records.
 ///
-/// Equation-error criteria prefer high orders on real records, whose noise is never white; a simulation error that hardly falls
-/// is no reason for another lag.
-pub(crate) fn choose(campaign: &Campaign, most: usize) -> Result<Fit, DiagnoseError> {
+/// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
+/// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
+/// says, and models are compared as simulators from there on.
+pub(crate) fn choose(
+    workers: &impl Workers,
+    campaign: &Campaign,
+    most: usize,
+) -> Result<Chosen, DiagnoseError> {
+    let structures: Vec<(usize, usize)> =
+        (0..=LEADS).flat_map(|lead| (1..=most.max(1)).map(move |order| (lead, order))).collect();
+    let attempts = workers.map(&structures, |&(lead, order)| attempt(&campaign.led_by(lead), lead, order));
     let mut tried = Vec::new();
     let mut failure = None;
-    for n in 1..=most.max(1) {
-        match identify(campaign, n) {
-            Ok(fit) if stable(&fit.linear.a) => tried.push((simulation_error(campaign, &fit), fit)),
-            Ok(_) => {}
+    for attempt in attempts {
+        match attempt {
+            Ok(found) => tried.push(found),
             Err(e) => failure = failure.or(Some(e)),
         }
     }
-    let least = tried.iter().map(|t| t.0).fold(f64::INFINITY, f64::min);
-    tried.into_iter().find(|t| t.0 <= 1.03 * least).map(|t| t.1).ok_or_else(|| {
-        failure.unwrap_or_else(|| DiagnoseError::Singular {
-            reason: "every order tried gives an unstable model".into(),
-        })
-    })
+    for t in &tried {
+        eprintln!(
+            "lead {} order {} steps {:.5} runs {:.5} colour {:.3}",
+            t.lead,
+            t.order,
+            t.one_step,
+            t.simulated(),
+            t.colour
+        );
+    }
+    if tried.is_empty() {
+        return Err(failure.unwrap_or_else(unstable));
+    }
+    let by_steps = simplest(&tried, |t| t.one_step).ok_or_else(unstable);
+    let by_runs = simplest(&tried, Tried::simulated);
+    match (by_steps, by_runs) {
+        (Ok(steps), Some(runs)) if steps.is_white() && runs.simulated() > EFFICIENT * steps.one_step => {
+            let campaign = campaign.led_by(steps.lead);
+            let fit = identify(&campaign, steps.order)?;
+            Ok(Chosen { campaign, fit, lead: steps.lead })
+        }
+        (_, Some(Tried { lead, simulator: Some(simulator), .. })) => {
+            let led = campaign.led_by(*lead);
+            let share = independent_share(&led.judged_by(SIMULATION), simulator);
+            let campaign = led.judged_by(Criterion::Simulation { share });
+            let mut fit = simulator.clone();
+            fit.deviance *= share;
+            let fit = refine(&campaign, fit, &|_| Assembly::default());
+            Ok(Chosen { campaign, fit, lead: *lead })
+        }
+        (steps, _) => {
+            let steps = steps?;
+            let campaign = campaign.led_by(steps.lead);
+            let fit = identify(&campaign, steps.order)?;
+            Ok(Chosen { campaign, fit, lead: steps.lead })
+        }
+    }
 }
 
+impl Chosen {
+    /// The choice in words.
+    pub(crate) fn told(&self) -> String {
+        let lead = match self.lead {
+            0 => String::new(),
+            1 => " and an output that follows the input within its sample".to_owned(),
+            lead => format!(" and an output {} sample ahead of the input", lead - 1),
+        };
+        let criterion = match self.campaign.criterion {
+            Criterion::OneStep => "",
+            Criterion::Simulation { .. } => {
+                "; the equation error is far from white, so models are fitted and compared by their free run"
+            }
+        };
+        format!(
+            "the rig declares no order: order {}{lead} was chosen from the fit records{criterion}",
+            self.fit.linear.a.len()
+        )
+    }
+}
+
+/// Each error counted for one.
+const SIMULATION: Criterion = Criterion::Simulation { share: 1.0 };
+
+fn unstable() -> DiagnoseError {
+    DiagnoseError::Singular { reason: "every order tried gives an unstable model".into() }
+}
+
+/// The first structure that is as good as the best; nothing where none is any good.
+fn simplest(tried: &[Tried], error: impl Fn(&Tried) -> f64) -> Option<&Tried> {
+    let least = tried.iter().map(&error).fold(f64::INFINITY, f64::min);
+    tried.iter().find(|t| least.is_finite() && error(t) <= AS_GOOD * least)
+}
+
+/// Fits one structure on the first grid, one step ahead and as a simulator.
+fn attempt(led: &Campaign, lead: usize, order: usize) -> Result<Tried, DiagnoseError> {
+    let one_step = first_fit(led, order)?;
+    let simulates = led.judged_by(SIMULATION);
+    let grid = first_grid(led);
+    let mut start = one_step.linear.clone();
+    // Poles pulled in until the model forgets.
+    while !settles(&start.a) {
+        start.a.iter_mut().enumerate().for_each(|(i, a)| *a *= 0.99_f64.powi(i as i32 + 1));
+    }
+    let ground = Ground { campaign: &simulates, grid: &grid };
+    let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
+    let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
+    let w = innovations(led, &one_step, |t| t.is_fit());
+    let colour = 1.0 - unpredictable_variance(&w) / one_step.power.max(1e-300);
+    Ok(Tried { colour, lead, order, one_step: error, simulator })
+}
+
+/// Mean square simulation error over the counted samples of the fit records.
 fn simulation_error(campaign: &Campaign, fit: &Fit) -> f64 {
     let mut sum = 0.0;
     for (number, track) in campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()) {
         let y = free_run(campaign, fit, number, track);
         sum += y.iter().zip(&track.y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
     }
-    sum
+    sum / campaign.fit_samples().max(1) as f64
+}
+
+/// Independent errors per sample, `1/(1 + 2Σρ²)` over the lags before the autocorrelation `ρ` first vanishes: what coloured
+/// errors tell about their variance (Bartlett).
+fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
+    let errors = innovations(campaign, fit, |t| t.is_fit());
+    let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
+    let rho = autocorrelation(&errors, (longest / 4).clamp(1, 400));
+    let sum: f64 = rho[1..].iter().take_while(|r| **r > 0.0).map(|r| r * r).sum();
+    1.0 / (1.0 + 2.0 * sum)
 }

@@ -94,6 +94,34 @@ pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Order of the autoregression behind [`unpredictable_variance`].
+const MEMORY: usize = 12;
+
+/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks
+/// (Levinson's recursion).
+pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    let lagged = |lag: usize| -> f64 {
+        signals.iter().map(|x| x.iter().zip(x.iter().skip(lag)).map(|(a, b)| a * b).sum::<f64>()).sum()
+    };
+    let covariance: Vec<f64> = (0..=MEMORY).map(|lag| lagged(lag) / count.max(1) as f64).collect();
+    let mut variance = covariance[0];
+    let mut a: Vec<f64> = Vec::new();
+    for order in 0..MEMORY {
+        if variance <= 1e-12 * covariance[0] {
+            break;
+        }
+        let partial =
+            covariance[order + 1] + a.iter().enumerate().map(|(i, a)| a * covariance[order - i]).sum::<f64>();
+        let reflection = -partial / variance;
+        let mut next: Vec<f64> = (0..order).map(|i| a[i] + reflection * a[order - 1 - i]).collect();
+        next.push(reflection);
+        a = next;
+        variance *= 1.0 - reflection * reflection;
+    }
+    variance.max(0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
