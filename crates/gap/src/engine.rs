@@ -179,11 +179,12 @@ pub(crate) fn fit(
             design = d;
         }
         state = s;
-        if step_norm < 0.2 {
+        if step_norm < 0.2 * design.criterion.share() {
             break;
         }
     }
-    let samples = design.samples();
+    // Coloured errors count for less than one sample each.
+    let samples = (design.samples() as f64 * design.criterion.share()).ceil() as usize;
     let (mut sum, mut count) = (0.0, 0.0);
     for (number, w) in state.innovations.iter().enumerate() {
         for (k, w) in w.iter().enumerate() {

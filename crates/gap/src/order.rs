@@ -1,5 +1,7 @@
 //! Order, lead and criterion of the nominal model, where the rig declares no order.
 
+use std::f64::consts::LN_2;
+
 use crate::assembly::Assembly;
 use crate::campaign::{Campaign, Criterion};
 use crate::engine::{Fit, Ground, fit};
@@ -174,12 +176,16 @@ fn simulation_error(campaign: &Campaign, fit: &Fit) -> f64 {
     sum / campaign.fit_samples().max(1) as f64
 }
 
-/// Independent errors per sample, `1/(1 + 2Σρ²)` over the lags before the autocorrelation `ρ` first vanishes: what coloured
-/// errors tell about their variance (Bartlett).
+/// Independent errors per sample: one in `τ = k/ln 2` samples, `k` the lag at which the autocorrelation has fallen to a half.
+///
+/// Of coloured errors `1 + 2Σρ²` samples tell as much about their variance as one white one (Bartlett), which is `τ` for
+/// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
 fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
     let errors = innovations(campaign, fit, |t| t.is_fit());
     let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
-    let rho = autocorrelation(&errors, (longest / 4).clamp(1, 400));
-    let sum: f64 = rho[1..].iter().take_while(|r| **r > 0.0).map(|r| r * r).sum();
-    1.0 / (1.0 + 2.0 * sum)
+    let rho = autocorrelation(&errors, (longest / 4).max(1));
+    let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
+    let share = (LN_2 / half as f64).min(1.0);
+    eprintln!("share {share} power {}", fit.power);
+    share
 }

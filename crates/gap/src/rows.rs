@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
 use crate::borders::{Grid, side};
-use crate::campaign::{Campaign, Track};
+use crate::campaign::{Campaign, Criterion, Track};
 use crate::motion::Motion;
 
 /// Sparse rows, one a sample.
@@ -66,7 +66,7 @@ pub(crate) fn rows(
 ) -> Rows {
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
-    let mut builder = Builder::new(grid, assembly, track.v[0]);
+    let mut builder = Builder::new(grid, assembly, track.v[0], campaign.criterion);
     let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
     let mut row: Vec<(u32, f64)> = Vec::new();
     for (t, m) in moves.iter().enumerate() {
@@ -140,10 +140,16 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64) -> Self {
+    fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64, criterion: Criterion) -> Self {
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
         let start = grid.hat(usize::from(v >= 0.5), v);
-        let current = start.iter().map(|&(i, w)| (i as u32, w)).collect();
+        let current = match criterion {
+            Criterion::OneStep => start.iter().map(|&(i, w)| (i as u32, w)).collect(),
+            // A simulation goes on from there for long: the middle between the borders is never far off.
+            Criterion::Simulation { .. } => {
+                [0, 1].iter().flat_map(|&s| grid.hat(s, v)).map(|(i, w)| (i as u32, 0.5 * w)).collect()
+            }
+        };
         Self { grid, assembly, current, fading: Vec::new(), scratch: vec![0.0; grid.len()] }
     }
 
