@@ -80,7 +80,7 @@ impl Design {
                     motions(&track.v, assembly.play, campaign.threshold).into()
                 };
                 DesignTrack {
-                    rows: rows((campaign, track), &moves, grid, assembly),
+                    rows: rows((campaign, number, track), &moves, grid, assembly),
                     moves,
                     columns: equation_columns(campaign, (number, track), assembly),
                     x,

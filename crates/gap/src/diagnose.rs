@@ -281,7 +281,13 @@ impl Plan {
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
             measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
-        eprintln!("{effect} {:?} power {} {:?} own {:?}", s.fit.assembly.transition, s.fit.power, s.fit.linear.a, s.fit.own.iter().map(|o| o.value).collect::<Vec<_>>());
+        eprintln!(
+            "{effect} {:?} power {} {:?} own {:?}",
+            s.fit.assembly.transition,
+            s.fit.power,
+            s.fit.linear.a,
+            s.fit.own.iter().map(|o| o.value).collect::<Vec<_>>()
+        );
         let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
         Candidate {
             effect,

@@ -186,7 +186,8 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
     let (gain, dof) = scatter(campaign, &scaled);
-    let scatter = (share * gain, dof);
+    // Errors of a simulation are large where the model is wrong, which says nothing about noise.
+    let scatter = (white * gain, dof);
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
     let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);

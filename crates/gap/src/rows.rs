@@ -59,7 +59,7 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
 
 /// The rows of one track: first the border values of `grid`, then the assembly's border columns.
 pub(crate) fn rows(
-    (campaign, track): (&Campaign, &Track),
+    (campaign, number, track): (&Campaign, usize, &Track),
     moves: &[Motion],
     grid: &Grid,
     assembly: &Assembly,
@@ -67,6 +67,10 @@ pub(crate) fn rows(
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
     let mut builder = Builder::new(grid, assembly, track.v[0], campaign.criterion);
+    let own = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
+    if let Some(start) = assembly.border_columns.iter().position(own) {
+        builder.current.push((columns + start as u32, 1.0));
+    }
     let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
     let mut row: Vec<(u32, f64)> = Vec::new();
     for (t, m) in moves.iter().enumerate() {
@@ -81,6 +85,10 @@ pub(crate) fn rows(
         row.clear();
         row.extend_from_slice(&builder.current);
         for (j, column) in assembly.border_columns.iter().enumerate() {
+            if let BorderColumn::Start { .. } = column {
+                // Part of the working point.
+                continue;
+            }
             let s = match column {
                 BorderColumn::BranchSlow { clock: c } | BorderColumn::SideSlow { clock: c, .. } => {
                     clock(*c, campaign, track, t, m.path)
@@ -118,7 +126,7 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
                 0.0
             }
         }
-        BorderColumn::SideSlow { .. } => held,
+        BorderColumn::SideSlow { .. } | BorderColumn::Start { .. } => held,
         BorderColumn::BranchSlow { .. } => {
             if m.moves {
                 m.branch * s
@@ -150,7 +158,13 @@ impl<'a> Builder<'a> {
                 [0, 1].iter().flat_map(|&s| grid.hat(s, v)).map(|(i, w)| (i as u32, 0.5 * w)).collect()
             }
         };
-        Self { grid, assembly, current, fading: Vec::new(), scratch: vec![0.0; grid.len()] }
+        Self {
+            grid,
+            assembly,
+            current,
+            fading: Vec::new(),
+            scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
+        }
     }
 
     /// A reversal: notes what will fade.
