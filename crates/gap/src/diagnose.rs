@@ -18,7 +18,8 @@ use crate::order::choose;
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
-use crate::spectrum::unpredictable_variance;
+use crate::simulators::weighed_by_closure;
+use crate::spectrum::{mean_square, unpredictable_variance};
 use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.
@@ -123,6 +124,7 @@ impl Plan {
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            self.drop_what_held_out_records_refute(&mut singles);
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
         let mut tests = omnibus(&self.campaign, &best.fit);
@@ -151,6 +153,10 @@ impl Plan {
             }
             None => odds(self.nominal.bic(), &bics, left),
         };
+        let odds = match self.held_out_closure(&best.fit) {
+            Some(closure) if significant => weighed_by_closure(odds, closure),
+            _ => odds,
+        };
         let mut ranked: Vec<(Effect, f64)> =
             singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
         ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
@@ -173,16 +179,43 @@ impl Plan {
         }
     }
 
+    /// A simulator that is worse on held-out records explains nothing, however well it follows those it was fitted to.
+    fn drop_what_held_out_records_refute(&self, singles: &mut Vec<Explanation>) {
+        if self.campaign.criterion.simulates() {
+            singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
+        }
+    }
+
+    /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
+    /// gap.
+    fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
+        if !self.campaign.criterion.simulates() {
+            return None;
+        }
+        let gap =
+            measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), (self.settings.seed, 0));
+        (gap.before.estimate > 0.0).then(|| 1.0 - gap.after.estimate / gap.before.estimate)
+    }
+
+    /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.
+    fn score(&self, fit: &Fit) -> Option<f64> {
+        match self.campaign.criterion {
+            Criterion::OneStep => heldout_log_score(&self.campaign, fit),
+            Criterion::Simulation { share } => {
+                Some(-0.5 * share * mean_square(&self.judged_errors(fit)).max(1e-300).ln())
+            }
+        }
+    }
+
     fn report(self, c: Conclusion) -> Diagnosis {
         let campaign = &self.campaign;
         let floor = self.noise_floor(&c.augmented.fit);
         let runs = self.simulations(&c.augmented.fit);
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
-        let score = |fit: &Fit| heldout_log_score(campaign, fit);
-        let nominal_score = score(&self.nominal.fit);
+        let nominal_score = self.score(&self.nominal.fit);
         gap.predictive_gain =
-            score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+            self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
         if gap.closure.is_none() {
             limitations.push(
                 "the interval of the gap on the judged records includes zero: not resolvable, so no closure is given"
@@ -239,17 +272,21 @@ impl Plan {
     /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
     /// at most that.
     fn unforeseeable(&self, fit: &Fit) -> (f64, f64) {
-        let errors: Vec<Vec<f64>> = self
-            .judged
+        let errors = self.judged_errors(fit);
+        let count: usize = errors.iter().map(Vec::len).sum();
+        (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
+    }
+
+    /// Errors of the free run on the judged records.
+    fn judged_errors(&self, fit: &Fit) -> Vec<Vec<f64>> {
+        self.judged
             .iter()
             .map(|&number| {
                 let track = &self.campaign.tracks[number];
                 let run = free_run(&self.campaign, fit, number, track);
                 run.iter().zip(&track.y).skip(track.from).map(|(x, y)| y - x).collect()
             })
-            .collect();
-        let count: usize = errors.iter().map(Vec::len).sum();
-        (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
+            .collect()
     }
 
     /// Variance of the innovations without the gap.
@@ -281,13 +318,6 @@ impl Plan {
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
             measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
-        eprintln!(
-            "{effect} {:?} power {} {:?} own {:?}",
-            s.fit.assembly.transition,
-            s.fit.power,
-            s.fit.linear.a,
-            s.fit.own.iter().map(|o| o.value).collect::<Vec<_>>()
-        );
         let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
         Candidate {
             effect,
@@ -301,9 +331,7 @@ impl Plan {
                 .map(|(o, se)| FittedParameter { name: o.name, unit: o.unit, value: o.value, se: *se })
                 .collect(),
             bic: s.bic() - self.nominal.bic(),
-            heldout_log_score: heldout_log_score(&self.campaign, &s.fit)
-                .zip(nominal)
-                .map_or(0.0, |(a, b)| a - b),
+            heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
         }
     }

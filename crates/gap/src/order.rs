@@ -75,16 +75,6 @@ pub(crate) fn choose(
             Err(e) => failure = failure.or(Some(e)),
         }
     }
-    for t in &tried {
-        eprintln!(
-            "lead {} order {} steps {:.5} runs {:.5} colour {:.3}",
-            t.lead,
-            t.order,
-            t.one_step,
-            t.simulated(),
-            t.colour
-        );
-    }
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
@@ -185,7 +175,5 @@ fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
     let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
     let rho = autocorrelation(&errors, (longest / 4).max(1));
     let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
-    let share = (LN_2 / half as f64).min(1.0);
-    eprintln!("share {share} power {}", fit.power);
-    share
+    (LN_2 / half as f64).min(1.0)
 }

@@ -94,6 +94,12 @@ pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Mean square over all tracks.
+pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    signals.iter().flatten().map(|x| x * x).sum::<f64>() / count.max(1) as f64
+}
+
 /// Order of the autoregression behind [`unpredictable_variance`].
 const MEMORY: usize = 12;
 
