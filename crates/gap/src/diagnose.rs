@@ -216,6 +216,10 @@ impl Plan {
         let nominal_score = self.score(&self.nominal.fit);
         gap.predictive_gain =
             self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+        if campaign.criterion.simulates() {
+            // Nobody predicted one step ahead.
+            gap.predictive_gain = 0.0;
+        }
         if gap.closure.is_none() {
             limitations.push(
                 "the interval of the gap on the judged records includes zero: not resolvable, so no closure is given"

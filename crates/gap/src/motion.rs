@@ -49,6 +49,9 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
     let mut p = first;
     // The furthest point reached on the present branch: the next reversal is measured from here.
     let mut extreme = first;
+    // When that was, and where the play's output has been since.
+    let mut turned = 0;
+    let mut pushed_to = vec![first];
     out.push(m);
     for t in 1..v.len() {
         let step = v[t] - v[t - 1];
@@ -57,6 +60,7 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
         let pushed = p.max(v[t] - half).min(v[t] + half);
         let push = pushed - p;
         p = pushed;
+        pushed_to.push(p);
         m.reversal = false;
         m.moves = push != 0.0;
         if m.moves {
@@ -66,9 +70,16 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
                 m.reversal = true;
                 m.loop_size = (extreme - m.turn).abs();
                 m.turn = extreme;
+                if let Some(since) = (turned + 1..t).find(|&s| out[s].moves) {
+                    m.travel = 0.0;
+                    backdate(&mut out[since..], &pushed_to[since..t], &m);
+                    m.reversal = false;
+                }
                 extreme = p;
+                turned = t;
             } else if back <= 0.0 {
                 extreme = p;
+                turned = t;
             }
             m.travel = (p - m.turn).abs();
         }
@@ -76,6 +87,18 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
         out.push(m);
     }
     out
+}
+
+/// A reversal that only a travel beyond the threshold confirmed began at the extreme: the samples since then, with the play's
+/// output `p`, are on the new branch.
+fn backdate(samples: &mut [Motion], p: &[f64], confirmed: &Motion) {
+    for (k, (m, p)) in samples.iter_mut().zip(p).enumerate() {
+        m.branch = confirmed.branch;
+        m.turn = confirmed.turn;
+        m.travel = (p - confirmed.turn).abs();
+        m.loop_size = confirmed.loop_size;
+        m.reversal = k == 0;
+    }
 }
 
 #[cfg(test)]
@@ -89,6 +112,17 @@ mod tests {
         assert_eq!(branches, [0.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
         let moves: Vec<bool> = motions(&v, 0.2, 0.0).iter().map(|m| m.moves).collect();
         assert_eq!(moves, [false, true, true, false, true, true, true]);
+    }
+
+    #[test]
+    fn a_reversal_above_the_threshold_begins_at_the_extreme() {
+        let v = [0.0, 0.5, 1.0, 0.95, 0.97, 0.8, 0.5];
+        let moves = motions(&v, 0.0, 0.1);
+        let branches: Vec<f64> = moves.iter().map(|m| m.branch).collect();
+        assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0]);
+        let reversals: Vec<bool> = moves.iter().map(|m| m.reversal).collect();
+        assert_eq!(reversals, [false, true, false, true, false, false, false]);
+        assert!((moves[6].travel - 0.5).abs() < 1e-12 && (moves[5].turn - 1.0).abs() < 1e-12);
     }
 
     #[test]
