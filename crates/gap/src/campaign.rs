@@ -5,7 +5,7 @@ use std::sync::Arc;
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
-use crate::motion::{Motion, motions};
+use crate::motion::{Begins, Motion, ReversalRule, motions};
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -54,8 +54,8 @@ pub(crate) struct Campaign {
     pub(crate) total: usize,
     /// Travel of the whole campaign, strokes.
     pub(crate) travel: f64,
-    /// A move smaller than this does not count as a reversal (noise on `v`).
-    pub(crate) threshold: f64,
+    /// What counts as a reversal.
+    pub(crate) rule: ReversalRule,
     /// What a model is held against.
     pub(crate) criterion: Criterion,
 }
@@ -151,10 +151,10 @@ impl Campaign {
             });
             clock += r.record.len();
         }
-        let threshold = reversal_threshold(&tracks);
+        let rule = ReversalRule { threshold: reversal_threshold(&tracks), ..ReversalRule::default() };
         let mut travel = 0.0;
         for track in &mut tracks {
-            track.moves = motions(&track.v, 0.0, threshold).into();
+            track.moves = motions(&track.v, 0.0, rule).into();
             track.travelled = travel;
             travel += track.moves.last().map_or(0.0, |m| m.path);
         }
@@ -168,7 +168,7 @@ impl Campaign {
             levels,
             total: clock,
             travel,
-            threshold,
+            rule,
             criterion: Criterion::OneStep,
         })
     }
@@ -181,9 +181,19 @@ impl Campaign {
             let last = track.v[track.v.len() - 1];
             track.v.drain(..lead.min(track.v.len() - 1));
             track.v.resize(track.y.len(), last);
-            track.moves = motions(&track.v, 0.0, self.threshold).into();
+            track.moves = motions(&track.v, 0.0, self.rule).into();
         }
         led
+    }
+
+    /// The same records with branches that begin elsewhere.
+    pub(crate) fn with_branches_from(&self, begins: Begins) -> Self {
+        let mut other = self.clone();
+        other.rule.begins = begins;
+        for track in &mut other.tracks {
+            track.moves = motions(&track.v, 0.0, other.rule).into();
+        }
+        other
     }
 
     /// The same records, models held against another criterion.

@@ -77,7 +77,7 @@ impl Design {
                 let moves = if assembly.play == 0.0 {
                     Arc::clone(&track.moves)
                 } else {
-                    motions(&track.v, assembly.play, campaign.threshold).into()
+                    motions(&track.v, assembly.play, campaign.rule).into()
                 };
                 DesignTrack {
                     rows: rows((campaign, number, track), &moves, grid, assembly),

@@ -432,10 +432,10 @@ fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>
                 .into(),
         );
     }
-    if campaign.threshold > 0.0 {
+    if campaign.rule.threshold > 0.0 {
         limitations.push(format!(
             "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
-            campaign.threshold * campaign.v_width
+            campaign.rule.threshold * campaign.v_width
         ));
     }
 }

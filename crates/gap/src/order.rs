@@ -8,6 +8,7 @@ use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
 use crate::given::settles;
 use crate::knots::{first_grid, refine};
+use crate::motion::Begins;
 use crate::nominal::{first_fit, identify};
 use crate::score::innovations;
 use crate::simulate::free_run;
@@ -34,10 +35,25 @@ const COLOURED: f64 = 0.1;
 /// Rounds of fitting as a simulator while structures are compared.
 const ROUNDS: usize = 10;
 
+/// What is chosen besides the criterion.
+#[derive(Debug, Clone, Copy)]
+struct Structure {
+    order: usize,
+    /// Samples by which the output follows the input sooner than in the paper.
+    lead: usize,
+    begins: Begins,
+}
+
+impl Structure {
+    /// The records as this structure sees them.
+    fn applied(&self, campaign: &Campaign) -> Campaign {
+        campaign.with_branches_from(self.begins).led_by(self.lead)
+    }
+}
+
 /// One structure tried: mean square simulation errors of the fit one step ahead and of the fit as a simulator.
 struct Tried {
-    lead: usize,
-    order: usize,
+    structure: Structure,
     one_step: f64,
     /// Share of the innovations' variance that their own past foretells.
     colour: f64,
@@ -64,9 +80,7 @@ pub(crate) fn choose(
     campaign: &Campaign,
     most: usize,
 ) -> Result<Chosen, DiagnoseError> {
-    let structures: Vec<(usize, usize)> =
-        (0..=LEADS).flat_map(|lead| (1..=most.max(1)).map(move |order| (lead, order))).collect();
-    let attempts = workers.map(&structures, |&(lead, order)| attempt(&campaign.led_by(lead), lead, order));
+    let attempts = workers.map(&structures(campaign, most), |s| attempt(campaign, *s));
     let mut tried = Vec::new();
     let mut failure = None;
     for attempt in attempts {
@@ -82,26 +96,26 @@ pub(crate) fn choose(
     let by_runs = simplest(&tried, Tried::simulated);
     match (by_steps, by_runs) {
         (Ok(steps), Some(runs)) if steps.is_white() && runs.simulated() > EFFICIENT * steps.one_step => {
-            let campaign = campaign.led_by(steps.lead);
-            let fit = identify(&campaign, steps.order)?;
-            Ok(Chosen { campaign, fit, lead: steps.lead })
+            one_step(campaign, steps.structure)
         }
-        (_, Some(Tried { lead, simulator: Some(simulator), .. })) => {
-            let led = campaign.led_by(*lead);
+        (_, Some(Tried { structure, simulator: Some(simulator), .. })) => {
+            let led = structure.applied(campaign);
             let share = independent_share(&led.judged_by(SIMULATION), simulator);
             let campaign = led.judged_by(Criterion::Simulation { share });
             let mut fit = simulator.clone();
             fit.deviance *= share;
             let fit = refine(&campaign, fit, &|_| Assembly::default());
-            Ok(Chosen { campaign, fit, lead: *lead })
+            Ok(Chosen { campaign, fit, lead: structure.lead })
         }
-        (steps, _) => {
-            let steps = steps?;
-            let campaign = campaign.led_by(steps.lead);
-            let fit = identify(&campaign, steps.order)?;
-            Ok(Chosen { campaign, fit, lead: steps.lead })
-        }
+        (steps, _) => one_step(campaign, steps?.structure),
     }
+}
+
+/// The structure identified one step ahead.
+fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, DiagnoseError> {
+    let campaign = structure.applied(campaign);
+    let fit = identify(&campaign, structure.order)?;
+    Ok(Chosen { campaign, fit, lead: structure.lead })
 }
 
 impl Chosen {
@@ -132,6 +146,22 @@ fn unstable() -> DiagnoseError {
     DiagnoseError::Singular { reason: "every order tried gives an unstable model".into() }
 }
 
+/// Every structure, simpler ones first.
+fn structures(campaign: &Campaign, most: usize) -> Vec<Structure> {
+    // Without a threshold a reversal is confirmed by the first move.
+    let begins: &[Begins] = match campaign.rule.threshold > 0.0 {
+        true => &[Begins::Confirmed, Begins::AtExtreme],
+        false => &[Begins::Confirmed],
+    };
+    let mut all = Vec::new();
+    for lead in 0..=LEADS {
+        for order in 1..=most.max(1) {
+            all.extend(begins.iter().map(|&begins| Structure { order, lead, begins }));
+        }
+    }
+    all
+}
+
 /// The first structure that is as good as the best; nothing where none is any good.
 fn simplest(tried: &[Tried], error: impl Fn(&Tried) -> f64) -> Option<&Tried> {
     let least = tried.iter().map(&error).fold(f64::INFINITY, f64::min);
@@ -139,8 +169,9 @@ fn simplest(tried: &[Tried], error: impl Fn(&Tried) -> f64) -> Option<&Tried> {
 }
 
 /// Fits one structure on the first grid, one step ahead and as a simulator.
-fn attempt(led: &Campaign, lead: usize, order: usize) -> Result<Tried, DiagnoseError> {
-    let one_step = first_fit(led, order)?;
+fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseError> {
+    let led = &structure.applied(campaign);
+    let one_step = first_fit(led, structure.order)?;
     let simulates = led.judged_by(SIMULATION);
     let grid = first_grid(led);
     let mut start = one_step.linear.clone();
@@ -153,7 +184,7 @@ fn attempt(led: &Campaign, lead: usize, order: usize) -> Result<Tried, DiagnoseE
     let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
     let w = innovations(led, &one_step, |t| t.is_fit());
     let colour = 1.0 - unpredictable_variance(&w) / one_step.power.max(1e-300);
-    Ok(Tried { colour, lead, order, one_step: error, simulator })
+    Ok(Tried { colour, structure, one_step: error, simulator })
 }
 
 /// Mean square simulation error over the counted samples of the fit records.
