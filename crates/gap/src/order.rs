@@ -3,7 +3,7 @@
 use std::f64::consts::LN_2;
 
 use crate::assembly::Assembly;
-use crate::campaign::{Campaign, Criterion};
+use crate::campaign::{Campaign, Criterion, Track};
 use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
 use crate::given::settles;
@@ -11,7 +11,7 @@ use crate::knots::{first_grid, refine};
 use crate::motion::Begins;
 use crate::nominal::{first_fit, identify};
 use crate::score::innovations;
-use crate::simulate::free_run;
+use crate::simulate::{free_run, repeat_variance};
 use crate::spectrum::{autocorrelation, unpredictable_variance};
 use crate::workers::Workers;
 
@@ -30,6 +30,8 @@ const LEADS: usize = 2;
 const AS_GOOD: f64 = 1.03;
 /// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
 const EFFICIENT: f64 = 0.8;
+/// A simulation error up to this many times the variance between repeated periods is noise for the most part.
+const NOISE: f64 = 2.0;
 /// Share of the innovations' variance foretold by their past, from which the equation error is not white for any use.
 const COLOURED: f64 = 0.1;
 /// Rounds of fitting as a simulator while structures are compared.
@@ -55,16 +57,10 @@ impl Structure {
 struct Tried {
     structure: Structure,
     one_step: f64,
-    /// Share of the innovations' variance that their own past foretells.
-    colour: f64,
     simulator: Option<Fit>,
 }
 
 impl Tried {
-    fn is_white(&self) -> bool {
-        self.colour < COLOURED
-    }
-
     fn simulated(&self) -> f64 {
         self.simulator.as_ref().map_or(f64::INFINITY, |f| f.power)
     }
@@ -92,22 +88,14 @@ pub(crate) fn choose(
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
-    let by_steps = simplest(&tried, |t| t.one_step).ok_or_else(unstable);
-    let by_runs = simplest(&tried, Tried::simulated);
+    let by_steps =
+        simplest(&tried, |t| t.one_step).map(|found| one_step(campaign, found.structure)).transpose()?;
+    let by_runs = simplest(&tried, Tried::simulated).and_then(|t| Some((t.structure, t.simulator.as_ref()?)));
     match (by_steps, by_runs) {
-        (Ok(steps), Some(runs)) if steps.is_white() && runs.simulated() > EFFICIENT * steps.one_step => {
-            one_step(campaign, steps.structure)
-        }
-        (_, Some(Tried { structure, simulator: Some(simulator), .. })) => {
-            let led = structure.applied(campaign);
-            let share = independent_share(&led.judged_by(SIMULATION), simulator);
-            let campaign = led.judged_by(Criterion::Simulation { share });
-            let mut fit = simulator.clone();
-            fit.deviance *= share;
-            let fit = refine(&campaign, fit, &|_| Assembly::default());
-            Ok(Chosen { campaign, fit, lead: structure.lead })
-        }
-        (steps, _) => one_step(campaign, steps?.structure),
+        (Some(steps), Some((_, runs))) if steps.suffices(runs) => Ok(steps),
+        (_, Some((structure, runs))) => Ok(simulator(campaign, structure, runs)),
+        (Some(steps), None) => Ok(steps),
+        (None, None) => Err(unstable()),
     }
 }
 
@@ -118,7 +106,31 @@ fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, Diagnos
     Ok(Chosen { campaign, fit, lead: structure.lead })
 }
 
+/// The structure identified as a simulator, from its fit on the first grid.
+fn simulator(campaign: &Campaign, structure: Structure, first: &Fit) -> Chosen {
+    let led = structure.applied(campaign);
+    let share = independent_share(&led.judged_by(SIMULATION), first);
+    let campaign = led.judged_by(Criterion::Simulation { share });
+    let mut fit = first.clone();
+    fit.deviance *= share;
+    let fit = refine(&campaign, fit, &|_| Assembly::default());
+    Chosen { campaign, fit, lead: structure.lead }
+}
+
 impl Chosen {
+    /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as
+    /// good as a simulator's fit and its innovations are white.
+    fn suffices(&self, simulator: &Fit) -> bool {
+        if !settles(&self.fit.linear.a) {
+            return false;
+        }
+        let error = simulation_error(&self.campaign, &self.fit);
+        let noise = repeat_variance(&self.campaign, Track::is_fit).map_or(0.0, |(variance, _)| variance);
+        let w = innovations(&self.campaign, &self.fit, Track::is_fit);
+        let colour = 1.0 - unpredictable_variance(&w) / self.fit.power.max(1e-300);
+        error < NOISE * noise || (colour < COLOURED && simulator.power > EFFICIENT * error)
+    }
+
     /// The choice in words.
     pub(crate) fn told(&self) -> String {
         let lead = match self.lead {
@@ -182,9 +194,7 @@ fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseE
     let ground = Ground { campaign: &simulates, grid: &grid };
     let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
     let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
-    let w = innovations(led, &one_step, |t| t.is_fit());
-    let colour = 1.0 - unpredictable_variance(&w) / one_step.power.max(1e-300);
-    Ok(Tried { colour, structure, one_step: error, simulator })
+    Ok(Tried { structure, one_step: error, simulator })
 }
 
 /// Mean square simulation error over the counted samples of the fit records.
