@@ -114,7 +114,8 @@ impl Campaign {
         let y_mean = rig.fit_records().flat_map(|r| r.record.y()).sum::<f64>() / count;
         let spread =
             rig.fit_records().flat_map(|r| r.record.y()).map(|y| (y - y_mean).powi(2)).sum::<f64>() / count;
-        if spread <= 0.0 {
+        let (least, most) = range(rig.fit_records().flat_map(|r| r.record.y()));
+        if most <= least {
             return Err(DiagnoseError::ConstantOutput);
         }
         let y_scale = spread.sqrt();

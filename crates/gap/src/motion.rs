@@ -46,7 +46,6 @@ pub(crate) enum Begins {
 }
 
 /// Follows an input through a play of full width `play`.
-
 ///
 /// The play's output `p` stays within half the play of `v` and moves only when pushed; the branch is the direction in which it
 /// last moved. On each branch `p = v ∓ play/2`, a shift that the border tables absorb: the border coordinate stays the
