@@ -146,4 +146,20 @@ mod tests {
             assert!((value - (re * re + im * im)).abs() < 1e-10);
         }
     }
+
+    #[test]
+    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+        let mut state = 1_u64;
+        let mut white = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
+        };
+        let mut x = vec![0.0, 0.0];
+        for t in 2..20_000 {
+            x.push(1.6 * x[t - 1] - 0.7 * x[t - 2] + white());
+        }
+        assert!((unpredictable_variance(&[x.clone()]) - 1.0).abs() < 0.05);
+        assert!(mean_square(&[x]) > 5.0);
+        assert!(unpredictable_variance(&[]).abs() < 1e-12);
+    }
 }
