@@ -10,12 +10,12 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use switchback::scenario::Scenario;
 use switchback::study;
 use switchback_benches::{experiment, noise, settings, spring, system};
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep, LaneTerms};
 use switchback_estimator::estimators::pulse::{Limit, PulseMethod, StepMean};
 use switchback_estimator::excitation::Direction;
 use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
 use switchback_estimator::simulation::{
-    LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
+    LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
 };
 
 /// Points `m`.
@@ -83,10 +83,20 @@ fn cell(c: &mut Criterion) {
     let expected = superpose(&design, &response, SIGMA, &endless);
     let mean = system().static_gain() * spring().u_high();
     let paper = PulseMethod::Paper { experiment: &expected, step: StepMean { mean, samples: 1e12 } };
-    let control = Limit::of(paper).expect("a solvable regression").lanes();
+    let limit = Limit::of(paper).expect("a solvable regression");
+    let control = limit.lanes();
+    let finite = NoiseMoments::expected_over(system().a(), &[], design.order, design.period(), SAMPLES);
+    let covariance = SumCovariance::new(&[&design], (system().a(), &[]), SIGMA, SAMPLES);
+    let means = limit.mean_terms(
+        &PulseMethod::Paper {
+            experiment: &superpose(&design, &response, SIGMA, &finite),
+            step: StepMean { mean, samples: SAMPLES as f64 },
+        },
+        |x, y| covariance.at(x, y),
+    );
     let method = LaneMethod::of(&paper);
     let step = LaneStep { mean: Lane::splat(mean), samples: SAMPLES as f64 };
-    let (mut fit, mut score, mut first_order) = (LaneFit::default(), Vec::new(), Vec::new());
+    let (mut fit, mut terms) = (LaneFit::default(), LaneTerms::default());
 
     let mut group = c.benchmark_group("engine, a cell of a replicate");
     group.throughput(Throughput::Elements(LANES as u64));
@@ -97,8 +107,8 @@ fn cell(c: &mut Criterion) {
         b.iter(|| {
             superposition.at(black_box(SIGMA), &mut statistics);
             method.fit(&[&statistics], Some(step), &mut fit);
-            control.first_order(&[&statistics], Some(step.mean), &mut score, &mut first_order);
-            black_box((&fit, &first_order));
+            control.terms(&[&statistics], Some(step.mean), &means, &mut terms);
+            black_box((&fit, &terms));
         })
     });
     group.finish();

@@ -1,93 +1,12 @@
 //! Eight replicates abreast against the methods one replicate at a time.
 
+mod sweep;
+
 use proptest::prelude::*;
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep};
-use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseMethod, StepMean};
-use switchback_estimator::excitation::{Direction, PulseExperiment};
-use switchback_estimator::hysteresis::{Interval, LeafSpring, SwitchedHysteresis};
-use switchback_estimator::linear::{LinearSystem, filter};
-use switchback_estimator::simulation::{
-    LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
-};
-
-const BOTH: [Direction; 2] = [Direction::Descendant, Direction::Ascendant];
-
-/// A system of order `n` with real poles apart from each other, and the order that the regression assumes.
-fn systems() -> impl Strategy<Value = (LinearSystem, usize)> {
-    (1..=3_usize, 0..=1_usize)
-        .prop_flat_map(|(n, more)| (prop::collection::vec(0.2..1.0_f64, n), -0.7..0.2_f64, Just(n + more)))
-        .prop_filter_map("coprime", |(b, first, order)| {
-            let mut c = vec![1.0];
-            for k in 0..b.len() {
-                let p = first + 0.25 * k as f64;
-                c.push(0.0);
-                for i in (1..c.len()).rev() {
-                    c[i] -= p * c[i - 1];
-                }
-            }
-            Some((LinearSystem::new(c.split_off(1), b).ok()?, order))
-        })
-}
-
-/// Roughly Gaussian numbers of a replicate.
-fn noise(seed: u64, count: usize) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut uniform = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..count).map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0).collect()
-}
-
-struct Bench {
-    designs: [PeriodicDesign; 2],
-    responses: [Vec<f64>; 2],
-    system: LinearSystem,
-    order: usize,
-    samples: usize,
-}
-
-impl Bench {
-    fn new(system: LinearSystem, order: usize, friction: f64, points: usize, samples: usize) -> Self {
-        let interval = Interval::new(-2.0, 3.0).expect("an interval");
-        let spring = LeafSpring::hardening(0.4, 0.1, friction).expect("a leaf spring");
-        let hysteresis = SwitchedHysteresis::new(interval, Box::new(spring)).expect("Assumption 1");
-        let designs = BOTH.map(|direction| {
-            let experiment =
-                PulseExperiment::evenly_spaced(interval, direction, points, order).expect("levels");
-            PeriodicDesign::new(&experiment, &hysteresis, order)
-        });
-        let responses = [0, 1].map(|k| periodic_response(&system, &designs[k].u));
-        let samples = samples + 12 * designs[0].period();
-        Self { designs, responses, system, order, samples }
-    }
-
-    fn moments(&self, seed: u64) -> NoiseMoments {
-        let w = noise(seed, 200 + self.order + self.samples);
-        let e = filter(self.system.a(), &[], &w, &w, 0.0, 0.0).split_off(200);
-        NoiseMoments::from_samples(&e, self.order, self.designs[0].period())
-    }
-
-    fn step(&self, k: usize, sigma: f64, noise: f64) -> StepMean {
-        let u = [self.designs[0].u[0], self.designs[1].u[0]][k];
-        StepMean { mean: self.system.static_gain() * u + sigma * noise, samples: self.samples as f64 }
-    }
-}
-
-/// Every method on both experiments.
-fn methods<'a>(
-    both: &'a [&'a PulseData; 2],
-    steps: [StepMean; 2],
-) -> [(PulseMethod<'a>, &'static [usize]); 6] {
-    [
-        (PulseMethod::Paper { experiment: both[0], step: steps[0] }, &[0]),
-        (PulseMethod::Paper { experiment: both[1], step: steps[1] }, &[1]),
-        (PulseMethod::Joint { descendant: both[0], ascendant: both[1] }, &[0, 1]),
-        (PulseMethod::Efficient(both), &[0, 1]),
-        (PulseMethod::LinearArx(both), &[0, 1]),
-        (PulseMethod::Memoryless(both), &[0, 1]),
-    ]
-}
+use sweep::{Bench, methods, noise, systems};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep, LaneTerms};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, PulseMethod, StepMean};
+use switchback_estimator::simulation::{LaneMoments, LaneSuperposition, NoiseMoments, superpose};
 
 fn step_of(method: &PulseMethod<'_>) -> Option<StepMean> {
     match method {
@@ -127,7 +46,7 @@ proptest! {
         });
         let expected = [&expected[0], &expected[1]];
         let endless = [0, 1].map(|k| StepMean { samples: 1e9, ..bench.step(k, sigma, 0.0) });
-        let (mut fit, mut score, mut first) = (LaneFit::default(), Vec::new(), Vec::new());
+        let (mut fit, mut terms) = (LaneFit::default(), LaneTerms::default());
         for (m, (example, experiments)) in methods(&expected, endless).into_iter().enumerate() {
             let method = LaneMethod::of(&example);
             let parts: Vec<_> = experiments.iter().map(|k| &lanes[*k]).collect();
@@ -137,8 +56,9 @@ proptest! {
             });
             method.fit(&parts, step, &mut fit);
             let limit = Limit::of(example).ok();
+            let means = ErrorTerms { first: vec![0.0; fit.values.len()], second: vec![0.0; fit.values.len()] };
             if let Some(limit) = &limit {
-                limit.lanes().first_order(&parts, step.map(|s| s.mean), &mut score, &mut first);
+                limit.lanes().terms(&parts, step.map(|s| s.mean), &means, &mut terms);
             }
             for l in 0..LANES {
                 let data: [PulseData; 2] =
@@ -154,8 +74,12 @@ proptest! {
                     near(&format!("method {m}, se {k}"), fit.variances[k].0[l].sqrt(), p.se, scale)?;
                 }
                 if let Some(limit) = &limit {
-                    for (k, slow) in limit.first_order(&slow_method).into_iter().enumerate() {
-                        near(&format!("method {m}, first-order {k}"), first[k].0[l], slow, scale)?;
+                    let ErrorTerms { first, second } = limit.terms(&slow_method);
+                    for (k, slow) in first.into_iter().enumerate() {
+                        near(&format!("method {m}, first-order {k}"), terms.first[k].0[l], slow, scale)?;
+                    }
+                    for (k, slow) in second.into_iter().enumerate() {
+                        near(&format!("method {m}, second-order {k}"), terms.second[k].0[l], slow, scale)?;
                     }
                 }
             }

@@ -329,7 +329,7 @@ fn the_first_order_part_takes_an_order_of_n_out_of_the_error() {
                 .zip(flat(limit.fit()))
                 .map(|(e, t)| e - t)
                 .collect();
-            for (error, first) in error.iter().zip(limit.first_order(&sample)) {
+            for (error, first) in error.iter().zip(limit.terms(&sample).first) {
                 worst[0] = worst[0].max(error.abs());
                 worst[1] = worst[1].max((error - first).abs());
             }

@@ -73,6 +73,8 @@ pub(crate) enum BorderColumn {
     RestingLog { scale: f64 },
     /// `branch·(1 − e^(−rest/scale))`, an after-effect that ends, while the input rests.
     RestingRise { scale: f64 },
+    /// `branch·ln(1 + t/scale)`, `t` the time since the last reversal.
+    ReversalLog { scale: f64 },
     /// `branch·s(clock)`.
     BranchSlow { clock: Clock },
     /// What `u` differs at the start of one track from the middle between the borders; it fades as the transition does.
@@ -134,6 +136,8 @@ pub(crate) struct Assembly {
     pub(crate) extra_b: usize,
     /// Delay of the input, samples.
     pub(crate) delay: f64,
+    /// Standard deviation of noise on the position that acts, strokes; the branch follows the sign of the noisy moves.
+    pub(crate) jitter: f64,
     /// Full width of the play, strokes.
     pub(crate) play: f64,
     pub(crate) transition: Option<Transition>,

@@ -29,6 +29,9 @@ struct Look {
     laws: Vec<Explanation>,
 }
 
+/// An effect, and the one of its laws to try; all where none is given.
+type Question = (Effect, Option<usize>);
+
 /// Share of the best gain that makes an effect promising, and how many are fitted to convergence at least.
 const PROMISING: f64 = 0.15;
 const FINISHED: usize = 4;
@@ -49,7 +52,8 @@ const SECOND_SHARE: f64 = 0.12;
 impl<W: Workers> Attribution<'_, W> {
     /// Every effect on its own, best first.
     pub(crate) fn singles(&self) -> Vec<Explanation> {
-        let mut singles = self.on_top_of(self.detailed, &self.settings.effects, FINISHED);
+        let all: Vec<Question> = self.settings.effects.iter().map(|e| (*e, None)).collect();
+        let mut singles = self.on_top_of(self.detailed, &all, FINISHED);
         if self.settings.effects.contains(&Effect::BorderResolution) {
             self.compare_with_detail(&mut singles);
         }
@@ -87,7 +91,9 @@ impl<W: Workers> Attribution<'_, W> {
             let present = seed.parts[0].effect;
             // What a twin adds is the difference between two laws of one thing, no second effect.
             let another = |e: &Effect| *e != present && !present.twins().contains(e);
-            let rest: Vec<Effect> = others.iter().copied().filter(another).collect();
+            // As a second effect each is tried with the law that served it best alone.
+            let law = |e: &Effect| singles.iter().find(|s| s.parts[0].effect == *e).map(|s| s.parts[0].law);
+            let rest: Vec<Question> = others.iter().filter(|e| another(e)).map(|e| (*e, law(e))).collect();
             self.on_top_of(seed, &rest, PAIRS)
         });
         let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
@@ -102,10 +108,12 @@ impl<W: Workers> Attribution<'_, W> {
     }
 
     /// Each effect added to what is known, best first: all looked at, the promising ones fitted to convergence.
-    fn on_top_of(&self, known: &Explanation, effects: &[Effect], finished: usize) -> Vec<Explanation> {
+    fn on_top_of(&self, known: &Explanation, questions: &[Question], finished: usize) -> Vec<Explanation> {
         let w = innovations(self.campaign, &known.fit, |t| t.is_fit());
         let scene = Scene { campaign: self.campaign, fit: &known.fit, innovations: &w };
-        let looks = self.workers.map(effects, |&effect| (effect, sketch(&scene, known, effect)));
+        let looks = self.workers.map(questions, |&(effect, law)| {
+            (effect, sketch(&scene, known, effect, |number| law.is_none_or(|law| law == number)))
+        });
         let gain = |e: &Explanation| known.bic() - e.bic();
         let mut looks: Vec<Look> = looks
             .into_iter()

@@ -112,7 +112,8 @@ pub(crate) fn verdict(
         class.push(effect);
         sum += p;
     }
-    let twins = class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
+    let twins = class.len() > 1
+        && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
     let status = if twins { Status::Class } else { Status::Ambiguous };
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
     Verdict { status, effects: Vec::new(), class, stage: stage.or(Some(first.stage())), probability: sum }

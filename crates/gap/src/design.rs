@@ -86,7 +86,11 @@ impl Design {
                     x,
                     log_slope,
                     from: track.from,
-                    sensitivity: assembly.noise.input_ratio.is_some().then(|| sensitivity_rows(track, grid)),
+                    sensitivity: assembly
+                        .noise
+                        .input_ratio
+                        .is_some()
+                        .then(|| sensitivity_rows(track, grid, assembly.jitter)),
                     clipped: assembly.saturation.map(|limits| clipped(track, limits)),
                 }
             })

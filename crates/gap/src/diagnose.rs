@@ -15,6 +15,7 @@ use crate::localise::localise;
 use crate::nominal::identify;
 use crate::omnibus::{Omnibus, omnibus};
 use crate::order::choose;
+use crate::repeats::Repeating;
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
@@ -121,6 +122,7 @@ impl Plan {
             workers,
         };
         let mut singles = attribution.singles();
+        self.hear_the_held_out(&mut singles);
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
@@ -134,11 +136,14 @@ impl Plan {
             && self.settings.max_effects > 1
             && let Some(pair) = attribution.pair(&singles, left)
         {
-            tests = omnibus(&self.campaign, &pair.fit);
-            left = tests.as_ref().map_or(0.0, Omnibus::excess);
-            joint = Some(pair);
+            let beside_pair = omnibus(&self.campaign, &pair.fit);
+            let left_by_pair = beside_pair.as_ref().map_or(0.0, Omnibus::excess);
+            let together = odds(self.nominal.bic(), &[pair.bic()], left_by_pair).effects[0];
+            if together >= self.settings.name_at && self.better_held_out(&pair.fit, &best.fit) {
+                (tests, left, joint) = (beside_pair, left_by_pair, Some(pair));
+            }
         }
-        let bics: Vec<f64> = singles.iter().map(Explanation::bic).collect();
+        let bics: Vec<f64> = singles.iter().map(Explanation::evidence).collect();
         let odds = match &joint {
             // With two effects named together the singles are no rivals any more.
             Some(pair) => {
@@ -168,13 +173,47 @@ impl Plan {
         self.report(Conclusion { singles, odds, verdict, augmented, left })
     }
 
-    /// Noise moves no simulation error: where the held-out error exceeds the floor of the best noise explanation by far,
-    /// the noise is no cause of it, however well it predicts one step ahead.
+    /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
+    /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
+    fn hear_the_held_out(&self, singles: &mut [Explanation]) {
+        let Some(nominal) = self.score(&self.nominal.fit) else { return };
+        let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
+        let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
+        for single in singles.iter_mut() {
+            let lost = self.score(&single.fit).map_or(0.0, |s| nominal - s);
+            let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
+            single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
+        }
+        singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
+    }
+
+    /// Whether one fit predicts the held-out records better than another; true without any.
+    fn better_held_out(&self, fit: &Fit, than: &Fit) -> bool {
+        let score = |fit: &Fit| self.score(fit);
+        score(fit).zip(score(than)).is_none_or(|(one, other)| one > other)
+    }
+
+    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
+    /// an effect that does move it takes much of it away on the held-out records, the noise is no cause of it, however
+    /// well it predicts one step ahead.
     fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
         let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
-        let runs = self.simulations(&best.fit);
-        let gap = measure(&self.campaign, &runs, self.noise_floor(&best.fit), (self.settings.seed, 100));
-        if gap.before.ci90[0] > SYSTEMATIC && gap.after.ci90[0] > SYSTEMATIC {
+        let mut repeating = Repeating::default();
+        for (number, track) in self.campaign.tracks.iter().enumerate() {
+            let run = free_run(&self.campaign, &best.fit, number, track);
+            let error: Vec<f64> = track.y.iter().zip(&run).map(|(y, run)| y - run).collect();
+            repeating.add(track, &error);
+        }
+        let error = |s: &Explanation| self.simulation_error(&s.fit);
+        let gained = self.nominal.evidence() - best.evidence();
+        let rivals = singles.iter().filter(|s| {
+            let effect = s.parts[0].effect;
+            let serious = self.nominal.evidence() - s.evidence() > SERIOUS * gained;
+            serious && !effect.is_noise() && !effect.is_of_its_record()
+        });
+        let least = rivals.map(error).fold(f64::INFINITY, f64::min);
+        let repeats = repeating.share().is_some_and(|share| share > REPEATS);
+        if repeats || least < SYSTEMATIC * error(best) {
             singles.retain(|s| !s.parts[0].effect.is_noise());
         }
     }
@@ -205,6 +244,16 @@ impl Plan {
                 Some(-0.5 * share * mean_square(&self.judged_errors(fit)).max(1e-300).ln())
             }
         }
+    }
+
+    /// Squared error of the free-run simulation, summed over the judged records.
+    fn simulation_error(&self, fit: &Fit) -> f64 {
+        let error = |&number: &usize| {
+            let track = &self.campaign.tracks[number];
+            let run = free_run(&self.campaign, fit, number, track);
+            track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).powi(2)).sum::<f64>()
+        };
+        self.judged.iter().map(error).sum()
     }
 
     fn report(self, c: Conclusion) -> Diagnosis {
@@ -363,8 +412,12 @@ struct Conclusion {
     left: f64,
 }
 
-/// Gap that noise cannot make.
-const SYSTEMATIC: f64 = 0.003;
+/// Share of the simulation error that may repeat with the input under an explanation by noise.
+const REPEATS: f64 = 0.12;
+/// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that
+/// it must gain to be heard.
+const SYSTEMATIC: f64 = 0.88;
+const SERIOUS: f64 = 0.2;
 /// The model without the knots that follow details, where these matter; else the model itself.
 fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
     match detailed.on_an_even_grid(campaign) {

@@ -192,6 +192,12 @@ impl Effect {
         }
     }
 
+    /// Whether the effect follows a clock or has a phase of its own in every record, so that what was fitted need not hold
+    /// in other records.
+    pub(crate) fn is_of_its_record(self) -> bool {
+        matches!(self, Self::BorderWear | Self::GainDrift | Self::SensorDrift | Self::PeriodicDisturbance)
+    }
+
     /// Whether the effect changes only what is random, so that it moves no simulation error.
     pub fn is_noise(self) -> bool {
         matches!(self, Self::InputNoise | Self::ColouredNoise | Self::OutputNoise | Self::Outliers)

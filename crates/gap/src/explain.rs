@@ -14,6 +14,8 @@ use crate::search::finish;
 #[derive(Clone)]
 pub(crate) struct Part {
     pub(crate) effect: Effect,
+    /// Which of the effect's laws.
+    pub(crate) law: usize,
     pub(crate) apply: Apply,
     /// Number of own parameters.
     pub(crate) count: usize,
@@ -33,28 +35,36 @@ pub(crate) struct Explanation {
     pub(crate) fit: Fit,
     /// Handicaps of the variants chosen, added to the deviance.
     pub(crate) handicap: f64,
+    /// Deviance lost on the held-out records against the nominal model.
+    pub(crate) held_out: f64,
 }
 
 impl Explanation {
     /// The nominal model alone.
     pub(crate) fn nominal(fit: Fit) -> Self {
-        Self { parts: Vec::new(), fit, handicap: 0.0 }
+        Self { parts: Vec::new(), fit, handicap: 0.0, held_out: 0.0 }
     }
 
     /// The nominal model on a grid whose knots follow details of the borders.
     pub(crate) fn detailed(fit: Fit) -> Self {
         let part = Part {
             effect: Effect::BorderResolution,
+            law: 0,
             apply: Arc::new(|_, _| {}),
             count: 0,
             search: Search::Smooth,
         };
-        Self { parts: vec![part], fit, handicap: 0.0 }
+        Self { parts: vec![part], fit, handicap: 0.0, held_out: 0.0 }
     }
 
     /// Penalised deviance: Bayesian information criterion plus the handicap.
     pub(crate) fn bic(&self) -> f64 {
         self.fit.deviance + self.handicap + self.fit.parameters * (self.fit.samples as f64).ln()
+    }
+
+    /// Penalised deviance and what the held-out records add to it.
+    pub(crate) fn evidence(&self) -> f64 {
+        self.bic() + self.held_out
     }
 
     /// The effects, in the order they were added.

@@ -26,6 +26,7 @@ mod nominal;
 mod normal;
 mod omnibus;
 mod order;
+mod repeats;
 mod rows;
 mod score;
 mod search;

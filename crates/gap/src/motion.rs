@@ -18,6 +18,8 @@ pub(crate) struct Motion {
     pub(crate) reversal: bool,
     /// Travel between the last two reversals: the size of the loop.
     pub(crate) loop_size: f64,
+    /// Samples since the last reversal.
+    pub(crate) since: usize,
     /// Samples since the last move.
     pub(crate) rest: usize,
     /// `v(t) − v(t−1)`.
@@ -60,6 +62,7 @@ pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
         travel: 0.0,
         reversal: false,
         loop_size: 0.0,
+        since: 0,
         rest: 0,
         step: 0.0,
         path: 0.0,
@@ -103,6 +106,7 @@ pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
             }
             m.travel = (p - m.turn).abs();
         }
+        m.since = if m.reversal { 0 } else { m.since + 1 };
         m.rest = if step == 0.0 { m.rest + 1 } else { 0 };
         out.push(m);
     }

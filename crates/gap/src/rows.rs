@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use statrs::function::erf::erfc;
+
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
 use crate::borders::{Grid, side};
 use crate::campaign::{Campaign, Criterion, Track};
@@ -78,7 +80,9 @@ pub(crate) fn rows(
         if m.reversal {
             builder.turn(m);
         }
-        if m.moves {
+        if assembly.jitter > 0.0 {
+            builder.jittered(ascending(m.step, assembly.jitter), track.v[t]);
+        } else if m.moves {
             let narrowing = assembly.wear.as_ref().map_or(0.0, slow);
             builder.step(m, track.v[t], narrowing);
         }
@@ -118,6 +122,7 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
             _ => m.branch * (-(speed / scale).powf(power)).exp(),
         },
         BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
+        BorderColumn::ReversalLog { scale } => m.branch * (m.since as f64 / scale).ln_1p(),
         BorderColumn::RestingRise { scale } => -m.branch * (-(m.rest as f64) / scale).exp_m1(),
         BorderColumn::SideSlow { branch, .. } if m.moves => {
             if m.branch == branch {
@@ -212,6 +217,13 @@ impl<'a> Builder<'a> {
         self.current = if terms.len() > 2 { self.merged(&terms) } else { terms };
     }
 
+    /// The mean over both borders where noise on the position decides the branch.
+    fn jittered(&mut self, ascending: f64, v: f64) {
+        let both = [(0, 1.0 - ascending), (1, ascending)];
+        let terms = both.map(|(side, p)| self.grid.hat(side, v).map(|(i, w)| (i as u32, p * w)));
+        self.current = terms.concat();
+    }
+
     /// Sums repeated indices and drops negligible weights.
     fn merged(&mut self, terms: &[(u32, f64)]) -> Vec<(u32, f64)> {
         for &(i, w) in terms {
@@ -228,9 +240,15 @@ impl<'a> Builder<'a> {
     }
 }
 
+/// Probability that the noisy position rises: `P(step + n₁ − n₀ > 0)`, both noises normal with standard deviation `jitter`.
+fn ascending(step: f64, jitter: f64) -> f64 {
+    0.5 * erfc(-0.5 * step / jitter)
+}
+
 /// How `u` answers to a small change of `v`, as rows: per unit of `v` while moving (over a fiftieth of the stroke, so
-/// that a jump counts as a steep slope), and by a switch to the other border while resting.
-pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid) -> [Rows; 2] {
+/// that a jump counts as a steep slope), and by a switch to the other border while resting, or at any
+/// time where noise on the position of standard deviation `jitter` switches branches.
+pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows; 2] {
     const HALF: f64 = 0.01;
     let mut moving = Rows::with_capacity(track.v.len());
     let mut resting = Rows::with_capacity(track.v.len());
@@ -238,12 +256,19 @@ pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid) -> [Rows; 2] {
         let mut slope = Vec::new();
         let mut gap = Vec::new();
         let own = side(m.branch);
-        if m.moves {
+        let spread = if jitter > 0.0 {
+            let p = ascending(m.step, jitter);
+            (p * (1.0 - p)).sqrt()
+        } else {
+            f64::from(u8::from(!m.moves))
+        };
+        if m.moves || jitter > 0.0 {
             slope.extend(grid.hat(own, v + HALF).map(|(i, w)| (i as u32, w / (2.0 * HALF))));
             slope.extend(grid.hat(own, v - HALF).map(|(i, w)| (i as u32, -w / (2.0 * HALF))));
-        } else {
-            gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, w)));
-            gap.extend(grid.hat(0, v).map(|(i, w)| (i as u32, -w)));
+        }
+        if spread > 0.0 {
+            gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, spread * w)));
+            gap.extend(grid.hat(0, v).map(|(i, w)| (i as u32, -spread * w)));
         }
         moving.push(&slope, 1.0);
         resting.push(&gap, 1.0);
@@ -258,48 +283,87 @@ pub(crate) fn equation_columns(
     assembly: &Assembly,
 ) -> Vec<f64> {
     let (number, track) = tracks;
-    let columns = &assembly.equation_columns;
-    let mut out = Vec::with_capacity(track.v.len() * columns.len());
-    if columns.is_empty() {
-        return out;
-    }
-    let mut path = 0.0;
-    for t in 0..track.v.len() {
-        if t > 0 {
-            path += (track.v[t] - track.v[t - 1]).abs();
-        }
-        out.extend(columns.iter().map(|column| match *column {
+    let count = assembly.equation_columns.len();
+    let mut out = vec![0.0; track.v.len() * count];
+    for (j, column) in assembly.equation_columns.iter().enumerate() {
+        let cells = out.iter_mut().skip(j).step_by(count).enumerate();
+        match *column {
+            EquationColumn::Line { track: Some(only), .. }
+            | EquationColumn::Decay { track: only, .. }
+            | EquationColumn::Local { track: only, .. }
+                if only != number => {}
             EquationColumn::Line { frequency, track: only, sine } => {
-                let at = match only {
-                    Some(n) if n != number => return 0.0,
-                    Some(_) => t,
-                    None => track.clock + t,
-                };
-                let angle = (frequency * at as f64) % (2.0 * PI);
-                if sine { angle.sin() } else { angle.cos() }
+                let first = if only.is_some() { 0.0 } else { track.clock as f64 };
+                let mut wave = Wave::starting(frequency, first);
+                cells.for_each(|(_, cell)| *cell = wave.next(sine));
             }
-            EquationColumn::Trend { clock: c, degree } => {
-                (2.0 * clock(c, campaign, track, t, path) - 1.0).powi(degree as i32)
+            EquationColumn::Trend { clock: c, degree } => cells.for_each(|(t, cell)| {
+                let at = clock(c, campaign, track, t, track.moves[t].path);
+                *cell = (2.0 * at - 1.0).powi(degree as i32);
+            }),
+            EquationColumn::Decay { radius, frequency, sine, .. } => {
+                let mut wave = Wave::starting(frequency, 0.0);
+                let mut size = 1.0;
+                let from = track.from.min(6);
+                for (t, cell) in cells {
+                    let value = size * wave.next(sine);
+                    *cell = if t < from { 0.0 } else { value };
+                    size *= radius;
+                    if size < 1e-9 {
+                        break;
+                    }
+                }
             }
-            EquationColumn::Decay { track: only, radius, frequency, sine } => {
-                if only != number || t < track.from.min(6) {
-                    return 0.0;
-                }
-                let size = (radius.ln() * t as f64).exp();
-                if size < 1e-9 {
-                    return 0.0;
-                }
-                let angle = frequency * t as f64;
-                size * if sine { angle.sin() } else { angle.cos() }
-            }
-            EquationColumn::Local { track: only, piece, pieces } => {
-                if only != number {
-                    return 0.0;
-                }
+            EquationColumn::Local { piece, pieces, .. } => cells.for_each(|(t, cell)| {
                 let at = t as f64 / track.v.len() as f64 * pieces as f64;
-                (1.0 - (at - piece as f64).abs()).max(0.0)
-            }
-        }));
+                *cell = (1.0 - (at - piece as f64).abs()).max(0.0);
+            }),
+        }
     }
     out
+}
+
+/// A sinusoid sample by sample, by rotation; set anew every so often, so that rounding does not add up.
+struct Wave {
+    frequency: f64,
+    at: f64,
+    left: usize,
+    turn: (f64, f64),
+    now: (f64, f64),
+}
+
+impl Wave {
+    /// Samples between exact values.
+    const AFRESH: usize = 256;
+
+    fn starting(frequency: f64, at: f64) -> Self {
+        Self { frequency, at, left: 0, turn: frequency.sin_cos(), now: (0.0, 1.0) }
+    }
+
+    fn next(&mut self, sine: bool) -> f64 {
+        if self.left == 0 {
+            self.now = ((self.frequency * self.at) % (2.0 * PI)).sin_cos();
+            self.left = Self::AFRESH;
+        }
+        let (s, c) = self.now;
+        let (ds, dc) = self.turn;
+        self.now = (s * dc + c * ds, c * dc - s * ds);
+        self.left -= 1;
+        self.at += 1.0;
+        if sine { s } else { c }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_by_rotation_is_the_wave() {
+        let mut wave = Wave::starting(0.37, 1200.0);
+        for t in 1200..3000 {
+            let exact = (0.37 * f64::from(t)).sin();
+            assert!((wave.next(true) - exact).abs() < 1e-11, "{t}");
+        }
+    }
 }

@@ -15,11 +15,19 @@ const FINAL: usize = 14;
 /// Points of one pattern search at most.
 const PATTERN_TRIALS: usize = 30;
 
-/// A cheap look at one more effect on top of what is known: its laws, each near its best start, likeliest first. Empty where the
+/// A cheap look at one more effect on top of what is known: the chosen of its laws, each near its best start, likeliest first. Empty where the
 /// records rule the effect out.
-pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, effect: Effect) -> Vec<Explanation> {
-    let mut laws: Vec<Explanation> =
-        variants(effect, scene).iter().filter_map(|law| look(scene.campaign, known, effect, law)).collect();
+pub(crate) fn sketch(
+    scene: &Scene<'_>,
+    known: &Explanation,
+    effect: Effect,
+    chosen: impl Fn(usize) -> bool,
+) -> Vec<Explanation> {
+    let laws = variants(effect, scene);
+    let mut laws: Vec<Explanation> = (laws.iter().enumerate())
+        .filter(|(law, _)| chosen(*law))
+        .filter_map(|(law, variant)| look(scene.campaign, known, (effect, law), variant))
+        .collect();
     laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     laws
 }
@@ -37,10 +45,16 @@ pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> 
     Explanation { fit, ..sketch.clone() }
 }
 
-fn look(campaign: &Campaign, known: &Explanation, effect: Effect, law: &Variant) -> Option<Explanation> {
+fn look(
+    campaign: &Campaign,
+    known: &Explanation,
+    (effect, number): (Effect, usize),
+    law: &Variant,
+) -> Option<Explanation> {
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
     let mut parts = known.parts.clone();
-    parts.push(Part { effect, apply: law.apply.clone(), count: law.starts[0].len(), search: law.search });
+    let (apply, count) = (law.apply.clone(), law.starts[0].len());
+    parts.push(Part { effect, law: number, apply, count, search: law.search });
     let build = |values: &[f64]| assembled(&parts, values);
     let base = match &law.grid {
         Some(grid) => crate::knots::carried_over(&known.fit, grid),
@@ -61,7 +75,7 @@ fn look(campaign: &Campaign, known: &Explanation, effect: Effect, law: &Variant)
             task.together(&held.own, &held.linear, LOOK)
         }
     }?;
-    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap })
+    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap, held_out: 0.0 })
 }
 
 /// One law's search.

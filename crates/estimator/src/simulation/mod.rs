@@ -4,9 +4,11 @@ mod design;
 mod lanes;
 pub mod noise;
 mod periodic;
+mod sum_covariance;
 mod superposition;
 
 pub use design::PeriodicDesign;
 pub use lanes::{LaneMoments, LaneSuperposition};
 pub use periodic::periodic_response;
+pub use sum_covariance::SumCovariance;
 pub use superposition::{NoiseMoments, superpose};

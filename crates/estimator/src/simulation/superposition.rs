@@ -75,7 +75,7 @@ impl NoiseMoments {
                 folds[(samples + l - back) % period * width + l] -= checkpoint.tail[order - back];
             }
         }
-        let counts = (0..period).map(|p| ((samples + period - 1 - p) / period) as f64).collect();
+        let counts = (0..period).map(|p| visits(samples, period, p) as f64).collect();
         let products = checkpoint.lag_products.iter().copied().collect();
         Self { order, counts, products, folds }
     }
@@ -94,6 +94,18 @@ impl NoiseMoments {
             folds: vec![0.0; period * width],
         }
     }
+
+    /// The same over the first `samples` samples from phase 0 on, whatever is left of the last period included: the exact mean of
+    /// the statistics of records of that length.
+    pub fn expected_over(ar: &[f64], ma: &[f64], order: usize, period: usize, samples: usize) -> Self {
+        let counts = (0..period).map(|p| visits(samples, period, p) as f64).collect();
+        Self { counts, ..Self::expected(ar, ma, order, period, samples as f64) }
+    }
+}
+
+/// Samples of phase `p` among the first `samples`.
+pub(super) fn visits(samples: usize, period: usize, p: usize) -> usize {
+    (samples + period - 1 - p) / period
 }
 
 /// The statistics of the pulse experiment `design` with noise-free response `z` (one period) and noise `sigma·e`.

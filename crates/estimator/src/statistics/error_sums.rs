@@ -11,8 +11,10 @@ pub struct ReplicateError {
     pub error: f64,
     /// Standard error that the method reports.
     pub se: f64,
-    /// First-order part of the error, whose mean is exactly zero (see [`crate::estimators::pulse::Limit`]); the control variate.
+    /// First-order part of the error, less its exact mean (see [`crate::estimators::pulse::Limit`]): the control variate.
     pub first_order: Option<f64>,
+    /// What is known of the second-order part, less its exact mean: it joins the control variate of the bias.
+    pub second_order: f64,
 }
 
 /// Sums over replicates, from which every measure follows. Constant memory; [`ErrorSums::merge`] adds two.
@@ -36,7 +38,7 @@ pub struct ErrorSums {
 pub struct Performance {
     /// Mean error; MCSE `sd/√R`.
     pub bias: Measured,
-    /// Mean error with the first-order part taken out; MCSE the remainder's `sd/√R`.
+    /// Mean error with the first-order part, and what is known of the second, taken out; MCSE the remainder's `sd/√R`.
     pub bias_controlled: Option<Measured>,
     /// Empirical standard deviation; MCSE `sd/√(2(R−1))`.
     pub sd: Measured,
@@ -55,7 +57,7 @@ pub struct Performance {
 impl ErrorSums {
     /// Adds one replicate.
     pub fn push(&mut self, replicate: ReplicateError) {
-        let ReplicateError { error, se, first_order } = replicate;
+        let ReplicateError { error, se, first_order, second_order } = replicate;
         let square = error * error;
         self.count += 1.0;
         for (sum, power) in self.error.iter_mut().zip([error, square, square * error, square * square]) {
@@ -65,8 +67,8 @@ impl ErrorSums {
         self.variance[1] += se * se * se * se;
         self.covered += f64::from(error.abs() <= normal_quantile_975() * se);
         if let Some(first) = first_order {
-            let remainder = error - first;
-            let square_remainder = remainder * (error + first);
+            let remainder = error - first - second_order;
+            let square_remainder = (error - first) * (error + first);
             self.controlled += 1.0;
             self.remainder[0] += remainder;
             self.remainder[1] += remainder * remainder;
@@ -199,7 +201,10 @@ mod tests {
             let ses: Vec<f64> = errors.iter().enumerate().map(|(k, _)| scale * (1.0 + 0.1 * (k % 7) as f64)).collect();
             let mut parts = vec![ErrorSums::default(); cut + 1];
             for (k, (error, se)) in errors.iter().zip(&ses).enumerate() {
-                parts[k % (cut + 1)].push(ReplicateError { error: *error, se: *se, first_order: Some(0.9 * error) });
+                let replicate = ReplicateError {
+                    error: *error, se: *se, first_order: Some(0.5 * error), second_order: 0.4 * error,
+                };
+                parts[k % (cut + 1)].push(replicate);
             }
             let mut sums = ErrorSums::default();
             parts.iter().for_each(|part| sums.merge(part));
@@ -217,7 +222,7 @@ mod tests {
     #[test]
     fn one_replicate_measures_nothing() {
         let mut sums = ErrorSums::default();
-        sums.push(ReplicateError { error: 1.0, se: 1.0, first_order: None });
+        sums.push(ReplicateError { error: 1.0, se: 1.0, first_order: None, second_order: 0.0 });
         assert_eq!(sums.performance(None), None);
     }
 }

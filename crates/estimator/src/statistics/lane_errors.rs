@@ -15,6 +15,8 @@ pub struct LaneErrors<'a> {
     pub variances: &'a [Lane],
     /// First-order part of the errors.
     pub first_order: &'a [Lane],
+    /// What is known of the second.
+    pub second_order: &'a [Lane],
 }
 
 /// Sums of a replicate's terms: error and its powers, variance and its square, coverage, remainder and its square, remainder of the
@@ -63,12 +65,13 @@ struct Add<'a> {
 impl Work for Add<'_> {
     #[inline(always)]
     fn run(self) {
-        let LaneErrors { truth, values, variances, first_order } = self.errors;
+        let LaneErrors { truth, values, variances, first_order, second_order } = self.errors;
         let quantile = normal_quantile_975();
         let chosen: [bool; LANES] = std::array::from_fn(|l| self.lanes.contains(&l));
         let all = self.lanes.len() == LANES;
-        let replicates = values.iter().zip(variances).zip(first_order).zip(truth);
-        for ((((value, variance), first), truth), sums) in replicates.zip(self.sums) {
+        let orders = first_order.iter().zip(second_order);
+        let replicates = values.iter().zip(variances).zip(orders).zip(truth);
+        for ((((value, variance), (first, second)), truth), sums) in replicates.zip(self.sums) {
             keep_apart();
             // A lane that is left out may hold anything, so it is not multiplied by zero.
             let mut add = |k: usize, term: Lane| {
@@ -84,11 +87,12 @@ impl Work for Add<'_> {
             add(5, *variance * *variance);
             add(6, square.at_most(*variance * (quantile * quantile)));
             keep_apart();
-            let remainder = error - *first;
+            let beyond_first = error - *first;
+            let remainder = beyond_first - *second;
             add(7, remainder);
             add(8, remainder * remainder);
             keep_apart();
-            let square_remainder = remainder * (error + *first);
+            let square_remainder = beyond_first * (error + *first);
             add(9, square_remainder);
             add(10, square_remainder * square_remainder);
         }
@@ -105,6 +109,7 @@ mod tests {
         #[test]
         fn lanes_add_what_their_replicates_add_one_by_one(
             values in prop::array::uniform8(-1.0..1.0_f64), variances in prop::array::uniform8(0.0..0.5_f64), first in prop::array::uniform8(-1.0..1.0_f64),
+            second in prop::array::uniform8(-0.1..0.1_f64),
             start in 0..LANES, count in 0..=LANES,
         ) {
             let lanes = start..LANES.min(start + count);
@@ -114,6 +119,7 @@ mod tests {
                 values: &[left_out(values)],
                 variances: &[left_out(variances)],
                 first_order: &[left_out(first)],
+                second_order: &[left_out(second)],
             };
             let (mut fast, mut running) = ([ErrorSums::default()], LaneSums::new(1));
             running.add(errors, lanes.clone());
@@ -122,7 +128,12 @@ mod tests {
             running.drain_into(&mut fast);
             let mut slow = ErrorSums::default();
             for l in lanes.clone().chain(lanes) {
-                slow.push(ReplicateError { error: values[l] - 0.3, se: variances[l].sqrt(), first_order: Some(first[l]) });
+                slow.push(ReplicateError {
+                    error: values[l] - 0.3,
+                    se: variances[l].sqrt(),
+                    first_order: Some(first[l]),
+                    second_order: second[l],
+                });
             }
             let all = |sums: &ErrorSums| sums.performance(Some(0.1)).map(|p| {
                 let controlled = [p.bias_controlled, p.sd_controlled].map(|x| x.map_or(0.0, |x| x.value + x.mcse));

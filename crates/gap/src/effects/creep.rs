@@ -5,6 +5,7 @@
 //! ũ = u + κ/4·Σₖ (1−pₖ)/(1−pₖ q⁻¹) u,  pₖ = exp(−1/(ρᵏτ)), k = 0…3   logarithmic creep over ρ³
 //! u = C(v) + c·branch·ln(1 + rest/τ)                         logarithmic creep at rest
 //! u = C(v) + c·branch·(1 − exp(−rest/τ))                     creep at rest that ends
+//! u = C(v) + c·branch·ln(1 + t/τ)                            logarithmic creep, t since the last reversal
 //! ```
 //!
 //! Equal weights on time constants spread evenly in their logarithm make the step response grow with the logarithm of
@@ -14,7 +15,7 @@
 //! drifting the same way. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{BorderColumn, EquationColumn, convolve};
+use crate::assembly::{EquationColumn, convolve};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
@@ -36,21 +37,34 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             assembly.equation_columns.push(decay);
         }
     });
-    let starts = [3.0, 30.0]
-        .iter()
-        .map(|&tau: &f64| vec![own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
-        .collect();
-    let logarithmic = Variant::conditional(starts, |p, assembly| {
-        assembly.border_columns.push(BorderColumn::RestingLog { scale: p[0].exp() });
-    });
-    let starts = [3.0, 30.0]
-        .iter()
-        .map(|&tau: &f64| vec![own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
-        .collect();
-    let ending = Variant::conditional(starts, |p, assembly| {
-        assembly.border_columns.push(BorderColumn::RestingRise { scale: p[0].exp() });
-    });
-    vec![linear, spread(fitted_tracks(scene.campaign)), logarithmic, ending]
+    let mut out = vec![linear, spread(fitted_tracks(scene.campaign))];
+    for column in [after_effect::logarithmic, after_effect::ending, after_effect::since_reversal] {
+        let starts = [3.0, 30.0]
+            .iter()
+            .map(|&tau: &f64| vec![own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
+            .collect();
+        out.push(Variant::conditional(starts, move |p, assembly| {
+            assembly.border_columns.push(column(p[0].exp()));
+        }));
+    }
+    out
+}
+
+/// What the borders go on doing by themselves.
+mod after_effect {
+    use crate::assembly::BorderColumn;
+
+    pub(super) fn logarithmic(scale: f64) -> BorderColumn {
+        BorderColumn::RestingLog { scale }
+    }
+
+    pub(super) fn ending(scale: f64) -> BorderColumn {
+        BorderColumn::RestingRise { scale }
+    }
+
+    pub(super) fn since_reversal(scale: f64) -> BorderColumn {
+        BorderColumn::ReversalLog { scale }
+    }
 }
 
 fn spread(tracks: Vec<usize>) -> Variant {

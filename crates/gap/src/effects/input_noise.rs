@@ -1,15 +1,41 @@
 //! The input that acts is the recorded one plus noise.
 //!
 //! ```text
-//! var w(t) = σ²·(1 + Σⱼ b̃ⱼ²·(r₁·slope²(t−j) + r₂·gap²(t−j)))
+//! var w(t) = σ²·(1 + Σⱼ b̃ⱼ²·(r₁·slope²(t−j) + r₂·gap²(t−j)))                    small noise
+//! E u = p·C_asc(v) + (1−p)·C_desc(v),  p = P(v + n rises),  var u = s²·slope² + p(1−p)·gap²   jitter n of sd s
 //! ```
 //!
-//! Parameters: variance ratios `r₁` while moving (by the border's slope) and `r₂` while resting (by the distance between the borders,
-//! which noise makes the operator switch between). Stage: input. Confused with: outliers.
+//! Parameters: variance ratios `r₁` while moving (by the border's slope) and `r₂` while resting (by the distance between the
+//! borders, which noise makes the operator switch between); or the jitter's standard deviation `s` in strokes and the
+//! inverse variance of the equation error. Stage: input. Confused with: outliers.
 
-use super::{Search, Variant, own};
+use super::{Scene, Search, Variant, own};
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    vec![small(), jitter(scene)]
+}
+
+fn jitter(scene: &Scene<'_>) -> Variant {
+    let precision = -scene.fit.variance.max(1e-12).ln();
+    let starts = [0.003_f64, 0.012, 0.05]
+        .iter()
+        .map(|s| {
+            vec![
+                own("log_jitter", "ln strokes", s.ln(), (-9.0, -1.0), 0.7),
+                own("log_precision", "ln inverse variance", precision + 1.0, (-10.0, 25.0), 1.0),
+            ]
+        })
+        .collect();
+    let mut variant = Variant::new(starts, |p, assembly| {
+        assembly.jitter = p[0].exp();
+        let flips = p[1].exp();
+        assembly.noise.input_ratio = Some([flips * assembly.jitter.powi(2), flips]);
+    });
+    variant.search = Search::Profile;
+    variant
+}
+
+fn small() -> Variant {
     let starts = [(0.0, -12.0), (3.0, -12.0), (6.0, -12.0), (2.0, -1.0)]
         .iter()
         .map(|&(moving, resting)| {
@@ -24,5 +50,5 @@ pub(super) fn variants() -> Vec<Variant> {
     });
     // The ratios act on the weights only: the innovations have no derivative that would lead to them.
     variant.search = Search::Profile;
-    vec![variant]
+    variant
 }

@@ -86,7 +86,7 @@ pub(crate) struct Scene<'a> {
 pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
     match effect {
         Effect::InputDelay => input_delay::variants(),
-        Effect::InputNoise => input_noise::variants(),
+        Effect::InputNoise => input_noise::variants(scene),
         Effect::Backlash => backlash::variants(),
         Effect::GradualTransition => gradual_transition::variants(scene),
         Effect::RateDependence => rate_dependence::variants(scene),

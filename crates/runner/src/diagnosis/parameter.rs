@@ -7,6 +7,9 @@ use switchback_gap::FittedParameter;
 /// Half-width of a 90 % interval in standard errors of a normal estimate.
 const Z90: f64 = 1.644_853_626_951_472_6;
 
+/// Standard error from which a logarithm counts as undetermined.
+const VAGUE: f64 = 3.0;
+
 /// A fitted parameter as its user would state it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Told {
@@ -24,7 +27,9 @@ pub struct Told {
 ///
 /// Logarithmic parameters have intervals that are symmetric before they are undone.
 pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
-    let half = Z90 * parameter.se;
+    // A logarithm known no better than to a few units is not known.
+    let logarithm = parameter.unit.starts_with("ln ");
+    let half = if logarithm && parameter.se > VAGUE { f64::NAN } else { Z90 * parameter.se };
     let ends = [parameter.value - half, parameter.value, parameter.value + half];
     let name = parameter.name;
     let scaled = |factor: f64, unit: String| (name.to_owned(), ends.map(|x| factor * x), unit);
@@ -38,6 +43,10 @@ pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
         }
         "ln samples" => {
             ("time_constant".to_owned(), ends.map(|x| x.exp() * units.sample_time), "s".to_owned())
+        }
+        "ln strokes" => (name.replace("log_", ""), ends.map(|x| x.exp() * units.stroke), units.input.clone()),
+        "ln inverse variance" => {
+            ("noise_sd".to_owned(), ends.map(|x| (-0.5 * x).exp()), "sd of y".to_owned())
         }
         "ln variance ratio" => (
             name.replace("log_ratio", "noise_ratio"),

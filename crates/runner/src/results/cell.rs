@@ -53,7 +53,7 @@ pub struct Parameter {
     pub mean_estimate: Option<f64>,
     /// Mean of the estimates less the truth.
     pub bias: Option<Measured>,
-    /// The same with the exact-mean linear term taken out (control variate).
+    /// The same with the leading terms of the error, less their exact means, taken out (control variate).
     pub bias_controlled: Option<Measured>,
     /// Standard deviation of the estimates.
     pub sd: Option<Measured>,

@@ -1,14 +1,17 @@
 //! One system, hysteresis and number of points on the bench: everything about its experiments that noise does not touch.
 
 use super::StudyError;
-use crate::scenario::{Border, Case, Disturbance, Method};
+use super::pulse_kind::PulseKind;
+use crate::scenario::{Border, Case, Disturbance};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
-use switchback_estimator::estimators::pulse::{Limit, PulseData, PulseFitError, PulseMethod, StepMean};
+use switchback_estimator::estimators::pulse::{
+    ErrorTerms, Limit, PulseData, PulseFitError, PulseMethod, StepMean,
+};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::Branch;
 use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::{
-    LaneSuperposition, NoiseMoments, PeriodicDesign, periodic_response, superpose,
+    LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
 };
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
@@ -168,6 +171,24 @@ impl Bench {
         method.with_input(&data, self.steps(sigma, [0.0; 2], ENDLESS), Limit::of)
     }
 
+    /// The exact means of the error terms at a method's limit, for records of `samples` samples.
+    pub(super) fn mean_terms(
+        &self,
+        method: PulseKind,
+        limit: &Limit,
+        sigma: f64,
+        samples: usize,
+    ) -> ErrorTerms {
+        let NoiseFilter { ar, ma } = &self.noise;
+        let noise = NoiseMoments::expected_over(ar, ma, self.designs[0].order, self.period(), samples);
+        let data = self.data(sigma, [&noise, &noise]);
+        let designs: Vec<&PeriodicDesign> = method.experiments().iter().map(|&k| &self.designs[k]).collect();
+        let covariance = SumCovariance::new(&designs, (ar, ma), sigma, samples);
+        method.with_input(&data, self.steps(sigma, [0.0; 2], samples as f64), |expected| {
+            limit.mean_terms(&expected, |x, y| covariance.at(x, y))
+        })
+    }
+
     /// A method for these experiments, eight replicates at a time.
     pub(super) fn lanes(&self, method: PulseKind) -> LaneMethod {
         let data = self.expected(1.0);
@@ -229,68 +250,5 @@ impl Bound {
     /// The bound for `samples` samples of each experiment, a value a parameter.
     pub(super) fn sd(&self, samples: f64) -> Vec<f64> {
         self.limit.theory_se(self.records * samples)
-    }
-}
-
-/// A method for pulse experiments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PulseKind {
-    PaperDescendant,
-    PaperAscendant,
-    Joint,
-    Efficient,
-    LinearArx,
-    Memoryless,
-}
-
-impl PulseKind {
-    /// The pulse method of that name; `free` is none.
-    pub(super) fn of(method: Method) -> Option<Self> {
-        match method {
-            Method::PaperDescendant => Some(Self::PaperDescendant),
-            Method::PaperAscendant => Some(Self::PaperAscendant),
-            Method::Joint => Some(Self::Joint),
-            Method::Efficient => Some(Self::Efficient),
-            Method::LinearArx => Some(Self::LinearArx),
-            Method::Memoryless => Some(Self::Memoryless),
-            Method::Free => None,
-        }
-    }
-
-    /// The experiments it looks at, as indices into [`DIRECTIONS`].
-    pub(super) fn experiments(self) -> &'static [usize] {
-        match self {
-            Self::PaperDescendant => &[0],
-            Self::PaperAscendant => &[1],
-            _ => &[0, 1],
-        }
-    }
-
-    /// Whether it uses the mean of a step experiment.
-    pub(super) fn needs_step(self) -> bool {
-        matches!(self, Self::PaperDescendant | Self::PaperAscendant)
-    }
-
-    /// Whether the model it fits holds the truth, so that its asymptotic theory applies.
-    pub(super) fn models_hysteresis(self) -> bool {
-        !matches!(self, Self::LinearArx | Self::Memoryless)
-    }
-
-    /// Hands the method its part of the data.
-    pub(super) fn with_input<T>(
-        self,
-        data: &[PulseData; 2],
-        steps: [StepMean; 2],
-        run: impl FnOnce(PulseMethod<'_>) -> T,
-    ) -> T {
-        let both = [&data[0], &data[1]];
-        run(match self {
-            Self::PaperDescendant => PulseMethod::Paper { experiment: both[0], step: steps[0] },
-            Self::PaperAscendant => PulseMethod::Paper { experiment: both[1], step: steps[1] },
-            Self::Joint => PulseMethod::Joint { descendant: both[0], ascendant: both[1] },
-            Self::Efficient => PulseMethod::Efficient(&both),
-            Self::LinearArx => PulseMethod::LinearArx(&both),
-            Self::Memoryless => PulseMethod::Memoryless(&both),
-        })
     }
 }

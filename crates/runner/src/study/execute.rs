@@ -189,7 +189,12 @@ mod tests {
         assert_eq!(first, Next { target: 40, forecast: 5001 });
         let mut sections = Sections::new(&[1]);
         for error in (0..400).map(|r| f64::from(r % 2) - 0.5) {
-            sections.by_cell()[0][0].parameters[0].push(ReplicateError { error, se: 0.5, first_order: None });
+            sections.by_cell()[0][0].parameters[0].push(ReplicateError {
+                error,
+                se: 0.5,
+                first_order: None,
+                second_order: 0.0,
+            });
         }
         let mut active = [true];
         let next = Next::after(&stopping, &sections, &mut active, 400);

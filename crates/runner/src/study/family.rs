@@ -6,9 +6,11 @@ use super::moments::LaneNoise;
 use super::sections::CellSums;
 use super::world::{Contender, Setting, World};
 use switchback_estimator::estimators::pulse::StepMean;
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneStatistics, LaneStep};
+use switchback_estimator::estimators::pulse::lanes::{
+    LANES, Lane, LaneFit, LaneStatistics, LaneStep, LaneTerms,
+};
 use switchback_estimator::simulation::LaneSuperposition;
-use switchback_estimator::statistics::{LaneErrors, LaneSums, ReplicateError};
+use switchback_estimator::statistics::{LaneErrors, LaneSums};
 
 /// The cells of one border, m and N, with their sums.
 pub(super) struct Family<'a> {
@@ -125,6 +127,8 @@ const ABREAST: usize = 4;
 #[derive(Clone)]
 struct Lanes {
     first: u32,
+    /// Index of the number of samples.
+    checkpoint: usize,
     /// Sections of the replicates, in order.
     sections: Vec<usize>,
     /// Whether there is noise of the experiment: whether any method looks at it.
@@ -138,14 +142,14 @@ struct Lanes {
 #[derive(Default)]
 struct Memory {
     fit: LaneFit,
-    residuals: Vec<Lane>,
-    first_order: Vec<Lane>,
+    terms: LaneTerms,
 }
 
 impl Lanes {
     fn new(superpositions: [LaneSuperposition; 2]) -> Self {
         Self {
             first: 0,
+            checkpoint: 0,
             sections: Vec::with_capacity(LANES),
             used: [false; 2],
             statistics: [0, 1].map(|k| superpositions[k].statistics()),
@@ -156,7 +160,7 @@ impl Lanes {
 
     /// Takes in the noise of other replicates.
     fn load(&mut self, noise: &LaneNoise, round: &Round, (checkpoint, period): (usize, usize)) {
-        self.first = noise.first;
+        (self.first, self.checkpoint) = (noise.first, checkpoint);
         self.sections.clear();
         self.sections.extend((0..noise.live).map(|l| round.section(noise.first as usize + l)));
         for k in 0..2 {
@@ -178,7 +182,7 @@ impl Lanes {
 
     /// Adds one method's errors to the sums of a cell.
     fn estimate(&self, bench: &Bench, cell: &mut Cell<'_>, memory: &mut Memory) {
-        let Memory { fit, residuals, first_order } = memory;
+        let Memory { fit, terms } = memory;
         let contender = cell.contender;
         let [descendant, ascendant] = &self.statistics;
         let both = [descendant, ascendant];
@@ -188,12 +192,14 @@ impl Lanes {
         };
         let step = contender.kind.needs_step().then(|| self.steps[contender.kind.experiments()[0]]);
         contender.lanes.fit(parts, step, fit);
-        contender.control.first_order(parts, step.map(|s| s.mean), residuals, first_order);
+        let means = &contender.means[self.checkpoint];
+        contender.control.terms(parts, step.map(|s| s.mean), means, terms);
         let errors = LaneErrors {
             truth: &contender.truth,
             values: &fit.values,
             variances: &fit.variances,
-            first_order,
+            first_order: &terms.first,
+            second_order: &terms.second,
         };
         // Replicates that follow each other in a section are added in one go.
         let mut next = 0;
@@ -220,13 +226,9 @@ impl Lanes {
         contender.kind.with_input(&bench.replicate(&self.statistics, l), steps, |method| {
             match method.fit() {
                 Ok(fit) => {
-                    let first_order = contender.limit.first_order(&method);
-                    for (((estimated, first), truth), sums) in
-                        fit.parameters().zip(first_order).zip(&contender.truth).zip(&mut sums.parameters)
-                    {
-                        let error = estimated.value - truth;
-                        sums.push(ReplicateError { error, se: estimated.se, first_order: Some(first) });
-                    }
+                    let errors =
+                        fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
+                    sums.push(errors, &contender.terms(self.checkpoint, &method));
                 }
                 Err(error) => sums.fail(self.first + l as u32, error.to_string()),
             }

@@ -16,6 +16,7 @@ mod free;
 mod judge;
 mod moments;
 mod paired;
+mod pulse_kind;
 mod replay;
 mod sections;
 mod tabulate;

@@ -1,6 +1,7 @@
 //! What the replicates left behind: sums, by section and cell.
 
-use switchback_estimator::statistics::ErrorSums;
+use switchback_estimator::estimators::pulse::ErrorTerms;
+use switchback_estimator::statistics::{ErrorSums, ReplicateError};
 
 /// Replicates are kept in this many sections of (nearly) equal size, so that any figure drawn from several cells can be jackknifed.
 pub(super) const SECTIONS: usize = 20;
@@ -24,6 +25,14 @@ pub(super) struct CellSums {
 impl CellSums {
     pub(super) fn new(parameters: usize) -> Self {
         Self { parameters: vec![ErrorSums::default(); parameters], ..Self::default() }
+    }
+
+    /// Adds a replicate: the errors with the standard errors that the method reports, and their leading terms.
+    pub(super) fn push(&mut self, errors: impl Iterator<Item = (f64, f64)>, terms: &ErrorTerms) {
+        let terms = terms.first.iter().zip(&terms.second);
+        for (((error, se), (&first, &second_order)), sums) in errors.zip(terms).zip(&mut self.parameters) {
+            sums.push(ReplicateError { error, se, first_order: Some(first), second_order });
+        }
     }
 
     pub(super) fn fail(&mut self, replicate: u32, reason: String) {

@@ -1,18 +1,19 @@
 //! Worlds: cells that share their noise.
 
 use super::StudyError;
-use super::bench::{Bench, Bound, NoiseFilter, PulseKind};
+use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
 use super::family::Family;
 use super::moments::{LaneNoise, draw_lanes};
+use super::pulse_kind::PulseKind;
 use super::sections::CellSums;
 use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
-use switchback_estimator::estimators::pulse::{Limit, PulseFitError};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
@@ -53,6 +54,8 @@ pub(super) struct Contender {
     pub(super) truth: Vec<f64>,
     /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
     pub(super) limit: Limit,
+    /// Means of the error terms at the limit, one entry a number of samples of the world.
+    pub(super) means: Vec<ErrorTerms>,
     /// The method, and the control variate, for eight replicates at a time.
     pub(super) lanes: LaneMethod,
     pub(super) control: LaneControl,
@@ -95,6 +98,11 @@ impl World {
         periods.dedup();
         for setting in &mut settings {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
+            for contender in &mut setting.methods {
+                let mean =
+                    |&n: &usize| setting.bench.mean_terms(contender.kind, &contender.limit, setting.sigma, n);
+                contender.means = checkpoints.iter().map(mean).collect();
+            }
         }
         let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
@@ -203,9 +211,15 @@ impl Contender {
             lanes: bench.lanes(kind),
             control: limit.lanes(),
             limit,
+            means: Vec::new(),
             theory,
             bound: if theory { Some(bench.bound(kind, sigma)?) } else { None },
         })
+    }
+
+    /// The leading terms of one replicate's error, less their means.
+    pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> ErrorTerms {
+        self.limit.terms(sample).less(&self.means[checkpoint])
     }
 }
 

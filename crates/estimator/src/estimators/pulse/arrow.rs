@@ -19,7 +19,7 @@ impl LocalColumn {
     }
 
     /// The column's product with a target that is `residual` in the groups.
-    fn target(&self, residual: &[f64]) -> f64 {
+    pub(super) fn target(&self, residual: &[f64]) -> f64 {
         self.support.iter().map(|&(q, w)| w * residual[q]).sum()
     }
 }
@@ -33,6 +33,9 @@ pub(crate) struct Columns {
     pub(crate) local: Vec<LocalColumn>,
     /// `o`, a known part of `y` one value a group.
     pub(crate) offset: Vec<f64>,
+    /// Whether the columns are a rank-one product linearised: every local column is a level seen at lags `1…n`, its weights are `b`, and at lag
+    /// `i` the shared column of `bᵢ` holds the level. An error in the level is then one in that column.
+    pub(crate) bilinear: bool,
 }
 
 /// A solved regression: estimates, residual variance and covariance.
@@ -49,7 +52,7 @@ pub(crate) struct ArrowFit {
     pub(crate) variance: f64,
     freedom: f64,
     factor: Cholesky<f64, Dyn>,
-    ties: Vec<LocalTie>,
+    pub(super) ties: Vec<LocalTie>,
 }
 
 /// Residuals `r` against every column: `Σ_{t∈q} r(t)` a group, `−Σ_t y(t−i) r(t)` a lag, and `Σ_t r²(t)`.
@@ -62,11 +65,11 @@ pub(crate) struct Score {
 
 /// What eliminating a local column leaves behind.
 #[derive(Debug, Clone)]
-struct LocalTie {
+pub(super) struct LocalTie {
     /// Its own entry `D = Σ K w²` of the normal matrix.
     own: f64,
     /// `c/D`: how its estimate follows the core's.
-    slope: DVector<f64>,
+    pub(super) slope: DVector<f64>,
     /// Right-hand side over `D`: its estimate were the core zero.
     start: f64,
 }
@@ -192,24 +195,11 @@ impl ArrowFit {
         self.respond(columns, &residual, &lagged)
     }
 
-    /// `M⁻¹s`: this regression's answer to the score `s = S_{Φy} − Sθ₀` of other statistics, with `θ₀` and `M` its own.
-    pub(crate) fn response_to_score(&self, statistics: &GroupedStatistics, columns: &Columns) -> Response {
-        let n = statistics.order();
-        let a = self.core.rows(0, n);
-        let mut residual = Vec::with_capacity(statistics.groups());
-        let mut lagged: Vec<f64> = (1..=n)
-            .map(|i| {
-                -statistics.product(0, i) - (0..n).map(|l| a[l] * statistics.product(i, l + 1)).sum::<f64>()
-            })
-            .collect();
-        for (q, mean) in self.group_means(columns).into_iter().enumerate() {
-            let past: f64 = (0..n).map(|l| a[l] * statistics.sum(q, l + 1)).sum();
-            residual.push(statistics.sum(q, 0) + past - mean * statistics.count(q));
-            for (i, lagged) in lagged.iter_mut().enumerate() {
-                *lagged += mean * statistics.sum(q, i + 1);
-            }
-        }
-        self.respond(columns, &residual, &lagged)
+    /// How all parameters answer to a right-hand side of the core with the local columns eliminated.
+    pub(super) fn respond_to_core(&self, right: &DVector<f64>) -> Response {
+        let core = self.factor.solve(right);
+        let local = self.ties.iter().map(|tie| -tie.slope.dot(&core)).collect();
+        Response { core, local }
     }
 
     /// `o_q + x_qᵀη + Σ_l w_q,l λ_l`.

@@ -70,7 +70,7 @@ fn linearised(experiments: &Experiments<'_>, b: &DVector<f64>, w: &[Vec<f64>]) -
             support: (1..=n).map(|lag| (experiments.group(e, level, lag), b[lag - 1])).collect(),
         })
         .collect();
-    Columns { shared, local, offset }
+    Columns { shared, local, offset, bilinear: true }
 }
 
 /// Takes over the new parameters; returns the largest change relative to the largest value.

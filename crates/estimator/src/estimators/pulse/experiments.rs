@@ -140,7 +140,7 @@ impl<'a> Experiments<'a> {
             .filter(|(_, _, seen)| matches!(seen, Seen::Level { level, .. } if *level > 0))
             .map(|(group, _, _)| LocalColumn::own(group))
             .collect();
-        Columns { shared, local, offset: vec![0.0; self.statistics.groups()] }
+        Columns { shared, local, offset: vec![0.0; self.statistics.groups()], bilinear: false }
     }
 
     /// Index of the local column of level `level ≥ 1` (from 0) of an experiment at `lag`, in [`Self::rank_free_columns`].

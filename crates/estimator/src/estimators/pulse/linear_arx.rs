@@ -33,6 +33,7 @@ pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, Vec<Vec<f64>>)
         shared: experiments.core_columns(position),
         local: Vec::new(),
         offset: vec![0.0; experiments.statistics.groups()],
+        bilinear: false,
     };
     let of_experiment =
         |(e, part): (usize, &&PulseData)| (0..part.points()).map(|j| position(e, j)).collect();

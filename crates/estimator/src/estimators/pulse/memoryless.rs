@@ -56,7 +56,8 @@ pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, StaticCurve) {
             support: curve.visits_of(k).map(|(e, j)| (experiments.group(e, j, lag), 1.0)).collect(),
         })
         .collect();
-    (Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] }, curve)
+    let offset = vec![0.0; experiments.statistics.groups()];
+    (Columns { shared, local, offset, bilinear: false }, curve)
 }
 
 /// The distinct inner levels, and which of them each experiment visits.

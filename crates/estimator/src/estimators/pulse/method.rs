@@ -3,6 +3,7 @@
 use super::data::{PulseData, StepMean};
 use super::fit::{PulseFit, PulseFitError};
 use super::lanes::LaneControl;
+use super::score::{ErrorTerms, GroupSum};
 use super::solution::Solution;
 use super::{efficient, joint, linear_arx, memoryless, paper};
 
@@ -66,17 +67,25 @@ impl PulseMethod<'_> {
     }
 }
 
-/// A method linearised at its limit: the asymptotic theory, and the control variate of a Monte-Carlo study.
+/// A method expanded about its limit: the asymptotic theory, and the control variate of a Monte-Carlo study.
 ///
 /// Made from expected statistics ([`crate::simulation::NoiseMoments::expected`]), where the method returns what it converges to. For a
-/// record's statistics, [`Limit::first_order`] is
+/// record's statistics, [`Limit::terms`] are the leading terms of the estimate's error,
 ///
 /// ```text
-/// ∇g · M⁻¹s,   s = S_{Φy} − Sθ₀,   M = E[S]
+/// first    ∇g · M⁻¹s,         s = S_{Φy} − Sθ₀,   M = E[S]
+/// second   ∇g · M⁻¹(p − s),   p the profile score: s with every free mean eliminated by the record's own statistics
 /// ```
 ///
-/// which has mean zero exactly, and differs from the estimate's error by `O(1/N)`: subtracted, it takes the noise out of a bias. Where the
-/// equation error is white its variance is [`Limit::theory_se`] squared, exactly.
+/// Both have means that are known exactly at every `N` ([`Limit::mean_terms`]); the first's is zero where the model holds. Taken out of
+/// the error with their means left in, they take the noise out of its mean, the bias. After the first the rest is `O(1/N)`; what is
+/// largest in it grows with the number `Q` of free means as `√Q/N`: products `Σ_q K_q ē_q,i ξ̄_q` of the noise of a group's mean output and
+/// of its mean equation error. These the profile score holds, and it is quadratic in the noise, so that its mean is one of products of two
+/// group sums. Where the model holds and the equation error is white, the variance of the first is [`Limit::theory_se`] squared, exactly.
+///
+/// The free means are nuisance parameters, and the profile score has a mean because of them: McCullagh and Tibshirani, "A simple method for
+/// the adjustment of profile likelihoods", Journal of the Royal Statistical Society B 52 (1990), 325–344, subtract it too.
+/// Control variates: Glasserman, "Monte Carlo Methods in Financial Engineering" (2003), section 4.1.
 #[derive(Debug, Clone)]
 pub struct Limit {
     solution: Solution,
@@ -108,15 +117,33 @@ impl Limit {
         self.fit.parameters().map(|x| x.se * scale).collect()
     }
 
-    /// [`Limit::first_order`] for eight replicates at a time.
+    /// [`Limit::terms`] for eight replicates at a time.
     pub fn lanes(&self) -> LaneControl {
         self.solution.control(self.samples)
     }
 
-    /// The first-order part of the error of the same method's estimate from `sample`: `a`, `b`, then the points of each border.
-    pub fn first_order(&self, sample: &PulseMethod<'_>) -> Vec<f64> {
+    /// The leading terms of the error of the same method's estimate from `sample`.
+    pub fn terms(&self, sample: &PulseMethod<'_>) -> ErrorTerms {
         let experiments = sample.experiments();
-        let scale = self.samples / experiments[0].statistics.samples();
-        self.solution.first_order(&experiments, sample.step(), scale)
+        self.solution.terms(&experiments, sample.step(), self.scale(&experiments))
+    }
+
+    /// The exact means of [`Limit::terms`] over all noise, Gaussian or not.
+    ///
+    /// `expected` holds the expectations of the statistics over as many samples as a record has
+    /// ([`crate::simulation::NoiseMoments::expected_over`]), and `covariance` is that of two of their group sums
+    /// ([`crate::simulation::SumCovariance`]).
+    pub fn mean_terms(
+        &self,
+        expected: &PulseMethod<'_>,
+        covariance: impl Fn(GroupSum, GroupSum) -> f64,
+    ) -> ErrorTerms {
+        let experiments = expected.experiments();
+        self.solution.mean_terms(&experiments, expected.step(), self.scale(&experiments), &covariance)
+    }
+
+    /// How many of these records the expected statistics hold.
+    fn scale(&self, experiments: &[&PulseData]) -> f64 {
+        self.samples / experiments[0].statistics.samples()
     }
 }

@@ -16,6 +16,7 @@ mod linear_arx;
 mod memoryless;
 mod method;
 mod paper;
+mod score;
 mod solution;
 
 pub use data::{PulseData, PulseDataError, StepMean};
@@ -23,3 +24,4 @@ pub use excitation::excitation;
 pub use fit::{Estimated, PulseFit, PulseFitError};
 pub use grouped::GroupedStatistics;
 pub use method::{Limit, PulseMethod};
+pub use score::{ErrorTerms, GroupSum};

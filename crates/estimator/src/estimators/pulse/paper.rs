@@ -52,5 +52,5 @@ pub(super) fn pulse_columns(experiments: &Experiments<'_>) -> Columns {
             Seen::Level { .. } => local.push(LocalColumn::own(group)),
         }
     }
-    Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()] }
+    Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()], bilinear: false }
 }

@@ -5,7 +5,8 @@ use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
-use super::lanes::{Answer, LaneControl};
+use super::lanes::{Answer, LaneControl, ProfilePlan};
+use super::score::{Covariance, ErrorTerms};
 use crate::hysteresis::Branch;
 use nalgebra::DVector;
 
@@ -151,7 +152,7 @@ impl Solution {
         }
     }
 
-    /// [`Self::first_order`] as a constant map of the score.
+    /// [`Self::terms`] as a constant map of the score and the profile score.
     pub(crate) fn control(&self, scale: f64) -> LaneControl {
         let means = self.fit.group_means(&self.columns);
         let lags = vec![0.0; self.order];
@@ -181,6 +182,7 @@ impl Solution {
                 .collect(),
             own,
             means,
+            profile: ProfilePlan::of(&self.fit, &self.columns, self.order),
             step_mean: match self.level {
                 Level::Constant => 0.0,
                 Level::Step(step) => step.mean,
@@ -188,28 +190,58 @@ impl Solution {
         }
     }
 
-    /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved.
+    /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved, and what their profile
+    /// score adds to it.
     ///
     /// `M⁻¹s` carried through the derivatives; `M` (divided by `scale`) and the parameters are this solution's, the score `s` is that of the
     /// experiments given.
-    pub(crate) fn first_order(
+    pub(crate) fn terms(&self, experiments: &[&PulseData], step: Option<StepMean>, scale: f64) -> ErrorTerms {
+        let statistics = self.about_own(experiments);
+        let shift = self.fit.profile_shift(&statistics, &self.columns);
+        self.terms_from(&statistics, &shift, step, scale)
+    }
+
+    /// The means of [`Self::terms`] over all noise, given the means of the statistics and how their group sums vary together.
+    pub(crate) fn mean_terms(
         &self,
-        experiments: &[&PulseData],
+        expected: &[&PulseData],
         step: Option<StepMean>,
         scale: f64,
-    ) -> Vec<f64> {
-        let about: Vec<GroupedStatistics> =
-            experiments.iter().map(|data| data.about(self.reference).statistics).collect();
-        let stacked = GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>());
-        let response = self.fit.response_to_score(&stacked, &self.columns);
+        covariance: Covariance<'_>,
+    ) -> ErrorTerms {
+        let statistics = self.about_own(expected);
+        let shift = self.fit.mean_profile_shift(&statistics, &self.columns, covariance);
+        self.terms_from(&statistics, &shift, step, scale)
+    }
+
+    fn terms_from(
+        &self,
+        statistics: &GroupedStatistics,
+        shift: &DVector<f64>,
+        step: Option<StepMean>,
+        scale: f64,
+    ) -> ErrorTerms {
+        let (first, second) =
+            (self.fit.response_to_score(statistics, &self.columns), self.fit.respond_to_core(shift));
         let step_change = match (&self.level, step) {
             (Level::Step(own), Some(other)) => other.mean - own.mean,
             _ => 0.0,
         };
-        self.quantities
-            .iter()
-            .map(|q| scale * response.along(&q.gradient) + q.step_slope * step_change)
-            .collect()
+        ErrorTerms {
+            first: self
+                .quantities
+                .iter()
+                .map(|q| scale * first.along(&q.gradient) + q.step_slope * step_change)
+                .collect(),
+            second: self.quantities.iter().map(|q| scale * second.along(&q.gradient)).collect(),
+        }
+    }
+
+    /// The experiments side by side, about the reference of this solution.
+    fn about_own(&self, experiments: &[&PulseData]) -> GroupedStatistics {
+        let about: Vec<GroupedStatistics> =
+            experiments.iter().map(|data| data.about(self.reference).statistics).collect();
+        GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>())
     }
 }
 

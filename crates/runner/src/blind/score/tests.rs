@@ -21,6 +21,7 @@ fn case(kind: Kind, truth: &[&'static str], status: &'static str, effects: &[&'s
             top: (effects.first().copied().unwrap_or("none"), 0.95),
         },
         baseline: Baseline { lowest_rmse: None, heldout_winner: None, plain_bic: Some("creep") },
+        evidence: crate::blind::case::Evidence::default(),
         closure: None,
         places: Vec::new(),
     }

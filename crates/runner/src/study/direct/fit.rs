@@ -2,7 +2,7 @@
 
 use super::qr::{LeastSquares, Triangle};
 use super::regression::{Experiment, Inner, Regression};
-use crate::study::bench::PulseKind;
+use crate::study::pulse_kind::PulseKind;
 use nalgebra::DVector;
 use switchback_estimator::estimators::pulse::{PulseFitError, StepMean};
 

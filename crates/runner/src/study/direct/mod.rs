@@ -19,7 +19,6 @@ use crate::scenario::{Case, Scenario};
 use regression::Experiment;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
-use switchback_estimator::statistics::ReplicateError;
 
 /// A world whose cells are simulated one by one.
 pub(super) struct DirectWorld<'a> {
@@ -41,12 +40,13 @@ impl<'a> DirectWorld<'a> {
             let records = [0, 1].map(|k| noise.record(self.world, (case, border), setting, k));
             let bench = Simulated::new(case, setting, &records);
             for (checkpoint, &samples) in self.world.pulses.checkpoints.iter().enumerate() {
+                let length = (checkpoint, samples);
                 let steps = [0, 1]
                     .map(|k| StepMean { mean: records[k].step_means[checkpoint], samples: samples as f64 });
                 for contender in &setting.methods {
                     let Some((active, sums)) = cells.next() else { return };
                     if *active {
-                        bench.estimate(contender, steps, samples, replicate, sums);
+                        bench.estimate(contender, steps, length, replicate, sums);
                     }
                 }
             }
@@ -94,7 +94,7 @@ impl Simulated {
         &self,
         contender: &Contender,
         steps: [StepMean; 2],
-        samples: usize,
+        (checkpoint, samples): (usize, usize),
         replicate: u32,
         sums: &mut CellSums,
     ) {
@@ -104,13 +104,10 @@ impl Simulated {
             Err(error) => return sums.fail(replicate, error.to_string()),
         };
         let data = [0, 1].map(|k| self.statistics(k, samples));
-        let first_order =
-            contender.kind.with_input(&data, steps, |method| contender.limit.first_order(&method));
-        for ((((value, se), first), truth), sums) in
-            estimates.into_iter().zip(first_order).zip(&contender.truth).zip(&mut sums.parameters)
-        {
-            sums.push(ReplicateError { error: value - truth, se, first_order: Some(first) });
-        }
+        let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));
+        let errors =
+            estimates.into_iter().zip(&contender.truth).map(|((value, se), truth)| (value - truth, se));
+        sums.push(errors, &terms);
     }
 
     /// What the control variate is made of.

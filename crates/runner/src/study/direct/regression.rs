@@ -8,7 +8,7 @@
 //! instead of `κ`.
 
 use super::qr::Triangle;
-use crate::study::bench::PulseKind;
+use crate::study::pulse_kind::PulseKind;
 use switchback_estimator::hysteresis::Branch;
 
 /// One experiment as a regression sees it.

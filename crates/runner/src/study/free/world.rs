@@ -155,7 +155,12 @@ impl FreeWorld {
                 for ((((value, se), first), truth), sums) in
                     parameters(&estimate).zip(first_order).zip(truth).zip(&mut sums.parameters)
                 {
-                    sums.push(ReplicateError { error: value - truth, se, first_order: Some(first) });
+                    sums.push(ReplicateError {
+                        error: value - truth,
+                        se,
+                        first_order: Some(first),
+                        second_order: 0.0,
+                    });
                 }
             }
             Ok(_) => sums.fail(replicate, "the record leaves a parameter open".to_owned()),

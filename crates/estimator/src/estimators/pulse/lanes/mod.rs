@@ -9,12 +9,14 @@ mod constrained;
 mod control;
 mod levels;
 mod method;
+mod profile;
 mod sized;
 mod statistics;
 
 pub(crate) use control::Answer;
-pub use control::LaneControl;
+pub use control::{LaneControl, LaneTerms};
 pub use method::{LaneFit, LaneMethod, LaneStep};
+pub(crate) use profile::ProfilePlan;
 pub use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;
 
