@@ -77,6 +77,8 @@ pub(crate) enum BorderColumn {
     ReversalLog { scale: f64 },
     /// `branch·s(clock)`.
     BranchSlow { clock: Clock },
+    /// What `u` differs at the start of one track from the middle between the borders; it fades as the transition does.
+    Start { track: usize },
     /// `s(clock)` on the ascending (+1) or the descending (−1) border, 0 on the other.
     SideSlow { clock: Clock, branch: f64 },
 }

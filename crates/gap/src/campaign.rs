@@ -5,7 +5,7 @@ use std::sync::Arc;
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
-use crate::motion::{Motion, motions};
+use crate::motion::{Begins, Motion, ReversalRule, motions};
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -54,8 +54,36 @@ pub(crate) struct Campaign {
     pub(crate) total: usize,
     /// Travel of the whole campaign, strokes.
     pub(crate) travel: f64,
-    /// A move smaller than this does not count as a reversal (noise on `v`).
-    pub(crate) threshold: f64,
+    /// What counts as a reversal.
+    pub(crate) rule: ReversalRule,
+    /// What a model is held against.
+    pub(crate) criterion: Criterion,
+}
+
+/// What a model is held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Criterion {
+    /// The next sample, given the measured ones before it: efficient where the equation error is what the model says.
+    OneStep,
+    /// The whole record, given its beginning: the output error of the free run.
+    Simulation {
+        /// Independent errors per sample: errors of simulation are coloured, and each counts for less than one.
+        share: f64,
+    },
+}
+
+impl Criterion {
+    pub(crate) fn simulates(self) -> bool {
+        matches!(self, Self::Simulation { .. })
+    }
+
+    /// Independent errors per sample.
+    pub(crate) fn share(self) -> f64 {
+        match self {
+            Self::OneStep => 1.0,
+            Self::Simulation { share } => share,
+        }
+    }
 }
 
 /// Samples left out at the start of each record, besides those before the input first moves: no candidate's memory
@@ -86,7 +114,8 @@ impl Campaign {
         let y_mean = rig.fit_records().flat_map(|r| r.record.y()).sum::<f64>() / count;
         let spread =
             rig.fit_records().flat_map(|r| r.record.y()).map(|y| (y - y_mean).powi(2)).sum::<f64>() / count;
-        if spread <= 0.0 {
+        let (least, most) = range(rig.fit_records().flat_map(|r| r.record.y()));
+        if most <= least {
             return Err(DiagnoseError::ConstantOutput);
         }
         let y_scale = spread.sqrt();
@@ -123,15 +152,54 @@ impl Campaign {
             });
             clock += r.record.len();
         }
-        let threshold = reversal_threshold(&tracks);
+        let rule = ReversalRule { threshold: reversal_threshold(&tracks), ..ReversalRule::default() };
         let mut travel = 0.0;
         for track in &mut tracks {
-            track.moves = motions(&track.v, 0.0, threshold).into();
+            track.moves = motions(&track.v, 0.0, rule).into();
             track.travelled = travel;
             travel += track.moves.last().map_or(0.0, |m| m.path);
         }
         let levels = levels(&tracks);
-        Ok(Self { tracks, v_low, v_width, y_mean, y_scale, levels, total: clock, travel, threshold })
+        Ok(Self {
+            tracks,
+            v_low,
+            v_width,
+            y_mean,
+            y_scale,
+            levels,
+            total: clock,
+            travel,
+            rule,
+            criterion: Criterion::OneStep,
+        })
+    }
+
+    /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
+    /// input may act within its sample, and a record of the position may trail the force.
+    pub(crate) fn led_by(&self, lead: usize) -> Self {
+        let mut led = self.clone();
+        for track in &mut led.tracks {
+            let last = track.v[track.v.len() - 1];
+            track.v.drain(..lead.min(track.v.len() - 1));
+            track.v.resize(track.y.len(), last);
+            track.moves = motions(&track.v, 0.0, self.rule).into();
+        }
+        led
+    }
+
+    /// The same records with branches that begin elsewhere.
+    pub(crate) fn with_branches_from(&self, begins: Begins) -> Self {
+        let mut other = self.clone();
+        other.rule.begins = begins;
+        for track in &mut other.tracks {
+            track.moves = motions(&track.v, 0.0, other.rule).into();
+        }
+        other
+    }
+
+    /// The same records, models held against another criterion.
+    pub(crate) fn judged_by(&self, criterion: Criterion) -> Self {
+        Self { criterion, ..self.clone() }
     }
 
     pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {

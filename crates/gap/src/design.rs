@@ -10,9 +10,9 @@
 
 use std::sync::Arc;
 
-use crate::assembly::{Assembly, Saturation, convolve};
+use crate::assembly::{Assembly, NoiseLaw, Saturation, convolve};
 use crate::borders::Grid;
-use crate::campaign::{Campaign, Track, WARM_UP};
+use crate::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::motion::{Motion, motions};
 use crate::rows::{Rows, equation_columns, rows, sensitivity_rows};
 
@@ -47,6 +47,7 @@ pub(crate) struct Design {
     pub(crate) taps: Vec<f64>,
     /// Denominator beyond its leading one.
     pub(crate) poles: Vec<f64>,
+    pub(crate) criterion: Criterion,
 }
 
 impl Design {
@@ -76,10 +77,10 @@ impl Design {
                 let moves = if assembly.play == 0.0 {
                     Arc::clone(&track.moves)
                 } else {
-                    motions(&track.v, assembly.play, campaign.threshold).into()
+                    motions(&track.v, assembly.play, campaign.rule).into()
                 };
                 DesignTrack {
-                    rows: rows((campaign, track), &moves, grid, assembly),
+                    rows: rows((campaign, number, track), &moves, grid, assembly),
                     moves,
                     columns: equation_columns(campaign, (number, track), assembly),
                     x,
@@ -95,7 +96,16 @@ impl Design {
             })
             .collect();
         let poles = assembly.denominator.get(1..).map(<[f64]>::to_vec).unwrap_or_default();
-        Self { tracks, taps: assembly.taps(), poles }
+        Self { tracks, taps: assembly.taps(), poles, criterion: campaign.criterion }
+    }
+
+    /// The filter from equation errors to what is counted: innovations, or the errors `e/A` of the simulation from the
+    /// measured state [`LEAD`] samples before the first counted one.
+    pub(crate) fn whitener(&self, law: &NoiseLaw, a: &[f64]) -> Whitener {
+        match self.criterion {
+            Criterion::OneStep => Whitener::new(law, a),
+            Criterion::Simulation { .. } => Whitener { ar: Vec::new(), ma: a.to_vec() },
+        }
     }
 
     /// Samples counted.
@@ -125,7 +135,7 @@ impl Design {
     }
 
     /// Equation errors `e(t)` of one track from sample `from − LEAD`.
-    fn errors(&self, track: &DesignTrack, p: &Linear) -> Vec<f64> {
+    pub(crate) fn errors(&self, track: &DesignTrack, p: &Linear) -> Vec<f64> {
         let u = self.input(track, &p.f);
         let b = convolve(&p.b, &self.taps);
         let first = track.from.saturating_sub(LEAD);

@@ -3,7 +3,7 @@
 use switchback_estimator::rig::Rig;
 
 use crate::attribution::{Attribution, detail};
-use crate::campaign::Campaign;
+use crate::campaign::{Campaign, Criterion};
 use crate::closure::{Simulated, measure};
 use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
 use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
@@ -14,10 +14,13 @@ use crate::explain::Explanation;
 use crate::localise::localise;
 use crate::nominal::identify;
 use crate::omnibus::{Omnibus, omnibus};
+use crate::order::choose;
 use crate::repeats::Repeating;
 use crate::score::{heldout_log_score, innovations, picture};
 use crate::settings::{Model, Settings};
 use crate::simulate::{free_run, noise_gain, repeat_variance};
+use crate::simulators::weighed_by_closure;
+use crate::spectrum::{mean_square, unpredictable_variance};
 use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.
@@ -42,7 +45,7 @@ pub fn diagnose_with(
     model: Model,
     settings: &Settings,
 ) -> Result<Diagnosis, DiagnoseError> {
-    Ok(Plan::new(rig, model, settings)?.conclude(workers))
+    Ok(Plan::new(workers, rig, model, settings)?.conclude(workers))
 }
 
 /// What is known before any effect is tried.
@@ -64,8 +67,14 @@ struct Plan {
 
 impl Plan {
     /// Identifies the nominal model.
-    fn new(rig: &Rig, model: Model, settings: &Settings) -> Result<Self, DiagnoseError> {
-        let campaign = Campaign::new(rig)?;
+    fn new(
+        workers: &impl Workers,
+        rig: &Rig,
+        model: Model,
+        settings: &Settings,
+    ) -> Result<Self, DiagnoseError> {
+        let mut campaign = Campaign::new(rig)?;
+        let mut settings = settings.clone();
         let mut limitations = Vec::new();
         let order = match (&model, rig.order) {
             (Model::Given(m), Some(n)) if m.a.len() != n => {
@@ -77,14 +86,16 @@ impl Plan {
         let nominal = match order {
             Some(n) => identify(&campaign, n.max(1))?,
             None => {
-                let chosen = crate::order::choose(&campaign, settings.max_order)?;
-                limitations.push(format!(
-                    "the rig declares no order: {} was chosen from the fit records",
-                    chosen.linear.a.len()
-                ));
-                chosen
+                let chosen = choose(workers, &campaign, settings.max_order)?;
+                limitations.push(chosen.told());
+                campaign = chosen.campaign;
+                chosen.fit
             }
         };
+        if campaign.criterion.simulates() {
+            // What changes only the noise moves no simulation.
+            settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
+        }
         let judged = judged_tracks(&campaign, &mut limitations);
         let foreign = match &model {
             Model::Identify => None,
@@ -98,16 +109,7 @@ impl Plan {
         let detailed = Explanation::nominal(nominal);
         let nominal = coarse(&campaign, &detailed);
         let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
-        Ok(Self {
-            settings: settings.clone(),
-            campaign,
-            nominal,
-            detailed,
-            nominal_innovations,
-            foreign,
-            judged,
-            limitations,
-        })
+        Ok(Self { settings, campaign, nominal, detailed, nominal_innovations, foreign, judged, limitations })
     }
 
     /// Ranks the candidates and draws the conclusions.
@@ -124,6 +126,7 @@ impl Plan {
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            self.drop_what_held_out_records_refute(&mut singles);
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
         let mut tests = omnibus(&self.campaign, &best.fit);
@@ -155,6 +158,10 @@ impl Plan {
             }
             None => odds(self.nominal.bic(), &bics, left),
         };
+        let odds = match self.held_out_closure(&best.fit) {
+            Some(closure) if significant => weighed_by_closure(odds, closure),
+            _ => odds,
+        };
         let mut ranked: Vec<(Effect, f64)> =
             singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
         ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
@@ -169,11 +176,18 @@ impl Plan {
     /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
     /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
     fn hear_the_held_out(&self, singles: &mut [Explanation]) {
-        let Some(nominal) = heldout_log_score(&self.campaign, &self.nominal.fit) else { return };
+        let Some(nominal) = self.score(&self.nominal.fit) else { return };
         let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
         let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
+        // Simulators are no safer for beating the nominal model: what they lose to the best of them counts.
+        let reference = match self.campaign.criterion {
+            Criterion::OneStep => nominal,
+            Criterion::Simulation { .. } => {
+                singles.iter().filter_map(|s| self.score(&s.fit)).fold(nominal, f64::max)
+            }
+        };
         for single in singles.iter_mut() {
-            let lost = heldout_log_score(&self.campaign, &single.fit).map_or(0.0, |s| nominal - s);
+            let lost = self.score(&single.fit).map_or(0.0, |s| reference - s);
             let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
             single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
         }
@@ -182,7 +196,7 @@ impl Plan {
 
     /// Whether one fit predicts the held-out records better than another; true without any.
     fn better_held_out(&self, fit: &Fit, than: &Fit) -> bool {
-        let score = |fit: &Fit| heldout_log_score(&self.campaign, fit);
+        let score = |fit: &Fit| self.score(fit);
         score(fit).zip(score(than)).is_none_or(|(one, other)| one > other)
     }
 
@@ -211,6 +225,34 @@ impl Plan {
         }
     }
 
+    /// A simulator that is worse on held-out records explains nothing, however well it follows those it was fitted to.
+    fn drop_what_held_out_records_refute(&self, singles: &mut Vec<Explanation>) {
+        if self.campaign.criterion.simulates() {
+            singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
+        }
+    }
+
+    /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
+    /// gap.
+    fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
+        if !self.campaign.criterion.simulates() {
+            return None;
+        }
+        let gap =
+            measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), (self.settings.seed, 0));
+        (gap.before.estimate > 0.0).then(|| 1.0 - gap.after.estimate / gap.before.estimate)
+    }
+
+    /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.
+    fn score(&self, fit: &Fit) -> Option<f64> {
+        match self.campaign.criterion {
+            Criterion::OneStep => heldout_log_score(&self.campaign, fit),
+            Criterion::Simulation { share } => {
+                Some(-0.5 * share * mean_square(&self.judged_errors(fit)).max(1e-300).ln())
+            }
+        }
+    }
+
     /// Squared error of the free-run simulation, summed over the judged records.
     fn simulation_error(&self, fit: &Fit) -> f64 {
         let error = |&number: &usize| {
@@ -227,10 +269,13 @@ impl Plan {
         let runs = self.simulations(&c.augmented.fit);
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
-        let score = |fit: &Fit| heldout_log_score(campaign, fit);
-        let nominal_score = score(&self.nominal.fit);
+        let nominal_score = self.score(&self.nominal.fit);
         gap.predictive_gain =
-            score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+            self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+        if campaign.criterion.simulates() {
+            // Nobody predicted one step ahead.
+            gap.predictive_gain = 0.0;
+        }
         if gap.closure.is_none() {
             limitations.push(
                 "the interval of the gap on the judged records includes zero: not resolvable, so no closure is given"
@@ -273,6 +318,9 @@ impl Plan {
     /// Repetition within periodic records needs no model; the augmented model's own floor is the other estimate. Effects
     /// that do not repeat with the input inflate the first, effects left out the second: the smaller one holds.
     fn noise_floor(&self, fit: &Fit) -> (f64, f64) {
+        if self.campaign.criterion.simulates() {
+            return self.unforeseeable(fit);
+        }
         let model = fit.power * noise_gain(fit);
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         match repeat_variance(&self.campaign, |_| true) {
@@ -281,9 +329,33 @@ impl Plan {
         }
     }
 
+    /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
+    /// at most that.
+    fn unforeseeable(&self, fit: &Fit) -> (f64, f64) {
+        let errors = self.judged_errors(fit);
+        let count: usize = errors.iter().map(Vec::len).sum();
+        (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
+    }
+
+    /// Errors of the free run on the judged records.
+    fn judged_errors(&self, fit: &Fit) -> Vec<Vec<f64>> {
+        self.judged
+            .iter()
+            .map(|&number| {
+                let track = &self.campaign.tracks[number];
+                let run = free_run(&self.campaign, fit, number, track);
+                run.iter().zip(&track.y).skip(track.from).map(|(x, y)| y - x).collect()
+            })
+            .collect()
+    }
+
     /// Variance of the innovations without the gap.
     fn innovation_floor(&self, fit: &Fit) -> f64 {
-        fit.power.min(self.nominal.fit.power).max(1e-300)
+        let power = match self.campaign.criterion {
+            Criterion::OneStep => fit.power,
+            Criterion::Simulation { .. } => self.unforeseeable(fit).0,
+        };
+        power.min(self.nominal.fit.power).max(1e-300)
     }
 
     fn simulations(&self, fit: &Fit) -> Vec<Simulated> {
@@ -319,9 +391,7 @@ impl Plan {
                 .map(|(o, se)| FittedParameter { name: o.name, unit: o.unit, value: o.value, se: *se })
                 .collect(),
             bic: s.bic() - self.nominal.bic(),
-            heldout_log_score: heldout_log_score(&self.campaign, &s.fit)
-                .zip(nominal)
-                .map_or(0.0, |(a, b)| a - b),
+            heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
         }
     }
@@ -422,10 +492,10 @@ fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>
                 .into(),
         );
     }
-    if campaign.threshold > 0.0 {
+    if campaign.rule.threshold > 0.0 {
         limitations.push(format!(
             "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
-            campaign.threshold * campaign.v_width
+            campaign.rule.threshold * campaign.v_width
         ));
     }
 }

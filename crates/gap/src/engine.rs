@@ -11,6 +11,7 @@ use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
+use crate::given::settles;
 use crate::jacobian::Jacobian;
 use crate::normal::Normal;
 use crate::weights::{Weights, weigh};
@@ -71,7 +72,10 @@ struct State {
 
 /// Evaluates the model; `None` where it is not finite.
 fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
-    let whitener = Whitener::new(&assembly.noise, &p.a);
+    if design.criterion.simulates() && !settles(&p.a) {
+        return None;
+    }
+    let whitener = design.whitener(&assembly.noise, &p.a);
     let innovations = design.innovations(p, &whitener);
     let weights = weigh(design, &assembly.noise, p, &innovations);
     let n = design.samples() as f64;
@@ -87,6 +91,7 @@ fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
         Some(direct) => direct - 2.0 * design.log_slope(),
         None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope(),
     };
+    let deviance = deviance * design.criterion.share();
     deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
 }
 
@@ -121,7 +126,9 @@ pub(crate) fn fit(
             };
             let step = factor.solve(&normal.gradient);
             for (j, se) in own_se.iter_mut().enumerate() {
-                *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance).sqrt();
+                *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance
+                    / design.criterion.share())
+                .sqrt();
             }
             if step.iter().any(|x| !x.is_finite()) {
                 damping = (damping * 100.0).max(1e-8);
@@ -172,11 +179,12 @@ pub(crate) fn fit(
             design = d;
         }
         state = s;
-        if step_norm < 0.2 {
+        if step_norm < 0.2 * design.criterion.share() {
             break;
         }
     }
-    let samples = design.samples();
+    // Coloured errors count for less than one sample each.
+    let samples = (design.samples() as f64 * design.criterion.share()).ceil() as usize;
     let (mut sum, mut count) = (0.0, 0.0);
     for (number, w) in state.innovations.iter().enumerate() {
         for (k, w) in w.iter().enumerate() {
@@ -236,7 +244,7 @@ fn derivatives(
                 redesign = Design::new(ground.campaign, ground.grid, &assembly, |t| t.is_fit());
                 &redesign
             };
-            let whitener = Whitener::new(&assembly.noise, &p.a);
+            let whitener = there.whitener(&assembly.noise, &p.a);
             let moved = there.innovations(p, &whitener);
             let factor = (-(there.log_slope() - design.log_slope()) / n).exp();
             let slopes: Vec<Vec<f64>> = moved

@@ -41,7 +41,7 @@ pub(crate) fn propose(
             travelled: campaign.travel,
             period: None,
             from: WARM_UP.min(v.len()),
-            moves: motions(&v, 0.0, campaign.threshold).into(),
+            moves: motions(&v, 0.0, campaign.rule).into(),
             v,
         };
         let runs: Vec<Vec<f64>> =

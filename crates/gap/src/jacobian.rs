@@ -204,6 +204,12 @@ fn dense_rows(
     let tapped = tapped(design, track, p);
     let mut features = Features::new(design, track, k, b.len());
     let first = track.from.saturating_sub(LEAD);
+    // In a simulation the lags are those of the simulated output, the measured one less the error.
+    let error = design.criterion.simulates().then(|| whitener.apply(design.errors(track, p)));
+    let error = |t: usize| match &error {
+        Some(error) if t >= first => error[t - first],
+        _ => 0.0,
+    };
     let mut raw = Ring::new(size, whitener.ar.len() + 1);
     let mut white = Ring::new(size, whitener.ma.len() + 1);
     for t in 0..track.x.len() {
@@ -213,7 +219,8 @@ fn dense_rows(
         }
         let row = raw.row_mut(t);
         for i in 0..na {
-            row[i] = track.x[t.saturating_sub(i + 1)];
+            let past = t.saturating_sub(i + 1);
+            row[i] = track.x[past] - error(past);
         }
         for j in 0..nb {
             row[na + j] = -tapped[t.saturating_sub(j + 1)];
@@ -337,7 +344,7 @@ mod tests {
     use crate::assembly::{
         Assembly, BorderColumn, Clock, EquationColumn, Resting, Transition, TransitionLaw,
     };
-    use crate::campaign::Track;
+    use crate::campaign::{Criterion, Track};
     use crate::testing::small_campaign;
 
     /// The oracle of the Jacobian: central differences of half the sum of squares.
@@ -350,6 +357,31 @@ mod tests {
             |p: &Linear| 0.5 * design.innovations(p, &whitener).iter().flatten().map(|w| w * w).sum::<f64>();
         let innovations = design.innovations(p, &whitener).concat();
         let normal = Jacobian::new(&design, p, &whitener, None).normal(&innovations, &[]);
+        for i in 0..p.len() {
+            let mut by = vec![0.0; p.len()];
+            by[i] = 1.0;
+            let h = 1e-5;
+            let slope = (half_sum(&p.moved(&by, h)) - half_sum(&p.moved(&by, -h))) / (2.0 * h);
+            let scale = normal.entry(i, i).max(1.0);
+            assert!((slope - normal.gradient[i]).abs() < 1e-6 * scale, "{i}: {slope} {}", normal.gradient[i]);
+        }
+    }
+
+    #[test]
+    fn the_jacobian_of_a_simulation_agrees_with_differences() {
+        let (campaign, grid) = small_campaign();
+        let campaign = campaign.judged_by(Criterion::Simulation { share: 1.0 });
+        let f: Vec<f64> = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
+        let p = Linear { a: vec![-0.9, 0.3], b: vec![0.8, 0.3], f, d: Vec::new() };
+        let design = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+        // Here the filter 1/A moves with the parameters.
+        let errors = |p: &Linear| {
+            let whitener = design.whitener(&Assembly::default().noise, &p.a);
+            design.innovations(p, &whitener).concat()
+        };
+        let half_sum = |p: &Linear| 0.5 * errors(p).iter().map(|w| w * w).sum::<f64>();
+        let whitener = design.whitener(&Assembly::default().noise, &p.a);
+        let normal = Jacobian::new(&design, &p, &whitener, None).normal(&errors(&p), &[]);
         for i in 0..p.len() {
             let mut by = vec![0.0; p.len()];
             by[i] = 1.0;

@@ -225,7 +225,7 @@ fn looked_at(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
 fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
-    let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
+    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let visits = visited(campaign);
     let mut trials: Vec<(usize, f64, f64)> = Vec::new();
@@ -250,7 +250,7 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     }
     let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
     let innovations = innovations.concat();
-    let gains = Gains::new(&jacobian, &innovations, best.variance)?;
+    let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;
     let scored: Vec<Scored> = trials
         .iter()
         .map(|&(s, from, to)| {
@@ -282,7 +282,7 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
 fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let first = first_grid(campaign);
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
-    let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
+    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
     // Without the gauge no border value would be determined.
@@ -311,8 +311,9 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
             let mut c = vec![0.0; normal.size];
             terms.iter().for_each(|&(k, x)| c[offset + k] = x);
             let value: f64 = terms.iter().map(|&(k, x)| x * best.linear.f[offset - base + k]).sum();
-            let spread: f64 =
-                factor.solve(&c).iter().zip(&c).map(|(x, y)| x * y).sum::<f64>() * best.variance;
+            let spread: f64 = factor.solve(&c).iter().zip(&c).map(|(x, y)| x * y).sum::<f64>()
+                * best.variance
+                / design.criterion.share();
             if value * value < WORTH * spread {
                 keep[i] = false;
                 touched = i;
@@ -354,7 +355,7 @@ pub(crate) fn carried_over(fit: &Fit, grid: &Grid) -> crate::design::Linear {
 /// A finer grid, or nothing where no knot is worth its cost.
 fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
-    let whitener = Whitener::new(&best.assembly.noise, &best.linear.a);
+    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let mut places = suspicious(campaign, best, &design, &innovations);
     places.sort_by(|x, y| y.strength.total_cmp(&x.strength));
@@ -364,7 +365,7 @@ fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     }
     let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
     let innovations = innovations.concat();
-    let gains = Gains::new(&jacobian, &innovations, best.variance)?;
+    let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;
     let mut grid = best.grid.clone();
     let mut changed = false;
     for place in &places {

@@ -33,6 +33,7 @@ mod search;
 mod sensor;
 mod settings;
 mod simulate;
+mod simulators;
 mod spectral;
 mod spectrum;
 mod weights;

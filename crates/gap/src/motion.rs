@@ -28,12 +28,31 @@ pub(crate) struct Motion {
     pub(crate) path: f64,
 }
 
-/// Follows an input through a play of full width `play`; moves below `threshold` against the branch are no reversal.
+/// What counts as a reversal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ReversalRule {
+    /// A move smaller than this against the branch is no reversal (noise on `v`).
+    pub(crate) threshold: f64,
+    /// Where the new branch begins.
+    pub(crate) begins: Begins,
+}
+
+/// Where a new branch begins, once a travel beyond the threshold has confirmed the reversal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Begins {
+    /// At the sample that confirms it.
+    #[default]
+    Confirmed,
+    /// At the extreme that it is measured from.
+    AtExtreme,
+}
+
+/// Follows an input through a play of full width `play`.
 ///
 /// The play's output `p` stays within half the play of `v` and moves only when pushed; the branch is the direction in which it
 /// last moved. On each branch `p = v ∓ play/2`, a shift that the border tables absorb: the border coordinate stays the
 /// recorded `v`. What the play leaves is the rest after each reversal.
-pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
+pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
     let mut out = Vec::with_capacity(v.len());
     let Some(&first) = v.first() else { return out };
     let mut m = Motion {
@@ -52,6 +71,9 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
     let mut p = first;
     // The furthest point reached on the present branch: the next reversal is measured from here.
     let mut extreme = first;
+    // When that was, and where the play's output has been since.
+    let mut turned = 0;
+    let mut pushed_to = vec![first];
     out.push(m);
     for t in 1..v.len() {
         let step = v[t] - v[t - 1];
@@ -60,18 +82,27 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
         let pushed = p.max(v[t] - half).min(v[t] + half);
         let push = pushed - p;
         p = pushed;
+        pushed_to.push(p);
         m.reversal = false;
         m.moves = push != 0.0;
         if m.moves {
             let back = (extreme - p) * m.branch;
-            if m.branch == 0.0 || back > threshold {
+            if m.branch == 0.0 || back > rule.threshold {
                 m.branch = push.signum();
                 m.reversal = true;
                 m.loop_size = (extreme - m.turn).abs();
                 m.turn = extreme;
+                let earlier = (turned + 1..t).find(|&s| out[s].moves);
+                if let Some(since) = earlier.filter(|_| rule.begins == Begins::AtExtreme) {
+                    m.travel = 0.0;
+                    backdate(&mut out[since..], &pushed_to[since..t], &m);
+                    m.reversal = false;
+                }
                 extreme = p;
+                turned = t;
             } else if back <= 0.0 {
                 extreme = p;
+                turned = t;
             }
             m.travel = (p - m.turn).abs();
         }
@@ -82,6 +113,18 @@ pub(crate) fn motions(v: &[f64], play: f64, threshold: f64) -> Vec<Motion> {
     out
 }
 
+/// A reversal that only a travel beyond the threshold confirmed began at the extreme: the samples since then, with the play's
+/// output `p`, are on the new branch.
+fn backdate(samples: &mut [Motion], p: &[f64], confirmed: &Motion) {
+    for (k, (m, p)) in samples.iter_mut().zip(p).enumerate() {
+        m.branch = confirmed.branch;
+        m.turn = confirmed.turn;
+        m.travel = (p - confirmed.turn).abs();
+        m.loop_size = confirmed.loop_size;
+        m.reversal = k == 0;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,16 +132,27 @@ mod tests {
     #[test]
     fn a_small_return_inside_the_play_changes_no_branch() {
         let v = [0.0, 0.5, 0.9, 0.85, 0.95, 0.6, 0.3];
-        let branches: Vec<f64> = motions(&v, 0.2, 0.0).iter().map(|m| m.branch).collect();
+        let branches: Vec<f64> = motions(&v, 0.2, ReversalRule::default()).iter().map(|m| m.branch).collect();
         assert_eq!(branches, [0.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
-        let moves: Vec<bool> = motions(&v, 0.2, 0.0).iter().map(|m| m.moves).collect();
+        let moves: Vec<bool> = motions(&v, 0.2, ReversalRule::default()).iter().map(|m| m.moves).collect();
         assert_eq!(moves, [false, true, true, false, true, true, true]);
+    }
+
+    #[test]
+    fn a_reversal_above_the_threshold_begins_at_the_extreme() {
+        let v = [0.0, 0.5, 1.0, 0.95, 0.97, 0.8, 0.5];
+        let moves = motions(&v, 0.0, ReversalRule { threshold: 0.1, begins: Begins::AtExtreme });
+        let branches: Vec<f64> = moves.iter().map(|m| m.branch).collect();
+        assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0]);
+        let reversals: Vec<bool> = moves.iter().map(|m| m.reversal).collect();
+        assert_eq!(reversals, [false, true, false, true, false, false, false]);
+        assert!((moves[6].travel - 0.5).abs() < 1e-12 && (moves[5].turn - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn without_play_the_branch_is_the_sign_of_the_move() {
         let v = [0.0, 0.1, 0.1, 0.05, 0.2];
-        let branches: Vec<f64> = motions(&v, 0.0, 0.0).iter().map(|m| m.branch).collect();
+        let branches: Vec<f64> = motions(&v, 0.0, ReversalRule::default()).iter().map(|m| m.branch).collect();
         assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, 1.0]);
     }
 }

@@ -13,6 +13,11 @@ use crate::normal::Normal;
 
 /// Identifies the nominal model of a given order and places the border knots.
 pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
+    Ok(refine(campaign, first_fit(campaign, order)?, &|_| Assembly::default()))
+}
+
+/// The nominal model of a given order on the first grid.
+pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
     let grid = first_grid(campaign);
     let needed = 2 * (2 * order + grid.len());
     if campaign.fit_samples() < needed {
@@ -25,9 +30,8 @@ pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, Diagnos
     }
     let start = first_guess(campaign, &grid, order, &Assembly::default())?;
     let ground = Ground { campaign, grid: &grid };
-    let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 12)
-        .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })?;
-    Ok(refine(campaign, nominal, &|_| Assembly::default()))
+    fit(ground, &|_| Assembly::default(), &[], &start, 12)
+        .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })
 }
 
 /// Over-parameterised least squares `y(t) = −Σ aᵢ y(t−i) + Σ_ik g_ik h_k(t−i)`, then the best rank one of `g`.

@@ -2,7 +2,7 @@
 
 use crate::assembly::convolve;
 use crate::campaign::Campaign;
-use crate::design::{Design, Whitener};
+use crate::design::Design;
 use crate::effect::Stage;
 use crate::engine::Fit;
 use crate::gains::{Gains, Scored};
@@ -86,9 +86,10 @@ impl Omnibus {
 /// Runs the tests on the fit records.
 pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let design = Design::new(campaign, &fit.grid, &fit.assembly, |t| t.is_fit());
-    let whitener = Whitener::new(&fit.assembly.noise, &fit.linear.a);
+    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let innovations = design.innovations(&fit.linear, &whitener);
     let weights = crate::weights::weigh(&design, &fit.assembly.noise, &fit.linear, &innovations);
+    let share = design.criterion.share();
     let b = convolve(&fit.linear.b, &design.taps);
     let n = fit.linear.a.len();
     let mut names: Vec<Group> = Vec::new();
@@ -97,6 +98,11 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         let u = design.input(part, &fit.linear.f);
         let raw: Vec<f64> = (0..u.len()).map(|t| part.rows.dot(t, &fit.linear.f)).collect();
         let moves = &track.moves;
+        // A simulator is asked about what it simulates, not about the measured past.
+        let mut seen = part.x.clone();
+        if design.criterion.simulates() {
+            seen[part.from..].iter_mut().zip(&innovations[number]).for_each(|(x, w)| *x -= w);
+        }
         let mut columns: Vec<(Group, Vec<f64>)> = Vec::new();
         // Columns beside u: they pass B.
         let through = |g: Vec<f64>| whitener.column(&g, &b, part.from);
@@ -105,7 +111,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         let at = |x: &[f64], t: usize, lag: usize| x[t.saturating_sub(lag)];
         let range = 0..u.len();
         for lag in [n + 1, n + 2] {
-            columns.push((Group::Lags, direct(range.clone().map(|t| at(&part.x, t, lag)).collect())));
+            columns.push((Group::Lags, direct(range.clone().map(|t| at(&seen, t, lag)).collect())));
             columns
                 .push((Group::Lags, direct(range.clone().map(|t| at(&u, t, b.len() + lag - n)).collect())));
         }
@@ -144,7 +150,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         columns.push((Group::Time, through(range.clone().map(|t| own(t) * raw[t]).collect())));
         for power in [2, 3] {
             columns
-                .push((Group::Level, direct(range.clone().map(|t| at(&part.x, t, 1).powi(power)).collect())));
+                .push((Group::Level, direct(range.clone().map(|t| at(&seen, t, 1).powi(power)).collect())));
         }
         if number == 0 {
             names = columns.iter().map(|c| c.0).collect();
@@ -156,7 +162,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     }
     let jacobian = Jacobian::new(&design, &fit.linear, &whitener, weights.scale.as_deref());
     let weighted = weights.applied(&innovations);
-    let gains = Gains::new(&jacobian, &weighted, fit.variance)?;
+    let gains = Gains::new(&jacobian, &weighted, fit.variance / share)?;
     let all: Vec<Scored> = extra.iter().map(|column| gains.score(weights.applied(column))).collect();
     let mut groups: Vec<(Group, f64, usize)> = Vec::new();
     for group in [Group::Lags, Group::Motion, Group::Reversal, Group::Time, Group::Level] {
@@ -175,9 +181,13 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     // Samples without weight say nothing.
     let count = scaled.iter().flatten().filter(|w| **w != 0.0).count().max(1);
     let r = crate::spectrum::autocorrelation(&scaled, LAGS);
-    let ljung_box = r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
-    let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64;
-    let scatter = scatter(campaign, &scaled);
+    // Errors of a simulation are coloured whatever the noise is.
+    let white = f64::from(u8::from(!design.criterion.simulates()));
+    let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
+    let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
+    let (gain, dof) = scatter(campaign, &scaled);
+    // Errors of a simulation are large where the model is wrong, which says nothing about noise.
+    let scatter = (white * gain, dof);
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
     let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);

@@ -1,39 +1,220 @@
-//! The order of the linear part, where the rig does not declare it.
+//! Order, lead and criterion of the nominal model, where the rig declares no order.
 
-use crate::campaign::Campaign;
-use crate::engine::Fit;
+use std::f64::consts::LN_2;
+
+use crate::assembly::Assembly;
+use crate::campaign::{Campaign, Criterion, Track};
+use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
-use crate::given::stable;
-use crate::nominal::identify;
-use crate::simulate::free_run;
+use crate::given::settles;
+use crate::knots::{first_grid, refine};
+use crate::motion::Begins;
+use crate::nominal::{first_fit, identify};
+use crate::score::innovations;
+use crate::simulate::{free_run, repeat_variance};
+use crate::spectrum::{autocorrelation, unpredictable_variance};
+use crate::workers::Workers;
 
-/// Identifies orders `1…most` and keeps the smallest that simulates the fit records within 3 % of the best one.
+/// A structure chosen from the fit records.
+#[derive(Debug)]
+pub(crate) struct Chosen {
+    /// The records with the lead and the criterion chosen.
+    pub(crate) campaign: Campaign,
+    pub(crate) fit: Fit,
+    lead: usize,
+}
+
+/// Largest lead tried, samples.
+const LEADS: usize = 2;
+/// A structure this much worse than the best, as a ratio of mean squares, is as good if it is simpler.
+const AS_GOOD: f64 = 1.03;
+/// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
+const EFFICIENT: f64 = 0.8;
+/// A simulation error up to this many times the variance between repeated periods is noise for the most part.
+const NOISE: f64 = 2.0;
+/// Share of the innovations' variance foretold by their past, from which the equation error is not white for any use.
+const COLOURED: f64 = 0.1;
+/// Rounds of fitting as a simulator while structures are compared.
+const ROUNDS: usize = 10;
+
+/// What is chosen besides the criterion.
+#[derive(Debug, Clone, Copy)]
+struct Structure {
+    order: usize,
+    /// Samples by which the output follows the input sooner than in the paper.
+    lead: usize,
+    begins: Begins,
+}
+
+impl Structure {
+    /// The records as this structure sees them.
+    fn applied(&self, campaign: &Campaign) -> Campaign {
+        campaign.with_branches_from(self.begins).led_by(self.lead)
+    }
+}
+
+/// One structure tried: mean square simulation errors of the fit one step ahead and of the fit as a simulator.
+struct Tried {
+    structure: Structure,
+    one_step: f64,
+    simulator: Option<Fit>,
+}
+
+impl Tried {
+    fn simulated(&self) -> f64 {
+        self.simulator.as_ref().map_or(f64::INFINITY, |f| f.power)
+    }
+}
+
+/// Chooses among orders `1…most` and leads of up to [`LEADS`] samples by the simulation error on the fit records.
 ///
-/// Equation-error criteria prefer high orders on real records, whose noise is never white; a simulation error that hardly falls
-/// is no reason for another lag.
-pub(crate) fn choose(campaign: &Campaign, most: usize) -> Result<Fit, DiagnoseError> {
+/// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
+/// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
+/// says, and models are compared as simulators from there on.
+pub(crate) fn choose(
+    workers: &impl Workers,
+    campaign: &Campaign,
+    most: usize,
+) -> Result<Chosen, DiagnoseError> {
+    let attempts = workers.map(&structures(campaign, most), |s| attempt(campaign, *s));
     let mut tried = Vec::new();
     let mut failure = None;
-    for n in 1..=most.max(1) {
-        match identify(campaign, n) {
-            Ok(fit) if stable(&fit.linear.a) => tried.push((simulation_error(campaign, &fit), fit)),
-            Ok(_) => {}
+    for attempt in attempts {
+        match attempt {
+            Ok(found) => tried.push(found),
             Err(e) => failure = failure.or(Some(e)),
         }
     }
-    let least = tried.iter().map(|t| t.0).fold(f64::INFINITY, f64::min);
-    tried.into_iter().find(|t| t.0 <= 1.03 * least).map(|t| t.1).ok_or_else(|| {
-        failure.unwrap_or_else(|| DiagnoseError::Singular {
-            reason: "every order tried gives an unstable model".into(),
-        })
-    })
+    if tried.is_empty() {
+        return Err(failure.unwrap_or_else(unstable));
+    }
+    let by_steps =
+        simplest(&tried, |t| t.one_step).map(|found| one_step(campaign, found.structure)).transpose()?;
+    let by_runs = simplest(&tried, Tried::simulated).and_then(|t| Some((t.structure, t.simulator.as_ref()?)));
+    match (by_steps, by_runs) {
+        (Some(steps), Some((_, runs))) if steps.suffices(runs) => Ok(steps),
+        (_, Some((structure, runs))) => Ok(simulator(campaign, structure, runs)),
+        (Some(steps), None) => Ok(steps),
+        (None, None) => Err(unstable()),
+    }
 }
 
+/// The structure identified one step ahead.
+fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, DiagnoseError> {
+    let campaign = structure.applied(campaign);
+    let fit = identify(&campaign, structure.order)?;
+    Ok(Chosen { campaign, fit, lead: structure.lead })
+}
+
+/// The structure identified as a simulator, from its fit on the first grid.
+fn simulator(campaign: &Campaign, structure: Structure, first: &Fit) -> Chosen {
+    let led = structure.applied(campaign);
+    let share = independent_share(&led.judged_by(SIMULATION), first);
+    let campaign = led.judged_by(Criterion::Simulation { share });
+    let mut fit = first.clone();
+    fit.deviance *= share;
+    let fit = refine(&campaign, fit, &|_| Assembly::default());
+    Chosen { campaign, fit, lead: structure.lead }
+}
+
+impl Chosen {
+    /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as
+    /// good as a simulator's fit and its innovations are white.
+    fn suffices(&self, simulator: &Fit) -> bool {
+        if !settles(&self.fit.linear.a) {
+            return false;
+        }
+        let error = simulation_error(&self.campaign, &self.fit);
+        let noise = repeat_variance(&self.campaign, Track::is_fit).map_or(0.0, |(variance, _)| variance);
+        let w = innovations(&self.campaign, &self.fit, Track::is_fit);
+        let colour = 1.0 - unpredictable_variance(&w) / self.fit.power.max(1e-300);
+        error < NOISE * noise || (colour < COLOURED && simulator.power > EFFICIENT * error)
+    }
+
+    /// The choice in words.
+    pub(crate) fn told(&self) -> String {
+        let lead = match self.lead {
+            0 => String::new(),
+            1 => " and an output that follows the input within its sample".to_owned(),
+            lead => format!(" and an output {} sample ahead of the input", lead - 1),
+        };
+        let criterion = match self.campaign.criterion {
+            Criterion::OneStep => "",
+            Criterion::Simulation { .. } => {
+                "; the equation error is far from white, so models are fitted and compared by their free run"
+            }
+        };
+        format!(
+            "the rig declares no order: order {}{lead} was chosen from the fit records{criterion}",
+            self.fit.linear.a.len()
+        )
+    }
+}
+
+/// Each error counted for one.
+const SIMULATION: Criterion = Criterion::Simulation { share: 1.0 };
+
+fn unstable() -> DiagnoseError {
+    DiagnoseError::Singular { reason: "every order tried gives an unstable model".into() }
+}
+
+/// Every structure, simpler ones first.
+fn structures(campaign: &Campaign, most: usize) -> Vec<Structure> {
+    // Without a threshold a reversal is confirmed by the first move.
+    let begins: &[Begins] = match campaign.rule.threshold > 0.0 {
+        true => &[Begins::Confirmed, Begins::AtExtreme],
+        false => &[Begins::Confirmed],
+    };
+    let mut all = Vec::new();
+    for lead in 0..=LEADS {
+        for order in 1..=most.max(1) {
+            all.extend(begins.iter().map(|&begins| Structure { order, lead, begins }));
+        }
+    }
+    all
+}
+
+/// The first structure that is as good as the best; nothing where none is any good.
+fn simplest(tried: &[Tried], error: impl Fn(&Tried) -> f64) -> Option<&Tried> {
+    let least = tried.iter().map(&error).fold(f64::INFINITY, f64::min);
+    tried.iter().find(|t| least.is_finite() && error(t) <= AS_GOOD * least)
+}
+
+/// Fits one structure on the first grid, one step ahead and as a simulator.
+fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseError> {
+    let led = &structure.applied(campaign);
+    let one_step = first_fit(led, structure.order)?;
+    let simulates = led.judged_by(SIMULATION);
+    let grid = first_grid(led);
+    let mut start = one_step.linear.clone();
+    // Poles pulled in until the model forgets.
+    while !settles(&start.a) {
+        start.a.iter_mut().enumerate().for_each(|(i, a)| *a *= 0.99_f64.powi(i as i32 + 1));
+    }
+    let ground = Ground { campaign: &simulates, grid: &grid };
+    let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
+    let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
+    Ok(Tried { structure, one_step: error, simulator })
+}
+
+/// Mean square simulation error over the counted samples of the fit records.
 fn simulation_error(campaign: &Campaign, fit: &Fit) -> f64 {
     let mut sum = 0.0;
     for (number, track) in campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()) {
         let y = free_run(campaign, fit, number, track);
         sum += y.iter().zip(&track.y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
     }
-    sum
+    sum / campaign.fit_samples().max(1) as f64
+}
+
+/// Independent errors per sample: one in `τ = k/ln 2` samples, `k` the lag at which the autocorrelation has fallen to a half.
+///
+/// Of coloured errors `1 + 2Σρ²` samples tell as much about their variance as one white one (Bartlett), which is `τ` for
+/// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
+fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
+    let errors = innovations(campaign, fit, |t| t.is_fit());
+    let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
+    let rho = autocorrelation(&errors, (longest / 4).max(1));
+    let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
+    (LN_2 / half as f64).min(1.0)
 }

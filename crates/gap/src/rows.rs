@@ -6,7 +6,7 @@ use statrs::function::erf::erfc;
 
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Slow, TransitionLaw};
 use crate::borders::{Grid, side};
-use crate::campaign::{Campaign, Track};
+use crate::campaign::{Campaign, Criterion, Track};
 use crate::motion::Motion;
 
 /// Sparse rows, one a sample.
@@ -61,14 +61,18 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
 
 /// The rows of one track: first the border values of `grid`, then the assembly's border columns.
 pub(crate) fn rows(
-    (campaign, track): (&Campaign, &Track),
+    (campaign, number, track): (&Campaign, usize, &Track),
     moves: &[Motion],
     grid: &Grid,
     assembly: &Assembly,
 ) -> Rows {
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
-    let mut builder = Builder::new(grid, assembly, track.v[0]);
+    let mut builder = Builder::new(grid, assembly, track.v[0], campaign.criterion);
+    let own = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
+    if let Some(start) = assembly.border_columns.iter().position(own) {
+        builder.current.push((columns + start as u32, 1.0));
+    }
     let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
     let mut row: Vec<(u32, f64)> = Vec::new();
     for (t, m) in moves.iter().enumerate() {
@@ -85,6 +89,10 @@ pub(crate) fn rows(
         row.clear();
         row.extend_from_slice(&builder.current);
         for (j, column) in assembly.border_columns.iter().enumerate() {
+            if let BorderColumn::Start { .. } = column {
+                // Part of the working point.
+                continue;
+            }
             let s = match column {
                 BorderColumn::BranchSlow { clock: c } | BorderColumn::SideSlow { clock: c, .. } => {
                     clock(*c, campaign, track, t, m.path)
@@ -123,7 +131,7 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
                 0.0
             }
         }
-        BorderColumn::SideSlow { .. } => held,
+        BorderColumn::SideSlow { .. } | BorderColumn::Start { .. } => held,
         BorderColumn::BranchSlow { .. } => {
             if m.moves {
                 m.branch * s
@@ -145,11 +153,23 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64) -> Self {
+    fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64, criterion: Criterion) -> Self {
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
         let start = grid.hat(usize::from(v >= 0.5), v);
-        let current = start.iter().map(|&(i, w)| (i as u32, w)).collect();
-        Self { grid, assembly, current, fading: Vec::new(), scratch: vec![0.0; grid.len()] }
+        let current = match criterion {
+            Criterion::OneStep => start.iter().map(|&(i, w)| (i as u32, w)).collect(),
+            // A simulation goes on from there for long: the middle between the borders is never far off.
+            Criterion::Simulation { .. } => {
+                [0, 1].iter().flat_map(|&s| grid.hat(s, v)).map(|(i, w)| (i as u32, 0.5 * w)).collect()
+            }
+        };
+        Self {
+            grid,
+            assembly,
+            current,
+            fading: Vec::new(),
+            scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
+        }
     }
 
     /// A reversal: notes what will fade.

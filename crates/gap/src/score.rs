@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::campaign::{Campaign, Track};
-use crate::design::{Design, Whitener};
+use crate::design::Design;
 use crate::diagnosis::ResidualPicture;
 use crate::engine::Fit;
 use crate::weights::weigh;
@@ -11,7 +11,7 @@ use crate::weights::weigh;
 /// Innovations of a fitted model on the chosen tracks.
 pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track) -> bool) -> Vec<Vec<f64>> {
     let design = Design::new(campaign, &fit.grid, &fit.assembly, chosen);
-    design.innovations(&fit.linear, &Whitener::new(&fit.assembly.noise, &fit.linear.a))
+    design.innovations(&fit.linear, &design.whitener(&fit.assembly.noise, &fit.linear.a))
 }
 
 /// Mean log predictive density a sample on the hold-out records, dimensionless output.
@@ -21,7 +21,7 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
     if n == 0 {
         return None;
     }
-    let whitener = Whitener::new(&fit.assembly.noise, &fit.linear.a);
+    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let w = design.innovations(&fit.linear, &whitener);
     let variance = fit.variance;
     if let Some((share, ratio)) = fit.assembly.noise.mixture {

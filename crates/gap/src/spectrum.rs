@@ -94,6 +94,40 @@ pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Mean square over all tracks.
+pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    signals.iter().flatten().map(|x| x * x).sum::<f64>() / count.max(1) as f64
+}
+
+/// Order of the autoregression behind [`unpredictable_variance`].
+const MEMORY: usize = 12;
+
+/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks
+/// (Levinson's recursion).
+pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    let lagged = |lag: usize| -> f64 {
+        signals.iter().map(|x| x.iter().zip(x.iter().skip(lag)).map(|(a, b)| a * b).sum::<f64>()).sum()
+    };
+    let covariance: Vec<f64> = (0..=MEMORY).map(|lag| lagged(lag) / count.max(1) as f64).collect();
+    let mut variance = covariance[0];
+    let mut a: Vec<f64> = Vec::new();
+    for order in 0..MEMORY {
+        if variance <= 1e-12 * covariance[0] {
+            break;
+        }
+        let partial =
+            covariance[order + 1] + a.iter().enumerate().map(|(i, a)| a * covariance[order - i]).sum::<f64>();
+        let reflection = -partial / variance;
+        let mut next: Vec<f64> = (0..order).map(|i| a[i] + reflection * a[order - 1 - i]).collect();
+        next.push(reflection);
+        a = next;
+        variance *= 1.0 - reflection * reflection;
+    }
+    variance.max(0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,5 +145,21 @@ mod tests {
             }
             assert!((value - (re * re + im * im)).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+        let mut state = 1_u64;
+        let mut white = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
+        };
+        let mut x = vec![0.0, 0.0];
+        for t in 2..20_000 {
+            x.push(1.6 * x[t - 1] - 0.7 * x[t - 2] + white());
+        }
+        assert!((unpredictable_variance(&[x.clone()]) - 1.0).abs() < 0.05);
+        assert!(mean_square(&[x]) > 5.0);
+        assert!(unpredictable_variance(&[]).abs() < 1e-12);
     }
 }

@@ -11,10 +11,10 @@
 //! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
-use super::{Variant, own};
-use crate::assembly::{Transition, TransitionLaw};
+use super::{Scene, Variant, fitted_tracks, own};
+use crate::assembly::{BorderColumn, Transition, TransitionLaw};
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::OldBorder]
         .into_iter()
         .map(|law| {
@@ -27,8 +27,13 @@ pub(super) fn variants() -> Vec<Variant> {
                     ]
                 })
                 .collect();
+            // A working point that remembers was somewhere when the record began.
+            let simulates = scene.campaign.criterion.simulates();
+            let tracks = if simulates { fitted_tracks(scene.campaign) } else { Vec::new() };
             Variant::conditional(starts, move |p, assembly| {
                 assembly.transition = Some(Transition { length: p[0], shape: p[1], law });
+                let columns = tracks.iter().map(|&track| BorderColumn::Start { track });
+                assembly.border_columns.extend(columns);
             })
         })
         .collect()

@@ -88,7 +88,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::InputDelay => input_delay::variants(),
         Effect::InputNoise => input_noise::variants(scene),
         Effect::Backlash => backlash::variants(),
-        Effect::GradualTransition => gradual_transition::variants(),
+        Effect::GradualTransition => gradual_transition::variants(scene),
         Effect::RateDependence => rate_dependence::variants(scene),
         Effect::Creep => creep::variants(scene),
         Effect::BorderWear => border_wear::variants(),

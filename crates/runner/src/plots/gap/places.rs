@@ -22,7 +22,8 @@ pub(super) fn figure(report: &Report) -> String {
     let sheet = Sheet {
         title: format!("{}: where the gap lies", report.rig.name),
         notes: vec![
-            "Share of the one-step errors' energy beyond the noise, axis by axis; all records, nominal model.".to_owned(),
+            "Share of the errors' energy beyond the noise, axis by axis; all records, nominal model."
+                .to_owned(),
         ],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(HOT, 10.0)), format!("significant: q < {SIGNIFICANT}")),

@@ -16,7 +16,7 @@ const AFTER: RGBColor = OKABE_ITO[0];
 /// Autocorrelations with the band of white noise, and spectra.
 pub(super) fn figure(report: &Report) -> String {
     let sheet = Sheet {
-        title: format!("{}: what the one-step predictions miss, before and after", report.rig.name),
+        title: format!("{}: what the model misses, before and after", report.rig.name),
         notes: vec!["Fit records. White noise stays within the dotted band at 19 of 20 lags, and has a flat spectrum.".to_owned()],
         legend: vec![
             Entry::new(Sample::Disc(Pen::new(BEFORE, 1.5), false), "nominal model"),
