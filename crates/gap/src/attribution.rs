@@ -84,8 +84,10 @@ impl<W: Workers> Attribution<'_, W> {
         if left < 0.4 * least {
             return None;
         }
+        // Details of the borders and large errors here and there take what any inexact law leaves.
+        let stopgaps = [Effect::BorderResolution, Effect::Outliers];
         let others: Vec<Effect> =
-            self.settings.effects.iter().copied().filter(|e| *e != Effect::BorderResolution).collect();
+            self.settings.effects.iter().copied().filter(|e| !stopgaps.contains(e)).collect();
         let seeds = singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
         let pairs = seeds.flat_map(|seed| {
             let present = seed.parts[0].effect;

@@ -5,7 +5,7 @@ use switchback_estimator::rig::Rig;
 use crate::attribution::{Attribution, detail};
 use crate::campaign::{Campaign, Criterion};
 use crate::closure::{Simulated, measure};
-use crate::decide::{Odds, SIGNIFICANT, odds, verdict};
+use crate::decide::{Odds, SIGNIFICANT, odds, odds_together, verdict};
 use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
 use crate::effect::Effect;
 use crate::engine::Fit;
@@ -131,6 +131,8 @@ impl Plan {
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
         let mut tests = omnibus(&self.campaign, &best.fit);
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
+        let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
+        let mut odds = odds(self.nominal.bic(), &effects, left);
         let mut joint = None;
         if significant
             && self.settings.max_effects > 1
@@ -138,26 +140,11 @@ impl Plan {
         {
             let beside_pair = omnibus(&self.campaign, &pair.fit);
             let left_by_pair = beside_pair.as_ref().map_or(0.0, Omnibus::excess);
-            let together = odds(self.nominal.bic(), &[pair.bic()], left_by_pair).effects[0];
-            if together >= self.settings.name_at && self.better_held_out(&pair.fit, &best.fit) {
-                (tests, left, joint) = (beside_pair, left_by_pair, Some(pair));
+            let together = odds_together(self.nominal.bic(), &pair, left_by_pair, &effects);
+            if together.most() >= self.settings.name_at && self.better_held_out(&pair.fit, &best.fit) {
+                (tests, left, odds, joint) = (beside_pair, left_by_pair, together, Some(pair));
             }
         }
-        let bics: Vec<f64> = singles.iter().map(Explanation::evidence).collect();
-        let odds = match &joint {
-            // With two effects named together the singles are no rivals any more.
-            Some(pair) => {
-                let mut o = odds(self.nominal.bic(), &[pair.bic()], left);
-                let together = o.effects[0];
-                let members = pair.effects();
-                o.effects = singles
-                    .iter()
-                    .map(|s| if members.contains(&s.parts[0].effect) { together } else { 0.0 })
-                    .collect();
-                o
-            }
-            None => odds(self.nominal.bic(), &bics, left),
-        };
         let odds = match self.held_out_closure(&best.fit) {
             Some(closure) if significant => weighed_by_closure(odds, closure),
             _ => odds,

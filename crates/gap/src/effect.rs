@@ -192,6 +192,19 @@ impl Effect {
         }
     }
 
+    /// Whether the effect's laws are supple enough to imitate others.
+    pub(crate) fn is_supple(self) -> bool {
+        matches!(
+            self,
+            Self::ColouredNoise
+                | Self::GainDrift
+                | Self::Resonance
+                | Self::SensorDrift
+                | Self::SensorNonlinearity
+                | Self::BorderResolution
+        )
+    }
+
     /// Whether the effect follows a clock or has a phase of its own in every record, so that what was fitted need not hold
     /// in other records.
     pub(crate) fn is_of_its_record(self) -> bool {
