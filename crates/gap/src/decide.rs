@@ -10,6 +10,9 @@ use crate::settings::Settings;
 /// their laws and their own parameters.
 pub(crate) const SIGNIFICANT: f64 = 40.0;
 
+/// Rivals in one answer at most.
+const WIDEST: usize = 3;
+
 /// Deviance left in general that is still no gap worth a verdict: on ten thousand samples, a tenth of the noise's
 /// standard deviation.
 const IMMATERIAL: f64 = 100.0;
@@ -171,6 +174,16 @@ pub(crate) fn verdict(
         }
         class.push(effect);
         sum += p;
+    }
+    if class.len() > WIDEST {
+        // So many rivals are stand-ins for something else.
+        return Verdict {
+            status: Status::Unexplained,
+            effects: Vec::new(),
+            class: Vec::new(),
+            stage: points_at.or(Some(first.stage())),
+            probability: 1.0 - p,
+        };
     }
     let twins = class.len() > 1
         && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
