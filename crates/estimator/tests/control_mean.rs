@@ -77,14 +77,15 @@ proptest! {
             }
             for (k, means) in [means.first, means.second].iter().enumerate() {
                 for (p, (mean, sum)) in means.iter().zip(&sums[k]).enumerate() {
+                    // Normal equations of third order have condition numbers of 10⁷: rounding takes as many digits.
                     prop_assert!(
-                        (mean - sum).abs() < 1e-10 * (1.0 + sizes[k]),
+                        (mean - sum).abs() < 1e-8 * (1.0 + sizes[k]),
                         "method {}, term {}, parameter {}: {} against {} of {}", m, k + 1, p, mean, sum, sizes[k]
                     );
                 }
             }
             let consistent = m < 4 && colour.is_none();
-            prop_assert!(!consistent || sums[0].iter().all(|x| x.abs() < 1e-9 * (1.0 + sizes[0])), "method {}: {:?}", m, sums[0]);
+            prop_assert!(!consistent || sums[0].iter().all(|x| x.abs() < 1e-8 * (1.0 + sizes[0])), "method {}: {:?}", m, sums[0]);
         }
     }
 }
