@@ -1,18 +1,26 @@
-//! Identifies measured rigs by `free` and by both yardsticks, and writes how well each simulates the held-out record.
+//! Identifies measured rigs by `free` and by both yardsticks, writes how well each simulates the held-out record, and
+//! diagnoses the gap.
 //!
 //! `cargo run --example measured_rigs -- ../shared/rigs`: the folder holds `mr-damper`, `pneumatic-seal` and `piezo-stage` (their public
-//! sources are in the README). Writes `reports/measured-rigs/fits.csv`.
+//! sources are in the README). Writes `reports/measured-rigs`: `fits.csv`, and of each rig the verdict with the figures that hold no
+//! sample of its records.
 
 use std::path::Path;
+use switchback::diagnosis::{self, Subject};
 use switchback::identification::{Method, identify};
 use switchback::output::{Artefacts, OutputFolder};
+use switchback::plots;
 use switchback_estimator::rig::Usage;
 
 const RIGS: [&str; 3] = ["mr-damper", "pneumatic-seal", "piezo-stage"];
 const METHODS: [Method; 3] = [Method::Free, Method::Memoryless, Method::LinearArx];
 
+/// Figures made of shares and probabilities, not of samples.
+const FIGURES: [&str; 2] = ["where.svg", "candidates.svg"];
+
 fn main() -> miette::Result<()> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| "../shared/rigs".to_owned());
+    let mut artefacts = Artefacts::default();
     let mut table = String::from("rig,record,method,order,delay,border_points,fit_percent\n");
     for name in RIGS {
         let path = Path::new(&folder).join(name).join("rig.toml");
@@ -36,8 +44,15 @@ fn main() -> miette::Result<()> {
                 }
             }
         }
+        let report = diagnosis::examine(Subject::choose(rig, None)?).map_err(|e| e.in_file(&path))?;
+        let words = diagnosis::words(&report, None);
+        println!("{words}");
+        artefacts.add(format!("gap-{name}.txt"), words);
+        for figure in plots::gap::figures(&report).into_iter().filter(|f| FIGURES.contains(&f.name.as_str()))
+        {
+            artefacts.add(format!("gap-{name}-{}", figure.name), figure.svg);
+        }
     }
-    let mut artefacts = Artefacts::default();
     artefacts.add("fits.csv", table);
     OutputFolder::claim(Path::new("reports/measured-rigs"))?.commit(&artefacts)?;
     Ok(())

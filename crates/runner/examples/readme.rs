@@ -39,6 +39,9 @@ fn sections() -> miette::Result<Vec<(&'static str, String)>> {
         ("assumptions-broken", study("assumptions-broken")?),
         ("measured-rigs", fits(Path::new("reports/measured-rigs/fits.csv"))?),
         ("gap", verdict(Path::new("reports/gap-leaf-spring-with-backlash/verdict.txt"))?),
+        ("gap-piezo-stage", verdict(Path::new("reports/measured-rigs/gap-piezo-stage.txt"))?),
+        ("gap-mr-damper", verdict(Path::new("reports/measured-rigs/gap-mr-damper.txt"))?),
+        ("blind", format!("```text\n{}```\n", text(Path::new("reports/blind-sample/summary.txt"))?)),
         ("speed", text(Path::new("reports/speed/table.md"))?),
     ])
 }

@@ -23,7 +23,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write gap.json, the figures and the next experiment into this folder.
+    /// Also write the verdict, gap.json, the figures and the next experiment into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -46,6 +46,7 @@ pub fn run(args: &Args) -> CommandResult {
 fn artefacts(report: &Report) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
+    artefacts.add("verdict.txt", diagnosis::words(report, None));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);
     }
