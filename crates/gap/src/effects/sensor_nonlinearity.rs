@@ -1,7 +1,7 @@
 //! The sensor's characteristic is curved.
 //!
 //! ```text
-//! x = y + θ₂y² + θ₃y³ (+ θ₄y⁴),  or  x = y + Σ hⱼ bump((y − cⱼ)/s);   likelihood with its Jacobian Σ ln dx/dy
+//! x = y + θ₂y² + θ₃y³ + … up to y², y³, y⁴ or y⁷,  or  x = y + Σ hⱼ bump((y − cⱼ)/s);   likelihood with its Jacobian Σ ln dx/dy
 //! ```
 //!
 //! Parameters: coefficients of the inverse characteristic, or heights of six bumps over the range of y; output in standard
@@ -12,10 +12,10 @@ use super::{Scene, Variant, own};
 use crate::sensor::Bumps;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let mut out: Vec<Variant> = [1, 2, 3]
+    let mut out: Vec<Variant> = [1, 2, 3, 6]
         .into_iter()
         .map(|count| {
-            let names = ["theta2", "theta3", "theta4"];
+            let names = ["theta2", "theta3", "theta4", "theta5", "theta6", "theta7"];
             let start = (0..count)
                 .map(|k| own(names[k], "per standard deviation of y", 0.0, (-0.6, 0.6), 0.0005))
                 .collect();
