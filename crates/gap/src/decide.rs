@@ -1,7 +1,7 @@
 //! From fitted explanations to a verdict with calibrated probabilities.
 
 use crate::diagnosis::{Status, Verdict};
-use crate::effect::Effect;
+use crate::effect::{Effect, Stage};
 use crate::explain::Explanation;
 use crate::omnibus::Omnibus;
 use crate::settings::Settings;
@@ -120,6 +120,10 @@ pub(crate) fn odds_together(
     together
 }
 
+fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
+    Verdict { status, effects: Vec::new(), class: Vec::new(), stage, probability }
+}
+
 /// The verdict on one or several effects.
 pub(crate) fn verdict(
     ranked: &[(Effect, f64)],
@@ -130,31 +134,14 @@ pub(crate) fn verdict(
 ) -> Verdict {
     let points_at = left.and_then(Omnibus::stage);
     if odds.none >= 0.5 {
-        return Verdict {
-            status: Status::None,
-            effects: Vec::new(),
-            class: Vec::new(),
-            stage: None,
-            probability: odds.none,
-        };
+        return naming_nothing(Status::None, None, odds.none);
     }
     if odds.unexplained >= 0.5 {
-        return Verdict {
-            status: Status::Unexplained,
-            effects: Vec::new(),
-            class: Vec::new(),
-            stage: ranked.first().map(|r| r.0.stage()).filter(|_| points_at.is_none()).or(points_at),
-            probability: odds.unexplained,
-        };
+        let stage = points_at.or(ranked.first().map(|r| r.0.stage()));
+        return naming_nothing(Status::Unexplained, stage, odds.unexplained);
     }
     let Some(&(first, p)) = ranked.first() else {
-        return Verdict {
-            status: Status::Unexplained,
-            effects: Vec::new(),
-            class: Vec::new(),
-            stage: points_at,
-            probability: odds.unexplained,
-        };
+        return naming_nothing(Status::Unexplained, points_at, odds.unexplained);
     };
     if p >= settings.name_at {
         let effects = joint.map_or_else(|| vec![first], Explanation::effects);
@@ -177,13 +164,7 @@ pub(crate) fn verdict(
     }
     if class.len() > WIDEST {
         // So many rivals are stand-ins for something else.
-        return Verdict {
-            status: Status::Unexplained,
-            effects: Vec::new(),
-            class: Vec::new(),
-            stage: points_at.or(Some(first.stage())),
-            probability: 1.0 - p,
-        };
+        return naming_nothing(Status::Unexplained, points_at.or(Some(first.stage())), 1.0 - p);
     }
     let twins = class.len() > 1
         && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));

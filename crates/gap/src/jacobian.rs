@@ -347,7 +347,19 @@ mod tests {
     use crate::campaign::{Criterion, Track};
     use crate::testing::small_campaign;
 
-    /// The oracle of the Jacobian: central differences of half the sum of squares.
+    /// Central differences of half the sum of squares.
+    fn gradient_is_the_slope(normal: &Normal, p: &Linear, half_sum: impl Fn(&Linear) -> f64) {
+        for i in 0..p.len() {
+            let mut by = vec![0.0; p.len()];
+            by[i] = 1.0;
+            let h = 1e-5;
+            let slope = (half_sum(&p.moved(&by, h)) - half_sum(&p.moved(&by, -h))) / (2.0 * h);
+            let scale = normal.entry(i, i).max(1.0);
+            assert!((slope - normal.gradient[i]).abs() < 1e-6 * scale, "{i}: {slope} {}", normal.gradient[i]);
+        }
+    }
+
+    /// The oracle of the Jacobian under one step.
     fn check(assembly: &Assembly, p: &Linear) {
         let (campaign, grid) = small_campaign();
         let design = Design::new(&campaign, &grid, assembly, Track::is_fit);
@@ -357,14 +369,7 @@ mod tests {
             |p: &Linear| 0.5 * design.innovations(p, &whitener).iter().flatten().map(|w| w * w).sum::<f64>();
         let innovations = design.innovations(p, &whitener).concat();
         let normal = Jacobian::new(&design, p, &whitener, None).normal(&innovations, &[]);
-        for i in 0..p.len() {
-            let mut by = vec![0.0; p.len()];
-            by[i] = 1.0;
-            let h = 1e-5;
-            let slope = (half_sum(&p.moved(&by, h)) - half_sum(&p.moved(&by, -h))) / (2.0 * h);
-            let scale = normal.entry(i, i).max(1.0);
-            assert!((slope - normal.gradient[i]).abs() < 1e-6 * scale, "{i}: {slope} {}", normal.gradient[i]);
-        }
+        gradient_is_the_slope(&normal, p, half_sum);
     }
 
     #[test]
@@ -382,14 +387,7 @@ mod tests {
         let half_sum = |p: &Linear| 0.5 * errors(p).iter().map(|w| w * w).sum::<f64>();
         let whitener = design.whitener(&Assembly::default().noise, &p.a);
         let normal = Jacobian::new(&design, &p, &whitener, None).normal(&errors(&p), &[]);
-        for i in 0..p.len() {
-            let mut by = vec![0.0; p.len()];
-            by[i] = 1.0;
-            let h = 1e-5;
-            let slope = (half_sum(&p.moved(&by, h)) - half_sum(&p.moved(&by, -h))) / (2.0 * h);
-            let scale = normal.entry(i, i).max(1.0);
-            assert!((slope - normal.gradient[i]).abs() < 1e-6 * scale, "{i}: {slope} {}", normal.gradient[i]);
-        }
+        gradient_is_the_slope(&normal, &p, half_sum);
     }
 
     /// The oracle of the sparse rows: the dense ones.

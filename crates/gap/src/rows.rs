@@ -356,7 +356,23 @@ impl Wave {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use statrs::distribution::{ContinuousCDF, Normal};
+
     use super::*;
+
+    #[test]
+    fn the_noisy_position_rises_as_often_as_draws_do() {
+        let mut rng = ChaCha8Rng::seed_from_u64(5);
+        let normal = Normal::new(0.0, 0.02).unwrap();
+        let mut draw = || normal.inverse_cdf(rng.random::<f64>());
+        for step in [-0.05, -0.01, 0.0, 0.02] {
+            let rises = (0..20_000).filter(|_| step + draw() - draw() > 0.0).count() as f64 / 20_000.0;
+            // Four standard errors of a share.
+            assert!((rises - ascending(step, 0.02)).abs() < 0.015, "{step}: {rises}");
+        }
+    }
 
     #[test]
     fn a_wave_by_rotation_is_the_wave() {
