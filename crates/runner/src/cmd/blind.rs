@@ -2,7 +2,7 @@
 
 use crate::blind::{self, Examiner, Study};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder};
+use crate::output::{Artefacts, OutputFolder, print};
 use crate::progress::Meter;
 use crate::study::Progress;
 use miette::Diagnostic;
@@ -30,7 +30,7 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let out = out.unwrap_or(&default);
     let page = Page { quiet };
     let folder = OutputFolder::claim(out)?;
-    page.say(&format!("{}: {}", study.name, study.question));
+    page.say(&format!("{}: {}", study.name, study.question))?;
 
     let tickets = blind::design(&study).map_err(StudyError)?;
     let meter = Meter::counting("rigs made", quiet);
@@ -41,8 +41,8 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let hash = blind::sha256(&key);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
     folder.commit(&only("key.jsonl", key))?;
-    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join("key.jsonl").display()));
-    page.say(&format!("SHA-256 {hash}"));
+    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join("key.jsonl").display()))?;
+    page.say(&format!("SHA-256 {hash}"))?;
 
     let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
     let meter = Meter::counting("rigs diagnosed", quiet);
@@ -50,7 +50,7 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let start = Instant::now();
     let cases = blind::examine(&sealed, examiner, &|| meter.advanced(1)).map_err(StudyError)?;
     meter.finish();
-    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()));
+    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
 
     conclude(&study, &hash, &cases, out, page)
 }
@@ -58,7 +58,7 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
 fn conclude(study: &Study, hash: &str, cases: &[blind::Case], out: &Path, page: Page) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
     OutputFolder::claim(out)?.commit(&blind::artefacts(study, hash, cases, &scores)?)?;
-    page.say(&format!("{}\nwritten to {}", blind::summary(&scores), out.display()));
+    page.say(&format!("{}\nwritten to {}", blind::summary(&scores), out.display()))?;
     let broken = scores.measures.iter().any(blind::Measure::is_unexpected);
     Ok(if broken { Outcome::Unmet } else { Outcome::Done })
 }
@@ -76,9 +76,7 @@ struct Page {
 }
 
 impl Page {
-    fn say(self, line: &str) {
-        if !self.quiet {
-            println!("{line}");
-        }
+    fn say(self, line: &str) -> miette::Result<()> {
+        if self.quiet { Ok(()) } else { print(&format!("{line}\n")) }
     }
 }

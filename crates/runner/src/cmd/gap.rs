@@ -2,10 +2,9 @@
 
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder};
+use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::rig;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
@@ -40,7 +39,12 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }
-    print(if args.json { diagnosis::json(&report) } else { diagnosis::words(&report, args.out.as_deref()) })
+    print(&if args.json {
+        diagnosis::json(&report)
+    } else {
+        diagnosis::words(&report, args.out.as_deref())
+    })?;
+    Ok(Outcome::Done)
 }
 
 fn artefacts(report: &Report) -> Artefacts {
@@ -54,14 +58,4 @@ fn artefacts(report: &Report) -> Artefacts {
         artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
     }
     artefacts
-}
-
-/// A reader that closed its end early (`| head`) has what it wanted.
-fn print(page: String) -> CommandResult {
-    match std::io::stdout().write_all(page.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(miette::miette!("cannot print the result: {error}"))
-        }
-        _ => Ok(Outcome::Done),
-    }
 }

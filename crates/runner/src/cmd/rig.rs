@@ -1,7 +1,7 @@
 //! `switchback rig --effect EFFECT --size 2 --seed 7 --out DIR`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::output::OutputFolder;
+use crate::output::{OutputFolder, print};
 use crate::rig;
 use miette::{Diagnostic, IntoDiagnostic};
 use std::fmt::Write as _;
@@ -57,7 +57,7 @@ pub struct RigCommandError(#[from] MakeError);
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     if args.list {
-        print!("{}", list());
+        print(&list())?;
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError)?;
@@ -66,11 +66,12 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    if args.json {
-        println!("{}", serde_json::to_string_pretty(&key_json(&made.key)).into_diagnostic()?);
+    let page = if args.json {
+        serde_json::to_string_pretty(&key_json(&made.key)).into_diagnostic()? + "\n"
     } else {
-        print!("{}", told(&made.key));
-    }
+        told(&made.key)
+    };
+    print(&page)?;
     Ok(Outcome::Done)
 }
 

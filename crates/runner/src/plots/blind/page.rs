@@ -89,11 +89,29 @@ impl Frame<'_> {
             .axis_desc_style(letters(15))
             .label_style(letters(13))
             .x_label_formatter(&x_label)
-            .y_label_formatter(&|y| format!("{y:.2}"))
+            .y_label_formatter(&|y| tick(*y, 2))
             .bold_line_style(GRID)
             .light_line_style(WHITE)
             .draw()
             .map_err(PlotError::new)?;
         fill(&mut chart)
+    }
+}
+
+/// A tick's figure; rounding must leave no minus before a zero.
+pub(super) fn tick(x: f64, decimals: usize) -> String {
+    let unit = 10f64.powi(decimals as i32);
+    // Adding zero turns −0 into 0.
+    format!("{:.decimals$}", (x * unit).round() / unit + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tick;
+
+    #[test]
+    fn zero_has_no_sign() {
+        assert_eq!(tick(-1e-17, 2), "0.00");
+        assert_eq!(tick(-0.25, 2), "-0.25");
     }
 }
