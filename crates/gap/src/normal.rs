@@ -1,6 +1,7 @@
 //! Normal equations accumulated from sparse or dense rows, and their damped solution.
 
 use nalgebra::{DMatrix, DVector};
+use switchback_estimator::lanes::{Work, widest};
 
 /// `Σ x xᵀ` (upper triangle) and `Σ x w` over rows `x` with right-hand sides `w`.
 #[derive(Debug, Clone)]
@@ -11,6 +12,63 @@ pub(crate) struct Normal {
     pub(crate) gradient: Vec<f64>,
     index: Vec<u32>,
     value: Vec<f64>,
+}
+
+/// Dense rows on their way into normal equations.
+struct DenseRows<'a> {
+    normal: &'a mut Normal,
+    rows: &'a [f64],
+    columns: usize,
+    w: &'a [f64],
+}
+
+/// Rows taken at a time: the matrix is read and written once for all of them.
+const ABREAST: usize = 8;
+
+impl Work for DenseRows<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { normal, rows, columns, w } = self;
+        let whole = w.len() / ABREAST * ABREAST;
+        let (blocks, rest) = w.split_at(whole);
+        let whole = whole * columns;
+        for (rows, w) in rows[..whole].chunks_exact(ABREAST * columns).zip(blocks.chunks_exact(ABREAST)) {
+            let (a, b) = rows.split_at(4 * columns);
+            let ((r0, r1), (r2, r3)) = quarters(a, columns);
+            let ((r4, r5), (r6, r7)) = quarters(b, columns);
+            for i in 0..columns {
+                let (x0, x1, x2, x3) = (r0[i], r1[i], r2[i], r3[i]);
+                let (x4, x5, x6, x7) = (r4[i], r5[i], r6[i], r7[i]);
+                normal.gradient[i] += ((x0 * w[0] + x1 * w[1]) + (x2 * w[2] + x3 * w[3]))
+                    + ((x4 * w[4] + x5 * w[5]) + (x6 * w[6] + x7 * w[7]));
+                let target = &mut normal.matrix[i * normal.size + i..i * normal.size + columns];
+                let n = target.len();
+                let (y0, y1, y2, y3) = (&r0[i..][..n], &r1[i..][..n], &r2[i..][..n], &r3[i..][..n]);
+                let (y4, y5, y6, y7) = (&r4[i..][..n], &r5[i..][..n], &r6[i..][..n], &r7[i..][..n]);
+                for j in 0..n {
+                    target[j] += ((x0 * y0[j] + x1 * y1[j]) + (x2 * y2[j] + x3 * y3[j]))
+                        + ((x4 * y4[j] + x5 * y5[j]) + (x6 * y6[j] + x7 * y7[j]));
+                }
+            }
+        }
+        for (row, w) in rows[whole..].chunks_exact(columns).zip(rest) {
+            for i in 0..columns {
+                normal.gradient[i] += row[i] * w;
+                let target = &mut normal.matrix[i * normal.size + i..i * normal.size + columns];
+                for (m, y) in target.iter_mut().zip(&row[i..]) {
+                    *m += row[i] * y;
+                }
+            }
+        }
+    }
+}
+
+/// The rows of a block of four.
+#[inline(always)]
+#[expect(clippy::type_complexity, reason = "two pairs of rows")]
+fn quarters(block: &[f64], columns: usize) -> ((&[f64], &[f64]), (&[f64], &[f64])) {
+    let (first, second) = block.split_at(2 * columns);
+    (first.split_at(columns), second.split_at(columns))
 }
 
 impl Normal {
@@ -52,35 +110,7 @@ impl Normal {
 
     /// Adds dense rows of the first `columns` parameters, row-major.
     pub(crate) fn add_dense(&mut self, rows: &[f64], columns: usize, w: &[f64]) {
-        // Four rows at a time: the matrix is read and written once for all of them.
-        for (rows, w) in rows.chunks(4 * columns).zip(w.chunks(4)) {
-            match w {
-                [w0, w1, w2, w3] => {
-                    let (r01, r23) = rows.split_at(2 * columns);
-                    let ((r0, r1), (r2, r3)) = (r01.split_at(columns), r23.split_at(columns));
-                    for i in 0..columns {
-                        let (x0, x1, x2, x3) = (r0[i], r1[i], r2[i], r3[i]);
-                        self.gradient[i] += (x0 * w0 + x1 * w1) + (x2 * w2 + x3 * w3);
-                        let target = &mut self.matrix[i * self.size + i..i * self.size + columns];
-                        let rest = r0[i..].iter().zip(&r1[i..]).zip(r2[i..].iter().zip(&r3[i..]));
-                        for (m, ((y0, y1), (y2, y3))) in target.iter_mut().zip(rest) {
-                            *m += (x0 * y0 + x1 * y1) + (x2 * y2 + x3 * y3);
-                        }
-                    }
-                }
-                few => {
-                    for (row, w) in rows.chunks(columns).zip(few) {
-                        for i in 0..columns {
-                            self.gradient[i] += row[i] * w;
-                            let target = &mut self.matrix[i * self.size + i..i * self.size + columns];
-                            for (m, y) in target.iter_mut().zip(&row[i..]) {
-                                *m += row[i] * y;
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        widest(DenseRows { normal: self, rows, columns, w });
     }
 
     /// Adds `weight·(row·θ)²` given the present `θ`: a prior.

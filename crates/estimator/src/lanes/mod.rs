@@ -4,4 +4,5 @@ mod lane;
 mod wide;
 
 pub use lane::{LANES, Lane};
-pub(crate) use wide::{Work, keep_apart, widest};
+pub(crate) use wide::keep_apart;
+pub use wide::{Work, widest};

@@ -1,7 +1,7 @@
 //! Running the algebra of lanes with the widest instructions the processor has.
 
 /// A piece of work on lanes.
-pub(crate) trait Work {
+pub trait Work {
     /// Does it. Implementations, and what they call, are `#[inline(always)]`, so that they take on the instruction set of the caller.
     fn run(self);
 }
@@ -9,7 +9,7 @@ pub(crate) trait Work {
 /// Runs `work` compiled for the widest vectors of this processor.
 ///
 /// The bits of the results are the same with all: no operation crosses lanes, and a multiplication is never fused with an addition.
-pub(crate) fn widest(work: impl Work) {
+pub fn widest(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
     {
         if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
