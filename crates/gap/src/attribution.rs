@@ -6,9 +6,8 @@ use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
 use crate::effects::Scene;
 use crate::explain::Explanation;
-use crate::omnibus::{Omnibus, omnibus};
 use crate::score::innovations;
-use crate::search::{finish, sketch};
+use crate::search::{Question, finish, sketch};
 use crate::settings::Settings;
 use crate::workers::Workers;
 
@@ -29,9 +28,6 @@ struct Look {
     laws: Vec<Explanation>,
 }
 
-/// An effect, and the one of its laws to try; all where none is given.
-type Question = (Effect, Option<usize>);
-
 /// Share of the best gain that makes an effect promising, and how many are fitted to convergence at least.
 const PROMISING: f64 = 0.15;
 const FINISHED: usize = 4;
@@ -39,20 +35,13 @@ const FINISHED: usize = 4;
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
 /// Candidates whose knots are placed anew at most, and the share of the best gain that they need.
-const REPLACED: usize = 4;
-const RIVAL: f64 = 0.4;
-/// First effects that a second one is looked for on top of, and pairs fitted to convergence on each.
-const SEEDS: usize = 2;
-const PAIRS: usize = 2;
-/// Deviance that a second effect must gain: a sample, which is half a standard deviation of the noise, and as a share of what
-/// the first gained. Laws are never exact, so a little is always left that some other effect can take.
-const SECOND: f64 = 0.22;
-const SECOND_SHARE: f64 = 0.12;
+const REPLACED: usize = 3;
+const RIVAL: f64 = 0.85;
 
 impl<W: Workers> Attribution<'_, W> {
     /// Every effect on its own, best first.
     pub(crate) fn singles(&self) -> Vec<Explanation> {
-        let all: Vec<Question> = self.settings.effects.iter().map(|e| (*e, None)).collect();
+        let all: Vec<Question> = self.settings.effects.iter().map(|e| Question::open(*e)).collect();
         let mut singles = self.on_top_of(self.detailed, &all, FINISHED);
         if self.settings.effects.contains(&Effect::BorderResolution) {
             self.compare_with_detail(&mut singles);
@@ -75,47 +64,22 @@ impl<W: Workers> Attribution<'_, W> {
         singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     }
 
-    /// The best pair of effects, where the best single one leaves much that a second explains.
-    pub(crate) fn pair(&self, singles: &[Explanation], left: f64) -> Option<Explanation> {
-        let first = singles.first()?;
-        let gained_by_first = self.gain(Some(first)).max(1.0);
-        let samples = self.campaign.fit_samples() as f64;
-        let least = (SECOND * samples).max(SECOND_SHARE * gained_by_first);
-        if left < 0.4 * least {
-            return None;
-        }
-        // Details of the borders and large errors here and there take what any inexact law leaves.
-        let stopgaps = [Effect::BorderResolution, Effect::Outliers];
-        let others: Vec<Effect> =
-            self.settings.effects.iter().copied().filter(|e| !stopgaps.contains(e)).collect();
-        let seeds = singles.iter().take(SEEDS).filter(|s| self.gain(Some(s)) > RIVAL * gained_by_first);
-        let pairs = seeds.flat_map(|seed| {
-            let present = seed.parts[0].effect;
-            // What a twin adds is the difference between two laws of one thing, no second effect.
-            let another = |e: &Effect| *e != present && !present.twins().contains(e);
-            // As a second effect each is tried with the law that served it best alone.
-            let law = |e: &Effect| singles.iter().find(|s| s.parts[0].effect == *e).map(|s| s.parts[0].law);
-            let rest: Vec<Question> = others.iter().filter(|e| another(e)).map(|e| (*e, law(e))).collect();
-            self.on_top_of(seed, &rest, PAIRS)
-        });
-        let pair = pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))?.with_knots_refined(self.campaign);
-        let gained = first.bic() - pair.bic();
-        let after = omnibus(self.campaign, &pair.fit).map_or(left, |o: Omnibus| o.excess());
-        (gained > least && after < 0.3 * left).then_some(pair)
-    }
-
     /// Penalised deviance gained over the nominal model.
     fn gain(&self, explanation: Option<&Explanation>) -> f64 {
         explanation.map_or(0.0, |e| self.nominal.bic() - e.bic())
     }
 
     /// Each effect added to what is known, best first: all looked at, the promising ones fitted to convergence.
-    fn on_top_of(&self, known: &Explanation, questions: &[Question], finished: usize) -> Vec<Explanation> {
+    pub(crate) fn on_top_of(
+        &self,
+        known: &Explanation,
+        questions: &[Question],
+        finished: usize,
+    ) -> Vec<Explanation> {
         let w = innovations(self.campaign, &known.fit, |t| t.is_fit());
         let scene = Scene { campaign: self.campaign, fit: &known.fit, innovations: &w };
-        let looks = self.workers.map(questions, |&(effect, law)| {
-            (effect, sketch(&scene, known, effect, |number| law.is_none_or(|law| law == number)))
-        });
+        let looks =
+            self.workers.map(questions, |question| (question.effect, sketch(&scene, known, question)));
         let gain = |e: &Explanation| known.bic() - e.bic();
         let mut looks: Vec<Look> = looks
             .into_iter()
@@ -130,8 +94,8 @@ impl<W: Workers> Attribution<'_, W> {
         for (rank, look) in looks.into_iter().enumerate() {
             // A look may miss a narrow optimum: no twin of a promising effect is ruled out by it.
             let worth = rank < finished
-                || look.gain > PROMISING * most.max(SIGNIFICANT)
-                || twins.contains(&look.effect);
+                || known.parts.is_empty()
+                    && (look.gain > PROMISING * most.max(SIGNIFICANT) || twins.contains(&look.effect));
             if worth && look.gain > SIGNIFICANT {
                 twins.extend(look.effect.twins());
             }

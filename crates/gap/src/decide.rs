@@ -4,6 +4,7 @@ use crate::diagnosis::{Status, Verdict};
 use crate::effect::{Effect, Stage};
 use crate::explain::Explanation;
 use crate::omnibus::Omnibus;
+use crate::pairs::Pair;
 use crate::settings::Settings;
 
 /// Penalised deviance that an effect must gain before anything is missing at all: covers the search over twenty effects,
@@ -38,36 +39,41 @@ mod calibration {
     /// Share of what the best explanation leaves that counts against the distance to its rivals: laws are never exact, so
     /// a rival is ruled out only by a distance large against what the best itself leaves unexplained.
     pub(super) const TEMPER: f64 = 0.12;
-    /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale.
+    /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale; and the
+    /// same where the best is barely better than its rivals, as stand-ins are.
     pub(super) const LEFT: (f64, f64) = (0.42, 0.07);
+    pub(super) const LEFT_BY_MANY: (f64, f64) = (0.06, 0.01);
+    /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
+    pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
     pub(super) const FOREIGN: f64 = 0.02;
-    /// Margin below which a rival says the same with more parameters, as a share of the gain.
-    pub(super) const SAME: f64 = 0.01;
-    /// Margin from which a rival is clearly beaten, and the scale of the passage.
-    pub(super) const CLEAR: (f64, f64) = (0.2, 0.015);
-    /// How often the ranking holds between these margins: where neither explains all, both may be stand-ins for a law that
-    /// no candidate has; and the same where the best is supple enough to imitate others.
-    pub(super) const BETWEEN: (f64, f64) = (0.8, 0.3);
+    /// How often the ranking holds where the best leaves nothing, whatever its margin: a law that is not the cause leaves
+    /// something.
+    pub(super) const WHOLE: f64 = 0.97;
+    /// The same where it leaves much.
+    pub(super) const PARTLY: f64 = 0.55;
+    /// Fraction left up to which the best counts as leaving nothing, and its scale.
+    pub(super) const NOTHING: (f64, f64) = (0.06, 0.01);
+    /// The same where the best is supple enough to imitate others but for a little.
+    pub(super) const NOTHING_BY_SUPPLE: (f64, f64) = (0.004, 0.0008);
+    /// Deviance a sample that a second effect must gain.
+    pub(super) const SECOND: f64 = 0.1;
+    /// Share of what the second gains that both may leave.
+    pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.
     pub(super) const TOGETHER: f64 = 0.85;
-    /// Fraction left unexplained at which a clear ranking counts no more than one in between, and its scale.
-    pub(super) const ROUGH: (f64, f64) = (0.12, 0.02);
 }
 
 fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }
 
-/// How far the ranking by penalised likelihood is to be trusted: `margin` is the distance to the runner-up as a share of the
-/// gain, `fraction` the share of the gap that the best leaves.
-fn trust(best: Effect, margin: f64, fraction: f64) -> f64 {
-    let between = if best.is_supple() { calibration::BETWEEN.1 } else { calibration::BETWEEN.0 };
-    let (clear, scale) = calibration::CLEAR;
-    let beaten = if margin < calibration::SAME { 1.0 } else { logistic((margin - clear) / scale) };
-    let (rough, width) = calibration::ROUGH;
-    let smooth = logistic((rough - fraction) / width);
-    between + (1.0 - between) * beaten * smooth
+/// How far the ranking by penalised likelihood is to be trusted where the best leaves a fraction of the gap.
+fn trust(best: Effect, fraction: f64) -> f64 {
+    let (nothing, scale) =
+        if best.is_supple() { calibration::NOTHING_BY_SUPPLE } else { calibration::NOTHING };
+    let whole = logistic((nothing - fraction) / scale);
+    calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole
 }
 
 /// Weighs single-effect explanations against each other, against none and against none of these.
@@ -92,28 +98,34 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], left: f64) -> Od
     // Nothing missing: the gain is what the search finds in noise.
     let none = 1.0 / (1.0 + ((gain - SIGNIFICANT) / 6.0).clamp(-60.0, 60.0).exp());
     let fraction = left / (left + gain.max(1.0));
-    let (middle, scale) = calibration::LEFT;
+    let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
+    let alike = |e: Effect| first.is_some_and(|f| e == f || f.twins().contains(&e));
+    let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
+    let margin = (runner_up - best) / gain.max(1.0);
+    let one_of_many = margin < calibration::MANY && first.is_some_and(|e| !e.is_supple());
+    let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = logistic((fraction - middle) / scale).max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let unexplained = (1.0 - none) * foreign;
     let rest = (1.0 - none - unexplained).max(0.0);
-    let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
-    let runner_up = effects.iter().filter(|e| Some(e.0) != first).map(|e| e.1).fold(nominal_bic, f64::min);
-    let margin = (runner_up - best) / gain.max(1.0);
-    let trust = first.map_or(1.0, |effect| trust(effect, margin, fraction));
+    let trust = first.map_or(1.0, |effect| trust(effect, fraction));
     let effects = sharp.iter().zip(&blunt).map(|(s, b)| rest * (trust * s + (1.0 - trust) * b)).collect();
     Odds { effects, none, unexplained }
 }
 
+/// Whether two effects hold together beside the best single one, which leaves `left` of its own.
+///
+/// Laws are never exact, so a little is always left that some other effect can take: the second must gain much, and hardly
+/// anything may be left after it.
+pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
+    let total = pair.gain + pair.left;
+    pair.gain > calibration::SECOND * samples as f64 && pair.left < calibration::AFTER * total
+}
+
 /// Weighs two effects named together; the singles are no rivals of a pair that holds one of them.
-pub(crate) fn odds_together(
-    nominal_bic: f64,
-    pair: &Explanation,
-    left: f64,
-    singles: &[(Effect, f64)],
-) -> Odds {
-    let members = pair.effects();
-    let mut together = odds(nominal_bic, &[(members[0], pair.bic())], left);
+pub(crate) fn odds_together(nominal_bic: f64, pair: &Pair, singles: &[(Effect, f64)]) -> Odds {
+    let members = pair.explanation.effects();
+    let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], pair.left);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
     together.effects = singles.iter().map(|(e, _)| if members.contains(e) { p } else { 0.0 }).collect();

@@ -5,8 +5,8 @@ use switchback_estimator::rig::Rig;
 use crate::attribution::{Attribution, detail};
 use crate::campaign::{Campaign, Criterion};
 use crate::closure::{Simulated, measure};
-use crate::decide::{Odds, SIGNIFICANT, odds, odds_together, verdict};
-use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status};
+use crate::decide::{Odds, SIGNIFICANT, holds_together, odds, odds_together, verdict};
+use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together};
 use crate::effect::Effect;
 use crate::engine::Fit;
 use crate::error::DiagnoseError;
@@ -134,15 +134,15 @@ impl Plan {
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         let mut odds = odds(self.nominal.bic(), &effects, left);
         let mut joint = None;
-        if significant
-            && self.settings.max_effects > 1
-            && let Some(pair) = attribution.pair(&singles, left)
-        {
-            let beside_pair = omnibus(&self.campaign, &pair.fit);
-            let left_by_pair = beside_pair.as_ref().map_or(0.0, Omnibus::excess);
-            let together = odds_together(self.nominal.bic(), &pair, left_by_pair, &effects);
-            if together.most() >= self.settings.name_at && self.better_held_out(&pair.fit, &best.fit) {
-                (tests, left, odds, joint) = (beside_pair, left_by_pair, together, Some(pair));
+        let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
+        let pair = more.and_then(|tests| attribution.pair(&singles, tests));
+        let found = pair.as_ref().map(Together::of);
+        if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
+            let together = odds_together(self.nominal.bic(), &pair, &effects);
+            let explanation = pair.explanation;
+            if together.most() >= self.settings.name_at && self.better_held_out(&explanation, &best) {
+                tests = omnibus(&self.campaign, &explanation.fit);
+                (left, odds, joint) = (pair.left, together, Some(explanation));
             }
         }
         let odds = match self.held_out_closure(&best.fit) {
@@ -157,7 +157,7 @@ impl Plan {
             Status::None => self.nominal.clone(),
             _ => joint.clone().unwrap_or(best),
         };
-        self.report(Conclusion { singles, odds, verdict, augmented, left })
+        self.report(Conclusion { singles, odds, verdict, augmented, left, together: found })
     }
 
     /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
@@ -181,10 +181,11 @@ impl Plan {
         singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
     }
 
-    /// Whether one fit predicts the held-out records better than another; true without any.
-    fn better_held_out(&self, fit: &Fit, than: &Fit) -> bool {
-        let score = |fit: &Fit| self.score(fit);
-        score(fit).zip(score(than)).is_none_or(|(one, other)| one > other)
+    /// Whether one explanation predicts the held-out records better than another; true without any, and for effects of
+    /// their own record, which need not hold in others.
+    fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
+        let excused = one.effects().iter().any(|e| e.is_of_its_record());
+        excused || self.score(&one.fit).zip(self.score(&than.fit)).is_none_or(|(one, other)| one > other)
     }
 
     /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
@@ -292,6 +293,8 @@ impl Plan {
             probability_none: c.odds.none,
             probability_unexplained: c.odds.unexplained,
             left: c.left,
+            samples: campaign.fit_samples(),
+            together: c.together,
             next_experiment,
             series: self.series(&runs),
             residuals_before: before,
@@ -404,6 +407,7 @@ struct Conclusion {
     verdict: crate::diagnosis::Verdict,
     augmented: Explanation,
     left: f64,
+    together: Option<Together>,
 }
 
 /// Share of the simulation error that may repeat with the input under an explanation by noise.

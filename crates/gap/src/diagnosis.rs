@@ -131,6 +131,19 @@ pub struct Candidate {
     pub closure: Option<f64>,
 }
 
+/// The best pair of effects, whether or not it was named.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Together {
+    /// Both effects.
+    pub effects: Vec<Effect>,
+    /// Penalised deviance gained over the best single effect.
+    pub gain: f64,
+    /// Deviance that causes in general would still gain beside the pair, beyond chance.
+    pub left: f64,
+    /// The same beside the best single effect.
+    pub left_by_single: f64,
+}
+
 /// A kind of record that could be taken next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ExperimentKind {
@@ -224,6 +237,10 @@ pub struct Diagnosis {
     pub probability_unexplained: f64,
     /// Deviance that causes in general would still gain beside what the verdict rests on, beyond chance.
     pub left: f64,
+    /// Samples fitted, which deviances grow with.
+    pub samples: usize,
+    /// The best pair of effects, where the best single one left something to look for.
+    pub together: Option<Together>,
     /// The record that would separate the rivals, where there are rivals.
     pub next_experiment: Option<NextExperiment>,
     /// Hold-out records: measured, nominal, augmented.

@@ -26,6 +26,7 @@ mod nominal;
 mod normal;
 mod omnibus;
 mod order;
+mod pairs;
 mod repeats;
 mod rows;
 mod score;
@@ -44,7 +45,7 @@ mod workers;
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
-    RecordGap, ResidualPicture, Status, Verdict,
+    RecordGap, ResidualPicture, Status, Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;

@@ -7,6 +7,7 @@ use crate::effect::Stage;
 use crate::engine::Fit;
 use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
+use crate::weights::mixture;
 
 /// What the tests found.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub(crate) struct Omnibus {
     pub(crate) ljung_box: f64,
     /// Dependence of the scaled innovations' size on circumstances, and its degrees of freedom.
     pub(crate) scatter: (f64, usize),
+    /// Deviance that a mixture of a narrow and a wide normal distribution gains over one.
+    pub(crate) tails: f64,
     /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
     pub(crate) period: (f64, usize),
     /// Share of the innovations' variance that no rounding of the sensor makes: rounding is no noise, it repeats with the
@@ -196,6 +199,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
+        tails: tails(fit, &scaled) * white,
         period: period_lack(campaign, &scaled, second),
         unrounded: (1.0 - rounding / SUSPECT).clamp(0.0, 1.0),
     })
@@ -228,6 +232,18 @@ fn scatter(campaign: &Campaign, innovations: &[Vec<f64>]) -> (f64, usize) {
         f.solve(&normal.gradient).iter().zip(&normal.gradient).map(|(x, g)| x * g).sum::<f64>() / spread
     });
     (gain, COLUMNS)
+}
+
+/// What heavy tails would gain: the heavier, the more a few large errors rule the variance.
+fn tails(fit: &Fit, innovations: &[Vec<f64>]) -> f64 {
+    if fit.assembly.noise.mixture.is_some() {
+        return 0.0;
+    }
+    let counted: Vec<f64> = innovations.iter().flatten().copied().filter(|w| *w != 0.0).collect();
+    let n = counted.len().max(1) as f64;
+    let normal = n * (counted.iter().map(|w| w * w).sum::<f64>() / n).ln();
+    let mixed = mixture((0.01, 8.0), &[counted]).deviance.unwrap_or(normal);
+    (normal - mixed).max(0.0)
 }
 
 /// Chi-square of the period means of the innovations.

@@ -12,21 +12,54 @@ use crate::normal::Normal;
 /// Gauss–Newton rounds of a look, and of the final fit.
 const LOOK: usize = 2;
 const FINAL: usize = 14;
+/// Starts of a law from which everything is fitted together, where the own parameters are conditions of the rest.
+const CLIMBS: usize = 3;
 /// Points of one pattern search at most.
 const PATTERN_TRIALS: usize = 30;
 
-/// A cheap look at one more effect on top of what is known: the chosen of its laws, each near its best start, likeliest first. Empty where the
-/// records rule the effect out.
-pub(crate) fn sketch(
-    scene: &Scene<'_>,
-    known: &Explanation,
-    effect: Effect,
-    chosen: impl Fn(usize) -> bool,
-) -> Vec<Explanation> {
-    let laws = variants(effect, scene);
-    let mut laws: Vec<Explanation> = (laws.iter().enumerate())
-        .filter(|(law, _)| chosen(*law))
-        .filter_map(|(law, variant)| look(scene.campaign, known, (effect, law), variant))
+/// An effect that may explain more, and what is known about it.
+#[derive(Debug, Clone)]
+pub(crate) struct Question {
+    pub(crate) effect: Effect,
+    /// The law that served it best alone, with the own parameters that it had; all laws from all their starts where none is
+    /// given.
+    pub(crate) alone: Option<(usize, Vec<Own>)>,
+}
+
+impl Question {
+    /// Every law of an effect.
+    pub(crate) fn open(effect: Effect) -> Self {
+        Self { effect, alone: None }
+    }
+
+    /// The law of an effect that was fitted alone, from where it ended.
+    pub(crate) fn after(single: &Explanation) -> Self {
+        let part = &single.parts[0];
+        Self { effect: part.effect, alone: Some((part.law, single.fit.own.clone())) }
+    }
+
+    /// The law, with fewer starts where something is known; none where another law is asked for.
+    fn narrowed(&self, number: usize, mut law: Variant) -> Option<Variant> {
+        let Some((known, own)) = &self.alone else { return Some(law) };
+        if *known != number {
+            return None;
+        }
+        // Where the likelihood has corners what was found alone may be far off: all starts are needed.
+        if law.search != Search::Profile && own.len() == law.starts[0].len() {
+            let middle = law.starts.swap_remove(law.starts.len() / 2);
+            law.starts = vec![own.clone(), middle];
+        }
+        Some(law)
+    }
+}
+
+/// A cheap look at one more effect on top of what is known: its laws, each near its best start, likeliest first. Empty where
+/// the records rule the effect out.
+pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, question: &Question) -> Vec<Explanation> {
+    let effect = question.effect;
+    let mut laws: Vec<Explanation> = (variants(effect, scene).into_iter().enumerate())
+        .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
+        .filter_map(|(number, law)| look(scene.campaign, known, (effect, number), &law))
         .collect();
     laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     laws
@@ -68,11 +101,16 @@ fn look(
         Search::Smooth => best(starts.filter_map(|own| task.together(&own, &base, LOOK))),
         Search::Profile => best(starts.filter_map(|own| task.held(&own, &base, LOOK))),
         Search::Conditional => {
-            let held = best(starts.flat_map(|own| {
-                let afresh = task.dynamics_refitted(&own, &base);
-                [task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))].into_iter().flatten()
-            }))?;
-            task.together(&held.own, &held.linear, LOOK)
+            let mut held: Vec<Fit> = starts
+                .filter_map(|own| {
+                    let afresh = task.dynamics_refitted(&own, &base);
+                    let fits = [task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))];
+                    best(fits.into_iter().flatten())
+                })
+                .collect();
+            held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
+            // The best start need not lead to the best point: B may have taken what a neighbour would explain.
+            best(held.iter().take(CLIMBS).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
         }
     }?;
     Some(Explanation { parts, fit, handicap: known.handicap + law.handicap, held_out: 0.0 })

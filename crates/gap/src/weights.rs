@@ -1,7 +1,7 @@
 //! Laws of the innovations other than one normal distribution.
 
 use crate::assembly::{NoiseLaw, convolve};
-use crate::design::{Design, Linear};
+use crate::design::{Design, DesignTrack, Linear};
 
 /// What a law of the innovations makes of them.
 #[derive(Debug, Clone, Default)]
@@ -28,69 +28,114 @@ impl Weights {
     }
 }
 
-/// Weighs the innovations by the law.
+/// Weighs the innovations by the law; samples at a limit of the sensor are left out of it.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
-    if design.tracks.iter().any(|t| t.clipped.is_some()) {
-        return without_clipped(design);
-    }
+    let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
+        let mask = |t: &DesignTrack| t.clipped.clone().unwrap_or_else(|| vec![false; t.x.len() - t.from]);
+        design.tracks.iter().map(mask).collect()
+    });
     if let Some(ratios) = law.input_ratio {
-        return input_noise(design, ratios, p);
+        let mut scale = input_noise(design, ratios, p);
+        let left_out = clipped.map_or(0, |clipped| leave_out(&mut scale, &clipped));
+        let counted: f64 = scale.iter().flatten().filter(|s| **s > 0.0).map(|s| s.ln()).sum();
+        let log_scale = counted * stretch(&scale, left_out);
+        return Weights { scale: Some(scale), left_out, log_scale, ..Weights::default() };
     }
-    if let Some(start) = law.mixture {
-        return mixture(start, w);
+    match (law.mixture, clipped) {
+        (Some(start), None) => mixture(start, w),
+        (Some(start), Some(clipped)) => mixture_of_the_rest(start, w, &clipped),
+        (None, None) => Weights::default(),
+        (None, Some(clipped)) => {
+            let mut scale: Vec<Vec<f64>> = w.iter().map(|w| vec![1.0; w.len()]).collect();
+            let left_out = leave_out(&mut scale, &clipped);
+            Weights { scale: Some(scale), left_out, ..Weights::default() }
+        }
     }
-    Weights::default()
 }
 
-/// Clipped samples are left out.
-fn without_clipped(design: &Design) -> Weights {
+/// What is left out counts as much as the rest does in the mean, so that nothing is gained by leaving out.
+fn stretch(scale: &[Vec<f64>], left_out: usize) -> f64 {
+    let all = scale.iter().map(Vec::len).sum::<usize>();
+    all as f64 / all.saturating_sub(left_out).max(1) as f64
+}
+
+/// Takes the weight from clipped samples; their number.
+fn leave_out(scale: &mut [Vec<f64>], clipped: &[Vec<bool>]) -> usize {
     let mut left_out = 0;
-    let scale = design
-        .tracks
-        .iter()
-        .map(|track| match &track.clipped {
-            Some(clipped) => clipped
-                .iter()
-                .map(|c| {
-                    left_out += usize::from(*c);
-                    f64::from(u8::from(!*c))
-                })
-                .collect(),
-            None => vec![1.0; track.x.len() - track.from],
-        })
-        .collect();
-    Weights { scale: Some(scale), left_out, ..Weights::default() }
+    for (scale, _) in (scale.iter_mut().flatten().zip(clipped.iter().flatten())).filter(|(_, c)| **c) {
+        *scale = 0.0;
+        left_out += 1;
+    }
+    left_out
 }
 
-/// Input noise `n` moves `u` by `slope·n`: the innovation's variance grows by `Σ b̃ⱼ² slope(t−j)²·ratio`.
-fn input_noise(design: &Design, ratios: [f64; 2], p: &Linear) -> Weights {
-    let taps = convolve(&p.b, &design.taps);
-    let mut log_scale = 0.0;
-    let scale = design
-        .tracks
-        .iter()
-        .map(|track| {
-            let Some([moving, resting]) = &track.sensitivity else {
-                return vec![1.0; track.x.len() - track.from];
-            };
-            let energy: Vec<f64> = (0..track.x.len())
-                .map(|t| ratios[0] * moving.dot(t, &p.f).powi(2) + ratios[1] * resting.dot(t, &p.f).powi(2))
-                .collect();
-            (track.from..track.x.len())
-                .map(|t| {
-                    let excess: f64 = taps.iter().enumerate().map(|(j, b)| b * b * energy[t - j - 1]).sum();
-                    let s = 1.0 / (1.0 + excess).sqrt();
-                    log_scale += s.ln();
-                    s
-                })
-                .collect()
-        })
-        .collect();
-    Weights { scale: Some(scale), log_scale, ..Weights::default() }
+/// The mixture of the samples that are not clipped.
+fn mixture_of_the_rest(start: (f64, f64), w: &[Vec<f64>], clipped: &[Vec<bool>]) -> Weights {
+    let counted = |(w, clipped): (&Vec<f64>, &Vec<bool>)| {
+        w.iter().zip(clipped).filter(|(_, c)| !**c).map(|(w, _)| *w).collect::<Vec<f64>>()
+    };
+    let rest: Vec<Vec<f64>> = w.iter().zip(clipped).map(counted).collect();
+    let mut weights = mixture(start, &rest);
+    let mut found = weights.scale.iter().flatten().flatten().copied();
+    let mut left_out = 0;
+    let scale = clipped.iter().map(|track| {
+        let one = |c: &bool| if *c { 0.0 } else { found.next().unwrap_or(1.0) };
+        left_out += track.iter().filter(|c| **c).count();
+        track.iter().map(one).collect()
+    });
+    let scale: Vec<Vec<f64>> = scale.collect();
+    weights.deviance = weights.deviance.map(|d| d * stretch(&scale, left_out));
+    (weights.scale, weights.left_out) = (Some(scale), left_out);
+    weights
+}
+
+/// Input noise `n` moves `u` by `slope·n`: the innovation's variance grows by `Σ hⱼ² slope(t−j)²·ratio`, `h` the impulse
+/// response of `b̃/den`.
+fn input_noise(design: &Design, ratios: [f64; 2], p: &Linear) -> Vec<Vec<f64>> {
+    let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
+    let squares: Vec<f64> = response.iter().map(|h| h * h).collect();
+    let factors = |track: &DesignTrack| {
+        let Some([moving, resting]) = &track.sensitivity else {
+            return vec![1.0; track.x.len() - track.from];
+        };
+        let energy: Vec<f64> = (0..track.x.len())
+            .map(|t| ratios[0] * moving.dot(t, &p.f).powi(2) + ratios[1] * resting.dot(t, &p.f).powi(2))
+            .collect();
+        (track.from..track.x.len())
+            .map(|t| {
+                let past = energy[..t].iter().rev();
+                let excess: f64 = squares.iter().zip(past).map(|(h, e)| h * e).sum();
+                1.0 / (1.0 + excess).sqrt()
+            })
+            .collect()
+    };
+    design.tracks.iter().map(factors).collect()
+}
+
+/// The impulse response of `b/(1 + poles)`, as far as it matters.
+fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
+    const LONGEST: usize = 200;
+    const NEGLIGIBLE: f64 = 1e-3;
+    let length = if poles.is_empty() { b.len() } else { LONGEST };
+    let mut h = vec![0.0; length];
+    for t in 0..length {
+        let past: f64 = poles.iter().enumerate().take(t).map(|(k, p)| p * h[t - k - 1]).sum();
+        h[t] = b.get(t).copied().unwrap_or(0.0) - past;
+    }
+    let energy: f64 = h.iter().map(|h| h * h).sum();
+    let mut tail = 0.0;
+    while h.len() > b.len() {
+        tail += h[h.len() - 1].powi(2);
+        if tail > NEGLIGIBLE * energy {
+            break;
+        }
+        h.pop();
+    }
+    h
 }
 
 /// `w ~ (1−ε)·N(0,σ²) + ε·N(0,κ²σ²)`, fitted by expectation–maximisation.
-fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Weights {
+pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Weights {
     let all: Vec<f64> = w.iter().flatten().copied().collect();
     let n = all.len() as f64;
     let mut magnitudes: Vec<f64> = all.iter().map(|x| x.abs()).collect();
@@ -134,5 +179,38 @@ fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Weights {
         deviance: Some(deviance - n),
         mixture: Some((share, ratio)),
         ..Weights::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_response_of_a_lag_is_geometric() {
+        let h = impulse_response(&[0.5], &[-0.5]);
+        assert!(
+            h.len() < 8 && h.iter().enumerate().all(|(k, h)| (h - 0.5f64.powi(k as i32 + 1)).abs() < 1e-15)
+        );
+        assert_eq!(impulse_response(&[0.3, 0.1], &[]), [0.3, 0.1]);
+    }
+
+    #[test]
+    fn clipped_samples_have_no_say_in_a_mixture() {
+        let w = vec![
+            (0..400)
+                .map(|k| f64::from(k % 7) - 3.0 + if k % 50 == 0 { 40.0 } else { 0.0 })
+                .collect::<Vec<f64>>(),
+        ];
+        let alone = mixture((0.01, 8.0), &w);
+        let mut longer = w.clone();
+        let mut clipped = vec![vec![false; 400]];
+        longer[0].insert(17, 1e6);
+        clipped[0].insert(17, true);
+        let rest = mixture_of_the_rest((0.01, 8.0), &longer, &clipped);
+        let stretched = alone.deviance.map(|d| d * (401.0 / 400.0));
+        assert_eq!((rest.deviance, rest.mixture, rest.left_out), (stretched, alone.mixture, 1));
+        let scale = &rest.scale.as_ref().expect("weights")[0];
+        assert!(scale[17] == 0.0 && scale[18] == alone.scale.as_ref().expect("weights")[0][17]);
     }
 }

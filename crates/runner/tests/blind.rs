@@ -40,6 +40,8 @@ fn silent(status: Status) -> Diagnosis {
         probability_none: 0.9,
         probability_unexplained: 0.1,
         left: 0.0,
+        samples: 1,
+        together: None,
         next_experiment: None,
         series: vec![],
         residuals_before: ResidualPicture::default(),

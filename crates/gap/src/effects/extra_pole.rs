@@ -4,6 +4,7 @@
 //! ũ = (1−p)/(1−p q⁻¹) u            an actuator: the equation error does not pass it
 //! (1−p q⁻¹) A y = B u + ξ          a lag of the plant: the equation error passes it
 //! ũ = (c + d q⁻¹)/(1−p q⁻¹) u      a lag that lets part of its input through
+//! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
 //! Parameter: `pole` (0.02…0.98). Stage: dynamics. Confused with: input delay, resonance.
@@ -11,13 +12,15 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    [(false, 0), (true, 0), (false, 1)]
+    [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
         .into_iter()
-        .map(|(passes, zeros)| {
+        .map(|(lags, passes, zeros)| {
             let starts =
                 [0.2, 0.5, 0.8].iter().map(|&p| vec![own("pole", "1", p, (0.02, 0.98), 0.003)]).collect();
             Variant::conditional(starts, move |p, assembly| {
-                assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
+                for _ in 0..lags {
+                    assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
+                }
                 assembly.extra_b += zeros;
                 if passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);

@@ -9,7 +9,7 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let starts = [0.3, 1.2, 2.2, 3.2, 5.0]
+    let starts = [0.3, 0.7, 1.2, 1.7, 2.2, 2.7, 3.3, 5.0]
         .iter()
         .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
         .collect();

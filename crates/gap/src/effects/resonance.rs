@@ -1,11 +1,11 @@
 //! A lightly damped mode.
 //!
 //! ```text
-//! A y = B⁺/(1 − 2ρ cos ω q⁻¹ + ρ² q⁻²) u + ξ,   B⁺ with two more coefficients than B
+//! A y = B⁺/(1 − 2ρ cos ω q⁻¹ + ρ² q⁻²) u + ξ,   ρ = exp(−ζω/√(1−ζ²)),   B⁺ with two more coefficients than B
 //! ```
 //!
-//! Parameters: angular frequency `omega` (radians per sample), pole radius `rho` (0.6…0.995). Stage: dynamics.
-//! Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not.
+//! Parameters: angular frequency `omega` of the ringing (radians per sample), damping ratio `zeta` (0.003…0.6: beyond that
+//! nothing rings, and two real poles are an extra lag). Stage: dynamics. Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not.
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
@@ -23,20 +23,21 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             let starts = omegas
                 .iter()
                 .map(|&omega| {
+                    let zeta = damping(0.91, omega).min(0.4);
                     vec![
                         own("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
-                        own("rho", "1", 0.91, (0.6, 0.995), 0.002),
+                        own("zeta", "1", zeta, (0.003, 0.6), 0.002),
                     ]
                 })
                 .collect();
             Variant::conditional(starts, move |p, assembly| {
-                let poles = [1.0, -2.0 * p[1] * p[0].cos(), p[1] * p[1]];
+                let (frequency, radius) = (p[0], radius(p[1], p[0]));
+                let poles = [1.0, -2.0 * radius * frequency.cos(), radius * radius];
                 assembly.filter(&[1.0], &poles);
                 assembly.extra_b += 2;
                 // The mode rings when a record begins, nobody knows how.
                 for &track in &tracks {
                     for sine in [false, true] {
-                        let (radius, frequency) = (p[1], p[0]);
                         assembly.equation_columns.push(EquationColumn::Decay {
                             track,
                             radius,
@@ -51,4 +52,29 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             })
         })
         .collect()
+}
+
+/// Least pole radius: below it a mode dies within few samples, and any short memory would pass for one.
+const DEAD: f64 = 0.6;
+
+/// Pole radius of a mode with damping ratio `zeta` that rings at `omega`.
+fn radius(zeta: f64, omega: f64) -> f64 {
+    (-zeta * omega / (1.0 - zeta * zeta).sqrt()).exp().max(DEAD)
+}
+
+/// Damping ratio of a mode with pole radius `rho` that rings at `omega`.
+fn damping(rho: f64, omega: f64) -> f64 {
+    -rho.ln() / rho.ln().hypot(omega)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damping_and_radius_undo_each_other() {
+        for (rho, omega) in [(0.91, 0.35), (0.99, 2.0), (0.7, 0.9)] {
+            assert!((radius(damping(rho, omega), omega) - rho).abs() < 1e-12);
+        }
+    }
 }

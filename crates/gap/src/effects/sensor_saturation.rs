@@ -15,6 +15,10 @@ use crate::sensor::Knee;
 /// Ties at an extreme that chance does not make, in samples.
 const TIES: usize = 6;
 
+/// Deviance that a tie at an extreme is worth, and all of them at most: chance leaves none.
+const TIE: f64 = -20.0;
+const TIED: f64 = -2000.0;
+
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     hard(scene).into_iter().chain(soft(scene)).collect()
 }
@@ -65,8 +69,9 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
             .min_by(|a, b| (*a - limit).abs().total_cmp(&(*b - limit).abs()));
         next.map_or(0, |n| ties(*n))
     };
-    let clipped = |limit: f64| ties(limit) >= TIES && ties(limit) > 3 * inner(limit);
-    let (at_low, at_high) = (clipped(low), clipped(high));
+    let (low_ties, high_ties) = (ties(low), ties(high));
+    let clipped = |limit: f64, ties: usize| ties >= TIES && ties > 3 * inner(limit);
+    let (at_low, at_high) = (clipped(low, low_ties), clipped(high, high_ties));
     if !at_low && !at_high {
         return Vec::new();
     }
@@ -74,5 +79,8 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
         low: if at_low { low } else { f64::NEG_INFINITY },
         high: if at_high { high } else { f64::INFINITY },
     };
-    vec![Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits))]
+    let tied = if at_low { low_ties } else { 0 } + if at_high { high_ties } else { 0 };
+    let mut variant = Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits));
+    variant.handicap = (TIE * tied as f64).max(TIED);
+    vec![variant]
 }

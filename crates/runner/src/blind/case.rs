@@ -3,7 +3,7 @@
 use super::design::{Kind, Ticket};
 use super::place::{PlaceCheck, check};
 use super::twins::same_class;
-use switchback_gap::{Diagnosis, Status};
+use switchback_gap::{Diagnosis, Status, Together};
 use switchback_maker::{MadeRig, Nature};
 
 /// What a diagnosis said, in the words of its JSON.
@@ -41,6 +41,10 @@ pub struct Evidence {
     pub left: f64,
     /// Best candidates: effect, gain in penalised deviance, held-out gain in nats a sample, held-out closure.
     pub candidates: Vec<(&'static str, f64, f64, Option<f64>)>,
+    /// Samples fitted.
+    pub samples: usize,
+    /// The best pair of effects, where one was looked for.
+    pub together: Option<Together>,
 }
 
 impl Evidence {
@@ -52,7 +56,7 @@ impl Evidence {
             d.candidates.iter().map(|c| (c.effect.name(), -c.bic, c.heldout_log_score, c.closure)).collect();
         candidates.sort_by(|x, y| y.1.total_cmp(&x.1));
         candidates.truncate(Self::KEPT);
-        Self { left: d.left, candidates }
+        Self { left: d.left, candidates, samples: d.samples, together: d.together.clone() }
     }
 }
 

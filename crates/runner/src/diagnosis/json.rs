@@ -2,7 +2,7 @@
 
 use super::{Report, Units, told};
 use serde::Serialize;
-use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure};
+use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure, Together};
 
 /// The object that `gap --json` prints; figures that do not exist are null.
 #[derive(Serialize)]
@@ -13,6 +13,9 @@ struct Page<'a> {
     gap: Gap<'a>,
     r#where: Vec<Place<'a>>,
     candidates: Vec<Explanation>,
+    together: Option<Pair>,
+    samples: usize,
+    left: f64,
     next_experiment: Option<Next<'a>>,
     probability_none: f64,
     probability_unexplained: f64,
@@ -74,6 +77,14 @@ struct Explanation {
 }
 
 #[derive(Serialize)]
+struct Pair {
+    effects: Vec<&'static str>,
+    gain: f64,
+    left: f64,
+    left_by_single: f64,
+}
+
+#[derive(Serialize)]
 struct Parameter {
     name: String,
     value: f64,
@@ -94,7 +105,8 @@ struct Next<'a> {
 ///
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
 /// output units, `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
-/// `bic` relative to the nominal model.
+/// `bic` relative to the nominal model. `together` is the best pair of effects, `gain` in penalised deviance over the best
+/// single one; `left` is the deviance that causes in general would still gain, which grows with `samples`.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -105,6 +117,9 @@ pub fn json(report: &Report) -> String {
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(place).collect(),
         candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
+        together: diagnosis.together.as_ref().map(pair),
+        samples: diagnosis.samples,
+        left: diagnosis.left,
         next_experiment: diagnosis.next_experiment.as_ref().map(|next| Next {
             experiment: next.kind.name(),
             separates: names(&next.separates),
@@ -172,6 +187,11 @@ fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
         heldout_log_score: candidate.heldout_log_score,
         closure: candidate.closure,
     }
+}
+
+fn pair(pair: &Together) -> Pair {
+    let Together { effects, gain, left, left_by_single } = pair;
+    Pair { effects: names(effects), gain: *gain, left: *left, left_by_single: *left_by_single }
 }
 
 fn names(effects: &[Effect]) -> Vec<&'static str> {

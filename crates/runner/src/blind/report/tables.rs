@@ -32,6 +32,8 @@ pub(super) fn answers(cases: &[Case]) -> String {
         "closure_actual",
         "left",
         "gains",
+        "samples",
+        "together",
     ];
     let rows = cases.iter().map(|c| {
         let figure = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.4}"));
@@ -61,6 +63,8 @@ pub(super) fn answers(cases: &[Case]) -> String {
             figure(c.closure.map(|x| x.actual)),
             format!("{:.0}", c.evidence.left),
             gains(c),
+            c.evidence.samples.to_string(),
+            together(c),
         ]
     });
     csv(&header, rows)
@@ -73,6 +77,13 @@ fn gains(case: &Case) -> String {
         format!("{effect}:{gain:.0}:{nats:.4}:{closure}")
     };
     case.evidence.candidates.iter().map(one).collect::<Vec<_>>().join("|")
+}
+
+/// `effects:gain over the best single one:left by both:left by the single one` of the best pair.
+fn together(case: &Case) -> String {
+    let Some(pair) = &case.evidence.together else { return String::new() };
+    let names: Vec<&str> = pair.effects.iter().map(|e| e.name()).collect();
+    format!("{}:{:.0}:{:.0}:{:.0}", names.join("+"), pair.gain, pair.left, pair.left_by_single)
 }
 
 pub(super) fn confusion(table: &Confusion) -> String {

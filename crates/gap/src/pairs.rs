@@ -1,0 +1,172 @@
+//! A second effect: a forward step from several firsts, then a restart from each member of the best pair.
+
+use crate::attribution::Attribution;
+use crate::diagnosis::Together;
+use crate::effect::Effect;
+use crate::explain::Explanation;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::search::Question;
+use crate::workers::Workers;
+
+/// Two effects together.
+#[derive(Debug, Clone)]
+pub(crate) struct Pair {
+    pub(crate) explanation: Explanation,
+    /// Penalised deviance gained over the best single effect.
+    pub(crate) gain: f64,
+    /// Deviance that causes in general would still gain beside both, and beside the best single effect.
+    pub(crate) left: f64,
+    pub(crate) left_by_single: f64,
+}
+
+impl Together {
+    pub(crate) fn of(pair: &Pair) -> Self {
+        Self {
+            effects: pair.explanation.effects(),
+            gain: pair.gain,
+            left: pair.left,
+            left_by_single: pair.left_by_single,
+        }
+    }
+}
+
+/// First effects that a second one is looked for on top of before the restarts, and the share of the best gain that a
+/// further one needs.
+const SEEDS: usize = 3;
+const SEED: f64 = 0.25;
+/// Restarts from members of the best pair at most, and further firsts while much is left.
+const RESTARTS: usize = 2;
+const TWINS: usize = 2;
+/// Pairs fitted to convergence on each first effect.
+const FINISHED: usize = 3;
+/// Deviance left a sample from which a second effect is looked for.
+const WORTH_A_LOOK: f64 = 0.03;
+
+impl<W: Workers> Attribution<'_, W> {
+    /// The best pair of effects, where the best single one leaves something that a second may explain.
+    pub(crate) fn pair(&self, singles: &[Explanation], tests: &Omnibus) -> Option<Pair> {
+        let best_single = singles.first()?;
+        let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
+        let explanation = if tests.excess() > worth_a_look {
+            self.searched(singles)?.with_knots_refined(self.campaign)
+        } else if tests.tails > worth_a_look {
+            self.with_outliers(best_single)?
+        } else {
+            return None;
+        };
+        let gain = best_single.bic() - explanation.bic();
+        let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
+        Some(Pair { explanation, gain, left, left_by_single: tests.excess() })
+    }
+
+    /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.
+    fn with_outliers(&self, first: &Explanation) -> Option<Explanation> {
+        let present = first.parts[0].effect;
+        let outliers = Effect::Outliers;
+        let other = present != outliers && !present.twins().contains(&outliers);
+        (other && self.settings.effects.contains(&outliers))
+            .then(|| self.on_top_of(first, &[Question::open(outliers)], 1))
+            .and_then(|pairs| pairs.into_iter().next())
+    }
+
+    /// The best pair by a forward step and restarts.
+    ///
+    /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
+    /// best pair found is in turn held while every other effect is tried beside it; then twins of the firsts, while much is
+    /// left; then every law of both members and their twins.
+    fn searched(&self, singles: &[Explanation]) -> Option<Explanation> {
+        let best_single = singles.first()?;
+        let gained = |s: &Explanation| self.nominal.bic() - s.bic();
+        let serious: Vec<Effect> = (singles.iter())
+            .filter(|s| gained(s) > SEED * gained(best_single))
+            .map(|s| s.parts[0].effect)
+            // Heavy tails stand in for whatever else is missing.
+            .filter(|e| *e != Effect::Outliers || *e == best_single.parts[0].effect)
+            .collect();
+        let mut search = Search { of: self, singles, tried: Vec::new(), best: None };
+        for &effect in &serious {
+            let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
+            // A twin of what was tried finds the same seconds.
+            if search.tried.len() < SEEDS && !is_twin {
+                search.step(effect);
+            }
+        }
+        search.restart();
+        for &effect in &serious {
+            if search.tried.len() < SEEDS + RESTARTS + TWINS
+                && search.leaves_much()
+                && !search.tried.contains(&effect)
+            {
+                search.step(effect);
+            }
+        }
+        search.restart();
+        search.every_law();
+        search.best
+    }
+}
+
+/// A search for two effects under way.
+struct Search<'a, 'b, W> {
+    of: &'a Attribution<'b, W>,
+    singles: &'a [Explanation],
+    /// Firsts that seconds were looked for on.
+    tried: Vec<Effect>,
+    best: Option<Explanation>,
+}
+
+impl<W: Workers> Search<'_, '_, W> {
+    /// Looks for the best second beside a first.
+    fn step(&mut self, first: Effect) {
+        self.tried.push(first);
+        let others = self.of.settings.effects.iter().filter(|e| is_another(first, **e));
+        let questions: Vec<Question> =
+            others.map(|e| self.single(*e).map_or_else(|| Question::open(*e), Question::after)).collect();
+        self.ask(first, &questions);
+    }
+
+    /// Steps from members of the best pair that were no firsts yet.
+    fn restart(&mut self) {
+        for _ in 0..RESTARTS {
+            let members = self.best.as_ref().map_or_else(Vec::new, Explanation::effects);
+            let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
+            self.step(next);
+        }
+    }
+
+    /// Every law of both members and of their twins.
+    fn every_law(&mut self) {
+        let Some(best) = &self.best else { return };
+        let members = best.effects();
+        for (held, moved) in [(members[0], members[1]), (members[1], members[0])] {
+            let alike = std::iter::once(&moved).chain(moved.twins());
+            let questions: Vec<Question> =
+                alike.filter(|e| is_another(held, **e)).map(|e| Question::open(*e)).collect();
+            self.ask(held, &questions);
+        }
+    }
+
+    /// Whether so much is left that another first may find a better pair.
+    fn leaves_much(&self) -> bool {
+        let Some(best) = &self.best else { return true };
+        let left = omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
+        left > WORTH_A_LOOK * self.of.campaign.fit_samples() as f64
+    }
+
+    fn ask(&mut self, first: Effect, questions: &[Question]) {
+        let Some(first) = self.single(first) else { return };
+        let second = self.of.on_top_of(first, questions, FINISHED).into_iter().next();
+        self.best = self.best.take().into_iter().chain(second).min_by(|x, y| x.bic().total_cmp(&y.bic()));
+    }
+
+    fn single(&self, effect: Effect) -> Option<&Explanation> {
+        self.singles.iter().find(|s| s.parts[0].effect == effect)
+    }
+}
+
+/// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact
+/// law leaves, and what a twin adds is the difference between two laws of one thing.
+fn is_another(first: Effect, second: Effect) -> bool {
+    let is_stopgap = matches!(second, Effect::BorderResolution | Effect::Outliers);
+    second != first && !first.twins().contains(&second) && !is_stopgap
+}
