@@ -4,7 +4,7 @@ use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
-use super::family::Family;
+use super::family::{Family, FamilyPlan};
 use super::moments::{LaneNoise, draw_lanes};
 use super::pulse_kind::PulseKind;
 use super::sections::CellSums;
@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
+use switchback_estimator::simulation::Grouping;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
@@ -31,6 +32,10 @@ pub(super) struct World {
     /// Whether any method looks at the descendant, at the ascendant experiment.
     pub(super) experiments: [bool; 2],
     pub(super) settings: Vec<Setting>,
+    /// How samples are sorted into groups, by number of samples and period.
+    pub(super) groupings: Vec<Vec<Grouping>>,
+    /// The cells in families.
+    families: Vec<FamilyPlan>,
 }
 
 /// One bench at one noise level: the cells over N and methods.
@@ -114,7 +119,15 @@ impl World {
             needs_steps.then(|| MeanNoise::new(&pulses).expect("a scenario's filter and samples are valid"));
         let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
         let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
-        Self { stream, pulses, steps, experiments, settings }
+        let of_period =
+            |period: usize| settings.iter().find(|s| s.period == period).expect("periods are the settings'");
+        let grouping = |period, samples| of_period(period).bench.grouping(samples);
+        let groupings = checkpoints
+            .iter()
+            .map(|&n| (0..pulses.periods.len()).map(|p| grouping(p, n)).collect())
+            .collect();
+        let families = FamilyPlan::all(&settings, checkpoints);
+        Self { stream, pulses, steps, experiments, settings, groupings, families }
     }
 
     /// The cells, in the order in which their sums are kept: setting, number of samples, method.
@@ -249,6 +262,8 @@ impl Workload for World {
             (start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH as u32)).collect();
         let noise: Vec<LaneNoise> =
             batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round.seed, batch.clone())).collect();
-        Family::all(self, active, cells).into_par_iter().for_each(|family| family.run(&noise, round));
+        Family::all(&self.families, &self.settings, active, cells)
+            .into_par_iter()
+            .for_each(|family| family.run(&noise, round));
     }
 }

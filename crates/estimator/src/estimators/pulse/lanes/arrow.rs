@@ -25,11 +25,41 @@ struct Row<const D: usize> {
     share: f64,
 }
 
+/// A group's own mean in a regression whose other columns do not touch the group.
+pub(super) struct OwnMean<const N: usize> {
+    /// `λ`.
+    pub(super) value: Lane,
+    /// `c/D` on `a`; on the rest of the core it is zero.
+    pub(super) slope: [Lane; N],
+    /// `1/D`.
+    pub(super) inverse: f64,
+}
+
 impl Regression<'_> {
+    /// The statistics that a group belongs to, and its place there.
+    #[inline(always)]
+    fn place(&self, group: usize) -> (&LaneStatistics, usize) {
+        let first = self.parts[0].counts.len();
+        if group < first { (self.parts[0], group) } else { (self.parts[1], group - first) }
+    }
+
+    /// A local column that is its group's own mean, where all of them are [apart](ColumnPlan::apart), given `a`.
+    #[inline(always)]
+    pub(super) fn own_mean<const N: usize>(&self, local: usize, a: &[Lane]) -> OwnMean<N> {
+        let group = self.plan.local[local].group;
+        let (part, q) = self.place(group);
+        let mean = &part.means[q * (N + 1)..(q + 1) * (N + 1)];
+        let mut slope = [Lane::ZERO; N];
+        for i in 0..N {
+            slope[i] = self.shift - mean[i + 1];
+        }
+        let start = mean[0] - self.shift - self.values.offset[group];
+        OwnMean { value: start - dot(&slope, a), slope, inverse: part.shares[q] }
+    }
+
     #[inline(always)]
     fn row<const N: usize, const D: usize>(&self, group: usize) -> Row<D> {
-        let first = self.parts[0].counts.len();
-        let (part, q) = if group < first { (self.parts[0], group) } else { (self.parts[1], group - first) };
+        let (part, q) = self.place(group);
         let mean = &part.means[q * (N + 1)..(q + 1) * (N + 1)];
         let shared = &self.values.shared[group * (D - N)..(group + 1) * (D - N)];
         let mut regressors = [Lane::ZERO; D];
@@ -62,6 +92,7 @@ impl Locals {
         &self.slopes.as_chunks().0[local]
     }
 
+    /// Room for so many columns of `size` core parameters.
     #[inline(always)]
     fn resize(&mut self, columns: usize, size: usize) {
         self.values.resize(columns, Lane::ZERO);
@@ -70,7 +101,18 @@ impl Locals {
     }
 }
 
+/// The normal equations of the core.
+#[derive(Clone, Copy)]
+pub(super) struct Equations<const D: usize> {
+    /// The lower triangle.
+    normal: [[Lane; D]; D],
+    right: [Lane; D],
+    constant: [Lane; D],
+    energy: Lane,
+}
+
 /// The core of a solved regression of eight replicates: `N` lags, `D` parameters.
+#[derive(Clone, Copy)]
 pub(super) struct Core<const N: usize, const D: usize> {
     /// `(a, η)`.
     pub(super) parameters: [Lane; D],
@@ -83,49 +125,23 @@ pub(super) struct Core<const N: usize, const D: usize> {
     factor: Factor<D>,
 }
 
-/// The normal equations of the core on their way.
-struct Equations<const D: usize> {
-    /// The lower triangle.
-    normal: [[Lane; D]; D],
-    right: [Lane; D],
-    constant: [Lane; D],
-    energy: Lane,
-}
-
 impl<const N: usize, const D: usize> Core<N, D> {
-    /// Solves a regression; its local columns go into `locals`.
+    /// Nothing solved yet.
+    pub(super) const EMPTY: Self = Self {
+        parameters: [Lane::ZERO; D],
+        variance: Lane::ZERO,
+        sound: [false; LANES],
+        constant: [Lane::ZERO; D],
+        factor: Factor([[Lane::ZERO; D]; D]),
+    };
+
+    /// Solves the normal equations of a regression.
     #[inline(always)]
-    pub(super) fn solve(regression: &Regression<'_>, locals: &mut Locals) -> Self {
-        let plan = regression.plan;
-        locals.resize(plan.local.len(), D);
-        let mut equations = Equations::<D>::within::<N>(regression.parts);
-        for &group in &plan.pooled {
-            keep_apart();
-            equations.add(&regression.row::<N, D>(group));
-        }
-        let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
-        let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
-        for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
-            keep_apart();
-            if column.own_mean {
-                // Nothing of its group was put in, so nothing is to be taken out.
-                let row = regression.row::<N, D>(plan.support[column.entries.start]);
-                (*slope, *start, *inverse) = (row.regressors, row.target, Lane::splat(row.share));
-            } else {
-                let entries = column.entries.clone();
-                let support = plan.support[entries.clone()].iter().zip(&regression.values.weights[entries]);
-                (*slope, *start, *inverse) =
-                    equations.eliminate(support.map(|(&q, w)| (regression.row::<N, D>(q), *w)));
-            }
-        }
+    pub(super) fn solve(equations: &Equations<D>, regression: &Regression<'_>) -> Self {
         let (factor, sound) = Factor::new(equations.normal);
         let parameters = factor.solve(equations.right);
-        for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
-            keep_apart();
-            *value -= if plan.apart { dot(&slope[..N], &parameters) } else { dot(slope, &parameters) };
-        }
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
-        let freedom = (samples - (D + plan.local.len()) as f64).max(1.0);
+        let freedom = (samples - (D + regression.plan.local.len()) as f64).max(1.0);
         let left = equations.energy - dot(&parameters, &equations.right);
         Self {
             parameters,
@@ -136,24 +152,92 @@ impl<const N: usize, const D: usize> Core<N, D> {
         }
     }
 
+    /// Puts the local columns of the regression into `locals`, where its equations left what they eliminated.
+    #[inline(always)]
+    pub(super) fn follow(&self, regression: &Regression<'_>, locals: &mut Locals) {
+        let plan = regression.plan;
+        locals.resize(plan.local.len(), D);
+        let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
+        let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
+        for (column, ((slope, value), inverse)) in plan.local.iter().zip(columns) {
+            keep_apart();
+            if column.own_mean {
+                let row = regression.row::<N, D>(column.group);
+                (*slope, *value, *inverse) = (row.regressors, row.target, Lane::splat(row.share));
+            }
+            *value -=
+                if plan.apart { dot(&slope[..N], &self.parameters) } else { dot(slope, &self.parameters) };
+        }
+    }
+
     /// `gᵀN⁻¹g`.
     #[inline(always)]
     pub(super) fn quadratic(&self, gradient: [Lane; D]) -> Lane {
         let solved = self.factor.forward(gradient);
         dot(&solved, &solved)
     }
+
+    /// `(N⁻¹)_kk`, by the rows of `L⁻¹` from the `k`-th on: those above are zero.
+    #[inline(always)]
+    pub(super) fn inverse_entry(&self, k: usize) -> Lane {
+        let Factor(factor) = &self.factor;
+        let mut column = [Lane::ZERO; D];
+        column[k] = factor[k][k];
+        let mut sum = column[k] * column[k];
+        for i in k + 1..D {
+            let mut value = Lane::ZERO;
+            for l in k..i {
+                value -= factor[i][l] * column[l];
+            }
+            column[i] = value * factor[i][i];
+            sum += column[i] * column[i];
+        }
+        sum
+    }
 }
 
 impl<const D: usize> Equations<D> {
+    /// No data.
+    pub(super) const ZERO: Self = Self {
+        normal: [[Lane::ZERO; D]; D],
+        right: [Lane::ZERO; D],
+        constant: [Lane::ZERO; D],
+        energy: Lane::ZERO,
+    };
+
+    /// The equations of a regression; what it eliminates for them goes into `locals`.
+    ///
+    /// A column that is its group's own mean needs no elimination: nothing of its group is put in, so nothing is to be taken out.
+    #[inline(always)]
+    pub(super) fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+        let plan = regression.plan;
+        let mut equations = Self::within::<N>(regression.parts);
+        for &group in &plan.pooled {
+            keep_apart();
+            equations.add(&regression.row::<N, D>(group));
+        }
+        if !plan.apart {
+            locals.resize(plan.local.len(), D);
+            let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
+            let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
+            for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
+                keep_apart();
+                if !column.own_mean {
+                    let entries = column.entries.clone();
+                    let support =
+                        plan.support[entries.clone()].iter().zip(&regression.values.weights[entries]);
+                    (*slope, *start, *inverse) =
+                        equations.eliminate(support.map(|(&q, w)| (regression.row::<N, D>(q), *w)));
+                }
+            }
+        }
+        equations
+    }
+
     /// The products within groups.
     #[inline(always)]
     fn within<const N: usize>(parts: &[&LaneStatistics]) -> Self {
-        let mut equations = Self {
-            normal: [[Lane::ZERO; D]; D],
-            right: [Lane::ZERO; D],
-            constant: [Lane::ZERO; D],
-            energy: Lane::ZERO,
-        };
+        let mut equations = Self::ZERO;
         for part in parts {
             let within = &part.within[..(N + 1) * (N + 1)];
             equations.energy += within[0];
@@ -210,6 +294,7 @@ impl<const D: usize> Equations<D> {
 }
 
 /// Cholesky's lower triangle, the inverse pivots on the diagonal.
+#[derive(Clone, Copy)]
 struct Factor<const D: usize>([[Lane; D]; D]);
 
 impl<const D: usize> Factor<D> {

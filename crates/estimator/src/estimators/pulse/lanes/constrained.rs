@@ -1,6 +1,6 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression, dot};
+use super::arrow::{Core, Equations, Locals, Regression, dot};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::method::LevelRule;
 use super::statistics::LaneStatistics;
@@ -62,7 +62,7 @@ impl Constrained {
     pub(super) fn iterate<const N: usize, const D: usize>(
         &self,
         parts: &[&LaneStatistics],
-        start: Core<N, D>,
+        start: &Core<N, D>,
         locals: &mut Locals,
         values: &mut ColumnValues,
     ) -> Core<N, D> {
@@ -77,7 +77,11 @@ impl Constrained {
         values.copy_from(&self.values);
         let mut solve = |b: &[Lane; N], w: &[Lane], locals: &mut Locals| {
             self.linearise(values, b, w);
-            Core::<N, D>::solve(&Regression { parts, shift: Lane::ZERO, plan: &self.plan, values }, locals)
+            let regression = Regression { parts, shift: Lane::ZERO, plan: &self.plan, values };
+            let equations = Equations::<D>::of::<N>(&regression, locals);
+            let core = Core::<N, D>::solve(&equations, &regression);
+            core.follow(&regression, locals);
+            core
         };
         let mut core = solve(&b, &w, locals);
         let mut moving = [true; LANES];

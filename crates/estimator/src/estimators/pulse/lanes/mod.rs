@@ -15,7 +15,7 @@ mod statistics;
 
 pub(crate) use control::Answer;
 pub use control::{LaneControl, LaneTerms};
-pub use method::{LaneFit, LaneMethod, LaneStep};
+pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
 pub(crate) use profile::ProfilePlan;
 pub use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;
