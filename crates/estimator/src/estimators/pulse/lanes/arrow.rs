@@ -138,8 +138,8 @@ impl<const N: usize, const D: usize> Core<N, D> {
     /// Solves the normal equations of a regression.
     #[inline(always)]
     pub(super) fn solve(equations: &Equations<D>, regression: &Regression<'_>) -> Self {
-        let (factor, sound) = Factor::new(equations.normal);
-        let parameters = factor.solve(equations.right);
+        let (factor, sound) = Factor::new(&equations.normal);
+        let parameters = factor.solve(&equations.right);
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
         let freedom = (samples - (D + regression.plan.local.len()) as f64).max(1.0);
         let left = equations.energy - dot(&parameters, &equations.right);
@@ -147,7 +147,7 @@ impl<const N: usize, const D: usize> Core<N, D> {
             parameters,
             variance: left.at_least(0.0) * (1.0 / freedom),
             sound,
-            constant: factor.solve(equations.constant),
+            constant: factor.solve(&equations.constant),
             factor,
         }
     }
@@ -172,27 +172,15 @@ impl<const N: usize, const D: usize> Core<N, D> {
 
     /// `gᵀN⁻¹g`.
     #[inline(always)]
-    pub(super) fn quadratic(&self, gradient: [Lane; D]) -> Lane {
+    pub(super) fn quadratic(&self, gradient: &[Lane; D]) -> Lane {
         let solved = self.factor.forward(gradient);
         dot(&solved, &solved)
     }
 
-    /// `(N⁻¹)_kk`, by the rows of `L⁻¹` from the `k`-th on: those above are zero.
+    /// The diagonal of `N⁻¹`.
     #[inline(always)]
-    pub(super) fn inverse_entry(&self, k: usize) -> Lane {
-        let Factor(factor) = &self.factor;
-        let mut column = [Lane::ZERO; D];
-        column[k] = factor[k][k];
-        let mut sum = column[k] * column[k];
-        for i in k + 1..D {
-            let mut value = Lane::ZERO;
-            for l in k..i {
-                value -= factor[i][l] * column[l];
-            }
-            column[i] = value * factor[i][i];
-            sum += column[i] * column[i];
-        }
-        sum
+    pub(super) fn inverse_diagonal(&self) -> [Lane; D] {
+        self.factor.inverse_diagonal()
     }
 }
 
@@ -243,8 +231,10 @@ impl<const D: usize> Equations<D> {
             equations.energy += within[0];
             for i in 0..N {
                 equations.right[i] -= within[i + 1];
-                for l in 0..=i {
-                    equations.normal[i][l] += within[(i + 1) * (N + 1) + l + 1];
+                for l in 0..N {
+                    if l <= i {
+                        equations.normal[i][l] += within[(i + 1) * (N + 1) + l + 1];
+                    }
                 }
             }
         }
@@ -258,8 +248,10 @@ impl<const D: usize> Equations<D> {
             let weighted = row.regressors[i] * row.count;
             self.constant[i] += weighted;
             self.right[i] += weighted * row.target;
-            for l in 0..=i {
-                self.normal[i][l] += weighted * row.regressors[l];
+            for l in 0..D {
+                if l <= i {
+                    self.normal[i][l] += weighted * row.regressors[l];
+                }
             }
         }
         self.energy += row.target * row.target * row.count;
@@ -284,8 +276,10 @@ impl<const D: usize> Equations<D> {
         for i in 0..D {
             slope[i] = cross[i] * inverse;
             self.right[i] -= cross[i] * start;
-            for l in 0..=i {
-                self.normal[i][l] -= slope[i] * cross[l];
+            for l in 0..D {
+                if l <= i {
+                    self.normal[i][l] -= slope[i] * cross[l];
+                }
             }
         }
         self.energy -= target * start;
@@ -294,61 +288,101 @@ impl<const D: usize> Equations<D> {
 }
 
 /// Cholesky's lower triangle, the inverse pivots on the diagonal.
+///
+/// Loops over a triangle run over the square and skip the rest: those bounds the compiler knows, so that it unrolls them into registers.
 #[derive(Clone, Copy)]
 struct Factor<const D: usize>([[Lane; D]; D]);
 
 impl<const D: usize> Factor<D> {
     /// Factors a matrix given by its lower triangle; says which replicates kept their digits.
     #[inline(always)]
-    fn new(mut normal: [[Lane; D]; D]) -> (Self, [bool; LANES]) {
+    fn new(matrix: &[[Lane; D]; D]) -> (Self, [bool; LANES]) {
+        let mut factor = [[Lane::ZERO; D]; D];
         let mut sound = [true; LANES];
         for j in 0..D {
-            let before = normal[j][j];
+            let before = matrix[j][j];
             let mut pivot = before;
-            for k in 0..j {
-                pivot -= normal[j][k] * normal[j][k];
+            for k in 0..D {
+                if k < j {
+                    pivot -= factor[j][k] * factor[j][k];
+                }
             }
             for l in 0..LANES {
                 sound[l] &= pivot.0[l] > SOUND * before.0[l];
             }
             let inverse = Lane::splat(1.0) / pivot.sqrt();
-            normal[j][j] = inverse;
-            for i in j + 1..D {
-                let mut x = normal[i][j];
-                for k in 0..j {
-                    x -= normal[i][k] * normal[j][k];
+            factor[j][j] = inverse;
+            for i in 0..D {
+                if i > j {
+                    let mut x = matrix[i][j];
+                    for k in 0..D {
+                        if k < j {
+                            x -= factor[i][k] * factor[j][k];
+                        }
+                    }
+                    factor[i][j] = x * inverse;
                 }
-                normal[i][j] = x * inverse;
             }
         }
-        (Self(normal), sound)
+        (Self(factor), sound)
     }
 
     /// `L⁻¹x`.
     #[inline(always)]
-    fn forward(&self, mut x: [Lane; D]) -> [Lane; D] {
+    fn forward(&self, x: &[Lane; D]) -> [Lane; D] {
+        let mut solved = [Lane::ZERO; D];
         for i in 0..D {
             let mut value = x[i];
-            for k in 0..i {
-                value -= self.0[i][k] * x[k];
+            for k in 0..D {
+                if k < i {
+                    value -= self.0[i][k] * solved[k];
+                }
+            }
+            solved[i] = value * self.0[i][i];
+        }
+        solved
+    }
+
+    /// `(LLᵀ)⁻¹x`.
+    #[inline(always)]
+    fn solve(&self, x: &[Lane; D]) -> [Lane; D] {
+        let mut x = self.forward(x);
+        for back in 1..D + 1 {
+            let i = D - back;
+            let mut value = x[i];
+            for k in 0..D {
+                if k > i {
+                    value -= self.0[k][i] * x[k];
+                }
             }
             x[i] = value * self.0[i][i];
         }
         x
     }
 
-    /// `(LLᵀ)⁻¹x`.
+    /// The diagonal of `(LLᵀ)⁻¹`.
     #[inline(always)]
-    fn solve(&self, x: [Lane; D]) -> [Lane; D] {
-        let mut x = self.forward(x);
-        for i in (0..D).rev() {
-            let mut value = x[i];
-            for k in i + 1..D {
-                value -= self.0[k][i] * x[k];
+    fn inverse_diagonal(&self) -> [Lane; D] {
+        let mut diagonal = [Lane::ZERO; D];
+        for j in 0..D {
+            // Column j of L⁻¹.
+            let mut column = [Lane::ZERO; D];
+            column[j] = self.0[j][j];
+            diagonal[j] = column[j] * column[j];
+            for i in 0..D {
+                if i > j {
+                    let mut value = Lane::ZERO;
+                    for k in 0..D {
+                        if k >= j && k < i {
+                            value -= self.0[i][k] * column[k];
+                        }
+                    }
+                    column[i] = value * self.0[i][i];
+                    diagonal[j] += column[i] * column[i];
+                }
             }
-            x[i] = value * self.0[i][i];
         }
-        x
+        diagonal
     }
 }
 

@@ -82,15 +82,18 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         Self { core, columns, base, base_gradient, step, inverse_norm, weights }
     }
 
-    /// `aᵢ` or `bᵢ`: core parameter `k`.
+    /// `a`, then `b`: what the core begins with.
     #[inline(always)]
-    pub(super) fn coefficient(&self, k: usize) -> Read {
-        let through_step = match &self.step {
-            Some(step) => step.through(Lane::ZERO, self.core.constant[k]),
-            None => Lane::ZERO,
-        };
-        let variance = self.core.variance * self.core.inverse_entry(k) + through_step;
-        (self.core.parameters[k], variance)
+    pub(super) fn coefficients(&self, values: &mut [Lane], variances: &mut [Lane]) {
+        let diagonal = self.core.inverse_diagonal();
+        for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate().take(2 * N) {
+            let through_step = match &self.step {
+                Some(step) => step.through(Lane::ZERO, self.core.constant[k]),
+                None => Lane::ZERO,
+            };
+            *value = self.core.parameters[k];
+            *variance = self.core.variance * diagonal[k] + through_step;
+        }
     }
 
     /// A border point.
@@ -169,6 +172,6 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
             Some(step) => step.through(direct, dot(&gradient, &self.core.constant) + weights),
             None => Lane::ZERO,
         };
-        self.core.variance * (own + self.core.quadratic(gradient)) + through_step
+        self.core.variance * (own + self.core.quadratic(&gradient)) + through_step
     }
 }

@@ -196,9 +196,9 @@ impl LaneMethod {
         let mut spoilt = Lane::ZERO;
         let (coefficients, points) = values.split_at_mut(2 * N);
         let (coefficient_variances, point_variances) = variances.split_at_mut(2 * N);
-        for (k, (value, variance)) in coefficients.iter_mut().zip(coefficient_variances).enumerate() {
+        reading.coefficients(coefficients, coefficient_variances);
+        for (value, variance) in coefficients.iter().zip(coefficient_variances) {
             keep_apart();
-            (*value, *variance) = reading.coefficient(k);
             spoilt += (*value + *variance) * 0.0;
         }
         for (rule, (value, variance)) in self.levels.iter().zip(points.iter_mut().zip(point_variances)) {
