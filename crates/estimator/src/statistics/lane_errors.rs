@@ -22,7 +22,7 @@ pub struct LaneErrors<'a> {
 pub(super) const TERMS: usize = 11;
 
 /// The running sums of a cell's parameters, lane by lane, on their way to [`ErrorSums`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LaneSums {
     /// Replicates so far.
     count: usize,
@@ -33,6 +33,13 @@ impl LaneSums {
     /// Nothing yet, of so many parameters.
     pub fn new(parameters: usize) -> Self {
         Self { count: 0, terms: vec![[Lane::ZERO; TERMS]; parameters] }
+    }
+
+    /// Forgets everything and makes room for so many parameters, in the memory at hand.
+    pub fn reset(&mut self, parameters: usize) {
+        self.count = 0;
+        self.terms.clear();
+        self.terms.resize(parameters, [Lane::ZERO; TERMS]);
     }
 
     /// Adds the replicates in some of the lanes, given the true values.
@@ -51,11 +58,29 @@ impl LaneSums {
     /// Hands everything over to the sums of each parameter, and begins anew.
     pub fn drain_into(&mut self, sums: &mut [ErrorSums]) {
         if self.count > 0 {
-            for (terms, sums) in self.terms.iter_mut().zip(sums) {
-                sums.add(self.count as f64, terms.map(Lane::total));
-                *terms = [Lane::ZERO; TERMS];
-            }
+            widest(Drain { count: self.count as f64, running: &mut self.terms, sums });
             self.count = 0;
+        }
+    }
+}
+
+/// [`LaneSums::drain_into`] on its way.
+struct Drain<'a> {
+    count: f64,
+    running: &'a mut [[Lane; TERMS]],
+    sums: &'a mut [ErrorSums],
+}
+
+impl Work for Drain<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (terms, sums) in self.running.iter_mut().zip(self.sums) {
+            let mut totals = [0.0; TERMS];
+            for k in 0..TERMS {
+                totals[k] = terms[k].total();
+            }
+            sums.add(self.count, totals);
+            *terms = [Lane::ZERO; TERMS];
         }
     }
 }

@@ -1,17 +1,16 @@
 //! Cells of one border, m and N: they share all but the noise level and the method.
 
 use super::bench::Bench;
-use super::execute::Round;
 use super::moments::LaneNoise;
 use super::sections::CellSums;
 use super::world::{Contender, Setting};
 use std::array;
 use std::ops::Range;
-use switchback_estimator::estimators::pulse::StepMean;
 use switchback_estimator::estimators::pulse::lanes::{
     LANES, Lane, LaneFit, LaneSample, LaneStatistics, LaneStep, LaneTerms,
 };
-use switchback_estimator::simulation::{LaneCross, LaneSuperposition};
+use switchback_estimator::estimators::pulse::{PulseData, StepMean};
+use switchback_estimator::simulation::{LaneCross, LaneGroupedNoise, LaneSuperposition};
 use switchback_estimator::statistics::{LaneErrors, LaneSums};
 
 /// What the cells of one border, m and N have in common.
@@ -86,7 +85,7 @@ impl<'a> Family<'a> {
                     let contenders = setting.methods.iter().zip(own).zip(&active[..methods]);
                     let cells: Vec<Cell<'a>> = contenders
                         .filter(|(_, active)| **active)
-                        .map(|((contender, sums), _)| Cell::new(contender, sums))
+                        .map(|((contender, sums), _)| Cell { contender, sums, section: 0 })
                         .collect();
                     if !cells.is_empty() {
                         family.levels.push(NoiseLevel { setting, cells });
@@ -96,28 +95,30 @@ impl<'a> Family<'a> {
             }
         }
         families.retain(|family| !family.levels.is_empty());
+        // Those of one m and N take in the same noise: next to each other, they find it in the cache.
+        families.sort_by_key(|family| (family.period, family.plan.checkpoint));
         families
     }
 
     /// Estimates every active cell from the noise of some replicates of a round, in order.
-    pub(super) fn run(mut self, noise: &[LaneNoise], round: &Round) {
-        let FamilyPlan { checkpoint, samples, ref superpositions, .. } = *self.plan;
-        let mut abreast: [Lanes; ABREAST] = array::from_fn(|_| Lanes::new(superpositions));
-        let mut memory = Memory::default();
-        for noise in noise.chunks(ABREAST) {
-            let all = &mut abreast[..noise.len()];
-            for (lanes, noise) in all.iter_mut().zip(noise) {
-                lanes.load(superpositions, noise, round, (checkpoint, self.period));
+    pub(super) fn run(self, noise: &[LaneNoise], memory: &mut Memory) {
+        let place = Place { plan: self.plan, bench: self.bench, period: self.period };
+        let Memory { crosses, few } = memory;
+        place.cross(noise, crosses);
+        few.shape(&self.plan.superpositions);
+        for NoiseLevel { setting, mut cells } in self.levels {
+            few.sums.resize_with(cells.len(), LaneSums::default);
+            for (sums, cell) in few.sums.iter_mut().zip(&cells) {
+                sums.reset(cell.contender.parameters.len());
             }
-            for NoiseLevel { setting, cells } in &mut self.levels {
-                for (lanes, noise) in all.iter_mut().zip(noise) {
-                    lanes.superpose(superpositions, setting, noise, (checkpoint, self.period, samples));
+            for (noise, crosses) in noise.chunks(ABREAST).zip(crosses.chunks(ABREAST)) {
+                place.superpose(setting, (noise, crosses), few);
+                for (k, cell) in cells.iter_mut().enumerate() {
+                    place.estimate(cell, noise, few, k);
                 }
-                let few = Few { all, bench: self.bench, checkpoint };
-                cells.iter_mut().for_each(|cell| few.estimate(cell, &mut memory));
             }
+            cells.iter_mut().zip(&mut few.sums).for_each(|(cell, running)| cell.settle(running));
         }
-        self.levels.iter_mut().flat_map(|level| &mut level.cells).for_each(Cell::settle);
     }
 }
 
@@ -125,187 +126,185 @@ impl<'a> Family<'a> {
 struct Cell<'a> {
     contender: &'a Contender,
     sums: &'a mut [CellSums],
-    /// Replicates of section `section` that are not in its sums yet.
-    running: LaneSums,
+    /// The section of the replicates that are not in the sums yet.
     section: usize,
 }
 
-impl<'a> Cell<'a> {
-    fn new(contender: &'a Contender, sums: &'a mut [CellSums]) -> Self {
-        Self { contender, sums, running: LaneSums::new(contender.parameters.len()), section: 0 }
-    }
-
+impl Cell<'_> {
     /// Puts the running sums where they belong.
-    fn settle(&mut self) {
-        self.running.drain_into(&mut self.sums[self.section].parameters);
+    fn settle(&mut self, running: &mut LaneSums) {
+        running.drain_into(&mut self.sums[self.section].parameters);
     }
 
-    /// The sums of a section, and the running ones that belong there.
-    fn enter(&mut self, section: usize) -> (&mut CellSums, &mut LaneSums) {
+    /// The sums of a section; the running ones belong there from now on.
+    fn enter(&mut self, section: usize, running: &mut LaneSums) -> &mut CellSums {
         if section != self.section {
-            self.settle();
+            self.settle(running);
             self.section = section;
         }
-        (&mut self.sums[section], &mut self.running)
+        &mut self.sums[section]
     }
 }
 
 /// Groups of eight replicates that a cell takes in before the next: so many statistics, and one cell's sums, stay in the cache.
 const ABREAST: usize = 4;
 
-/// Eight replicates at one noise level.
-struct Lanes {
-    first: u32,
-    /// Sections of the replicates, in order.
-    sections: Vec<usize>,
-    /// Whether there is noise of the experiment: whether any method looks at it.
-    used: [bool; 2],
-    cross: [LaneCross; 2],
-    statistics: [LaneStatistics; 2],
-    steps: [LaneStep; 2],
-}
-
-impl Lanes {
-    fn new(superpositions: &[LaneSuperposition; 2]) -> Self {
-        Self {
-            first: 0,
-            sections: Vec::with_capacity(LANES),
-            used: [false; 2],
-            cross: [LaneCross::default(), LaneCross::default()],
-            statistics: [0, 1].map(|k| superpositions[k].statistics()),
-            steps: [LaneStep { mean: Lane::ZERO, samples: 0.0 }; 2],
-        }
-    }
-
-    /// Takes in the noise of other replicates.
-    fn load(
-        &mut self,
-        superpositions: &[LaneSuperposition; 2],
-        noise: &LaneNoise,
-        round: &Round,
-        (checkpoint, period): (usize, usize),
-    ) {
-        self.first = noise.first;
-        self.sections.clear();
-        self.sections.extend((0..noise.live).map(|l| round.section(noise.first as usize + l)));
-        for k in 0..2 {
-            self.used[k] = !noise.pulses[k].is_empty();
-            if self.used[k] {
-                superpositions[k].cross(&noise.pulses[k][checkpoint][period], &mut self.cross[k]);
-            }
-        }
-    }
-
-    fn superpose(
-        &mut self,
-        superpositions: &[LaneSuperposition; 2],
-        setting: &Setting,
-        noise: &LaneNoise,
-        (checkpoint, period, samples): (usize, usize, usize),
-    ) {
-        for k in (0..2).filter(|k| self.used[*k]) {
-            let pulses = &noise.pulses[k][checkpoint][period];
-            superpositions[k].at((pulses, &self.cross[k]), setting.sigma, &mut self.statistics[k]);
-            let unit = noise.steps[k].get(checkpoint).copied().unwrap_or(Lane::ZERO);
-            let mean = unit * setting.sigma + Lane::splat(setting.bench.satellite_output(k));
-            self.steps[k] = LaneStep { mean, samples: samples as f64 };
-        }
-    }
-
-    /// The section of all eight, if they are eight of one section.
-    fn section(&self) -> Option<usize> {
-        let (first, last) = (self.sections.first()?, self.sections.last()?);
-        (self.sections.len() == LANES && first == last).then_some(*first)
-    }
-}
-
-/// What one cell leaves to the next.
+/// What one family leaves to the next: memory.
 #[derive(Default)]
-struct Memory {
-    fits: [LaneFit; ABREAST],
-    terms: [LaneTerms; ABREAST],
+pub(super) struct Memory {
+    /// One a group of eight replicates.
+    crosses: Vec<[LaneCross; 2]>,
+    few: Few,
 }
 
 /// A few groups of eight replicates at one noise level.
-struct Few<'a> {
-    all: &'a [Lanes],
-    bench: &'a Bench,
-    /// Index of the number of samples.
-    checkpoint: usize,
+#[derive(Default)]
+struct Few {
+    statistics: [[LaneStatistics; 2]; ABREAST],
+    steps: [[LaneStep; 2]; ABREAST],
+    fits: [LaneFit; ABREAST],
+    terms: [LaneTerms; ABREAST],
+    /// Running sums of the level's cells.
+    sums: Vec<LaneSums>,
 }
 
-impl Few<'_> {
-    /// Adds one method's errors to the sums of a cell.
-    fn estimate(&self, cell: &mut Cell<'_>, memory: &mut Memory) {
-        let Memory { fits, terms } = memory;
-        let (all, contender) = (self.all, cell.contender);
-        let experiments = contender.kind.experiments();
-        // What is beyond the groups at hand repeats the last and is left out.
-        let at = |k: usize| &all[k.min(all.len() - 1)];
-        let parts: [[&LaneStatistics; 2]; ABREAST] = array::from_fn(|k| at(k).statistics.each_ref());
-        let samples: [LaneSample<'_>; ABREAST] = array::from_fn(|k| LaneSample {
-            parts: &parts[k][experiments[0]..=experiments[experiments.len() - 1]],
-            step: contender.kind.needs_step().then(|| at(k).steps[experiments[0]]),
-        });
-        let samples = &samples[..all.len()];
-        contender.lanes.fit(samples, fits);
-        contender.control.terms(samples, &contender.means[self.checkpoint], terms);
-        let errors: [LaneErrors<'_>; ABREAST] = array::from_fn(|k| LaneErrors {
-            values: &fits[k].values,
-            variances: &fits[k].variances,
-            first_order: &terms[k].first,
-            second_order: &terms[k].second,
-        });
-        let section = all[0].section();
-        let plain =
-            |(lanes, fit): (&Lanes, &LaneFit)| lanes.section() == section && fit.sound == [true; LANES];
-        match section {
-            Some(section) if all.iter().zip(&*fits).all(plain) => {
-                let (sums, running) = cell.enter(section);
-                sums.replicates += all.len() * LANES;
-                running.add_all(&contender.truth, &errors[..all.len()]);
-            }
-            _ => {
-                for ((lanes, fit), errors) in all.iter().zip(&*fits).zip(errors) {
-                    self.add(cell, lanes, fit, errors);
+impl Few {
+    fn shape(&mut self, superpositions: &[LaneSuperposition; 2]) {
+        for statistics in &mut self.statistics {
+            statistics.iter_mut().zip(superpositions).for_each(|(s, from)| from.shape(s));
+        }
+    }
+}
+
+/// Where a family stands.
+struct Place<'a> {
+    plan: &'a FamilyPlan,
+    bench: &'a Bench,
+    period: usize,
+}
+
+impl Place<'_> {
+    /// The noise of an experiment that any method looks at.
+    fn pulses<'n>(&self, noise: &'n LaneNoise, k: usize) -> Option<&'n LaneGroupedNoise> {
+        Some(&noise.pulses[k].get(self.plan.checkpoint)?[self.period])
+    }
+
+    /// What the responses have in common with the noise.
+    fn cross(&self, noise: &[LaneNoise], crosses: &mut Vec<[LaneCross; 2]>) {
+        crosses.resize_with(noise.len(), Default::default);
+        for (noise, crosses) in noise.iter().zip(crosses) {
+            for (k, cross) in crosses.iter_mut().enumerate() {
+                if let Some(pulses) = self.pulses(noise, k) {
+                    self.plan.superpositions[k].cross(pulses, cross);
                 }
             }
         }
     }
 
-    /// Adds the errors of eight replicates that may belong to several sections, or have no estimates.
-    fn add(&self, cell: &mut Cell<'_>, lanes: &Lanes, fit: &LaneFit, errors: LaneErrors<'_>) {
-        let contender = cell.contender;
-        // Replicates that follow each other in a section are added in one go.
-        let mut next = 0;
-        for run in lanes.sections.chunk_by(|s, t| s == t) {
-            let (sums, running) = cell.enter(run[0]);
-            sums.replicates += run.len();
-            let end = next + run.len();
-            while next < end {
-                let sound = (next..end).take_while(|l| fit.sound[*l]).count();
-                if sound > 0 {
-                    running.add(&contender.truth, errors, next..next + sound);
-                    next += sound;
-                } else {
-                    self.estimate_alone(lanes, next, contender, sums);
-                    next += 1;
+    /// The data of a few groups at a noise level.
+    fn superpose(
+        &self,
+        setting: &Setting,
+        (noise, crosses): (&[LaneNoise], &[[LaneCross; 2]]),
+        few: &mut Few,
+    ) {
+        for (i, (noise, crosses)) in noise.iter().zip(crosses).enumerate() {
+            for (k, cross) in crosses.iter().enumerate() {
+                let Some(pulses) = self.pulses(noise, k) else { continue };
+                self.plan.superpositions[k].at((pulses, cross), setting.sigma, &mut few.statistics[i][k]);
+                let unit = noise.steps[k].get(self.plan.checkpoint).copied().unwrap_or(Lane::ZERO);
+                let mean = unit * setting.sigma + Lane::splat(setting.bench.satellite_output(k));
+                few.steps[i][k] = LaneStep { mean, samples: self.plan.samples as f64 };
+            }
+        }
+    }
+
+    /// Adds one method's errors to the sums of a cell, the `cell_index`-th of its level.
+    fn estimate(&self, cell: &mut Cell<'_>, noise: &[LaneNoise], few: &mut Few, cell_index: usize) {
+        let Few { statistics, steps, fits, terms, sums } = few;
+        let (contender, running) = (cell.contender, &mut sums[cell_index]);
+        let experiments = contender.kind.experiments();
+        let (first, last) = (experiments[0], experiments[experiments.len() - 1]);
+        let parts = statistics.each_ref().map(|both| both.each_ref());
+        let samples: [LaneSample<'_>; ABREAST] = array::from_fn(|i| LaneSample {
+            parts: &parts[i][first..=last],
+            step: contender.kind.needs_step().then_some(steps[i][first]),
+        });
+        let samples = &samples[..noise.len()];
+        contender.lanes.fit(samples, fits);
+        contender.control.terms(samples, &contender.means[self.plan.checkpoint], terms);
+        let errors: [LaneErrors<'_>; ABREAST] = array::from_fn(|i| LaneErrors {
+            values: &fits[i].values,
+            variances: &fits[i].variances,
+            first_order: &terms[i].first,
+            second_order: &terms[i].second,
+        });
+        let section = noise[0].section();
+        let plain =
+            |(noise, fit): (&LaneNoise, &LaneFit)| noise.section() == section && fit.sound == [true; LANES];
+        match section {
+            Some(section) if noise.iter().zip(&*fits).all(plain) => {
+                cell.enter(section, running).replicates += noise.len() * LANES;
+                running.add_all(&contender.truth, &errors[..noise.len()]);
+            }
+            _ => {
+                for (i, noise) in noise.iter().enumerate() {
+                    let alone = |l: usize, sums: &mut CellSums| {
+                        let steps = steps[i].map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
+                        self.estimate_alone(
+                            &self.bench.replicate(&statistics[i], l),
+                            steps,
+                            (contender, noise.first + l as u32),
+                            sums,
+                        );
+                    };
+                    add(cell, (&noise.sections, &fits[i].sound), (errors[i], running), alone);
                 }
             }
         }
     }
 
     /// A replicate that the lanes could not solve, or its failure.
-    fn estimate_alone(&self, lanes: &Lanes, l: usize, contender: &Contender, sums: &mut CellSums) {
-        let steps = lanes.steps.map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
-        contender.kind.with_input(&self.bench.replicate(&lanes.statistics, l), steps, |method| match method
-            .fit()
-        {
+    fn estimate_alone(
+        &self,
+        data: &[PulseData; 2],
+        steps: [StepMean; 2],
+        (contender, replicate): (&Contender, u32),
+        sums: &mut CellSums,
+    ) {
+        contender.kind.with_input(data, steps, |method| match method.fit() {
             Ok(fit) => {
                 let errors = fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
-                sums.push(errors, &contender.terms(self.checkpoint, &method));
+                sums.push(errors, &contender.terms(self.plan.checkpoint, &method));
             }
-            Err(error) => sums.fail(lanes.first + l as u32, error.to_string()),
+            Err(error) => sums.fail(replicate, error.to_string()),
         });
+    }
+}
+
+/// Adds the errors of eight replicates that may belong to several sections; those without estimates go to `alone`.
+fn add(
+    cell: &mut Cell<'_>,
+    (sections, sound): (&[usize], &[bool; LANES]),
+    (errors, running): (LaneErrors<'_>, &mut LaneSums),
+    alone: impl Fn(usize, &mut CellSums),
+) {
+    let truth = &cell.contender.truth;
+    // Replicates that follow each other in a section are added in one go.
+    let mut next = 0;
+    for run in sections.chunk_by(|s, t| s == t) {
+        let sums = cell.enter(run[0], running);
+        sums.replicates += run.len();
+        let end = next + run.len();
+        while next < end {
+            let solved = (next..end).take_while(|l| sound[*l]).count();
+            if solved > 0 {
+                running.add(truth, errors, next..next + solved);
+                next += solved;
+            } else {
+                alone(next, sums);
+                next += 1;
+            }
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The noise of a world's replicates: one by one, and eight abreast.
 
+use super::execute::Round;
 use super::world::World;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
@@ -67,21 +68,30 @@ fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
 pub(super) struct LaneNoise {
     /// The first of them.
     pub(super) first: u32,
-    /// How many there are; the lanes after them hold no replicate.
-    pub(super) live: usize,
+    /// Their sections; the lanes after them hold no replicate.
+    pub(super) sections: Vec<usize>,
     pub(super) pulses: [Vec<Vec<LaneGroupedNoise>>; 2],
     pub(super) steps: [Vec<Lane>; 2],
 }
 
+impl LaneNoise {
+    /// The section of all, if they are eight of one section.
+    pub(super) fn section(&self) -> Option<usize> {
+        let (first, last) = (self.sections.first()?, self.sections.last()?);
+        (self.sections.len() == LANES && first == last).then_some(*first)
+    }
+}
+
 /// Draws the noise of a run of replicates.
-pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Vec<LaneNoise> {
+pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>) -> Vec<LaneNoise> {
+    let seed = round.seed;
     let start = replicates.start;
     let mut noise: Vec<LaneNoise> = replicates
         .clone()
         .step_by(LANES)
         .map(|first| LaneNoise {
             first,
-            live: LANES.min((replicates.end - first) as usize),
+            sections: (first..replicates.end).take(LANES).map(|r| round.section(r as usize)).collect(),
             ..LaneNoise::default()
         })
         .collect();

@@ -4,7 +4,7 @@ use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
-use super::family::{Family, FamilyPlan};
+use super::family::{Family, FamilyPlan, Memory};
 use super::moments::{LaneNoise, draw_lanes};
 use super::pulse_kind::PulseKind;
 use super::sections::CellSums;
@@ -261,9 +261,9 @@ impl Workload for World {
         let batches: Vec<Range<u32>> =
             (start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH as u32)).collect();
         let noise: Vec<LaneNoise> =
-            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round.seed, batch.clone())).collect();
+            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round, batch.clone())).collect();
         Family::all(&self.families, &self.settings, active, cells)
             .into_par_iter()
-            .for_each(|family| family.run(&noise, round));
+            .for_each_init(Memory::default, |memory, family| family.run(&noise, memory));
     }
 }

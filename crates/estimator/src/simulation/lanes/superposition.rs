@@ -65,7 +65,14 @@ impl LaneSuperposition {
 
     /// Statistics to be filled by [`Self::at`].
     pub fn statistics(&self) -> LaneStatistics {
-        LaneStatistics::new(self.width - 1, self.counts.clone())
+        let mut statistics = LaneStatistics::default();
+        self.shape(&mut statistics);
+        statistics
+    }
+
+    /// Makes [`Self::statistics`] of others, in their memory.
+    pub fn shape(&self, statistics: &mut LaneStatistics) {
+        statistics.shape(self.width - 1, &self.counts);
     }
 
     /// What the response has in common with the noise of eight replicates.

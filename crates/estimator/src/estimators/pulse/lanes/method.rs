@@ -36,7 +36,7 @@ pub struct LaneMethod {
 }
 
 /// Mean of the step experiment's output in each replicate.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LaneStep {
     /// `ŷ₀`.
     pub mean: Lane,
