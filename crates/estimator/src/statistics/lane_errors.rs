@@ -35,10 +35,11 @@ impl LaneSums {
         Self { count: 0, terms: vec![[Lane::ZERO; TERMS]; parameters] }
     }
 
-    /// Forgets everything and makes room for so many parameters, in the memory at hand.
+    /// Makes room for so many parameters, in the memory at hand. What was not drained from those there were before is lost.
     pub fn reset(&mut self, parameters: usize) {
-        self.count = 0;
-        self.terms.clear();
+        if self.count > 0 {
+            *self = Self::default();
+        }
         self.terms.resize(parameters, [Lane::ZERO; TERMS]);
     }
 

@@ -1,6 +1,6 @@
 //! The arrow of [`super::super::arrow`], eight replicates abreast.
 
-use super::columns::{ColumnPlan, ColumnValues};
+use super::columns::{ColumnPlan, ColumnValues, LocalPlan};
 use super::statistics::LaneStatistics;
 use crate::lanes::{LANES, Lane, keep_apart};
 
@@ -102,8 +102,7 @@ impl Locals {
 }
 
 /// The normal equations of the core.
-#[derive(Clone, Copy)]
-pub(super) struct Equations<const D: usize> {
+struct Equations<const D: usize> {
     /// The lower triangle.
     normal: [[Lane; D]; D],
     right: [Lane; D],
@@ -126,18 +125,10 @@ pub(super) struct Core<const N: usize, const D: usize> {
 }
 
 impl<const N: usize, const D: usize> Core<N, D> {
-    /// Nothing solved yet.
-    pub(super) const EMPTY: Self = Self {
-        parameters: [Lane::ZERO; D],
-        variance: Lane::ZERO,
-        sound: [false; LANES],
-        constant: [Lane::ZERO; D],
-        factor: Factor([[Lane::ZERO; D]; D]),
-    };
-
-    /// Solves the normal equations of a regression.
+    /// Solves a regression; what it eliminates for that goes into `locals`.
     #[inline(always)]
-    pub(super) fn solve(equations: &Equations<D>, regression: &Regression<'_>) -> Self {
+    pub(super) fn solve(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+        let equations = Equations::<D>::of::<N>(regression, locals);
         let (factor, sound) = Factor::new(&equations.normal);
         let parameters = factor.solve(&equations.right);
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
@@ -185,19 +176,11 @@ impl<const N: usize, const D: usize> Core<N, D> {
 }
 
 impl<const D: usize> Equations<D> {
-    /// No data.
-    pub(super) const ZERO: Self = Self {
-        normal: [[Lane::ZERO; D]; D],
-        right: [Lane::ZERO; D],
-        constant: [Lane::ZERO; D],
-        energy: Lane::ZERO,
-    };
-
     /// The equations of a regression; what it eliminates for them goes into `locals`.
     ///
     /// A column that is its group's own mean needs no elimination: nothing of its group is put in, so nothing is to be taken out.
     #[inline(always)]
-    pub(super) fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+    fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
         let plan = regression.plan;
         let mut equations = Self::within::<N>(regression.parts);
         for &group in &plan.pooled {
@@ -211,11 +194,7 @@ impl<const D: usize> Equations<D> {
             for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
                 keep_apart();
                 if !column.own_mean {
-                    let entries = column.entries.clone();
-                    let support =
-                        plan.support[entries.clone()].iter().zip(&regression.values.weights[entries]);
-                    (*slope, *start, *inverse) =
-                        equations.eliminate(support.map(|(&q, w)| (regression.row::<N, D>(q), *w)));
+                    (*slope, *start, *inverse) = equations.eliminate::<N>(regression, column);
                 }
             }
         }
@@ -225,7 +204,12 @@ impl<const D: usize> Equations<D> {
     /// The products within groups.
     #[inline(always)]
     fn within<const N: usize>(parts: &[&LaneStatistics]) -> Self {
-        let mut equations = Self::ZERO;
+        let mut equations = Self {
+            normal: [[Lane::ZERO; D]; D],
+            right: [Lane::ZERO; D],
+            constant: [Lane::ZERO; D],
+            energy: Lane::ZERO,
+        };
         for part in parts {
             let within = &part.within[..(N + 1) * (N + 1)];
             equations.energy += within[0];
@@ -257,12 +241,18 @@ impl<const D: usize> Equations<D> {
         self.energy += row.target * row.target * row.count;
     }
 
-    /// Takes out a local column, given by its groups and weights; `c/D`, its estimate were the core zero, and `1/D`.
+    /// Takes out a local column; `c/D`, its estimate were the core zero, and `1/D`.
     #[inline(always)]
-    fn eliminate(&mut self, support: impl Iterator<Item = (Row<D>, Lane)>) -> ([Lane; D], Lane, Lane) {
+    fn eliminate<const N: usize>(
+        &mut self,
+        regression: &Regression<'_>,
+        column: &LocalPlan,
+    ) -> ([Lane; D], Lane, Lane) {
         let (mut own, mut target, mut cross) = (Lane::ZERO, Lane::ZERO, [Lane::ZERO; D]);
-        for (row, w) in support {
+        let support = &regression.plan.support[column.entries.clone()];
+        for (&group, &w) in support.iter().zip(&regression.values.weights[column.entries.clone()]) {
             keep_apart();
+            let row = regression.row::<N, D>(group);
             let weight = w * row.count;
             own += weight * w;
             target += weight * row.target;

@@ -1,6 +1,6 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{Core, Equations, Locals, Regression, dot};
+use super::arrow::{Core, Locals, Regression, dot};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::method::LevelRule;
 use super::statistics::LaneStatistics;
@@ -75,33 +75,28 @@ impl Constrained {
             .map(|l| dot(&b, &locals.values[l.first..l.first + N]) * inverse + Lane::splat(l.plus))
             .collect();
         values.copy_from(&self.values);
-        let mut solve = |b: &[Lane; N], w: &[Lane], locals: &mut Locals| {
-            self.linearise(values, b, w);
-            let regression = Regression { parts, shift: Lane::ZERO, plan: &self.plan, values };
-            let equations = Equations::<D>::of::<N>(&regression, locals);
-            let core = Core::<N, D>::solve(&equations, &regression);
-            core.follow(&regression, locals);
-            core
-        };
-        let mut core = solve(&b, &w, locals);
         let mut moving = [true; LANES];
-        for _ in 0..MOST_STEPS {
+        let mut steps = 0;
+        loop {
+            self.linearise(values, &b, &w);
+            let regression = Regression { parts, shift: Lane::ZERO, plan: &self.plan, values };
+            let core = Core::<N, D>::solve(&regression, locals);
+            core.follow(&regression, locals);
             let change = change(&core, locals, &b, &w);
             for l in 0..LANES {
                 // A replicate that came to nothing moves no further: its change is not a number.
                 moving[l] &= change.0[l] >= CONVERGED;
             }
-            if moving == [false; LANES] {
-                break;
+            if steps == MOST_STEPS || moving == [false; LANES] {
+                return core;
             }
             let new = core.parameters[N..2 * N].iter().chain(&locals.values);
             for (old, new) in b.iter_mut().chain(&mut w).zip(new) {
                 keep_apart();
                 *old = new.where_or(&moving, *old);
             }
-            core = solve(&b, &w, locals);
+            steps += 1;
         }
-        core
     }
 
     /// The regression linearised about `b` and `w`.

@@ -1,6 +1,6 @@
 //! The methods, eight replicates abreast.
 
-use super::arrow::{Core, Equations, Locals, Regression};
+use super::arrow::{Core, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::constrained::Constrained;
 use super::levels::{LocalColumns, Reading};
@@ -143,16 +143,12 @@ impl SizedWork for Fit<'_> {
     #[inline(always)]
     fn run<const N: usize, const D: usize>(self) {
         let Self { method, samples, fits } = self;
-        let (mut equations, mut cores) = ([Equations::<D>::ZERO; ABREAST], [Core::<N, D>::EMPTY; ABREAST]);
-        for (equations, (sample, fit)) in equations.iter_mut().zip(samples.iter().zip(&mut *fits)) {
+        let mut cores: [Option<Core<N, D>>; ABREAST] = [const { None }; ABREAST];
+        for (core, (sample, fit)) in cores.iter_mut().zip(samples.iter().zip(&mut *fits)) {
             keep_apart();
-            *equations = Equations::of::<N>(&method.regression(sample), &mut fit.locals);
+            *core = Some(Core::solve(&method.regression(sample), &mut fit.locals));
         }
-        for (core, (equations, sample)) in cores.iter_mut().zip(equations.iter().zip(samples)) {
-            keep_apart();
-            *core = Core::solve(equations, &method.regression(sample));
-        }
-        for (core, (sample, fit)) in cores.iter_mut().zip(samples.iter().zip(fits)) {
+        for (core, (sample, fit)) in cores.iter_mut().flatten().zip(samples.iter().zip(fits)) {
             keep_apart();
             method.read(core, sample, fit);
         }
