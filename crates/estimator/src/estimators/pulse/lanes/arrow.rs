@@ -102,7 +102,7 @@ impl Locals {
 }
 
 /// The normal equations of the core.
-struct Equations<const D: usize> {
+pub(super) struct Equations<const D: usize> {
     /// The lower triangle.
     normal: [[Lane; D]; D],
     right: [Lane; D],
@@ -125,10 +125,9 @@ pub(super) struct Core<const N: usize, const D: usize> {
 }
 
 impl<const N: usize, const D: usize> Core<N, D> {
-    /// Solves a regression; what it eliminates for that goes into `locals`.
+    /// Solves the equations of a regression.
     #[inline(always)]
-    pub(super) fn solve(regression: &Regression<'_>, locals: &mut Locals) -> Self {
-        let equations = Equations::<D>::of::<N>(regression, locals);
+    pub(super) fn solve(equations: &Equations<D>, regression: &Regression<'_>) -> Self {
         let (factor, sound) = Factor::new(&equations.normal);
         let parameters = factor.solve(&equations.right);
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
@@ -180,7 +179,7 @@ impl<const D: usize> Equations<D> {
     ///
     /// A column that is its group's own mean needs no elimination: nothing of its group is put in, so nothing is to be taken out.
     #[inline(always)]
-    fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+    pub(super) fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
         let plan = regression.plan;
         let mut equations = Self::within::<N>(regression.parts);
         for &group in &plan.pooled {
@@ -376,11 +375,11 @@ impl<const D: usize> Factor<D> {
     }
 }
 
-/// `Σ xᵢyᵢ`.
+/// `Σ xᵢyᵢ`, over the shorter of the two, which has at least one entry.
 #[inline(always)]
 pub(super) fn dot(x: &[Lane], y: &[Lane]) -> Lane {
-    let mut sum = Lane::ZERO;
-    for (x, y) in x.iter().zip(y) {
+    let mut sum = x[0] * y[0];
+    for (x, y) in x[1..].iter().zip(&y[1..]) {
         sum += *x * *y;
     }
     sum

@@ -1,6 +1,6 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression, dot};
+use super::arrow::{Core, Equations, Locals, Regression, dot};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::method::LevelRule;
 use super::statistics::LaneStatistics;
@@ -80,7 +80,8 @@ impl Constrained {
         loop {
             self.linearise(values, &b, &w);
             let regression = Regression { parts, shift: Lane::ZERO, plan: &self.plan, values };
-            let core = Core::<N, D>::solve(&regression, locals);
+            let equations = Equations::<D>::of::<N>(&regression, locals);
+            let core = Core::<N, D>::solve(&equations, &regression);
             core.follow(&regression, locals);
             let change = change(&core, locals, &b, &w);
             for l in 0..LANES {

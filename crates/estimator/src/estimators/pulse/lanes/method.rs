@@ -1,6 +1,6 @@
 //! The methods, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression};
+use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::constrained::Constrained;
 use super::levels::{LocalColumns, Reading};
@@ -143,10 +143,16 @@ impl SizedWork for Fit<'_> {
     #[inline(always)]
     fn run<const N: usize, const D: usize>(self) {
         let Self { method, samples, fits } = self;
-        let mut cores: [Option<Core<N, D>>; ABREAST] = [const { None }; ABREAST];
-        for (core, (sample, fit)) in cores.iter_mut().zip(samples.iter().zip(&mut *fits)) {
+        let mut equations: [Option<Equations<D>>; ABREAST] = [const { None }; ABREAST];
+        for (equations, (sample, fit)) in equations.iter_mut().zip(samples.iter().zip(&mut *fits)) {
             keep_apart();
-            *core = Some(Core::solve(&method.regression(sample), &mut fit.locals));
+            *equations = Some(Equations::of::<N>(&method.regression(sample), &mut fit.locals));
+        }
+        // Next to each other, the divisions and roots of one sample do not keep the next waiting.
+        let mut cores: [Option<Core<N, D>>; ABREAST] = [const { None }; ABREAST];
+        for (core, (equations, sample)) in cores.iter_mut().zip(equations.iter().flatten().zip(samples)) {
+            keep_apart();
+            *core = Some(Core::solve(equations, &method.regression(sample)));
         }
         for (core, (sample, fit)) in cores.iter_mut().flatten().zip(samples.iter().zip(fits)) {
             keep_apart();
