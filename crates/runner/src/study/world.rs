@@ -101,14 +101,14 @@ impl World {
         let mut periods: Vec<usize> = settings.iter().map(|s| s.bench.period()).collect();
         periods.sort_unstable();
         periods.dedup();
-        for setting in &mut settings {
+        settings.par_iter_mut().for_each(|setting| {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
             for contender in &mut setting.methods {
                 let mean =
                     |&n: &usize| setting.bench.mean_terms(contender.kind, &contender.limit, setting.sigma, n);
                 contender.means = checkpoints.iter().map(mean).collect();
             }
-        }
+        });
         let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
@@ -171,39 +171,31 @@ impl Setting {
 
 fn settings(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<Setting>, StudyError> {
     let sweep = scenario.sweep();
-    let mut settings = Vec::new();
-    for (b, border) in case.borders.iter().enumerate() {
-        for &points in &sweep.points {
-            let bench = Bench::new(case, border, points)?;
-            for &sigma in &sweep.noise {
-                let methods = sweep
-                    .methods
-                    .iter()
-                    .filter_map(|&method| Some((method, PulseKind::of(method)?)))
-                    .map(|(method, kind)| {
-                        Contender::new(case, &bench, sigma, method, kind).map_err(|source| {
-                            StudyError::NoLimit {
-                                method: method.name(),
-                                case: case.name.clone(),
-                                border: border.name.clone(),
-                                points,
-                                source,
-                            }
-                        })
-                    })
-                    .collect::<Result<_, _>>()?;
-                settings.push(Setting {
-                    case: index,
-                    border: b,
-                    bench: bench.clone(),
-                    sigma,
-                    period: 0,
-                    methods,
-                });
-            }
-        }
-    }
-    Ok(settings)
+    let benches: Vec<(usize, usize)> =
+        (0..case.borders.len()).flat_map(|b| sweep.points.iter().map(move |&points| (b, points))).collect();
+    let of_bench = |&(b, points): &(usize, usize)| {
+        let border = &case.borders[b];
+        let bench = Bench::new(case, border, points)?;
+        let contender = |method: Method, kind, sigma| {
+            Contender::new(case, &bench, sigma, method, kind).map_err(|source| StudyError::NoLimit {
+                method: method.name(),
+                case: case.name.clone(),
+                border: border.name.clone(),
+                points,
+                source,
+            })
+        };
+        let setting = |&sigma: &f64| {
+            let kinds = sweep.methods.iter().filter_map(|&method| Some((method, PulseKind::of(method)?)));
+            let methods =
+                kinds.map(|(method, kind)| contender(method, kind, sigma)).collect::<Result<_, _>>()?;
+            Ok(Setting { case: index, border: b, bench: bench.clone(), sigma, period: 0, methods })
+        };
+        sweep.noise.iter().map(setting).collect::<Result<Vec<_>, StudyError>>()
+    };
+    let settings: Vec<Result<Vec<Setting>, StudyError>> = benches.par_iter().map(of_bench).collect();
+    // The first error in the order of the scenario, whichever thread was first.
+    Ok(settings.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 impl Contender {
