@@ -24,6 +24,23 @@ fn near(what: &str, fast: f64, slow: f64, scale: f64) -> Result<(), TestCaseErro
     Ok(())
 }
 
+/// Several samples in one call, more than go abreast, give what each gives by itself.
+fn several_give_the_bits_of_one(
+    method: &LaneMethod,
+    sample: LaneSample<'_>,
+    alone: &LaneFit,
+) -> Result<(), TestCaseError> {
+    let mut fits: [LaneFit; 6] = Default::default();
+    method.fit(&[sample; 6], &mut fits);
+    let bits = |lanes: &[Lane]| lanes.iter().flat_map(|x| x.0.map(f64::to_bits)).collect::<Vec<_>>();
+    for fit in &fits {
+        prop_assert_eq!(fit.sound, alone.sound);
+        prop_assert_eq!(bits(&fit.values), bits(&alone.values));
+        prop_assert_eq!(bits(&fit.variances), bits(&alone.variances));
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
@@ -63,6 +80,7 @@ proptest! {
             let sample = [LaneSample { parts: &parts, step }];
             method.fit(&sample, &mut fits);
             let [fit] = &fits;
+            several_give_the_bits_of_one(&method, sample[0], fit)?;
             let limit = Limit::of(example).ok();
             let means = ErrorTerms { first: vec![0.0; fit.values.len()], second: vec![0.0; fit.values.len()] };
             if let Some(limit) = &limit {

@@ -196,5 +196,25 @@ mod tests {
                 prop_assert!((fast - slow).abs() < 1e-7, "{} against {}", fast, slow);
             }
         }
+
+        #[test]
+        fn all_at_once_adds_the_bits_of_one_after_the_other(
+            numbers in prop::collection::vec(prop::array::uniform8(0.01..1.0_f64), 2 * 3 * 4), truth in prop::array::uniform2(-1.0..1.0_f64),
+        ) {
+            let lanes: Vec<Lane> = numbers.into_iter().map(Lane).collect();
+            let errors: Vec<LaneErrors<'_>> = lanes
+                .chunks_exact(8)
+                .map(|x| LaneErrors { values: &x[..2], variances: &x[2..4], first_order: &x[4..6], second_order: &x[6..] })
+                .collect();
+            let (mut together, mut apart) = (LaneSums::new(2), LaneSums::default());
+            apart.reset(2);
+            together.add_all(&truth, &errors);
+            errors.iter().for_each(|errors| apart.add(&truth, *errors, 0..LANES));
+            prop_assert_eq!(&together, &apart);
+            let mut drained = [ErrorSums::default(); 2];
+            together.drain_into(&mut drained);
+            prop_assert_eq!(drained.map(|sums| sums.count()), [3 * LANES; 2]);
+            prop_assert_eq!(together, LaneSums::new(2));
+        }
     }
 }

@@ -1,10 +1,11 @@
 //! Worlds: cells that share their noise.
 
 use super::StudyError;
+use super::abreast::Memory;
 use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
-use super::family::{Family, FamilyPlan, Memory};
+use super::family::{Family, FamilyPlan};
 use super::moments::{LaneNoise, draw_lanes};
 use super::pulse_kind::PulseKind;
 use super::sections::CellSums;

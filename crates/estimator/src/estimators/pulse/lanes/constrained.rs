@@ -1,7 +1,8 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{Core, Equations, Locals, Regression, dot};
+use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
+use super::factor::dot;
 use super::method::LevelRule;
 use super::statistics::LaneStatistics;
 use crate::estimators::pulse::arrow::LocalColumn;

@@ -1,6 +1,7 @@
 //! Reading parameters and their variances off a solved arrow: `Solution`, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression, dot};
+use super::arrow::{Core, Locals, Regression};
+use super::factor::dot;
 use super::method::{LaneStep, LevelRule};
 use crate::lanes::Lane;
 

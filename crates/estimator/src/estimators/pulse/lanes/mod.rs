@@ -7,6 +7,7 @@ mod arrow;
 mod columns;
 mod constrained;
 mod control;
+mod factor;
 mod levels;
 mod method;
 mod profile;
