@@ -10,12 +10,15 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use switchback::scenario::Scenario;
 use switchback::study;
 use switchback_benches::{experiment, noise, settings, spring, system};
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep, LaneTerms};
+use switchback_estimator::estimators::pulse::lanes::{
+    LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
+};
 use switchback_estimator::estimators::pulse::{Limit, PulseMethod, StepMean};
 use switchback_estimator::excitation::Direction;
 use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
 use switchback_estimator::simulation::{
-    LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
+    Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign,
+    SumCovariance, periodic_response, superpose,
 };
 
 /// Points `m`.
@@ -67,17 +70,23 @@ fn samples(c: &mut Criterion) {
     group.finish();
 }
 
-/// Eight replicates of one cell: statistics, estimates with their standard errors, control variate.
+/// Groups of replicates that a cell takes in at once.
+const ABREAST: usize = 4;
+
+/// A few times eight replicates of one cell: statistics, estimates with their standard errors, control variate.
 fn cell(c: &mut Criterion) {
     let design = PeriodicDesign::new(&experiment(Direction::Descendant, POINTS), &spring(), 2);
     let response = periodic_response(&system(), &design.u);
-    let mut superposition = LaneSuperposition::new(&design, &response, SAMPLES);
+    let superposition = LaneSuperposition::new(&design, &response, SAMPLES);
+    let grouping = Grouping::new(&design, SAMPLES);
     let replicate =
         |r: u32| NoiseMoments::from_samples(&noise(r, SAMPLES + 2), design.order, design.period());
     let mut moments = LaneMoments::zeros(design.order, design.period());
     (0..LANES).for_each(|lane| moments.set(lane, &replicate(lane as u32)));
-    superposition.load(&moments);
-    let mut statistics = superposition.statistics();
+    let grouped = LaneGroupedNoise::new(&grouping, &moments);
+    let mut cross = LaneCross::default();
+    superposition.cross(&grouped, &mut cross);
+    let mut statistics: [_; ABREAST] = std::array::from_fn(|_| superposition.statistics());
 
     let endless = NoiseMoments::expected(system().a(), &[], design.order, design.period(), 1e12);
     let expected = superpose(&design, &response, SIGMA, &endless);
@@ -96,19 +105,30 @@ fn cell(c: &mut Criterion) {
     );
     let method = LaneMethod::of(&paper);
     let step = LaneStep { mean: Lane::splat(mean), samples: SAMPLES as f64 };
-    let (mut fit, mut terms) = (LaneFit::default(), LaneTerms::default());
+    let mut fits: [LaneFit; ABREAST] = Default::default();
+    let mut terms: [LaneTerms; ABREAST] = Default::default();
 
     let mut group = c.benchmark_group("engine, a cell of a replicate");
     group.throughput(Throughput::Elements(LANES as u64));
-    group.bench_function("noise taken in, once a border, m and N", |b| {
-        b.iter(|| superposition.load(black_box(&moments)))
+    group.bench_function("noise taken in, once an m and N", |b| {
+        b.iter(|| LaneGroupedNoise::new(&grouping, black_box(&moments)))
     });
+    group.bench_function("response taken in, once more a border", |b| {
+        b.iter(|| superposition.cross(black_box(&grouped), &mut cross))
+    });
+    let cross = cross.clone();
+    group.throughput(Throughput::Elements((ABREAST * LANES) as u64));
     group.bench_function("one cell", |b| {
         b.iter(|| {
-            superposition.at(black_box(SIGMA), &mut statistics);
-            method.fit(&[&statistics], Some(step), &mut fit);
-            control.terms(&[&statistics], Some(step.mean), &means, &mut terms);
-            black_box((&fit, &terms));
+            for statistics in &mut statistics {
+                superposition.at((&grouped, &cross), black_box(SIGMA), statistics);
+            }
+            let parts: [_; ABREAST] = std::array::from_fn(|k| [&statistics[k]]);
+            let samples: [_; ABREAST] =
+                std::array::from_fn(|k| LaneSample { parts: &parts[k], step: Some(step) });
+            method.fit(&samples, &mut fits);
+            control.terms(&samples, &means, &mut terms);
+            black_box((&fits, &terms));
         })
     });
     group.finish();

@@ -4,9 +4,13 @@ mod sweep;
 
 use proptest::prelude::*;
 use sweep::{Bench, methods, noise, systems};
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneStep, LaneTerms};
+use switchback_estimator::estimators::pulse::lanes::{
+    LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
+};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, PulseMethod, StepMean};
-use switchback_estimator::simulation::{LaneMoments, LaneSuperposition, NoiseMoments, superpose};
+use switchback_estimator::simulation::{
+    Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition, NoiseMoments, superpose,
+};
 
 fn step_of(method: &PulseMethod<'_>) -> Option<StepMean> {
     match method {
@@ -17,6 +21,23 @@ fn step_of(method: &PulseMethod<'_>) -> Option<StepMean> {
 
 fn near(what: &str, fast: f64, slow: f64, scale: f64) -> Result<(), TestCaseError> {
     prop_assert!((fast - slow).abs() < 1e-9 * scale, "{}: {} against {}", what, fast, slow);
+    Ok(())
+}
+
+/// Several samples in one call, more than go abreast, give what each gives by itself.
+fn several_give_the_bits_of_one(
+    method: &LaneMethod,
+    sample: LaneSample<'_>,
+    alone: &LaneFit,
+) -> Result<(), TestCaseError> {
+    let mut fits: [LaneFit; 6] = Default::default();
+    method.fit(&[sample; 6], &mut fits);
+    let bits = |lanes: &[Lane]| lanes.iter().flat_map(|x| x.0.map(f64::to_bits)).collect::<Vec<_>>();
+    for fit in &fits {
+        prop_assert_eq!(fit.sound, alone.sound);
+        prop_assert_eq!(bits(&fit.values), bits(&alone.values));
+        prop_assert_eq!(bits(&fit.variances), bits(&alone.variances));
+    }
     Ok(())
 }
 
@@ -34,10 +55,12 @@ proptest! {
         let lanes: [_; 2] = std::array::from_fn(|k| {
             let mut all = LaneMoments::zeros(order, bench.designs[k].period());
             moments.iter().enumerate().for_each(|(l, m)| all.set(l, &m[k]));
-            let mut superposition = LaneSuperposition::new(&bench.designs[k], &bench.responses[k], bench.samples);
-            superposition.load(&all);
+            let grouped = LaneGroupedNoise::new(&Grouping::new(&bench.designs[k], bench.samples), &all);
+            let superposition = LaneSuperposition::new(&bench.designs[k], &bench.responses[k], bench.samples);
+            let mut cross = LaneCross::default();
+            superposition.cross(&grouped, &mut cross);
             let mut statistics = superposition.statistics();
-            superposition.at(sigma, &mut statistics);
+            superposition.at((&grouped, &cross), sigma, &mut statistics);
             statistics
         });
         let expected: [PulseData; 2] = std::array::from_fn(|k| {
@@ -46,7 +69,7 @@ proptest! {
         });
         let expected = [&expected[0], &expected[1]];
         let endless = [0, 1].map(|k| StepMean { samples: 1e9, ..bench.step(k, sigma, 0.0) });
-        let (mut fit, mut terms) = (LaneFit::default(), LaneTerms::default());
+        let (mut fits, mut terms) = ([LaneFit::default()], [LaneTerms::default()]);
         for (m, (example, experiments)) in methods(&expected, endless).into_iter().enumerate() {
             let method = LaneMethod::of(&example);
             let parts: Vec<_> = experiments.iter().map(|k| &lanes[*k]).collect();
@@ -54,11 +77,14 @@ proptest! {
                 mean: Lane(std::array::from_fn(|l| bench.step(experiments[0], sigma, step_noise[l]).mean)),
                 samples: bench.samples as f64,
             });
-            method.fit(&parts, step, &mut fit);
+            let sample = [LaneSample { parts: &parts, step }];
+            method.fit(&sample, &mut fits);
+            let [fit] = &fits;
+            several_give_the_bits_of_one(&method, sample[0], fit)?;
             let limit = Limit::of(example).ok();
             let means = ErrorTerms { first: vec![0.0; fit.values.len()], second: vec![0.0; fit.values.len()] };
             if let Some(limit) = &limit {
-                limit.lanes().terms(&parts, step.map(|s| s.mean), &means, &mut terms);
+                limit.lanes().terms(&sample, &means, &mut terms);
             }
             for l in 0..LANES {
                 let data: [PulseData; 2] =
@@ -76,10 +102,10 @@ proptest! {
                 if let Some(limit) = &limit {
                     let ErrorTerms { first, second } = limit.terms(&slow_method);
                     for (k, slow) in first.into_iter().enumerate() {
-                        near(&format!("method {m}, first-order {k}"), terms.first[k].0[l], slow, scale)?;
+                        near(&format!("method {m}, first-order {k}"), terms[0].first[k].0[l], slow, scale)?;
                     }
                     for (k, slow) in second.into_iter().enumerate() {
-                        near(&format!("method {m}, second-order {k}"), terms.second[k].0[l], slow, scale)?;
+                        near(&format!("method {m}, second-order {k}"), terms[0].second[k].0[l], slow, scale)?;
                     }
                 }
             }

@@ -8,7 +8,7 @@ mod sum_covariance;
 mod superposition;
 
 pub use design::PeriodicDesign;
-pub use lanes::{LaneMoments, LaneSuperposition};
+pub use lanes::{Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition};
 pub use periodic::periodic_response;
 pub use sum_covariance::SumCovariance;
 pub use superposition::{NoiseMoments, superpose};

@@ -78,6 +78,7 @@ impl ErrorSums {
     }
 
     /// Adds `count` replicates, given what their [terms](TERMS) add up to.
+    #[inline(always)]
     pub(super) fn add(&mut self, count: f64, totals: [f64; TERMS]) {
         for k in 0..4 {
             self.error[k] += totals[k];

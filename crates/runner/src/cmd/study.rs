@@ -60,7 +60,7 @@ pub fn run(args: &Args) -> CommandResult {
     meter.finish();
     let results = results.into_diagnostic()?;
     let place = folder.path().display().to_string();
-    folder.commit(&report::artefacts(&results))?;
+    folder.commit(&workers.install(|| report::artefacts(&results)))?;
     if !args.quiet {
         print(&format!("{}\nwritten to {place}\n", report::table(&results).trim_end()))?;
     }

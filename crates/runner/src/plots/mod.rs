@@ -20,6 +20,8 @@ pub mod sheet;
 
 use crate::results::Results;
 use convergence::Measure;
+use rayon::prelude::*;
+use selection::Selection;
 
 /// More rows of diagrams than this would not be looked at; beyond it only the largest `m` is drawn.
 const MOST_ROWS: usize = 8;
@@ -36,17 +38,20 @@ pub struct Figure {
 /// Every figure of a consistency study: for each case and method bias and standard deviation against `N`, and the
 /// borders where the method estimates them; then methods and borders against each other.
 pub fn consistency(results: &Results) -> Vec<Figure> {
-    let mut figures = Vec::new();
-    for selection in selection::selections(results) {
+    let of_selection = |selection: &Selection<'_>| {
+        let mut figures = Vec::new();
         for (what, measure) in [("bias", Measure::Bias), ("sd", Measure::Sd)] {
-            let svg = convergence::figure(measure, &selection, None, results);
+            let svg = convergence::figure(measure, selection, None, results);
             figures.push(Figure { name: selection.file(what, results), svg });
         }
-        if let Some(svg) = borders::figure(&selection, results) {
+        if let Some(svg) = borders::figure(selection, results) {
             figures.push(Figure { name: selection.file("borders", results), svg });
         }
-    }
-    figures.extend(paired::figures(results));
+        figures
+    };
+    let single = || selection::selections(results).par_iter().flat_map_iter(of_selection).collect();
+    let (mut figures, paired): (Vec<Figure>, _) = rayon::join(single, || paired::figures(results));
+    figures.extend(paired);
     figures
 }
 

@@ -13,12 +13,14 @@ use crate::output::Artefacts;
 use crate::plots;
 use crate::results::{Results, to_csv, to_json};
 
-/// The files of a report: `results.json`, `table.csv`, `report.md` and the figures.
+/// The files of a report: `results.json`, `table.csv`, `report.md` and the figures. They are made side by side, on the rayon pool that this
+/// is called from.
 pub fn artefacts(results: &Results) -> Artefacts {
-    let figures = plots::consistency(results);
+    let tables = || rayon::join(|| to_json(results), || to_csv(results));
+    let (figures, (json, csv)) = rayon::join(|| plots::consistency(results), tables);
     let mut artefacts = Artefacts::default();
-    artefacts.add("results.json", to_json(results));
-    artefacts.add("table.csv", to_csv(results));
+    artefacts.add("results.json", json);
+    artefacts.add("table.csv", csv);
     artefacts.add("report.md", page::page(results, &figures));
     for figure in figures {
         artefacts.add(figure.name, figure.svg);

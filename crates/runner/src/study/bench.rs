@@ -11,7 +11,7 @@ use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::Branch;
 use switchback_estimator::linear::settling_samples;
 use switchback_estimator::simulation::{
-    LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
+    Grouping, LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
 };
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
@@ -193,6 +193,11 @@ impl Bench {
     pub(super) fn lanes(&self, method: PulseKind) -> LaneMethod {
         let data = self.expected(1.0);
         method.with_input(&data, self.steps(1.0, [0.0; 2], ENDLESS), |method| LaneMethod::of(&method))
+    }
+
+    /// How both experiments sort `samples` samples into groups: it depends on the number of points alone.
+    pub(super) fn grouping(&self, samples: usize) -> Grouping {
+        Grouping::new(&self.designs[0], samples)
     }
 
     /// The statistics of both experiments over `samples` samples, as functions of noise and noise level.

@@ -9,8 +9,9 @@ use std::ops::Range;
 /// Replicates of one noise pass: a whole number of lanes at every width.
 pub(super) const BATCH: usize = 16;
 
-/// Replicates whose noise is held at once.
-const CHUNK: usize = 8 * BATCH;
+/// Least and largest number of replicates whose noise is held at once: what begins anew with each such chunk costs less a replicate in the
+/// larger, and memory more.
+const CHUNKS: [usize; 2] = [8 * BATCH, 32 * BATCH];
 
 /// Told how the work goes on; called from several threads.
 pub trait Progress: Sync {
@@ -82,9 +83,11 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// Its replicates in runs of a few, whose noise is held at once.
+    /// Its replicates in runs of a few, whose noise is held at once: about sixteen, so that progress is seen.
     fn chunks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.range.clone().step_by(CHUNK).map(|start| start..self.range.end.min(start + CHUNK))
+        let [least, largest] = CHUNKS;
+        let chunk = (self.range.len() / 16).next_multiple_of(BATCH).clamp(least, largest);
+        self.range.clone().step_by(chunk).map(move |start| start..self.range.end.min(start + chunk))
     }
 
     /// The section that a replicate belongs to: sections are contiguous and of (nearly) equal size.

@@ -3,6 +3,7 @@
 use super::cell::CellSpec;
 use super::views::{CellViews, Figures, Jackknifed, View, mean, quantile};
 use crate::results::{Group, Summary, Verdict};
+use rayon::prelude::*;
 use switchback_estimator::statistics::weighted_line;
 
 /// A bias counts as resolved at an N where it exceeds this many of its Monte-Carlo errors.
@@ -25,7 +26,7 @@ pub(super) fn summaries(specs: &[CellSpec], views: &[CellViews], slope_from: usi
             None => curves.push(Curve { spec, points: vec![point], slope_from }),
         }
     }
-    curves.iter().flat_map(Curve::summaries).collect()
+    curves.par_iter().flat_map_iter(Curve::summaries).collect()
 }
 
 /// All cells of a series, by increasing N.

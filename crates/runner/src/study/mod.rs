@@ -2,10 +2,11 @@
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
 //! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight abreast
-//! (`family`); batches of noise and families of cells run in parallel (`execute`). The oracle of all this is an engine of its own, which
+//! (`family`, `abreast`); batches of noise and families of cells run in parallel (`execute`). The oracle of all this is an engine of its own, which
 //! simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N (`judge`) and compared between cells
 //! on the same noise (`paired`). Results depend on the scenario and its seed only.
 
+mod abreast;
 mod bench;
 mod cell;
 mod direct;

@@ -1,10 +1,11 @@
 //! The noise of a world's replicates: one by one, and eight abreast.
 
+use super::execute::Round;
 use super::world::World;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
 use switchback_estimator::simulation::noise::{NoisePass, NoiseRecord, Width};
-use switchback_estimator::simulation::{LaneMoments, NoiseMoments};
+use switchback_estimator::simulation::{Grouping, LaneGroupedNoise, LaneMoments, NoiseMoments};
 
 /// Moments of one replicate: for both experiments, by number of samples and period; means of the step noise by number of samples.
 #[derive(Debug, Clone, Default)]
@@ -59,49 +60,61 @@ fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
         .collect()
 }
 
-/// Moments of eight replicates: by experiment, number of samples and period; step means by experiment and number of samples.
+/// Noise of eight replicates, sorted into the groups of each design: by experiment, number of samples and period; step means by experiment and
+/// number of samples.
 ///
 /// What no method of the world looks at is left empty.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LaneNoise {
     /// The first of them.
     pub(super) first: u32,
-    /// How many there are; the lanes after them hold no replicate.
-    pub(super) live: usize,
-    pub(super) pulses: [Vec<Vec<LaneMoments>>; 2],
+    /// Their sections; the lanes after them hold no replicate.
+    pub(super) sections: Vec<usize>,
+    pub(super) pulses: [Vec<Vec<LaneGroupedNoise>>; 2],
     pub(super) steps: [Vec<Lane>; 2],
 }
 
+impl LaneNoise {
+    /// The section of all, if they are eight of one section.
+    pub(super) fn section(&self) -> Option<usize> {
+        let (first, last) = (self.sections.first()?, self.sections.last()?);
+        (self.sections.len() == LANES && first == last).then_some(*first)
+    }
+}
+
 /// Draws the noise of a run of replicates.
-pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Vec<LaneNoise> {
+pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>) -> Vec<LaneNoise> {
+    let seed = round.seed;
     let start = replicates.start;
     let mut noise: Vec<LaneNoise> = replicates
         .clone()
         .step_by(LANES)
         .map(|first| LaneNoise {
             first,
-            live: LANES.min((replicates.end - first) as usize),
+            sections: (first..replicates.end).take(LANES).map(|r| round.section(r as usize)).collect(),
             ..LaneNoise::default()
         })
         .collect();
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
     let plan = &world.pulses;
     let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
+    let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
+    let mut moments: Vec<LaneMoments> =
+        plan.checkpoints.iter().flat_map(|_| plan.periods.iter().map(zeros)).collect();
     for k in (0..2).filter(|k| world.experiments[*k]) {
-        for group in &mut noise {
-            let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
-            group.pulses[k] =
-                plan.checkpoints.iter().map(|_| plan.periods.iter().map(zeros).collect()).collect();
-        }
         pass.run_abreast(seed, world.stream + k as u32, replicates.clone(), |first, records| {
             let (lanes, abreast) = (records.lanes(), records.lanes().min(LANES));
             for from in (0..lanes).step_by(abreast) {
                 let (group, lane) = place(first + from as u32);
                 let Some(into) = noise.get_mut(group) else { break };
-                for (c, periods) in into.pulses[k].iter_mut().enumerate() {
-                    for (period, moments) in periods.iter_mut().enumerate() {
-                        moments.take(lane..lane + abreast, records, from, (c, period));
-                    }
+                for (at, moments) in moments.iter_mut().enumerate() {
+                    let (c, period) = (at / plan.periods.len(), at % plan.periods.len());
+                    moments.take(lane..lane + abreast, records, from, (c, period));
+                }
+                let last =
+                    lane + abreast == LANES || first as usize + from + abreast >= replicates.end as usize;
+                if last {
+                    into.pulses[k] = sort(&world.groupings, &moments);
                 }
             }
         });
@@ -113,4 +126,16 @@ pub(super) fn draw_lanes(world: &World, seed: u64, replicates: Range<u32>) -> Ve
         });
     }
     noise
+}
+
+/// Sorts moments, by number of samples and then period, into the groups of their designs.
+fn sort(groupings: &[Vec<Grouping>], moments: &[LaneMoments]) -> Vec<Vec<LaneGroupedNoise>> {
+    let of_checkpoint = |(groupings, moments): (&Vec<Grouping>, &[LaneMoments])| {
+        groupings
+            .iter()
+            .zip(moments)
+            .map(|(grouping, moments)| LaneGroupedNoise::new(grouping, moments))
+            .collect()
+    };
+    groupings.iter().zip(moments.chunks(groupings[0].len())).map(of_checkpoint).collect()
 }

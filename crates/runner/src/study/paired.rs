@@ -8,6 +8,7 @@ use super::views::{CellViews, Figures, Jackknifed, View, mean};
 use crate::results::{
     Comparison, Group, Overall, Paired, PairedGroup, PairedParameter, Pairing, Series, Subject,
 };
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Every comparison; `worlds` are the runs of cells that share their noise.
@@ -103,13 +104,18 @@ impl<'a> Table<'a> {
         self.specs[over].parameters.iter().position(|other| other == name)
     }
 
-    fn matches(&self, pair: &'a Pair) -> impl Iterator<Item = Match<'a>> {
+    fn matches<'p>(&self, pair: &'p Pair) -> impl Iterator<Item = Match<'a>> + use<'a, 'p> {
         let (cell, over) = (&self.views[pair.cell], &self.views[pair.over]);
         pair.parameters.iter().map(move |&(k, twin)| Match { cell: (cell, k), over: (over, twin) })
     }
 
     /// All pairs of a case and subject in one, at the largest number of samples.
-    fn overall(&self, pairs: &[Pair], samples: usize, subject: impl Fn(&Series) -> Subject) -> Vec<Overall> {
+    fn overall(
+        &self,
+        pairs: &[Pair],
+        samples: usize,
+        subject: impl Fn(&Series) -> Subject + Sync,
+    ) -> Vec<Overall> {
         let mut gathered: Vec<(&str, Subject, Vec<&Pair>)> = Vec::new();
         for pair in pairs.iter().filter(|p| self.specs[p.cell].samples == samples) {
             let series = &self.specs[pair.cell].series;
@@ -139,12 +145,17 @@ impl<'a> Table<'a> {
                 mse_ratio: ratio(&matches, |f| Some(f.mse))?,
             })
         };
-        gathered.into_iter().filter_map(entry).collect()
+        gathered.into_par_iter().filter_map(entry).collect()
     }
 
     fn comparisons(&self, pairs: &[Pair], largest: usize) -> Vec<Comparison> {
+        let figures = |pair: &Pair| {
+            let at_largest = self.specs[pair.cell].samples == largest;
+            (self.groups(pair), if at_largest { self.parameters(pair) } else { Vec::new() })
+        };
+        let figures: Vec<_> = pairs.par_iter().map(figures).collect();
         let mut comparisons: Vec<Comparison> = Vec::new();
-        for pair in pairs {
+        for (pair, (groups, parameters)) in pairs.iter().zip(figures) {
             let (series, over) = (&self.specs[pair.cell].series, &self.specs[pair.over].series);
             let found = comparisons.iter().position(|c| c.series == *series && c.over == *over);
             let at = found.unwrap_or_else(|| {
@@ -158,15 +169,13 @@ impl<'a> Table<'a> {
                 });
                 comparisons.len() - 1
             });
-            comparisons[at].groups.extend(self.groups(pair));
-            if self.specs[pair.cell].samples == largest {
-                comparisons[at].parameters.extend(self.parameters(pair));
-            }
+            comparisons[at].groups.extend(groups);
+            comparisons[at].parameters.extend(parameters);
         }
         comparisons
     }
 
-    fn groups(&self, pair: &'a Pair) -> Vec<PairedGroup> {
+    fn groups(&self, pair: &Pair) -> Vec<PairedGroup> {
         let spec = &self.specs[pair.cell];
         let of_group = |group: Group| {
             let is_in = |k: usize| spec.parameters[k].group == group;
@@ -182,7 +191,7 @@ impl<'a> Table<'a> {
         Group::ALL.into_iter().filter_map(of_group).collect()
     }
 
-    fn parameters(&self, pair: &'a Pair) -> Vec<PairedParameter> {
+    fn parameters(&self, pair: &Pair) -> Vec<PairedParameter> {
         let spec = &self.specs[pair.cell];
         let of_match = |m: Match<'_>| {
             Some(PairedParameter {

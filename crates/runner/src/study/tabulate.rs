@@ -3,12 +3,13 @@
 use super::cell::CellSpec;
 use super::sections::Sections;
 use crate::results::{Cell, Failures, Measured, Parameter};
+use rayon::prelude::*;
 use switchback_estimator::statistics::{self, ErrorSums};
 
 /// One entry a cell, in their order.
 pub(super) fn cells(specs: &[CellSpec], sections: &Sections, precise: Option<&[bool]>) -> Vec<Cell> {
     specs
-        .iter()
+        .par_iter()
         .enumerate()
         .map(|(index, spec)| {
             let sums = sections.cell(index, None);

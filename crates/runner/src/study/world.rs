@@ -1,10 +1,11 @@
 //! Worlds: cells that share their noise.
 
 use super::StudyError;
+use super::abreast::Memory;
 use super::bench::{Bench, Bound, NoiseFilter};
 use super::cell::{CellSpec, ParameterName, Workload};
 use super::execute::{BATCH, Round};
-use super::family::Family;
+use super::family::{Family, FamilyPlan};
 use super::moments::{LaneNoise, draw_lanes};
 use super::pulse_kind::PulseKind;
 use super::sections::CellSums;
@@ -14,6 +15,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
+use switchback_estimator::simulation::Grouping;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
 /// Streams of a world: descendant, ascendant, and the two step experiments.
@@ -31,6 +33,10 @@ pub(super) struct World {
     /// Whether any method looks at the descendant, at the ascendant experiment.
     pub(super) experiments: [bool; 2],
     pub(super) settings: Vec<Setting>,
+    /// How samples are sorted into groups, by number of samples and period.
+    pub(super) groupings: Vec<Vec<Grouping>>,
+    /// The cells in families.
+    families: Vec<FamilyPlan>,
 }
 
 /// One bench at one noise level: the cells over N and methods.
@@ -96,14 +102,14 @@ impl World {
         let mut periods: Vec<usize> = settings.iter().map(|s| s.bench.period()).collect();
         periods.sort_unstable();
         periods.dedup();
-        for setting in &mut settings {
+        settings.par_iter_mut().for_each(|setting| {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
             for contender in &mut setting.methods {
                 let mean =
                     |&n: &usize| setting.bench.mean_terms(contender.kind, &contender.limit, setting.sigma, n);
                 contender.means = checkpoints.iter().map(mean).collect();
             }
-        }
+        });
         let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
@@ -114,7 +120,15 @@ impl World {
             needs_steps.then(|| MeanNoise::new(&pulses).expect("a scenario's filter and samples are valid"));
         let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
         let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
-        Self { stream, pulses, steps, experiments, settings }
+        let of_period =
+            |period: usize| settings.iter().find(|s| s.period == period).expect("periods are the settings'");
+        let grouping = |period, samples| of_period(period).bench.grouping(samples);
+        let groupings = checkpoints
+            .iter()
+            .map(|&n| (0..pulses.periods.len()).map(|p| grouping(p, n)).collect())
+            .collect();
+        let families = FamilyPlan::all(&settings, checkpoints);
+        Self { stream, pulses, steps, experiments, settings, groupings, families }
     }
 
     /// The cells, in the order in which their sums are kept: setting, number of samples, method.
@@ -158,39 +172,31 @@ impl Setting {
 
 fn settings(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<Setting>, StudyError> {
     let sweep = scenario.sweep();
-    let mut settings = Vec::new();
-    for (b, border) in case.borders.iter().enumerate() {
-        for &points in &sweep.points {
-            let bench = Bench::new(case, border, points)?;
-            for &sigma in &sweep.noise {
-                let methods = sweep
-                    .methods
-                    .iter()
-                    .filter_map(|&method| Some((method, PulseKind::of(method)?)))
-                    .map(|(method, kind)| {
-                        Contender::new(case, &bench, sigma, method, kind).map_err(|source| {
-                            StudyError::NoLimit {
-                                method: method.name(),
-                                case: case.name.clone(),
-                                border: border.name.clone(),
-                                points,
-                                source,
-                            }
-                        })
-                    })
-                    .collect::<Result<_, _>>()?;
-                settings.push(Setting {
-                    case: index,
-                    border: b,
-                    bench: bench.clone(),
-                    sigma,
-                    period: 0,
-                    methods,
-                });
-            }
-        }
-    }
-    Ok(settings)
+    let benches: Vec<(usize, usize)> =
+        (0..case.borders.len()).flat_map(|b| sweep.points.iter().map(move |&points| (b, points))).collect();
+    let of_bench = |&(b, points): &(usize, usize)| {
+        let border = &case.borders[b];
+        let bench = Bench::new(case, border, points)?;
+        let contender = |method: Method, kind, sigma| {
+            Contender::new(case, &bench, sigma, method, kind).map_err(|source| StudyError::NoLimit {
+                method: method.name(),
+                case: case.name.clone(),
+                border: border.name.clone(),
+                points,
+                source,
+            })
+        };
+        let setting = |&sigma: &f64| {
+            let kinds = sweep.methods.iter().filter_map(|&method| Some((method, PulseKind::of(method)?)));
+            let methods =
+                kinds.map(|(method, kind)| contender(method, kind, sigma)).collect::<Result<_, _>>()?;
+            Ok(Setting { case: index, border: b, bench: bench.clone(), sigma, period: 0, methods })
+        };
+        sweep.noise.iter().map(setting).collect::<Result<Vec<_>, StudyError>>()
+    };
+    let settings: Vec<Result<Vec<Setting>, StudyError>> = benches.par_iter().map(of_bench).collect();
+    // The first error in the order of the scenario, whichever thread was first.
+    Ok(settings.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 impl Contender {
@@ -248,7 +254,9 @@ impl Workload for World {
         let batches: Vec<Range<u32>> =
             (start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH as u32)).collect();
         let noise: Vec<LaneNoise> =
-            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round.seed, batch.clone())).collect();
-        Family::all(self, active, cells).into_par_iter().for_each(|family| family.run(&noise, round));
+            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round, batch.clone())).collect();
+        Family::all(&self.families, &self.settings, active, cells)
+            .into_par_iter()
+            .for_each_init(Memory::default, |memory, family| family.run(&noise, memory));
     }
 }

@@ -1,11 +1,9 @@
 //! The arrow of [`super::super::arrow`], eight replicates abreast.
 
-use super::columns::{ColumnPlan, ColumnValues};
+use super::columns::{ColumnPlan, ColumnValues, LocalPlan};
+use super::factor::{Factor, dot};
 use super::statistics::LaneStatistics;
 use crate::lanes::{LANES, Lane, keep_apart};
-
-/// A replicate whose pivot keeps less than this share of its diagonal entry is left to the solver that goes one by one.
-const SOUND: f64 = 1e-12;
 
 /// A regression to be solved: statistics of `y − shift`, experiments side by side, and its columns.
 #[derive(Clone, Copy)]
@@ -25,11 +23,41 @@ struct Row<const D: usize> {
     share: f64,
 }
 
+/// A group's own mean in a regression whose other columns do not touch the group.
+pub(super) struct OwnMean<const N: usize> {
+    /// `λ`.
+    pub(super) value: Lane,
+    /// `c/D` on `a`; on the rest of the core it is zero.
+    pub(super) slope: [Lane; N],
+    /// `1/D`.
+    pub(super) inverse: f64,
+}
+
 impl Regression<'_> {
+    /// The statistics that a group belongs to, and its place there.
+    #[inline(always)]
+    fn place(&self, group: usize) -> (&LaneStatistics, usize) {
+        let first = self.parts[0].counts.len();
+        if group < first { (self.parts[0], group) } else { (self.parts[1], group - first) }
+    }
+
+    /// A local column that is its group's own mean, where all of them are [apart](ColumnPlan::apart), given `a`.
+    #[inline(always)]
+    pub(super) fn own_mean<const N: usize>(&self, local: usize, a: &[Lane]) -> OwnMean<N> {
+        let group = self.plan.local[local].group;
+        let (part, q) = self.place(group);
+        let mean = &part.means[q * (N + 1)..(q + 1) * (N + 1)];
+        let mut slope = [Lane::ZERO; N];
+        for i in 0..N {
+            slope[i] = self.shift - mean[i + 1];
+        }
+        let start = mean[0] - self.shift - self.values.offset[group];
+        OwnMean { value: start - dot(&slope, a), slope, inverse: part.shares[q] }
+    }
+
     #[inline(always)]
     fn row<const N: usize, const D: usize>(&self, group: usize) -> Row<D> {
-        let first = self.parts[0].counts.len();
-        let (part, q) = if group < first { (self.parts[0], group) } else { (self.parts[1], group - first) };
+        let (part, q) = self.place(group);
         let mean = &part.means[q * (N + 1)..(q + 1) * (N + 1)];
         let shared = &self.values.shared[group * (D - N)..(group + 1) * (D - N)];
         let mut regressors = [Lane::ZERO; D];
@@ -62,6 +90,7 @@ impl Locals {
         &self.slopes.as_chunks().0[local]
     }
 
+    /// Room for so many columns of `size` core parameters.
     #[inline(always)]
     fn resize(&mut self, columns: usize, size: usize) {
         self.values.resize(columns, Lane::ZERO);
@@ -70,7 +99,17 @@ impl Locals {
     }
 }
 
+/// The normal equations of the core.
+pub(super) struct Equations<const D: usize> {
+    /// The lower triangle.
+    normal: [[Lane; D]; D],
+    right: [Lane; D],
+    constant: [Lane; D],
+    energy: Lane,
+}
+
 /// The core of a solved regression of eight replicates: `N` lags, `D` parameters.
+#[derive(Clone, Copy)]
 pub(super) struct Core<const N: usize, const D: usize> {
     /// `(a, η)`.
     pub(super) parameters: [Lane; D],
@@ -83,68 +122,82 @@ pub(super) struct Core<const N: usize, const D: usize> {
     factor: Factor<D>,
 }
 
-/// The normal equations of the core on their way.
-struct Equations<const D: usize> {
-    /// The lower triangle.
-    normal: [[Lane; D]; D],
-    right: [Lane; D],
-    constant: [Lane; D],
-    energy: Lane,
-}
-
 impl<const N: usize, const D: usize> Core<N, D> {
-    /// Solves a regression; its local columns go into `locals`.
+    /// Solves the equations of a regression.
     #[inline(always)]
-    pub(super) fn solve(regression: &Regression<'_>, locals: &mut Locals) -> Self {
-        let plan = regression.plan;
-        locals.resize(plan.local.len(), D);
-        let mut equations = Equations::<D>::within::<N>(regression.parts);
-        for &group in &plan.pooled {
-            keep_apart();
-            equations.add(&regression.row::<N, D>(group));
-        }
-        let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
-        let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
-        for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
-            keep_apart();
-            if column.own_mean {
-                // Nothing of its group was put in, so nothing is to be taken out.
-                let row = regression.row::<N, D>(plan.support[column.entries.start]);
-                (*slope, *start, *inverse) = (row.regressors, row.target, Lane::splat(row.share));
-            } else {
-                let entries = column.entries.clone();
-                let support = plan.support[entries.clone()].iter().zip(&regression.values.weights[entries]);
-                (*slope, *start, *inverse) =
-                    equations.eliminate(support.map(|(&q, w)| (regression.row::<N, D>(q), *w)));
-            }
-        }
-        let (factor, sound) = Factor::new(equations.normal);
-        let parameters = factor.solve(equations.right);
-        for (value, slope) in locals.values.iter_mut().zip(locals.slopes.as_chunks::<D>().0) {
-            keep_apart();
-            *value -= if plan.apart { dot(&slope[..N], &parameters) } else { dot(slope, &parameters) };
-        }
+    pub(super) fn solve(equations: &Equations<D>, regression: &Regression<'_>) -> Self {
+        let (factor, sound) = Factor::new(&equations.normal);
+        let parameters = factor.solve(&equations.right);
         let samples: f64 = regression.parts.iter().map(|part| part.samples).sum();
-        let freedom = (samples - (D + plan.local.len()) as f64).max(1.0);
+        let freedom = (samples - (D + regression.plan.local.len()) as f64).max(1.0);
         let left = equations.energy - dot(&parameters, &equations.right);
         Self {
             parameters,
             variance: left.at_least(0.0) * (1.0 / freedom),
             sound,
-            constant: factor.solve(equations.constant),
+            constant: factor.solve(&equations.constant),
             factor,
+        }
+    }
+
+    /// Puts the local columns of the regression into `locals`, where its equations left what they eliminated.
+    #[inline(always)]
+    pub(super) fn follow(&self, regression: &Regression<'_>, locals: &mut Locals) {
+        let plan = regression.plan;
+        locals.resize(plan.local.len(), D);
+        let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
+        let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
+        for (column, ((slope, value), inverse)) in plan.local.iter().zip(columns) {
+            keep_apart();
+            if column.own_mean {
+                let row = regression.row::<N, D>(column.group);
+                (*slope, *value, *inverse) = (row.regressors, row.target, Lane::splat(row.share));
+            }
+            *value -=
+                if plan.apart { dot(&slope[..N], &self.parameters) } else { dot(slope, &self.parameters) };
         }
     }
 
     /// `gᵀN⁻¹g`.
     #[inline(always)]
-    pub(super) fn quadratic(&self, gradient: [Lane; D]) -> Lane {
+    pub(super) fn quadratic(&self, gradient: &[Lane; D]) -> Lane {
         let solved = self.factor.forward(gradient);
         dot(&solved, &solved)
+    }
+
+    /// The diagonal of `N⁻¹`.
+    #[inline(always)]
+    pub(super) fn inverse_diagonal(&self) -> [Lane; D] {
+        self.factor.inverse_diagonal()
     }
 }
 
 impl<const D: usize> Equations<D> {
+    /// The equations of a regression; what it eliminates for them goes into `locals`.
+    ///
+    /// A column that is its group's own mean needs no elimination: nothing of its group is put in, so nothing is to be taken out.
+    #[inline(always)]
+    pub(super) fn of<const N: usize>(regression: &Regression<'_>, locals: &mut Locals) -> Self {
+        let plan = regression.plan;
+        let mut equations = Self::within::<N>(regression.parts);
+        for &group in &plan.pooled {
+            keep_apart();
+            equations.add(&regression.row::<N, D>(group));
+        }
+        if !plan.apart {
+            locals.resize(plan.local.len(), D);
+            let (slopes, _) = locals.slopes.as_chunks_mut::<D>();
+            let columns = slopes.iter_mut().zip(&mut locals.values).zip(&mut locals.inverse);
+            for (column, ((slope, start), inverse)) in plan.local.iter().zip(columns) {
+                keep_apart();
+                if !column.own_mean {
+                    (*slope, *start, *inverse) = equations.eliminate::<N>(regression, column);
+                }
+            }
+        }
+        equations
+    }
+
     /// The products within groups.
     #[inline(always)]
     fn within<const N: usize>(parts: &[&LaneStatistics]) -> Self {
@@ -159,8 +212,10 @@ impl<const D: usize> Equations<D> {
             equations.energy += within[0];
             for i in 0..N {
                 equations.right[i] -= within[i + 1];
-                for l in 0..=i {
-                    equations.normal[i][l] += within[(i + 1) * (N + 1) + l + 1];
+                for l in 0..N {
+                    if l <= i {
+                        equations.normal[i][l] += within[(i + 1) * (N + 1) + l + 1];
+                    }
                 }
             }
         }
@@ -174,19 +229,27 @@ impl<const D: usize> Equations<D> {
             let weighted = row.regressors[i] * row.count;
             self.constant[i] += weighted;
             self.right[i] += weighted * row.target;
-            for l in 0..=i {
-                self.normal[i][l] += weighted * row.regressors[l];
+            for l in 0..D {
+                if l <= i {
+                    self.normal[i][l] += weighted * row.regressors[l];
+                }
             }
         }
         self.energy += row.target * row.target * row.count;
     }
 
-    /// Takes out a local column, given by its groups and weights; `c/D`, its estimate were the core zero, and `1/D`.
+    /// Takes out a local column; `c/D`, its estimate were the core zero, and `1/D`.
     #[inline(always)]
-    fn eliminate(&mut self, support: impl Iterator<Item = (Row<D>, Lane)>) -> ([Lane; D], Lane, Lane) {
+    fn eliminate<const N: usize>(
+        &mut self,
+        regression: &Regression<'_>,
+        column: &LocalPlan,
+    ) -> ([Lane; D], Lane, Lane) {
         let (mut own, mut target, mut cross) = (Lane::ZERO, Lane::ZERO, [Lane::ZERO; D]);
-        for (row, w) in support {
+        let support = &regression.plan.support[column.entries.clone()];
+        for (&group, &w) in support.iter().zip(&regression.values.weights[column.entries.clone()]) {
             keep_apart();
+            let row = regression.row::<N, D>(group);
             let weight = w * row.count;
             own += weight * w;
             target += weight * row.target;
@@ -200,79 +263,13 @@ impl<const D: usize> Equations<D> {
         for i in 0..D {
             slope[i] = cross[i] * inverse;
             self.right[i] -= cross[i] * start;
-            for l in 0..=i {
-                self.normal[i][l] -= slope[i] * cross[l];
+            for l in 0..D {
+                if l <= i {
+                    self.normal[i][l] -= slope[i] * cross[l];
+                }
             }
         }
         self.energy -= target * start;
         (slope, start, inverse)
     }
-}
-
-/// Cholesky's lower triangle, the inverse pivots on the diagonal.
-struct Factor<const D: usize>([[Lane; D]; D]);
-
-impl<const D: usize> Factor<D> {
-    /// Factors a matrix given by its lower triangle; says which replicates kept their digits.
-    #[inline(always)]
-    fn new(mut normal: [[Lane; D]; D]) -> (Self, [bool; LANES]) {
-        let mut sound = [true; LANES];
-        for j in 0..D {
-            let before = normal[j][j];
-            let mut pivot = before;
-            for k in 0..j {
-                pivot -= normal[j][k] * normal[j][k];
-            }
-            for l in 0..LANES {
-                sound[l] &= pivot.0[l] > SOUND * before.0[l];
-            }
-            let inverse = Lane::splat(1.0) / pivot.sqrt();
-            normal[j][j] = inverse;
-            for i in j + 1..D {
-                let mut x = normal[i][j];
-                for k in 0..j {
-                    x -= normal[i][k] * normal[j][k];
-                }
-                normal[i][j] = x * inverse;
-            }
-        }
-        (Self(normal), sound)
-    }
-
-    /// `L⁻¹x`.
-    #[inline(always)]
-    fn forward(&self, mut x: [Lane; D]) -> [Lane; D] {
-        for i in 0..D {
-            let mut value = x[i];
-            for k in 0..i {
-                value -= self.0[i][k] * x[k];
-            }
-            x[i] = value * self.0[i][i];
-        }
-        x
-    }
-
-    /// `(LLᵀ)⁻¹x`.
-    #[inline(always)]
-    fn solve(&self, x: [Lane; D]) -> [Lane; D] {
-        let mut x = self.forward(x);
-        for i in (0..D).rev() {
-            let mut value = x[i];
-            for k in i + 1..D {
-                value -= self.0[k][i] * x[k];
-            }
-            x[i] = value * self.0[i][i];
-        }
-        x
-    }
-}
-
-/// `Σ xᵢyᵢ`.
-#[inline(always)]
-pub(super) fn dot(x: &[Lane], y: &[Lane]) -> Lane {
-    let mut sum = Lane::ZERO;
-    for (x, y) in x.iter().zip(y) {
-        sum += *x * *y;
-    }
-    sum
 }

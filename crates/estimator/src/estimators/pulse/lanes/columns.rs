@@ -24,6 +24,8 @@ pub(super) struct ColumnPlan {
 pub(super) struct LocalPlan {
     /// Its entries of [`ColumnPlan::support`] and of [`ColumnValues::weights`].
     pub(super) entries: Range<usize>,
+    /// The first of its groups.
+    pub(super) group: usize,
     /// Whether it is a group's own mean: then that group drops out of everything else.
     pub(super) own_mean: bool,
 }
@@ -62,7 +64,8 @@ impl ColumnPlan {
                 saturated[column.support[0].0] = true;
             }
             plan.apart &= own_mean && columns.shared.row(column.support[0].0).iter().all(|x| *x == 0.0);
-            plan.local.push(LocalPlan { entries: first..plan.support.len(), own_mean });
+            let group = column.support[0].0;
+            plan.local.push(LocalPlan { entries: first..plan.support.len(), group, own_mean });
         }
         plan.pooled = (0..saturated.len()).filter(|q| !saturated[*q]).collect();
         let values = ColumnValues {

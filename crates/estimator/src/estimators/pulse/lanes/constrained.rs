@@ -1,7 +1,8 @@
 //! The iteration of the rank-one constrained estimator, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression, dot};
+use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
+use super::factor::dot;
 use super::method::LevelRule;
 use super::statistics::LaneStatistics;
 use crate::estimators::pulse::arrow::LocalColumn;
@@ -62,7 +63,7 @@ impl Constrained {
     pub(super) fn iterate<const N: usize, const D: usize>(
         &self,
         parts: &[&LaneStatistics],
-        start: Core<N, D>,
+        start: &Core<N, D>,
         locals: &mut Locals,
         values: &mut ColumnValues,
     ) -> Core<N, D> {
@@ -75,29 +76,29 @@ impl Constrained {
             .map(|l| dot(&b, &locals.values[l.first..l.first + N]) * inverse + Lane::splat(l.plus))
             .collect();
         values.copy_from(&self.values);
-        let mut solve = |b: &[Lane; N], w: &[Lane], locals: &mut Locals| {
-            self.linearise(values, b, w);
-            Core::<N, D>::solve(&Regression { parts, shift: Lane::ZERO, plan: &self.plan, values }, locals)
-        };
-        let mut core = solve(&b, &w, locals);
         let mut moving = [true; LANES];
-        for _ in 0..MOST_STEPS {
+        let mut steps = 0;
+        loop {
+            self.linearise(values, &b, &w);
+            let regression = Regression { parts, shift: Lane::ZERO, plan: &self.plan, values };
+            let equations = Equations::<D>::of::<N>(&regression, locals);
+            let core = Core::<N, D>::solve(&equations, &regression);
+            core.follow(&regression, locals);
             let change = change(&core, locals, &b, &w);
             for l in 0..LANES {
                 // A replicate that came to nothing moves no further: its change is not a number.
                 moving[l] &= change.0[l] >= CONVERGED;
             }
-            if moving == [false; LANES] {
-                break;
+            if steps == MOST_STEPS || moving == [false; LANES] {
+                return core;
             }
             let new = core.parameters[N..2 * N].iter().chain(&locals.values);
             for (old, new) in b.iter_mut().chain(&mut w).zip(new) {
                 keep_apart();
                 *old = new.where_or(&moving, *old);
             }
-            core = solve(&b, &w, locals);
+            steps += 1;
         }
-        core
     }
 
     /// The regression linearised about `b` and `w`.

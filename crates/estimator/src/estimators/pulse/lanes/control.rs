@@ -1,5 +1,6 @@
 //! The control variate of eight replicates: a constant linear map of the score, in two steps.
 
+use super::method::LaneSample;
 use super::profile::ProfilePlan;
 use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
@@ -60,48 +61,61 @@ pub(crate) struct Answer {
 }
 
 impl LaneControl {
-    /// The leading terms of every parameter's error less their means.
+    /// The leading terms of every parameter's error less their means, for each sample, in as many of `terms`.
     ///
     /// Nothing for the orders that [`LaneMethod::fit`](super::LaneMethod::fit) leaves to the solver that goes one by one.
-    pub fn terms(
-        &self,
-        parts: &[&LaneStatistics],
-        step_mean: Option<Lane>,
-        means: &ErrorTerms,
-        terms: &mut LaneTerms,
-    ) {
+    ///
+    /// # Panics
+    /// If there are fewer of `terms` than samples.
+    pub fn terms(&self, samples: &[LaneSample<'_>], means: &ErrorTerms, terms: &mut [LaneTerms]) {
         let size = self.from_core.len() / self.parameters.len();
-        run(self.a.len(), size, Terms { control: self, parts, step_mean, means, terms });
+        let terms = &mut terms[..samples.len()];
+        run(self.a.len(), size, Terms { control: self, samples, means, terms });
     }
 }
 
 /// [`LaneControl::terms`] on its way.
 struct Terms<'a> {
     control: &'a LaneControl,
-    parts: &'a [&'a LaneStatistics],
-    step_mean: Option<Lane>,
+    samples: &'a [LaneSample<'a>],
     means: &'a ErrorTerms,
-    terms: &'a mut LaneTerms,
+    terms: &'a mut [LaneTerms],
 }
 
 impl SizedWork for Terms<'_> {
     #[inline(always)]
     fn run<const N: usize, const D: usize>(self) {
-        let Self { control, parts, step_mean, means, terms: LaneTerms { first, second, residuals } } = self;
-        residuals.resize(control.means.len(), Lane::ZERO);
-        let (core, shift) = control.to_core::<N, D>(parts, residuals);
-        let per_sample = 1.0 / parts[0].samples;
-        let step = match step_mean {
-            Some(mean) => mean - Lane::splat(control.step_mean),
+        let Self { control, samples, means, terms } = self;
+        for (sample, terms) in samples.iter().zip(terms) {
+            keep_apart();
+            control.carry::<N, D>(sample, means, terms);
+        }
+    }
+}
+
+impl LaneControl {
+    /// The terms of one sample.
+    #[inline(always)]
+    fn carry<const N: usize, const D: usize>(
+        &self,
+        sample: &LaneSample<'_>,
+        means: &ErrorTerms,
+        LaneTerms { first, second, residuals }: &mut LaneTerms,
+    ) {
+        residuals.resize(self.means.len(), Lane::ZERO);
+        let (core, shift) = self.to_core::<N, D>(sample.parts, residuals);
+        let per_sample = 1.0 / sample.parts[0].samples;
+        let step = match sample.step {
+            Some(step) => step.mean - Lane::splat(self.step_mean),
             None => Lane::ZERO,
         };
-        first.resize(control.parameters.len(), Lane::ZERO);
-        second.resize(control.parameters.len(), Lane::ZERO);
-        let (from_core, _) = control.from_core.as_chunks::<D>();
+        first.resize(self.parameters.len(), Lane::ZERO);
+        second.resize(self.parameters.len(), Lane::ZERO);
+        let (from_core, _) = self.from_core.as_chunks::<D>();
         let mut own_start = 0;
         let terms = first.iter_mut().zip(second).zip(means.first.iter().zip(&means.second));
         for ((answer, weights), ((first, second), (first_mean, second_mean))) in
-            control.parameters.iter().zip(from_core).zip(terms)
+            self.parameters.iter().zip(from_core).zip(terms)
         {
             keep_apart();
             let (mut sum, mut shifted) = (Lane::ZERO, Lane::ZERO);
@@ -112,7 +126,7 @@ impl SizedWork for Terms<'_> {
             for d in 0..2 * N {
                 shifted += shift[d] * weights[d];
             }
-            for &(group, weight) in &control.own[own_start..answer.own_end] {
+            for &(group, weight) in &self.own[own_start..answer.own_end] {
                 keep_apart();
                 sum += residuals[group] * weight;
             }
@@ -121,9 +135,7 @@ impl SizedWork for Terms<'_> {
             *second = shifted * per_sample - Lane::splat(*second_mean);
         }
     }
-}
 
-impl LaneControl {
     /// `g`, and what the profile score adds to it; and `r_q = Σ_{t∈q} r(t)`, with `r` the residual at the limit's parameters.
     #[inline(always)]
     fn to_core<const N: usize, const D: usize>(

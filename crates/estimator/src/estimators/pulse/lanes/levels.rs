@@ -1,15 +1,14 @@
 //! Reading parameters and their variances off a solved arrow: `Solution`, eight replicates abreast.
 
-use super::arrow::{Core, Locals, dot};
+use super::arrow::{Core, Locals, Regression};
+use super::factor::dot;
 use super::method::{LaneStep, LevelRule};
 use crate::lanes::Lane;
 
 /// What all levels of a fit share: the base, its gradient, and the step experiment's error.
 pub(super) struct Reading<'a, const N: usize, const D: usize> {
     core: &'a Core<N, D>,
-    locals: &'a Locals,
-    /// Whether the local columns depend on `a` alone.
-    apart: bool,
+    columns: LocalColumns<'a>,
     base: Lane,
     base_gradient: [Lane; D],
     step: Option<StepError>,
@@ -19,6 +18,15 @@ pub(super) struct Reading<'a, const N: usize, const D: usize> {
     weights: [Lane; N],
 }
 
+/// Where the local columns are read.
+#[derive(Clone, Copy)]
+pub(super) enum LocalColumns<'a> {
+    /// They are kept.
+    Kept(&'a Locals),
+    /// They are all own means, and depend on `a` alone: taken from the data when they are needed.
+    Means(&'a Regression<'a>),
+}
+
 struct StepError {
     a_at_one: Lane,
     /// Direct derivative of the base in `ŷ₀`.
@@ -26,16 +34,21 @@ struct StepError {
     variance: Lane,
 }
 
+impl StepError {
+    /// The variance that the step's mean brings to a quantity with this direct derivative in it, which a constant left in `y` moves so much.
+    #[inline(always)]
+    fn through(&self, direct: Lane, moved: Lane) -> Lane {
+        let slope = direct - self.a_at_one * moved;
+        slope * slope * self.variance
+    }
+}
+
 /// A parameter and the variance of its estimate.
 pub(super) type Read = (Lane, Lane);
 
 impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
     #[inline(always)]
-    pub(super) fn new(
-        core: &'a Core<N, D>,
-        (locals, apart): (&'a Locals, bool),
-        step: Option<LaneStep>,
-    ) -> Self {
+    pub(super) fn new(core: &'a Core<N, D>, columns: LocalColumns<'a>, step: Option<LaneStep>) -> Self {
         let (a, rest) = core.parameters.split_at(N);
         let b = &rest[..N];
         let one = Lane::splat(1.0);
@@ -67,15 +80,21 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         for i in 0..N {
             weights[i] = b[i] * inverse_norm;
         }
-        Self { core, locals, apart, base, base_gradient, step, inverse_norm, weights }
+        Self { core, columns, base, base_gradient, step, inverse_norm, weights }
     }
 
-    /// `aᵢ` or `bᵢ`: core parameter `k`.
+    /// `a`, then `b`: what the core begins with.
     #[inline(always)]
-    pub(super) fn coefficient(&self, k: usize) -> Read {
-        let mut gradient = [Lane::ZERO; D];
-        gradient[k] = Lane::splat(1.0);
-        (self.core.parameters[k], self.variance(gradient, [Lane::ZERO; 3]))
+    pub(super) fn coefficients(&self, values: &mut [Lane], variances: &mut [Lane]) {
+        let diagonal = self.core.inverse_diagonal();
+        for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate().take(2 * N) {
+            let through_step = match &self.step {
+                Some(step) => step.through(Lane::ZERO, self.core.constant[k]),
+                None => Lane::ZERO,
+            };
+            *value = self.core.parameters[k];
+            *variance = self.core.variance * diagonal[k] + through_step;
+        }
     }
 
     /// A border point.
@@ -90,16 +109,22 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         let relative = match rule {
             LevelRule::Known(value) => Lane::splat(value),
             LevelRule::Local(local) => {
-                self.through_local(&mut gradient, local, Lane::splat(1.0), (&mut own, &mut through));
-                self.locals.values[local]
+                let mut relative = [Lane::ZERO];
+                self.through_locals(
+                    &mut gradient,
+                    (local, &[Lane::splat(1.0)]),
+                    (&mut own, &mut through),
+                    &mut relative,
+                );
+                relative[0]
             }
             LevelRule::RankOne { first, plus } => {
-                let h = &self.locals.values[first..first + N];
-                let value = dot(&self.weights, h);
+                let mut h = [Lane::ZERO; N];
+                self.through_locals(&mut gradient, (first, &self.weights), (&mut own, &mut through), &mut h);
+                let value = dot(&self.weights, &h);
                 for i in 0..N {
                     let b = self.core.parameters[N + i];
                     gradient[N + i] += (h[i] - b * (value + value)) * self.inverse_norm;
-                    self.through_local(&mut gradient, first + i, self.weights[i], (&mut own, &mut through));
                 }
                 value + Lane::splat(plus)
             }
@@ -107,24 +132,35 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
         (self.base + relative, self.variance(gradient, [own, through, direct]))
     }
 
-    /// Carries the weight of a local column over to the core; adds its own variance, and the weight.
+    /// Carries the weights of the local columns from `first` on over to the core; adds their own variance, and the weights; reads the columns.
     #[inline(always)]
-    fn through_local(
+    fn through_locals<const K: usize>(
         &self,
         gradient: &mut [Lane; D],
-        local: usize,
-        weight: Lane,
-        (own, weights): (&mut Lane, &mut Lane),
+        (first, weights): (usize, &[Lane; K]),
+        (own, sum): (&mut Lane, &mut Lane),
+        values: &mut [Lane; K],
     ) {
-        *own += weight * weight * self.locals.inverse[local];
-        *weights += weight;
-        let slope = self.locals.slope::<D>(local);
-        for k in 0..N {
-            gradient[k] -= weight * slope[k];
-        }
-        if !self.apart {
-            for k in N..D {
-                gradient[k] -= weight * slope[k];
+        for i in 0..K {
+            let weight = weights[i];
+            *sum += weight;
+            match self.columns {
+                LocalColumns::Means(regression) => {
+                    let mean = regression.own_mean::<N>(first + i, &self.core.parameters);
+                    *own += weight * weight * mean.inverse;
+                    for k in 0..N {
+                        gradient[k] -= weight * mean.slope[k];
+                    }
+                    values[i] = mean.value;
+                }
+                LocalColumns::Kept(locals) => {
+                    *own += weight * weight * locals.inverse[first + i];
+                    let slope = locals.slope::<D>(first + i);
+                    for k in 0..D {
+                        gradient[k] -= weight * slope[k];
+                    }
+                    values[i] = locals.values[first + i];
+                }
             }
         }
     }
@@ -132,12 +168,11 @@ impl<'a, const N: usize, const D: usize> Reading<'a, N, D> {
     /// Delta method; `own` the local columns' own variance, `weights` the sum of their weights, `direct` the derivative in `ŷ₀`.
     #[inline(always)]
     fn variance(&self, gradient: [Lane; D], [own, weights, direct]: [Lane; 3]) -> Lane {
-        let mut through_step = Lane::ZERO;
-        if let Some(step) = &self.step {
+        let through_step = match &self.step {
             // A constant left in y moves every free mean by itself and the core by `constant`.
-            let slope = direct - step.a_at_one * (dot(&gradient, &self.core.constant) + weights);
-            through_step = slope * slope * step.variance;
-        }
-        self.core.variance * (own + self.core.quadratic(gradient)) + through_step
+            Some(step) => step.through(direct, dot(&gradient, &self.core.constant) + weights),
+            None => Lane::ZERO,
+        };
+        self.core.variance * (own + self.core.quadratic(&gradient)) + through_step
     }
 }

@@ -1,9 +1,9 @@
 //! The methods, eight replicates abreast.
 
-use super::arrow::{Core, Locals, Regression};
+use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::constrained::Constrained;
-use super::levels::Reading;
+use super::levels::{LocalColumns, Reading};
 use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
 use crate::estimators::pulse::PulseMethod;
@@ -36,12 +36,21 @@ pub struct LaneMethod {
 }
 
 /// Mean of the step experiment's output in each replicate.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LaneStep {
     /// `ŷ₀`.
     pub mean: Lane,
     /// Samples averaged.
     pub samples: f64,
+}
+
+/// Eight replicates as a method sees them.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneSample<'a> {
+    /// The statistics of the method's experiments, in their order.
+    pub parts: &'a [&'a LaneStatistics],
+    /// The step experiment, for the paper's methods.
+    pub step: Option<LaneStep>,
 }
 
 /// Estimates of eight replicates with their variances; memory that is used again and again.
@@ -103,48 +112,100 @@ impl LaneMethod {
         Self { order: n, plan, values, levels, constrained }
     }
 
-    /// The estimates from the statistics of the method's experiments, in their order, and of the step experiment for the paper's methods.
+    /// The estimates from each sample, in as many of `fits`.
     ///
-    /// Orders above [`LARGEST_ORDER`](super::LARGEST_ORDER) are all left to the solver that goes one by one.
-    pub fn fit(&self, parts: &[&LaneStatistics], step: Option<LaneStep>, fit: &mut LaneFit) {
-        if !run(self.order, self.order + self.plan.width, Fit { method: self, parts, step, fit }) {
-            fit.sound = [false; LANES];
+    /// Several samples are fitted in the time that one spends on waiting for its divisions and roots. Orders above
+    /// [`LARGEST_ORDER`](super::LARGEST_ORDER) are all left to the solver that goes one by one.
+    ///
+    /// # Panics
+    /// If there are fewer fits than samples.
+    pub fn fit(&self, samples: &[LaneSample<'_>], fits: &mut [LaneFit]) {
+        let fits = &mut fits[..samples.len()];
+        for (samples, fits) in samples.chunks(ABREAST).zip(fits.chunks_mut(ABREAST)) {
+            if !run(self.order, self.order + self.plan.width, Fit { method: self, samples, fits }) {
+                fits.iter_mut().for_each(|fit| fit.sound = [false; LANES]);
+            }
         }
     }
 }
 
-/// [`LaneMethod::fit`] on its way.
+/// Samples that are fitted in the same go.
+const ABREAST: usize = 4;
+
+/// [`LaneMethod::fit`] on its way, up to [`ABREAST`] samples.
 struct Fit<'a> {
     method: &'a LaneMethod,
-    parts: &'a [&'a LaneStatistics],
-    step: Option<LaneStep>,
-    fit: &'a mut LaneFit,
+    samples: &'a [LaneSample<'a>],
+    fits: &'a mut [LaneFit],
 }
 
 impl SizedWork for Fit<'_> {
     #[inline(always)]
     fn run<const N: usize, const D: usize>(self) {
-        let Self { method, parts, step, fit } = self;
-        let LaneFit { values, variances, sound, locals, linearised } = fit;
-        let shift = match step {
+        let Self { method, samples, fits } = self;
+        let mut equations: [Option<Equations<D>>; ABREAST] = [const { None }; ABREAST];
+        for (equations, (sample, fit)) in equations.iter_mut().zip(samples.iter().zip(&mut *fits)) {
+            keep_apart();
+            *equations = Some(Equations::of::<N>(&method.regression(sample), &mut fit.locals));
+        }
+        // Next to each other, the divisions and roots of one sample do not keep the next waiting.
+        let mut cores: [Option<Core<N, D>>; ABREAST] = [const { None }; ABREAST];
+        for (core, (equations, sample)) in cores.iter_mut().zip(equations.iter().flatten().zip(samples)) {
+            keep_apart();
+            *core = Some(Core::solve(equations, &method.regression(sample)));
+        }
+        for (core, (sample, fit)) in cores.iter_mut().flatten().zip(samples.iter().zip(fits)) {
+            keep_apart();
+            method.read(core, sample, fit);
+        }
+    }
+}
+
+impl LaneMethod {
+    #[inline(always)]
+    fn regression<'a>(&'a self, sample: &LaneSample<'a>) -> Regression<'a> {
+        let shift = match sample.step {
             Some(step) => step.mean,
             None => Lane::ZERO,
         };
-        let regression = Regression { parts, shift, plan: &method.plan, values: &method.values };
-        let mut core = Core::<N, D>::solve(&regression, locals);
-        if let Some(constrained) = &method.constrained {
-            core = constrained.iterate(parts, core, locals, linearised);
-        }
-        values.resize(2 * N + method.levels.len(), Lane::ZERO);
+        Regression { parts: sample.parts, shift, plan: &self.plan, values: &self.values }
+    }
+
+    /// The parameters, given the solved core.
+    #[inline(always)]
+    fn read<const N: usize, const D: usize>(
+        &self,
+        core: &mut Core<N, D>,
+        sample: &LaneSample<'_>,
+        fit: &mut LaneFit,
+    ) {
+        let LaneFit { values, variances, sound, locals, linearised } = fit;
+        let regression = self.regression(sample);
+        let columns = if let Some(constrained) = &self.constrained {
+            core.follow(&regression, locals);
+            *core = constrained.iterate(sample.parts, core, locals, linearised);
+            LocalColumns::Kept(locals)
+        } else if self.plan.apart {
+            LocalColumns::Means(&regression)
+        } else {
+            core.follow(&regression, locals);
+            LocalColumns::Kept(locals)
+        };
+        values.resize(2 * N + self.levels.len(), Lane::ZERO);
         variances.resize(values.len(), Lane::ZERO);
-        let apart = method.constrained.is_none() && method.plan.apart;
-        let reading = Reading::new(&core, (locals, apart), step);
+        let reading = Reading::new(core, columns, sample.step);
         // Zero times a number is zero, times anything else it is not.
         let mut spoilt = Lane::ZERO;
-        for (k, (value, variance)) in values.iter_mut().zip(variances).enumerate() {
+        let (coefficients, points) = values.split_at_mut(2 * N);
+        let (coefficient_variances, point_variances) = variances.split_at_mut(2 * N);
+        reading.coefficients(coefficients, coefficient_variances);
+        for (value, variance) in coefficients.iter().zip(coefficient_variances) {
             keep_apart();
-            (*value, *variance) =
-                if k < 2 * N { reading.coefficient(k) } else { reading.level(method.levels[k - 2 * N]) };
+            spoilt += (*value + *variance) * 0.0;
+        }
+        for (rule, (value, variance)) in self.levels.iter().zip(points.iter_mut().zip(point_variances)) {
+            keep_apart();
+            (*value, *variance) = reading.level(*rule);
             spoilt += (*value + *variance) * 0.0;
         }
         *sound = core.sound;

@@ -7,6 +7,7 @@ mod arrow;
 mod columns;
 mod constrained;
 mod control;
+mod factor;
 mod levels;
 mod method;
 mod profile;
@@ -15,7 +16,7 @@ mod statistics;
 
 pub(crate) use control::Answer;
 pub use control::{LaneControl, LaneTerms};
-pub use method::{LaneFit, LaneMethod, LaneStep};
+pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
 pub(crate) use profile::ProfilePlan;
 pub use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;

@@ -12,7 +12,7 @@ use crate::lanes::Lane;
 ///
 /// A group with a mean of its own (most, in a pulse experiment) adds nothing to the normal equations of `a` but its share of `W`, and of a
 /// noise-free response that is constant within the group nothing is left in `W`: there is no cancellation of large sums.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LaneStatistics {
     order: usize,
     /// `K_q`, the same in all replicates.
@@ -28,17 +28,17 @@ pub struct LaneStatistics {
 }
 
 impl LaneStatistics {
-    /// Zeros for these counts.
-    pub fn new(order: usize, counts: Vec<f64>) -> Self {
+    /// Makes room for these counts, in the memory at hand; means and products are to be overwritten.
+    pub(crate) fn shape(&mut self, order: usize, counts: &[f64]) {
         let width = order + 1;
-        Self {
-            order,
-            means: vec![Lane::ZERO; counts.len() * width],
-            within: vec![Lane::ZERO; width * width],
-            shares: counts.iter().map(|count| 1.0 / count).collect(),
-            samples: counts.iter().sum(),
-            counts,
-        }
+        self.order = order;
+        self.means.resize(counts.len() * width, Lane::ZERO);
+        self.within.resize(width * width, Lane::ZERO);
+        self.shares.clear();
+        self.shares.extend(counts.iter().map(|count| 1.0 / count));
+        self.samples = counts.iter().sum();
+        self.counts.clear();
+        self.counts.extend_from_slice(counts);
     }
 
     /// The order `n`.
