@@ -11,6 +11,9 @@ use crate::settings::Settings;
 /// their laws and their own parameters.
 pub(crate) const SIGNIFICANT: f64 = 40.0;
 
+/// Probability of "none of these" from which no candidate is offered.
+const UNEXPLAINED: f64 = 0.25;
+
 /// Rivals in one answer at most.
 const WIDEST: usize = 3;
 
@@ -41,7 +44,7 @@ mod calibration {
     pub(super) const TEMPER: f64 = 0.12;
     /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale; and the
     /// same where the best is barely better than its rivals, as stand-ins are.
-    pub(super) const LEFT: (f64, f64) = (0.42, 0.07);
+    pub(super) const LEFT: (f64, f64) = (0.42, 0.12);
     pub(super) const LEFT_BY_MANY: (f64, f64) = (0.06, 0.01);
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
@@ -53,7 +56,7 @@ mod calibration {
     /// The same where it leaves much.
     pub(super) const PARTLY: f64 = 0.55;
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
-    pub(super) const NOTHING: (f64, f64) = (0.06, 0.01);
+    pub(super) const NOTHING: (f64, f64) = (0.05, 0.01);
     /// The same where the best is supple enough to imitate others but for a little.
     pub(super) const NOTHING_BY_SUPPLE: (f64, f64) = (0.004, 0.0008);
     /// Deviance a sample that a second effect must gain.
@@ -61,7 +64,11 @@ mod calibration {
     /// Share of what the second gains that both may leave.
     pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.
-    pub(super) const TOGETHER: f64 = 0.85;
+    pub(super) const TOGETHER: f64 = 0.94;
+    /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
+    pub(super) const SILENCE: f64 = 0.8;
+    /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
+    pub(super) const ALL_FAIL: f64 = 0.5;
 }
 
 fn logistic(x: f64) -> f64 {
@@ -106,7 +113,8 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], left: f64) -> Od
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = logistic((fraction - middle) / scale).max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
-    let unexplained = (1.0 - none) * foreign;
+    let none = calibration::SILENCE * none;
+    let unexplained = (1.0 - none) * calibration::ALL_FAIL * foreign;
     let rest = (1.0 - none - unexplained).max(0.0);
     let trust = first.map_or(1.0, |effect| trust(effect, fraction));
     let effects = sharp.iter().zip(&blunt).map(|(s, b)| rest * (trust * s + (1.0 - trust) * b)).collect();
@@ -148,7 +156,7 @@ pub(crate) fn verdict(
     if odds.none >= 0.5 {
         return naming_nothing(Status::None, None, odds.none);
     }
-    if odds.unexplained >= 0.5 {
+    if odds.unexplained >= UNEXPLAINED {
         let stage = points_at.or(ranked.first().map(|r| r.0.stage()));
         return naming_nothing(Status::Unexplained, stage, odds.unexplained);
     }
@@ -168,7 +176,8 @@ pub(crate) fn verdict(
     let mut class = vec![first];
     let mut sum = p;
     for &(effect, p) in &ranked[1..] {
-        if sum >= settings.name_at || p < 0.02 {
+        // A cause that is not sure enough to be named has at least one rival.
+        if class.len() > 1 && (sum >= settings.name_at || p < 0.02) {
             break;
         }
         class.push(effect);

@@ -140,8 +140,8 @@ impl<W: Workers> Search<'_, '_, W> {
         let members = best.effects();
         for (held, moved) in [(members[0], members[1]), (members[1], members[0])] {
             let alike = std::iter::once(&moved).chain(moved.twins());
-            let questions: Vec<Question> =
-                alike.filter(|e| is_another(held, **e)).map(|e| Question::open(*e)).collect();
+            let considered = |e: &&Effect| is_another(held, **e) && self.of.settings.effects.contains(e);
+            let questions: Vec<Question> = alike.filter(considered).map(|e| Question::open(*e)).collect();
             self.ask(held, &questions);
         }
     }

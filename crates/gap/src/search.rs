@@ -12,8 +12,6 @@ use crate::normal::Normal;
 /// Gauss–Newton rounds of a look, and of the final fit.
 const LOOK: usize = 2;
 const FINAL: usize = 14;
-/// Starts of a law from which everything is fitted together, where the own parameters are conditions of the rest.
-const CLIMBS: usize = 3;
 /// Points of one pattern search at most.
 const PATTERN_TRIALS: usize = 30;
 
@@ -98,6 +96,8 @@ fn look(
     let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
     let starts = law.starts.iter().map(|own| joined(own));
     let fit = match law.search {
+        // Without own parameters there is one start, and nothing that a look could compare.
+        Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
         Search::Smooth => best(starts.filter_map(|own| task.together(&own, &base, LOOK))),
         Search::Profile => best(starts.filter_map(|own| task.held(&own, &base, LOOK))),
         Search::Conditional => {
@@ -110,7 +110,7 @@ fn look(
                 .collect();
             held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
             // The best start need not lead to the best point: B may have taken what a neighbour would explain.
-            best(held.iter().take(CLIMBS).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
+            best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
         }
     }?;
     Some(Explanation { parts, fit, handicap: known.handicap + law.handicap, held_out: 0.0 })

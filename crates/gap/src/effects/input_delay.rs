@@ -13,5 +13,8 @@ pub(super) fn variants() -> Vec<Variant> {
         .iter()
         .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
         .collect();
-    vec![Variant::conditional(starts, |p, assembly| assembly.delay = p[0])]
+    let mut variant = Variant::conditional(starts, |p, assembly| assembly.delay = p[0]);
+    // B takes a whole sample where it has room: every start is a valley of its own.
+    variant.climbs = variant.starts.len();
+    vec![variant]
 }

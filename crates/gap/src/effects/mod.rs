@@ -53,6 +53,8 @@ pub(crate) struct Variant {
     /// Points the search starts from; all hold the same parameters.
     pub(crate) starts: Vec<Vec<Own>>,
     pub(crate) search: Search,
+    /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
+    pub(crate) climbs: usize,
     pub(crate) apply: Apply,
     /// A finer border grid that comes with the law.
     pub(crate) grid: Option<Grid>,
@@ -60,9 +62,19 @@ pub(crate) struct Variant {
     pub(crate) handicap: f64,
 }
 
+/// Climbs of a law whose starts are stages of one valley.
+const CLIMBS: usize = 3;
+
 impl Variant {
     fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
-        Self { starts, search: Search::Smooth, apply: Arc::new(apply), grid: None, handicap: 0.0 }
+        Self {
+            starts,
+            search: Search::Smooth,
+            climbs: CLIMBS,
+            apply: Arc::new(apply),
+            grid: None,
+            handicap: 0.0,
+        }
     }
 
     fn conditional(

@@ -15,12 +15,13 @@ use crate::sensor::Knee;
 /// Ties at an extreme that chance does not make, in samples.
 const TIES: usize = 6;
 
-/// Deviance that a tie at an extreme is worth, and all of them at most: chance leaves none.
+/// Deviance that a tie at an extreme is worth: chance leaves none, to a few digits.
 const TIE: f64 = -20.0;
-const TIED: f64 = -2000.0;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    hard(scene).into_iter().chain(soft(scene)).collect()
+    let hard = hard(scene);
+    // A smooth curve would turn the ties into an endless density: where there are ties, only the hard limit is asked.
+    if hard.is_empty() { soft(scene) } else { hard }
 }
 
 /// Knees at either end of the readings or at both.
@@ -81,6 +82,6 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
     };
     let tied = if at_low { low_ties } else { 0 } + if at_high { high_ties } else { 0 };
     let mut variant = Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits));
-    variant.handicap = (TIE * tied as f64).max(TIED);
+    variant.handicap = TIE * tied as f64;
     vec![variant]
 }
