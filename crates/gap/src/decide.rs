@@ -46,13 +46,16 @@ mod calibration {
     /// same where the best is barely better than its rivals, as stand-ins are.
     pub(super) const LEFT: (f64, f64) = (0.42, 0.12);
     pub(super) const LEFT_BY_MANY: (f64, f64) = (0.06, 0.01);
+    /// Share of the held-out gap that the best must close for being barely better than its rivals not to matter: stand-ins
+    /// follow the records they were fitted to.
+    pub(super) const CLOSES: f64 = 0.85;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
-    pub(super) const FOREIGN: f64 = 0.02;
+    pub(super) const FOREIGN: f64 = 0.03;
     /// How often the ranking holds where the best leaves nothing, whatever its margin: a law that is not the cause leaves
     /// something.
-    pub(super) const WHOLE: f64 = 0.97;
+    pub(super) const WHOLE: f64 = 0.93;
     /// The same where it leaves much.
     pub(super) const PARTLY: f64 = 0.55;
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
@@ -83,6 +86,15 @@ fn trust(best: Effect, fraction: f64) -> f64 {
     calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole
 }
 
+/// What the best explanation leaves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leavings {
+    /// Deviance that causes in general would still gain.
+    pub(crate) deviance: f64,
+    /// Share of the gap on the held-out records, where there is one.
+    pub(crate) gap: Option<f64>,
+}
+
 /// Weighs single-effect explanations against each other, against none and against none of these.
 ///
 /// ```text
@@ -91,7 +103,8 @@ fn trust(best: Effect, fraction: f64) -> f64 {
 /// ```
 ///
 /// Each of the two terms is normalised on its own.
-pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], left: f64) -> Odds {
+pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Leavings) -> Odds {
+    let left = best_leaves.deviance;
     let best = effects.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
     let gain = nominal_bic - best;
     let share = |temperature: f64| {
@@ -109,7 +122,8 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], left: f64) -> Od
     let alike = |e: Effect| first.is_some_and(|f| e == f || f.twins().contains(&e));
     let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
     let margin = (runner_up - best) / gain.max(1.0);
-    let one_of_many = margin < calibration::MANY && first.is_some_and(|e| !e.is_supple());
+    let closes = best_leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES);
+    let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = logistic((fraction - middle) / scale).max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
@@ -133,7 +147,8 @@ pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
 /// Weighs two effects named together; the singles are no rivals of a pair that holds one of them.
 pub(crate) fn odds_together(nominal_bic: f64, pair: &Pair, singles: &[(Effect, f64)]) -> Odds {
     let members = pair.explanation.effects();
-    let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], pair.left);
+    let leaves = Leavings { deviance: pair.left, gap: None };
+    let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], leaves);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
     together.effects = singles.iter().map(|(e, _)| if members.contains(e) { p } else { 0.0 }).collect();

@@ -5,7 +5,7 @@ use switchback_estimator::rig::Rig;
 use crate::attribution::{Attribution, detail};
 use crate::campaign::{Campaign, Criterion};
 use crate::closure::{Simulated, measure};
-use crate::decide::{Odds, SIGNIFICANT, holds_together, odds, odds_together, verdict};
+use crate::decide::{Leavings, Odds, SIGNIFICANT, holds_together, odds, odds_together, verdict};
 use crate::diagnosis::{Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together};
 use crate::effect::Effect;
 use crate::engine::Fit;
@@ -132,7 +132,8 @@ impl Plan {
         let mut tests = omnibus(&self.campaign, &best.fit);
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
-        let mut odds = odds(self.nominal.bic(), &effects, left);
+        let leaves = Leavings { deviance: left, gap: self.gap_left(&best.fit) };
+        let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;
         let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
         let pair = more.and_then(|tests| attribution.pair(&singles, tests));
@@ -173,10 +174,15 @@ impl Plan {
                 singles.iter().filter_map(|s| self.score(&s.fit)).fold(nominal, f64::max)
             }
         };
+        let nominal_error = self.simulation_error(&self.nominal.fit);
         for single in singles.iter_mut() {
             let lost = self.score(&single.fit).map_or(0.0, |s| reference - s);
             let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
             single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
+            if self.simulation_error(&single.fit) > RUNAWAY * nominal_error {
+                // What runs away on other records is no account of these either.
+                single.held_out += (self.nominal.bic() - single.bic()).max(0.0);
+            }
         }
         singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
     }
@@ -185,7 +191,10 @@ impl Plan {
     /// their own record, which need not hold in others.
     fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
         let excused = one.effects().iter().any(|e| e.is_of_its_record());
-        excused || self.score(&one.fit).zip(self.score(&than.fit)).is_none_or(|(one, other)| one > other)
+        let runs_away = self.simulation_error(&one.fit) > RUNAWAY * self.simulation_error(&than.fit);
+        !runs_away
+            && (excused
+                || self.score(&one.fit).zip(self.score(&than.fit)).is_none_or(|(one, other)| one > other))
     }
 
     /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
@@ -223,12 +232,15 @@ impl Plan {
     /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
     /// gap.
     fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
-        if !self.campaign.criterion.simulates() {
-            return None;
-        }
+        let simulates = self.campaign.criterion.simulates();
+        simulates.then(|| self.gap_left(fit)).flatten().map(|left| 1.0 - left)
+    }
+
+    /// Share of the gap on the judged records that a model leaves, where there is a gap.
+    fn gap_left(&self, fit: &Fit) -> Option<f64> {
         let gap =
             measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), (self.settings.seed, 0));
-        (gap.before.estimate > 0.0).then(|| 1.0 - gap.after.estimate / gap.before.estimate)
+        (gap.before.estimate > 0.0).then(|| gap.after.estimate / gap.before.estimate)
     }
 
     /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.
@@ -410,6 +422,8 @@ struct Conclusion {
     together: Option<Together>,
 }
 
+/// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
+const RUNAWAY: f64 = 20.0;
 /// Share of the simulation error that may repeat with the input under an explanation by noise.
 const REPEATS: f64 = 0.12;
 /// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that

@@ -25,7 +25,7 @@ impl Default for Settings {
             effects: Effect::ALL.to_vec(),
             max_order: 4,
             max_effects: 2,
-            name_at: 0.9,
+            name_at: 0.85,
             seed: 1,
             resamples: 400,
         }

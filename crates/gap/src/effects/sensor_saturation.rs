@@ -82,6 +82,14 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
     };
     let tied = if at_low { low_ties } else { 0 } + if at_high { high_ties } else { 0 };
     let mut variant = Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits));
-    variant.handicap = TIE * tied as f64;
+    let mut rest: Vec<f64> =
+        scene.campaign.fit().flat_map(|t| t.y.iter().copied()).filter(|y| *y != low && *y != high).collect();
+    let count = rest.len();
+    rest.sort_by(f64::total_cmp);
+    rest.dedup();
+    // Rounding ties every plateau, at the extremes too.
+    if 3 * rest.len() > 2 * count {
+        variant.handicap = TIE * tied as f64;
+    }
     vec![variant]
 }
