@@ -14,6 +14,9 @@ pub(crate) const SIGNIFICANT: f64 = 40.0;
 /// Probability of "none of these" from which no candidate is offered.
 const UNEXPLAINED: f64 = 0.25;
 
+/// Least probability of a rival.
+const CLAIM: f64 = 0.04;
+
 /// Rivals in one answer at most.
 const WIDEST: usize = 3;
 
@@ -58,6 +61,8 @@ mod calibration {
     pub(super) const WHOLE: f64 = 0.93;
     /// The same where it leaves much.
     pub(super) const PARTLY: f64 = 0.55;
+    /// How often the cause is an effect without any claim by its gain, where the best leaves much: their laws may all be poor.
+    pub(super) const NO_CLAIM: f64 = 0.35;
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
     pub(super) const NOTHING: (f64, f64) = (0.05, 0.01);
     /// The same where the best is supple enough to imitate others but for a little.
@@ -69,7 +74,7 @@ mod calibration {
     /// How often a pair that passes every test is the pair that was put in.
     pub(super) const TOGETHER: f64 = 0.94;
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
-    pub(super) const SILENCE: f64 = 0.8;
+    pub(super) const SILENCE: f64 = 0.68;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
     pub(super) const ALL_FAIL: f64 = 0.5;
 }
@@ -78,12 +83,11 @@ fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }
 
-/// How far the ranking by penalised likelihood is to be trusted where the best leaves a fraction of the gap.
-fn trust(best: Effect, fraction: f64) -> f64 {
+/// How far the best counts as leaving nothing of the gap, from a fraction of which it leaves: 1 all the way.
+fn wholeness(best: Effect, fraction: f64) -> f64 {
     let (nothing, scale) =
         if best.is_supple() { calibration::NOTHING_BY_SUPPLE } else { calibration::NOTHING };
-    let whole = logistic((nothing - fraction) / scale);
-    calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole
+    logistic((nothing - fraction) / scale)
 }
 
 /// What the best explanation leaves.
@@ -98,11 +102,11 @@ pub(crate) struct Leavings {
 /// Weighs single-effect explanations against each other, against none and against none of these.
 ///
 /// ```text
-/// P(effect) ∝ trust·exp(−Δ/(2·T)) + (1 − trust)·exp(−Δ/(2·0.1·gain))
+/// P(effect) ∝ (1 − ε)·[trust·exp(−Δ/(2·T)) + (1 − trust)·exp(−Δ/(2·0.1·gain))] + ε/count
 /// T = 1 + TEMPER·left,   Δ distance to the best in penalised deviance, gain that of the best over the nominal model
 /// ```
 ///
-/// Each of the two terms is normalised on its own.
+/// Each of the two exponentials is normalised on its own; `trust` falls and `ε` rises with the fraction that the best leaves.
 pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Leavings) -> Odds {
     let left = best_leaves.deviance;
     let best = effects.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
@@ -125,13 +129,19 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let closes = best_leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES);
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
-    let foreign = logistic((fraction - middle) / scale).max(calibration::FOREIGN);
+    let foreign = if closes { 0.0 } else { logistic((fraction - middle) / scale) }.max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let none = calibration::SILENCE * none;
     let unexplained = (1.0 - none) * calibration::ALL_FAIL * foreign;
     let rest = (1.0 - none - unexplained).max(0.0);
-    let trust = first.map_or(1.0, |effect| trust(effect, fraction));
-    let effects = sharp.iter().zip(&blunt).map(|(s, b)| rest * (trust * s + (1.0 - trust) * b)).collect();
+    let whole = first.map_or(1.0, |effect| wholeness(effect, fraction));
+    let trust = calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole;
+    let no_claim = calibration::NO_CLAIM * (1.0 - whole);
+    let one = |(sharp, blunt): (&f64, &f64)| {
+        let claim = trust * sharp + (1.0 - trust) * blunt;
+        rest * ((1.0 - no_claim) * claim + no_claim / effects.len() as f64)
+    };
+    let effects = sharp.iter().zip(&blunt).map(one).collect();
     Odds { effects, none, unexplained }
 }
 
@@ -192,7 +202,7 @@ pub(crate) fn verdict(
     let mut sum = p;
     for &(effect, p) in &ranked[1..] {
         // A cause that is not sure enough to be named has at least one rival.
-        if class.len() > 1 && (sum >= settings.name_at || p < 0.02) {
+        if class.len() > 1 && (sum >= settings.name_at || p < CLAIM) {
             break;
         }
         class.push(effect);

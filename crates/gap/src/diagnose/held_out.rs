@@ -1,0 +1,124 @@
+//! What the held-out records say about the explanations.
+
+use super::Plan;
+use crate::campaign::Criterion;
+use crate::closure::measure;
+use crate::engine::Fit;
+use crate::explain::Explanation;
+use crate::repeats::Repeating;
+use crate::score::heldout_log_score;
+use crate::simulate::free_run;
+use crate::spectrum::mean_square;
+
+/// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
+const RUNAWAY: f64 = 20.0;
+/// Share of the simulation error that may repeat with the input under an explanation by noise.
+const REPEATS: f64 = 0.12;
+/// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that
+/// it must gain to be heard.
+const SYSTEMATIC: f64 = 0.88;
+const SERIOUS: f64 = 0.2;
+
+impl Plan {
+    /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
+    /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
+    pub(super) fn hear_the_held_out(&self, singles: &mut [Explanation]) {
+        let Some(nominal) = self.score(&self.nominal.fit) else { return };
+        let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
+        let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
+        // Simulators are no safer for beating the nominal model: what they lose to the best of them counts.
+        let reference = match self.campaign.criterion {
+            Criterion::OneStep => nominal,
+            Criterion::Simulation { .. } => {
+                singles.iter().filter_map(|s| self.score(&s.fit)).fold(nominal, f64::max)
+            }
+        };
+        let nominal_error = self.simulation_error(&self.nominal.fit);
+        for single in singles.iter_mut() {
+            let lost = self.score(&single.fit).map_or(0.0, |s| reference - s);
+            let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
+            single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
+            if self.simulation_error(&single.fit) > RUNAWAY * nominal_error {
+                // What runs away on other records is no account of these either.
+                single.held_out += (self.nominal.bic() - single.bic()).max(0.0);
+            }
+        }
+        singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
+    }
+
+    /// Whether one explanation predicts the held-out records better than another; true without any, and for effects of
+    /// their own record, which need not hold in others.
+    pub(super) fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
+        let excused = one.effects().iter().any(|e| e.is_of_its_record());
+        let runs_away = self.simulation_error(&one.fit) > RUNAWAY * self.simulation_error(&than.fit);
+        !runs_away
+            && (excused
+                || self.score(&one.fit).zip(self.score(&than.fit)).is_none_or(|(one, other)| one > other))
+    }
+
+    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
+    /// an effect that does move it takes much of it away on the held-out records, the noise is no cause of it, however
+    /// well it predicts one step ahead.
+    pub(super) fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
+        let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
+        let mut repeating = Repeating::default();
+        for (number, track) in self.campaign.tracks.iter().enumerate() {
+            let run = free_run(&self.campaign, &best.fit, number, track);
+            let error: Vec<f64> = track.y.iter().zip(&run).map(|(y, run)| y - run).collect();
+            repeating.add(track, &error);
+        }
+        let error = |s: &Explanation| self.simulation_error(&s.fit);
+        let gained = self.nominal.evidence() - best.evidence();
+        let rivals = singles.iter().filter(|s| {
+            let effect = s.parts[0].effect;
+            let serious = self.nominal.evidence() - s.evidence() > SERIOUS * gained;
+            serious && !effect.is_noise() && !effect.is_of_its_record()
+        });
+        let least = rivals.map(error).fold(f64::INFINITY, f64::min);
+        let repeats = repeating.share().is_some_and(|share| share > REPEATS);
+        if repeats || least < SYSTEMATIC * error(best) {
+            singles.retain(|s| !s.parts[0].effect.is_noise());
+        }
+    }
+
+    /// A simulator that is worse on held-out records explains nothing, however well it follows those it was fitted to.
+    pub(super) fn drop_what_held_out_records_refute(&self, singles: &mut Vec<Explanation>) {
+        if self.campaign.criterion.simulates() {
+            singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
+        }
+    }
+
+    /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
+    /// gap.
+    pub(super) fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
+        let simulates = self.campaign.criterion.simulates();
+        simulates.then(|| self.gap_left(fit)).flatten().map(|left| 1.0 - left)
+    }
+
+    /// Share of the gap on the judged records that a model leaves, where there is a gap.
+    pub(super) fn gap_left(&self, fit: &Fit) -> Option<f64> {
+        let gap =
+            measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), (self.settings.seed, 0));
+        (gap.before.estimate > 0.0).then(|| gap.after.estimate / gap.before.estimate)
+    }
+
+    /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.
+    pub(super) fn score(&self, fit: &Fit) -> Option<f64> {
+        match self.campaign.criterion {
+            Criterion::OneStep => heldout_log_score(&self.campaign, fit),
+            Criterion::Simulation { share } => {
+                Some(-0.5 * share * mean_square(&self.judged_errors(fit)).max(1e-300).ln())
+            }
+        }
+    }
+
+    /// Squared error of the free-run simulation, summed over the judged records.
+    pub(super) fn simulation_error(&self, fit: &Fit) -> f64 {
+        let error = |&number: &usize| {
+            let track = &self.campaign.tracks[number];
+            let run = free_run(&self.campaign, fit, number, track);
+            track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).powi(2)).sum::<f64>()
+        };
+        self.judged.iter().map(error).sum()
+    }
+}

@@ -1,0 +1,70 @@
+//! Simulations of the judged records and the noise in them.
+
+use super::Plan;
+use crate::campaign::Criterion;
+use crate::closure::Simulated;
+use crate::engine::Fit;
+use crate::simulate::{free_run, noise_gain, repeat_variance};
+use crate::spectrum::unpredictable_variance;
+
+impl Plan {
+    /// Variance of the noise in the output and its relative standard error.
+    ///
+    /// Repetition within periodic records needs no model; the augmented model's own floor is the other estimate. Effects
+    /// that do not repeat with the input inflate the first, effects left out the second: the smaller one holds.
+    pub(super) fn noise_floor(&self, fit: &Fit) -> (f64, f64) {
+        if self.campaign.criterion.simulates() {
+            return self.unforeseeable(fit);
+        }
+        let model = fit.power * noise_gain(fit);
+        let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
+        match repeat_variance(&self.campaign, |_| true) {
+            Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
+            _ => (model, relative(fit.samples as f64)),
+        }
+    }
+
+    /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
+    /// at most that.
+    pub(super) fn unforeseeable(&self, fit: &Fit) -> (f64, f64) {
+        let errors = self.judged_errors(fit);
+        let count: usize = errors.iter().map(Vec::len).sum();
+        (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
+    }
+
+    /// Errors of the free run on the judged records.
+    pub(super) fn judged_errors(&self, fit: &Fit) -> Vec<Vec<f64>> {
+        self.judged
+            .iter()
+            .map(|&number| {
+                let track = &self.campaign.tracks[number];
+                let run = free_run(&self.campaign, fit, number, track);
+                run.iter().zip(&track.y).skip(track.from).map(|(x, y)| y - x).collect()
+            })
+            .collect()
+    }
+
+    /// Variance of the innovations without the gap.
+    pub(super) fn innovation_floor(&self, fit: &Fit) -> f64 {
+        let power = match self.campaign.criterion {
+            Criterion::OneStep => fit.power,
+            Criterion::Simulation { .. } => self.unforeseeable(fit).0,
+        };
+        power.min(self.nominal.fit.power).max(1e-300)
+    }
+
+    pub(super) fn simulations(&self, fit: &Fit) -> Vec<Simulated> {
+        self.judged
+            .iter()
+            .enumerate()
+            .map(|(i, &number)| {
+                let track = &self.campaign.tracks[number];
+                let before = match &self.foreign {
+                    Some(runs) => runs[i].clone(),
+                    None => free_run(&self.campaign, &self.nominal.fit, number, track),
+                };
+                Simulated { number, before, after: free_run(&self.campaign, fit, number, track) }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,239 @@
+//! The diagnosis itself: the nominal model, attribution, verdict, report.
+
+mod held_out;
+mod judged;
+mod report;
+
+use switchback_estimator::rig::Rig;
+
+use self::report::Conclusion;
+use crate::attribution::{Attribution, detail};
+use crate::campaign::Campaign;
+use crate::decide::{Leavings, SIGNIFICANT, holds_together, odds, odds_together, verdict};
+use crate::diagnosis::{Diagnosis, Status, Together};
+use crate::effect::Effect;
+use crate::error::DiagnoseError;
+use crate::explain::Explanation;
+use crate::nominal::identify;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::order::choose;
+use crate::score::innovations;
+use crate::settings::{Model, Settings};
+use crate::simulate::free_run;
+use crate::simulators::weighed_by_closure;
+use crate::workers::{Serial, Workers};
+
+/// Diagnoses the gap between a model and a rig.
+///
+/// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
+/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records.
+///
+/// # Errors
+/// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
+/// [limitation](Diagnosis::limitations).
+pub fn diagnose(rig: &Rig, model: Model, settings: &Settings) -> Result<Diagnosis, DiagnoseError> {
+    diagnose_with(&Serial, rig, model, settings)
+}
+
+/// [`diagnose`], its independent pieces of work given to `workers`; the answer does not depend on them.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_with(
+    workers: &impl Workers,
+    rig: &Rig,
+    model: Model,
+    settings: &Settings,
+) -> Result<Diagnosis, DiagnoseError> {
+    Ok(Plan::new(workers, rig, model, settings)?.conclude(workers))
+}
+
+/// What is known before any effect is tried.
+#[derive(Debug)]
+struct Plan {
+    settings: Settings,
+    campaign: Campaign,
+    /// The nominal model as identified here.
+    nominal: Explanation,
+    /// The same with border knots placed from the data.
+    detailed: Explanation,
+    nominal_innovations: Vec<Vec<f64>>,
+    /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
+    foreign: Option<Vec<Vec<f64>>>,
+    /// Tracks the gap is measured on.
+    judged: Vec<usize>,
+    limitations: Vec<String>,
+}
+
+impl Plan {
+    /// Identifies the nominal model.
+    fn new(
+        workers: &impl Workers,
+        rig: &Rig,
+        model: Model,
+        settings: &Settings,
+    ) -> Result<Self, DiagnoseError> {
+        let mut campaign = Campaign::new(rig)?;
+        let mut settings = settings.clone();
+        let mut limitations = Vec::new();
+        let order = match (&model, rig.order) {
+            (Model::Given(m), Some(n)) if m.a.len() != n => {
+                return Err(DiagnoseError::Order { model: m.a.len(), rig: n });
+            }
+            (Model::Given(m), _) => Some(m.a.len()),
+            (_, order) => order,
+        };
+        let nominal = match order {
+            Some(n) => identify(&campaign, n.max(1))?,
+            None => {
+                let chosen = choose(workers, &campaign, settings.max_order)?;
+                limitations.push(chosen.told());
+                campaign = chosen.campaign;
+                chosen.fit
+            }
+        };
+        if campaign.criterion.simulates() {
+            // What changes only the noise moves no simulation.
+            settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
+        }
+        let judged = judged_tracks(&campaign, &mut limitations);
+        let foreign = match &model {
+            Model::Identify => None,
+            Model::Given(m) => {
+                let given = crate::given::scaled(&campaign, m)?;
+                Some(judged.iter().map(|&k| free_run(&campaign, &given, k, &campaign.tracks[k])).collect())
+            }
+            Model::Predicted => Some(predictions(rig, &campaign, &judged)?),
+        };
+        note_what_the_records_lack(&campaign, &mut limitations);
+        let detailed = Explanation::nominal(nominal);
+        let nominal = coarse(&campaign, &detailed);
+        let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
+        Ok(Self { settings, campaign, nominal, detailed, nominal_innovations, foreign, judged, limitations })
+    }
+
+    /// Ranks the candidates and draws the conclusions.
+    fn conclude(self, workers: &impl Workers) -> Diagnosis {
+        let attribution = Attribution {
+            campaign: &self.campaign,
+            settings: &self.settings,
+            nominal: &self.nominal,
+            detailed: &self.detailed,
+            workers,
+        };
+        let mut singles = attribution.singles();
+        self.hear_the_held_out(&mut singles);
+        let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
+        if significant {
+            self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            self.drop_what_held_out_records_refute(&mut singles);
+        }
+        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
+        let mut tests = omnibus(&self.campaign, &best.fit);
+        let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
+        let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
+        let leaves = Leavings { deviance: left, gap: self.gap_left(&best.fit) };
+        let mut odds = odds(self.nominal.bic(), &effects, leaves);
+        let mut joint = None;
+        let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
+        let pair = more.and_then(|tests| attribution.pair(&singles, tests));
+        let found = pair.as_ref().map(Together::of);
+        if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
+            let together = odds_together(self.nominal.bic(), &pair, &effects);
+            let explanation = pair.explanation;
+            if together.most() >= self.settings.name_at && self.better_held_out(&explanation, &best) {
+                tests = omnibus(&self.campaign, &explanation.fit);
+                (left, odds, joint) = (pair.left, together, Some(explanation));
+            }
+        }
+        let told = joint.as_ref().unwrap_or(&best);
+        let odds = match self.held_out_closure(&told.fit) {
+            Some(closure) if significant => weighed_by_closure(odds, closure),
+            _ => odds,
+        };
+        let mut ranked: Vec<(Effect, f64)> =
+            singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
+        ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
+        let verdict = verdict(&ranked, &odds, joint.as_ref(), tests.as_ref(), &self.settings);
+        let augmented = match verdict.status {
+            Status::None => self.nominal.clone(),
+            _ => joint.clone().unwrap_or(best),
+        };
+        self.report(Conclusion { singles, odds, verdict, augmented, left, together: found })
+    }
+}
+
+/// The model without the knots that follow details, where these matter; else the model itself.
+fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
+    match detailed.on_an_even_grid(campaign) {
+        Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
+        _ => detailed.clone(),
+    }
+}
+
+/// The hold-out records; without any, the fit records, with a word about it.
+fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {
+    let numbers = |fit: bool| {
+        campaign
+            .tracks
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| t.is_fit() == fit && t.from + 20 < t.v.len())
+            .map(|(i, _)| i)
+            .collect::<Vec<usize>>()
+    };
+    let held_out = numbers(false);
+    if held_out.is_empty() {
+        limitations.push(
+            "no record with use = \"holdout\" is long enough: gap and closure are measured on the records the models were \
+             fitted to, which flatters them; hold a record out"
+                .into(),
+        );
+        return numbers(true);
+    }
+    held_out
+}
+
+/// The `y_sim` of the judged records, dimensionless.
+fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
+    judged
+        .iter()
+        .map(|&k| {
+            let r = &rig.records[k];
+            let found = r.predicted.as_deref().unwrap_or_default();
+            if found.len() != r.record.len() {
+                return Err(DiagnoseError::Prediction {
+                    record: r.name.clone(),
+                    found: found.len(),
+                    expected: r.record.len(),
+                });
+            }
+            if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
+                return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
+            }
+            Ok(found.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect())
+        })
+        .collect()
+}
+
+fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {
+    if campaign.fit().all(|t| t.is_pulsed()) {
+        limitations.push(
+            "no free record among the fit records: pulse experiments cannot see backlash or gradual transition, and hardly \
+             rate dependence; add a free record with reversals of many sizes"
+                .into(),
+        );
+    }
+    if campaign.tracks.iter().all(|t| t.period.is_none()) {
+        limitations.push(
+            "no record repeats its input three times: noise is told from the systematic part by the model's floor alone"
+                .into(),
+        );
+    }
+    if campaign.rule.threshold > 0.0 {
+        limitations.push(format!(
+            "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
+            campaign.rule.threshold * campaign.v_width
+        ));
+    }
+}

@@ -1,0 +1,111 @@
+//! From conclusions to the diagnosis that is handed out.
+
+use super::Plan;
+use crate::closure::{Simulated, measure};
+use crate::decide::Odds;
+use crate::diagnosis::{
+    Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
+};
+use crate::explain::Explanation;
+use crate::localise::localise;
+use crate::score::{innovations, picture};
+
+/// What the report is made of.
+pub(super) struct Conclusion {
+    pub(super) singles: Vec<Explanation>,
+    pub(super) odds: Odds,
+    pub(super) verdict: Verdict,
+    pub(super) augmented: Explanation,
+    pub(super) left: f64,
+    pub(super) together: Option<Together>,
+}
+
+impl Plan {
+    pub(super) fn report(self, c: Conclusion) -> Diagnosis {
+        let campaign = &self.campaign;
+        let floor = self.noise_floor(&c.augmented.fit);
+        let runs = self.simulations(&c.augmented.fit);
+        let mut limitations = self.limitations.clone();
+        let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        let nominal_score = self.score(&self.nominal.fit);
+        gap.predictive_gain =
+            self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
+        if campaign.criterion.simulates() {
+            // Nobody predicted one step ahead.
+            gap.predictive_gain = 0.0;
+        }
+        if gap.closure.is_none() {
+            limitations.push(
+                "the interval of the gap on the judged records includes zero: not resolvable, so no closure is given"
+                    .into(),
+            );
+        }
+        if matches!(c.verdict.status, Status::None) {
+            gap.closure = None;
+        }
+        let candidates = c
+            .singles
+            .iter()
+            .zip(&c.odds.effects)
+            .map(|(s, p)| self.candidate(s, *p, floor, nominal_score))
+            .collect::<Vec<_>>();
+        let mut candidates = candidates;
+        candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
+        let variance = self.innovation_floor(&c.augmented.fit);
+        let before = picture(campaign, &self.nominal_innovations);
+        let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
+        let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
+        Diagnosis {
+            where_: localise(campaign, &self.nominal.fit, variance),
+            verdict: c.verdict,
+            gap,
+            candidates,
+            probability_none: c.odds.none,
+            probability_unexplained: c.odds.unexplained,
+            left: c.left,
+            samples: campaign.fit_samples(),
+            together: c.together,
+            next_experiment,
+            series: self.series(&runs),
+            residuals_before: before,
+            residuals_after: after,
+            limitations,
+        }
+    }
+
+    fn candidate(&self, s: &Explanation, p: f64, floor: (f64, f64), nominal: Option<f64>) -> Candidate {
+        let effect = s.parts[0].effect;
+        let runs = self.simulations(&s.fit);
+        let Gap { before, closure, after, .. } =
+            measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
+        let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
+        Candidate {
+            effect,
+            stage: effect.stage(),
+            probability: p,
+            parameters: s
+                .fit
+                .own
+                .iter()
+                .zip(&s.fit.own_se)
+                .map(|(o, se)| FittedParameter { name: o.name, unit: o.unit, value: o.value, se: *se })
+                .collect(),
+            bic: s.bic() - self.nominal.bic(),
+            heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
+            closure,
+        }
+    }
+
+    fn series(&self, runs: &[Simulated]) -> Vec<HoldoutSeries> {
+        let c = &self.campaign;
+        let physical = |y: &[f64]| y.iter().map(|y| c.y_mean + c.y_scale * y).collect::<Vec<f64>>();
+        runs.iter()
+            .map(|run| HoldoutSeries {
+                record: c.tracks[run.number].name.clone(),
+                measured: physical(&c.tracks[run.number].y),
+                nominal: physical(&run.before),
+                augmented: physical(&run.after),
+            })
+            .collect()
+    }
+}
