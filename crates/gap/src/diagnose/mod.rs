@@ -132,7 +132,9 @@ impl Plan {
         let mut tests = omnibus(&self.campaign, &best.fit);
         let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
-        let leaves = Leavings { deviance: left, gap: self.gap_left(&best.fit) };
+        // The tests of one-step predictions say nothing about simulators.
+        let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
+        let leaves = Leavings { deviance, gap: self.gap_left(&best.fit) };
         let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;
         let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);

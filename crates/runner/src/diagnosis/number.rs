@@ -60,7 +60,11 @@ pub(super) fn edge(x: f64) -> String {
     }
 }
 
-/// An estimate with its 90 % interval: `0.12 ± 0.01` where the interval is symmetric, `0.5 [0.3, 0.9]` where it is not.
+/// Half-width of an interval, over the estimate, from which the records do not determine it.
+const UNDETERMINED: f64 = 30.0;
+
+/// An estimate with its 90 % interval: `0.12 ± 0.01` where the interval is symmetric, `0.5 [0.3, 0.9]` where it is not, and no
+/// figure but the estimate where the records do not determine it.
 pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     if !(low.is_finite() && high.is_finite()) {
         return digits(value, 3);
@@ -69,6 +73,9 @@ pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     let half = 0.5 * (below + above);
     if half <= 0.0 {
         return digits(value, 3);
+    }
+    if half > UNDETERMINED * value.abs() {
+        return format!("{}, undetermined", digits(value, 3));
     }
     // One digit of the error decides how many of the value are worth telling; two where it begins with a one.
     let first = half / 10f64.powf(half.log10().floor());
@@ -90,6 +97,7 @@ mod tests {
         assert_eq!(with_interval(0.12345, [0.1134, 0.1334]), "0.123 ± 0.010");
         assert_eq!(with_interval(0.12345, [0.0934, 0.1534]), "0.12 ± 0.03");
         assert_eq!(with_interval(0.5, [0.3, 0.9]), "0.5 [0.3, 0.9]");
+        assert_eq!(with_interval(0.6, [-1e9, 1e9]), "0.600, undetermined");
         assert_eq!(with_interval(2.0, [f64::NAN, f64::NAN]), "2.00");
     }
 
