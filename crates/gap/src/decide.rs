@@ -218,3 +218,39 @@ pub(crate) fn verdict(
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
     Verdict { status, effects: Vec::new(), class, stage: stage.or(Some(first.stage())), probability: sum }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOMINAL: f64 = 0.0;
+
+    fn weighed(rivals: [(Effect, f64); 2], deviance: f64, gap: f64) -> Odds {
+        let odds = odds(NOMINAL, &rivals, Leavings { deviance, gap: Some(gap) });
+        let sum = odds.effects.iter().sum::<f64>() + odds.none + odds.unexplained;
+        assert!((sum - 1.0).abs() < 1e-9, "probabilities sum to {sum}");
+        odds
+    }
+
+    #[test]
+    fn what_leaves_nothing_is_named_at_any_margin() {
+        let odds = weighed([(Effect::Backlash, -5000.0), (Effect::Creep, -4980.0)], 0.0, 0.05);
+        assert!(odds.effects[0] > Settings::default().name_at, "{odds:?}");
+    }
+
+    #[test]
+    fn one_of_many_that_leave_much_is_no_cause_unless_it_closes_the_gap() {
+        let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -4500.0)];
+        assert!(weighed(rivals, 900.0, 0.6).unexplained > UNEXPLAINED);
+        assert!(weighed(rivals, 900.0, 0.05).unexplained < UNEXPLAINED);
+        // A rival of its own class is no other cause.
+        let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
+        assert!(weighed(twins, 900.0, 0.6).unexplained < UNEXPLAINED);
+    }
+
+    #[test]
+    fn a_gain_that_a_search_finds_in_noise_is_nothing() {
+        let odds = weighed([(Effect::Backlash, -3.0), (Effect::Creep, 2.0)], 0.0, 1.0);
+        assert!(odds.none > 0.5, "{odds:?}");
+    }
+}
