@@ -4,6 +4,7 @@
 //! v → delay → play → borders (transition, wear) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
+use crate::motion::Play;
 use crate::sensor::SensorCurve;
 
 /// How the working point passes from one border to the other.
@@ -112,6 +113,17 @@ pub(crate) struct Saturation {
     pub(crate) high: f64,
 }
 
+/// Noise on the input that acts: its variance over that of the equation error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct InputNoise {
+    /// What comes by the slope of the borders.
+    pub(crate) by_slope: f64,
+    /// What comes by the distance between them, where noise switches the operator.
+    pub(crate) by_gap: f64,
+    /// Whether a miss is kept until the next move.
+    pub(crate) kept: bool,
+}
+
 /// The law of the equation error.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct NoiseLaw {
@@ -121,8 +133,7 @@ pub(crate) struct NoiseLaw {
     pub(crate) ma: Vec<f64>,
     /// Variance of white output noise over that of the equation error.
     pub(crate) output_ratio: f64,
-    /// Variance of the noise on `v` over that of the equation error, while moving and while resting.
-    pub(crate) input_ratio: Option<[f64; 2]>,
+    pub(crate) input: Option<InputNoise>,
     /// Step of the lattice that the sensor rounds to; its noise is part of `output_ratio`.
     pub(crate) lattice: Option<f64>,
     /// Share and standard deviation ratio of the wide component of a normal mixture.
@@ -138,8 +149,7 @@ pub(crate) struct Assembly {
     pub(crate) delay: f64,
     /// Standard deviation of noise on the position that acts, strokes; the branch follows the sign of the noisy moves.
     pub(crate) jitter: f64,
-    /// Full width of the play, strokes.
-    pub(crate) play: f64,
+    pub(crate) play: Play,
     pub(crate) transition: Option<Transition>,
     /// Narrowing of the loop.
     pub(crate) wear: Option<Slow>,
@@ -158,7 +168,7 @@ pub(crate) struct Assembly {
 impl Assembly {
     /// Whether both give the same design, so that only the law of the noise differs.
     pub(crate) fn same_design(&self, other: &Self) -> bool {
-        self.noise.input_ratio.is_some() == other.noise.input_ratio.is_some()
+        self.noise.input.is_some() == other.noise.input.is_some()
             && Self { noise: NoiseLaw::default(), ..self.clone() }
                 == Self { noise: NoiseLaw::default(), ..other.clone() }
     }

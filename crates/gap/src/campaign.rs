@@ -5,7 +5,7 @@ use std::sync::Arc;
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
-use crate::motion::{Begins, Motion, ReversalRule, motions};
+use crate::motion::{Begins, Motion, Play, ReversalRule, motions};
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -155,7 +155,7 @@ impl Campaign {
         let rule = ReversalRule { threshold: reversal_threshold(&tracks), ..ReversalRule::default() };
         let mut travel = 0.0;
         for track in &mut tracks {
-            track.moves = motions(&track.v, 0.0, rule).into();
+            track.moves = motions(&track.v, Play::default(), rule).into();
             track.travelled = travel;
             travel += track.moves.last().map_or(0.0, |m| m.path);
         }
@@ -182,7 +182,7 @@ impl Campaign {
             let last = track.v[track.v.len() - 1];
             track.v.drain(..lead.min(track.v.len() - 1));
             track.v.resize(track.y.len(), last);
-            track.moves = motions(&track.v, 0.0, self.rule).into();
+            track.moves = motions(&track.v, Play::default(), self.rule).into();
         }
         led
     }
@@ -192,7 +192,7 @@ impl Campaign {
         let mut other = self.clone();
         other.rule.begins = begins;
         for track in &mut other.tracks {
-            track.moves = motions(&track.v, 0.0, other.rule).into();
+            track.moves = motions(&track.v, Play::default(), other.rule).into();
         }
         other
     }

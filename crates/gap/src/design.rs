@@ -74,7 +74,7 @@ impl Design {
             .iter()
             .map(|&(number, track)| {
                 let (x, log_slope) = undo_sensor(track, assembly);
-                let moves = if assembly.play == 0.0 {
+                let moves = if assembly.play.is_none() {
                     Arc::clone(&track.moves)
                 } else {
                     motions(&track.v, assembly.play, campaign.rule).into()
@@ -88,7 +88,7 @@ impl Design {
                     from: track.from,
                     sensitivity: assembly
                         .noise
-                        .input_ratio
+                        .input
                         .is_some()
                         .then(|| sensitivity_rows(track, grid, assembly.jitter)),
                     clipped: assembly.saturation.map(|limits| clipped(track, limits)),

@@ -89,7 +89,7 @@ fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
     let variance = sum / (n - weights.left_out as f64).max(1.0);
     let deviance = match weights.deviance {
         Some(direct) => direct - 2.0 * design.log_slope(),
-        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope(),
+        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope() - weights.credit,
     };
     let deviance = deviance * design.criterion.share();
     deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })

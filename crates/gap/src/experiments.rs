@@ -11,7 +11,7 @@ use switchback_estimator::rig::{Role, Usage};
 use crate::campaign::{Campaign, Track, WARM_UP};
 use crate::diagnosis::{ExperimentKind, NextExperiment, Status, Verdict};
 use crate::explain::Explanation;
-use crate::motion::motions;
+use crate::motion::{Play, motions};
 use crate::simulate::free_run;
 
 /// Samples of a proposed record.
@@ -41,7 +41,7 @@ pub(crate) fn propose(
             travelled: campaign.travel,
             period: None,
             from: WARM_UP.min(v.len()),
-            moves: motions(&v, 0.0, campaign.rule).into(),
+            moves: motions(&v, Play::default(), campaign.rule).into(),
             v,
         };
         let runs: Vec<Vec<f64>> =

@@ -1,5 +1,6 @@
 //! The sim-to-real gap of a switched-hysteresis model.
 
+mod acting;
 mod assembly;
 mod attribution;
 mod borders;
@@ -19,6 +20,7 @@ mod gains;
 mod given;
 mod jacobian;
 mod knots;
+mod lattice;
 mod linear;
 mod localise;
 mod motion;

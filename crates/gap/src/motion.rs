@@ -47,12 +47,32 @@ pub(crate) enum Begins {
     AtExtreme,
 }
 
-/// Follows an input through a play of full width `play`.
+/// A play whose width may change along the stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Play {
+    /// Full width in the middle of the stroke, in strokes.
+    pub(crate) width: f64,
+    /// Relative change of the width from the middle to the upper end, its negative to the lower end.
+    pub(crate) taper: f64,
+}
+
+impl Play {
+    pub(crate) fn is_none(&self) -> bool {
+        self.width == 0.0
+    }
+
+    /// Half the width at `v`, which runs from 0 to 1.
+    fn half(&self, v: f64) -> f64 {
+        0.5 * self.width * (1.0 + self.taper * (2.0 * v - 1.0)).max(0.0)
+    }
+}
+
+/// Follows an input through a play.
 ///
 /// The play's output `p` stays within half the play of `v` and moves only when pushed; the branch is the direction in which it
 /// last moved. On each branch `p = v ∓ play/2`, a shift that the border tables absorb: the border coordinate stays the
 /// recorded `v`. What the play leaves is the rest after each reversal.
-pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
+pub(crate) fn motions(v: &[f64], play: Play, rule: ReversalRule) -> Vec<Motion> {
     let mut out = Vec::with_capacity(v.len());
     let Some(&first) = v.first() else { return out };
     let mut m = Motion {
@@ -67,7 +87,6 @@ pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
         step: 0.0,
         path: 0.0,
     };
-    let half = 0.5 * play;
     let mut p = first;
     // The furthest point reached on the present branch: the next reversal is measured from here.
     let mut extreme = first;
@@ -79,6 +98,7 @@ pub(crate) fn motions(v: &[f64], play: f64, rule: ReversalRule) -> Vec<Motion> {
         let step = v[t] - v[t - 1];
         m.step = step;
         m.path += step.abs();
+        let half = play.half(v[t]);
         let pushed = p.max(v[t] - half).min(v[t] + half);
         let push = pushed - p;
         p = pushed;
@@ -132,16 +152,27 @@ mod tests {
     #[test]
     fn a_small_return_inside_the_play_changes_no_branch() {
         let v = [0.0, 0.5, 0.9, 0.85, 0.95, 0.6, 0.3];
-        let branches: Vec<f64> = motions(&v, 0.2, ReversalRule::default()).iter().map(|m| m.branch).collect();
+        let play = Play { width: 0.2, taper: 0.0 };
+        let branches: Vec<f64> =
+            motions(&v, play, ReversalRule::default()).iter().map(|m| m.branch).collect();
         assert_eq!(branches, [0.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
-        let moves: Vec<bool> = motions(&v, 0.2, ReversalRule::default()).iter().map(|m| m.moves).collect();
+        let moves: Vec<bool> = motions(&v, play, ReversalRule::default()).iter().map(|m| m.moves).collect();
         assert_eq!(moves, [false, true, true, false, true, true, true]);
+    }
+
+    #[test]
+    fn a_tapered_play_is_wider_where_it_is_worn() {
+        // The same return by 0.15 low and high on the stroke.
+        let v = [0.0, 0.25, 0.1, 0.25, 0.9, 0.75];
+        let play = Play { width: 0.14, taper: 0.5 };
+        let moves: Vec<bool> = motions(&v, play, ReversalRule::default()).iter().map(|m| m.moves).collect();
+        assert_eq!(moves, [false, true, true, true, true, false]);
     }
 
     #[test]
     fn a_reversal_above_the_threshold_begins_at_the_extreme() {
         let v = [0.0, 0.5, 1.0, 0.95, 0.97, 0.8, 0.5];
-        let moves = motions(&v, 0.0, ReversalRule { threshold: 0.1, begins: Begins::AtExtreme });
+        let moves = motions(&v, Play::default(), ReversalRule { threshold: 0.1, begins: Begins::AtExtreme });
         let branches: Vec<f64> = moves.iter().map(|m| m.branch).collect();
         assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0]);
         let reversals: Vec<bool> = moves.iter().map(|m| m.reversal).collect();
@@ -152,7 +183,8 @@ mod tests {
     #[test]
     fn without_play_the_branch_is_the_sign_of_the_move() {
         let v = [0.0, 0.1, 0.1, 0.05, 0.2];
-        let branches: Vec<f64> = motions(&v, 0.0, ReversalRule::default()).iter().map(|m| m.branch).collect();
+        let branches: Vec<f64> =
+            motions(&v, Play::default(), ReversalRule::default()).iter().map(|m| m.branch).collect();
         assert_eq!(branches, [0.0, 1.0, 1.0, -1.0, 1.0]);
     }
 }

@@ -7,6 +7,7 @@ use crate::effect::Stage;
 use crate::engine::Fit;
 use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
+use crate::lattice::{is_material, lattice};
 use crate::weights::mixture;
 
 /// What the tests found.
@@ -22,6 +23,8 @@ pub(crate) struct Omnibus {
     pub(crate) scatter: (f64, usize),
     /// Deviance that a mixture of a narrow and a wide normal distribution gains over one.
     pub(crate) tails: f64,
+    /// What a lattice of the outputs is worth where the model has none.
+    pub(crate) lattice: f64,
     /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
     pub(crate) period: (f64, usize),
     /// Share of the innovations' variance that no rounding of the sensor makes: rounding is no noise, it repeats with the
@@ -56,6 +59,9 @@ impl Group {
 /// Share of the innovations' variance from which rounding explains whatever the tests find.
 const SUSPECT: f64 = 0.4;
 
+/// Deviance a sample that heavy tails may gain without a cause.
+const TAILS: f64 = 0.02;
+
 /// Lags of the Ljung–Box statistic.
 pub(crate) const LAGS: usize = 20;
 
@@ -72,8 +78,18 @@ impl Omnibus {
         self.unrounded * (regressors.max(period) + colour + over(self.scatter.0, self.scatter.1))
     }
 
+    /// Deviance that counts against the model as the whole explanation: what is left in general, tails too heavy to be chance and
+    /// a lattice that nothing in it makes.
+    pub(crate) fn against(&self, samples: usize) -> f64 {
+        let tails = if self.tails > TAILS * samples as f64 { self.tails } else { 0.0 };
+        self.excess() + tails + self.lattice
+    }
+
     /// The stage that the residual points at.
     pub(crate) fn stage(&self) -> Option<Stage> {
+        if self.lattice > 0.0 {
+            return Some(Stage::Sensor);
+        }
         let best = self
             .groups
             .iter()
@@ -186,7 +202,10 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let r = crate::spectrum::autocorrelation(&scaled, LAGS);
     // Errors of a simulation are coloured whatever the noise is.
     let white = f64::from(u8::from(!design.criterion.simulates()));
-    let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
+    // Beyond the colour that the law of the noise foretells.
+    let foretold = weights.colour.iter().copied().chain(std::iter::repeat(0.0));
+    let ljung_box =
+        white * r[1..].iter().zip(foretold).map(|(r, rho)| (r - rho).powi(2)).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
     let (gain, dof) = scatter(campaign, &scaled);
     // Errors of a simulation are large where the model is wrong, which says nothing about noise.
@@ -200,9 +219,15 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         ljung_box,
         scatter,
         tails: tails(fit, &scaled) * white,
+        lattice: unexplained_lattice(campaign, fit),
         period: period_lack(campaign, &scaled, second),
         unrounded: (1.0 - rounding / SUSPECT).clamp(0.0, 1.0),
     })
+}
+
+fn unexplained_lattice(campaign: &Campaign, fit: &Fit) -> f64 {
+    let found = || lattice(campaign).is_some_and(|step| is_material(step, fit));
+    if fit.assembly.noise.lattice.is_none() && found() { crate::lattice::WORTH } else { 0.0 }
 }
 
 /// Chi-square of a regression of the innovations' size on circumstances.

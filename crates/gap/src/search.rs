@@ -4,7 +4,7 @@ use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::effect::Effect;
-use crate::effects::{Scene, Search, Variant, variants};
+use crate::effects::{Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
 use crate::normal::Normal;
@@ -73,7 +73,10 @@ pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> 
         Some(Search::Profile) => task.pattern(sketch.fit.clone()),
         _ => task.settled(sketch.fit.clone()),
     };
-    Explanation { fit, ..sketch.clone() }
+    match sketch.parts.last() {
+        Some(part) if !is_sound(part.effect, &fit) => sketch.clone(),
+        _ => Explanation { fit, ..sketch.clone() },
+    }
 }
 
 fn look(
@@ -113,7 +116,12 @@ fn look(
             best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
         }
     }?;
-    Some(Explanation { parts, fit, handicap: known.handicap + law.handicap, held_out: 0.0 })
+    is_sound(effect, &fit).then(|| Explanation {
+        parts,
+        fit,
+        handicap: known.handicap + law.handicap,
+        held_out: 0.0,
+    })
 }
 
 /// One law's search.

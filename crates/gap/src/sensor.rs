@@ -1,13 +1,15 @@
 //! The sensor's characteristic, by its inverse.
 
-/// The inverse characteristic `x = y + Σ θₖ yᵏ⁺² + Σ hⱼ bump((y−cⱼ)/s) + knees(y)`, dimensionless.
+/// The inverse characteristic `x = z + Σ θₖ zᵏ⁺² + Σ hⱼ bump((z−cⱼ)/s) + knees(z)`, dimensionless, `z + Σ γₖ zᵏ⁺² = y`.
 ///
-/// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly. It is the inverse that is linear
-/// in powers and bumps, and the inverse that the likelihood of `y` needs.
+/// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly: it is the inverse that is linear in
+/// them, and the inverse that the likelihood of `y` needs. Curves that are powers forwards have no short inverse.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct SensorCurve {
-    /// Coefficients of `y²`, `y³`, ….
+    /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
+    /// Coefficients `γ` of the characteristic itself: of `x²`, `x³`, ….
+    pub(crate) forwards: Vec<f64>,
     pub(crate) bumps: Option<Bumps>,
     pub(crate) knees: Vec<Knee>,
 }
@@ -29,16 +31,21 @@ pub(crate) struct Knee {
     pub(crate) sign: f64,
 }
 
+/// Newton steps at most, and the slope below which a characteristic is taken to go on straight: one that folds back is no sensor.
+const NEWTON: usize = 40;
+const FLATTEST: f64 = 0.05;
+
 /// Excess over the width beyond which a knee goes on straight.
 const STEEPEST: f64 = 5.0;
 
 impl SensorCurve {
     pub(crate) fn is_straight(&self) -> bool {
-        self.powers.is_empty() && self.bumps.is_none() && self.knees.is_empty()
+        self.powers.is_empty() && self.forwards.is_empty() && self.bumps.is_none() && self.knees.is_empty()
     }
 
     /// `x` and `dx/dy` at a reading `y`.
     pub(crate) fn undo(&self, y: f64) -> (f64, f64) {
+        let (y, inner) = self.before_powers(y);
         let (mut x, mut slope, mut power) = (y, 1.0, y);
         for (k, c) in self.powers.iter().enumerate() {
             slope += c * (k + 2) as f64 * power;
@@ -62,7 +69,34 @@ impl SensorCurve {
                 slope += e - 1.0;
             }
         }
-        (x, slope)
+        (x, slope * inner)
+    }
+
+    /// `z` with `z + Σ γₖ zᵏ⁺² = y` that continues from small readings, and `dz/dy`.
+    fn before_powers(&self, y: f64) -> (f64, f64) {
+        if self.forwards.is_empty() {
+            return (y, 1.0);
+        }
+        let value = |z: f64| {
+            let (mut value, mut slope, mut power) = (z, 1.0, z);
+            for (k, c) in self.forwards.iter().enumerate() {
+                slope += c * (k + 2) as f64 * power;
+                power *= z;
+                value += c * power;
+            }
+            (value, slope)
+        };
+        // From rest in steps: Newton's method from afar may land on another branch.
+        let mut z = 0.0;
+        for _ in 0..NEWTON {
+            let (value, slope) = value(z);
+            let step = ((value - y) / slope.max(FLATTEST)).clamp(-0.5, 0.5);
+            z -= step;
+            if step.abs() < 1e-12 {
+                break;
+            }
+        }
+        (z, 1.0 / value(z).1.max(FLATTEST))
     }
 
     /// The reading `y` of `x`: the solution that continues from small readings, by Newton's method.
@@ -89,14 +123,27 @@ mod tests {
 
     #[test]
     fn reading_inverts_undoing_and_the_slope_is_the_derivative() {
-        let curve = SensorCurve {
+        let inverse = SensorCurve {
             powers: vec![0.05, 0.02],
             bumps: Some(Bumps { first: -1.5, spacing: 1.0, heights: vec![0.1, -0.2, 0.15] }),
             knees: vec![
                 Knee { level: 1.0, width: 0.5, sign: 1.0 },
                 Knee { level: -1.2, width: 0.4, sign: -1.0 },
             ],
+            ..SensorCurve::default()
         };
+        inverts(&inverse);
+        inverts(&SensorCurve { forwards: vec![0.08, -0.01], ..SensorCurve::default() });
+    }
+
+    #[test]
+    fn a_power_is_undone_by_its_root() {
+        let curve = SensorCurve { forwards: vec![0.2], ..SensorCurve::default() };
+        let (x, slope) = curve.undo(1.4);
+        assert!((x + 0.2 * x * x - 1.4).abs() < 1e-12 && (slope * (1.0 + 0.4 * x) - 1.0).abs() < 1e-12);
+    }
+
+    fn inverts(curve: &SensorCurve) {
         for i in -20..=20 {
             let y = f64::from(i) * 0.1 + 0.003;
             let (x, slope) = curve.undo(y);

@@ -1,5 +1,6 @@
 //! Laws of the innovations other than one normal distribution.
 
+use crate::acting::{Acted, acted, colour_gain};
 use crate::assembly::{NoiseLaw, convolve};
 use crate::design::{Design, DesignTrack, Linear};
 
@@ -14,6 +15,9 @@ pub(crate) struct Weights {
     pub(crate) log_scale: f64,
     /// The deviance itself, where it does not follow from the weighted sum of squares.
     pub(crate) deviance: Option<f64>,
+    /// Autocorrelations of the weighted innovations that the law foretells, at lags 1, 2, …, and the deviance they gain.
+    pub(crate) colour: Vec<f64>,
+    pub(crate) credit: f64,
     /// The mixture found.
     pub(crate) mixture: Option<(f64, f64)>,
 }
@@ -34,12 +38,16 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let mask = |t: &DesignTrack| t.clipped.clone().unwrap_or_else(|| vec![false; t.x.len() - t.from]);
         design.tracks.iter().map(mask).collect()
     });
-    if let Some(ratios) = law.input_ratio {
-        let mut scale = input_noise(design, ratios, p);
+    if let Some(noise) = law.input {
+        let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
+        let Acted { mut scale, colour } = acted(&design.tracks, noise, p, &response);
         let left_out = clipped.map_or(0, |clipped| leave_out(&mut scale, &clipped));
         let counted: f64 = scale.iter().flatten().filter(|s| **s > 0.0).map(|s| s.ln()).sum();
         let log_scale = counted * stretch(&scale, left_out);
-        return Weights { scale: Some(scale), left_out, log_scale, ..Weights::default() };
+        let products = |(w, s): (&Vec<f64>, &Vec<f64>)| w.iter().zip(s).map(|(w, s)| w * s).collect();
+        let scaled: Vec<Vec<f64>> = w.iter().zip(&scale).map(products).collect();
+        let credit = colour_gain(&scaled, &colour);
+        return Weights { scale: Some(scale), left_out, log_scale, colour, credit, ..Weights::default() };
     }
     match (law.mixture, clipped) {
         (Some(start), None) => mixture(start, w),
@@ -87,29 +95,6 @@ fn mixture_of_the_rest(start: (f64, f64), w: &[Vec<f64>], clipped: &[Vec<bool>])
     weights.deviance = weights.deviance.map(|d| d * stretch(&scale, left_out));
     (weights.scale, weights.left_out) = (Some(scale), left_out);
     weights
-}
-
-/// Input noise `n` moves `u` by `slope·n`: the innovation's variance grows by `Σ hⱼ² slope(t−j)²·ratio`, `h` the impulse
-/// response of `b̃/den`.
-fn input_noise(design: &Design, ratios: [f64; 2], p: &Linear) -> Vec<Vec<f64>> {
-    let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
-    let squares: Vec<f64> = response.iter().map(|h| h * h).collect();
-    let factors = |track: &DesignTrack| {
-        let Some([moving, resting]) = &track.sensitivity else {
-            return vec![1.0; track.x.len() - track.from];
-        };
-        let energy: Vec<f64> = (0..track.x.len())
-            .map(|t| ratios[0] * moving.dot(t, &p.f).powi(2) + ratios[1] * resting.dot(t, &p.f).powi(2))
-            .collect();
-        (track.from..track.x.len())
-            .map(|t| {
-                let past = energy[..t].iter().rev();
-                let excess: f64 = squares.iter().zip(past).map(|(h, e)| h * e).sum();
-                1.0 / (1.0 + excess).sqrt()
-            })
-            .collect()
-    };
-    design.tracks.iter().map(factors).collect()
 }
 
 /// The impulse response of `b/(1 + poles)`, as far as it matters.

@@ -15,7 +15,7 @@ use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::explain::Explanation;
 use crate::nominal::identify;
-use crate::omnibus::{Omnibus, omnibus};
+use crate::omnibus::omnibus;
 use crate::order::choose;
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
@@ -130,7 +130,8 @@ impl Plan {
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
         let mut tests = omnibus(&self.campaign, &best.fit);
-        let mut left = tests.as_ref().map_or(0.0, Omnibus::excess);
+        let samples = self.campaign.fit_samples();
+        let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         // The tests of one-step predictions say nothing about simulators.
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };

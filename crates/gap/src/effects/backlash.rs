@@ -1,21 +1,31 @@
 //! Play between the recorded input and the operator.
 //!
 //! ```text
-//! p(t) = p(t−1) unless |v − p| exceeds half the play; u = F[p]
+//! p(t) = p(t−1) unless |v − p| exceeds half the play; u = F[p];   the play even, or changing along the stroke
 //! ```
 //!
-//! Parameter: full width `play`, in strokes (0.0003…0.7). Stage: operator. It leaves a rest of `u` after each reversal, for a
+//! Parameters: full width `play`, in strokes (0.0003…0.7), its relative change `taper` from the middle of the stroke to its upper end
+//! (−1…1: wear is uneven). Stage: operator. It leaves a rest of `u` after each reversal, for a
 //! travel equal to the play; the shift `v ∓ play/2` along the branches is absorbed by the borders, so designed
 //! pulse experiments alone do not see it. Confused with: gradual transition (the jump at the end of the rest tells),
 //! a reversal threshold against noise on `v`.
 
 use super::{Search, Variant, own};
+use crate::motion::Play;
 
 pub(super) fn variants() -> Vec<Variant> {
     // The profile is not smooth: a width off by half has lost the trace.
-    let widths = std::iter::successors(Some(0.0006), |w| Some(1.5 * w)).take_while(|w| *w < 0.6);
-    let starts = widths.map(|w: f64| vec![own("play", "strokes", w, (0.0003, 0.7), 0.16 * w)]).collect();
-    let mut variant = Variant::new(starts, |p, assembly| assembly.play = p[0]);
-    variant.search = Search::Profile;
-    vec![variant]
+    let widths =
+        |ratio: f64| std::iter::successors(Some(0.0006), move |w| Some(ratio * w)).take_while(|w| *w < 0.6);
+    let width = |w: f64| own("play", "strokes", w, (0.0003, 0.7), 0.16 * w);
+    let even = widths(1.5).map(|w| vec![width(w)]).collect();
+    let tapered =
+        |w: f64| [-0.6, 0.6].map(|taper| vec![width(w), own("taper", "1", taper, (-1.0, 1.0), 0.3)]);
+    let tapered = widths(1.7).flat_map(tapered).collect();
+    [
+        Variant::new(even, |p, assembly| assembly.play = Play { width: p[0], taper: 0.0 }),
+        Variant::new(tapered, |p, assembly| assembly.play = Play { width: p[0], taper: p[1] }),
+    ]
+    .map(|law| Variant { search: Search::Profile, ..law })
+    .into()
 }

@@ -7,7 +7,7 @@
 //! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
-//! Parameter: `pole` (0.02…0.98). Stage: dynamics. Confused with: input delay, resonance.
+//! Parameter: `pole` (0.02…0.98; with feedthrough from 0.25, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
 
 use super::{Variant, own};
 
@@ -15,8 +15,11 @@ pub(super) fn variants() -> Vec<Variant> {
     [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
         .into_iter()
         .map(|(lags, passes, zeros)| {
-            let starts =
-                [0.2, 0.5, 0.8].iter().map(|&p| vec![own("pole", "1", p, (0.02, 0.98), 0.003)]).collect();
+            let least = if zeros > 0 { 0.25 } else { 0.02 };
+            let starts = [0.2_f64, 0.5, 0.8]
+                .iter()
+                .map(|&p| vec![own("pole", "1", p.max(least), (least, 0.98), 0.003)])
+                .collect();
             Variant::conditional(starts, move |p, assembly| {
                 for _ in 0..lags {
                     assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);

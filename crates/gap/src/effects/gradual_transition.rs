@@ -7,7 +7,7 @@
 //! u = (1−φ)·C(v) + φ·C_old(v)          the other border fades
 //! ```
 //!
-//! Parameters: `length` in strokes (0.002…1), `shape` (0.4…6). Stage: operator. It rounds the loop after every reversal,
+//! Parameters: `length` in strokes (0.002…1), `shape` (0.4…3.5; steeper envelopes are a rest that ends in a jump, which is play). Stage: operator. It rounds the loop after every reversal,
 //! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
@@ -23,7 +23,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 .map(|&(length, shape)| {
                     vec![
                         own("length", "strokes", length, (0.002, 1.0), 0.02 * length),
-                        own("shape", "1", shape, (0.4, 6.0), 0.02),
+                        own("shape", "1", shape, (0.4, 3.5), 0.02),
                     ]
                 })
                 .collect();

@@ -120,6 +120,14 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
     }
 }
 
+/// Whether a fitted law is still a law of its effect, not the limit at which it is another one.
+pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {
+    match effect {
+        Effect::GainDrift => gain_drift::is_sound(fit),
+        _ => true,
+    }
+}
+
 /// Typical speed of the free records, strokes per sample: the median of the moves.
 fn typical_speed(campaign: &Campaign) -> f64 {
     let mut speeds: Vec<f64> = campaign

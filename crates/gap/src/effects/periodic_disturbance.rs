@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign;
-//!                                      two frequencies; or the harmonics 1, 2, 3 and 5 of one wave
+//!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave
 //! ```
 //!
 //! Parameters: angular frequencies `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
@@ -37,13 +37,17 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     if !pairs.is_empty() {
         out.push(Variant::new(pairs, a_record));
     }
-    out.push(Variant::new(starts.clone(), |p, assembly| {
-        for harmonic in [1.0, 2.0, 3.0, 5.0] {
-            for sine in [false, true] {
-                let frequency = harmonic * p[0];
-                assembly.equation_columns.push(EquationColumn::Line { frequency, track: None, sine });
+    // What rises as it falls has odd harmonics only, those of a square wave fall slowly.
+    const HARMONICS: [&[f64]; 2] = [&[1.0, 2.0, 3.0, 5.0], &[1.0, 3.0, 5.0, 7.0, 9.0, 11.0]];
+    out.extend(HARMONICS.map(|harmonics| {
+        Variant::new(starts.clone(), move |p, assembly| {
+            for harmonic in harmonics {
+                for sine in [false, true] {
+                    let frequency = harmonic * p[0];
+                    assembly.equation_columns.push(EquationColumn::Line { frequency, track: None, sine });
+                }
             }
-        }
+        })
     }));
     out.push(Variant::new(starts, |p, assembly| {
         for sine in [false, true] {

@@ -5,10 +5,11 @@
 //! ```
 //!
 //! Parameters: angular frequency `omega` of the ringing (radians per sample), damping ratio `zeta` (0.003…0.6: beyond that
-//! nothing rings, and two real poles are an extra lag). Stage: dynamics. Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not.
+//! nothing rings, and two real poles are an extra lag). Stage: dynamics. Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not; or two modes ring.
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
+use crate::engine::Own;
 use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -16,42 +17,45 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut omegas = strongest_lines(scene.innovations, 2);
     omegas.retain(|w| *w > 0.1);
     omegas.extend([0.35, 0.75, 1.2, 1.8]);
-    [false, true]
-        .into_iter()
-        .map(|passes| {
-            let tracks = fitted_tracks(scene.campaign);
-            let starts = omegas
-                .iter()
-                .map(|&omega| {
-                    let zeta = damping(0.91, omega).min(0.4);
-                    vec![
-                        own("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
-                        own("zeta", "1", zeta, (0.003, 0.6), 0.002),
-                    ]
-                })
-                .collect();
-            Variant::conditional(starts, move |p, assembly| {
-                let (frequency, radius) = (p[0], radius(p[1], p[0]));
-                let poles = [1.0, -2.0 * radius * frequency.cos(), radius * radius];
-                assembly.filter(&[1.0], &poles);
-                assembly.extra_b += 2;
-                // The mode rings when a record begins, nobody knows how.
-                for &track in &tracks {
-                    for sine in [false, true] {
-                        assembly.equation_columns.push(EquationColumn::Decay {
-                            track,
-                            radius,
-                            frequency,
-                            sine,
-                        });
-                    }
+    let second = omegas[1..].iter().copied().filter(|w| (w - omegas[0]).abs() > 0.1).take(SECONDS);
+    let one = |omega: &f64| mode(*omega).to_vec();
+    let two = |omega: f64| [mode(omegas[0]), mode(omega)].concat();
+    let alone: Vec<Vec<Own>> = omegas.iter().map(one).collect();
+    let laws = [(alone.clone(), false), (alone, true), (second.map(two).collect(), false)];
+    laws.map(|(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes)).into()
+}
+
+/// Second modes that a search starts from.
+const SECONDS: usize = 3;
+
+fn mode(omega: f64) -> [Own; 2] {
+    let zeta = damping(0.91, omega).min(0.4);
+    [
+        own("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
+        own("zeta", "1", zeta, (0.003, 0.6), 0.002),
+    ]
+}
+
+/// Modes one after the other, `omega` and `zeta` each.
+fn ringing(tracks: Vec<usize>, starts: Vec<Vec<Own>>, passes: bool) -> Variant {
+    Variant::conditional(starts, move |p, assembly| {
+        for mode in p.chunks_exact(2) {
+            let (frequency, radius) = (mode[0], radius(mode[1], mode[0]));
+            let poles = [1.0, -2.0 * radius * frequency.cos(), radius * radius];
+            assembly.filter(&[1.0], &poles);
+            assembly.extra_b += 2;
+            // The mode rings when a record begins, nobody knows how.
+            for &track in &tracks {
+                for sine in [false, true] {
+                    let ring = EquationColumn::Decay { track, radius, frequency, sine };
+                    assembly.equation_columns.push(ring);
                 }
-                if passes {
-                    assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &poles[1..]);
-                }
-            })
-        })
-        .collect()
+            }
+            if passes {
+                assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &poles[1..]);
+            }
+        }
+    })
 }
 
 /// Least pole radius: below it a mode dies within few samples, and any short memory would pass for one.

@@ -1,11 +1,12 @@
 //! The sensor's characteristic is curved.
 //!
 //! ```text
-//! x = y + θ₂y² + θ₃y³ + … up to y², y³, y⁴ or y⁷,  or  x = y + Σ hⱼ bump((y − cⱼ)/s);   likelihood with its Jacobian Σ ln dx/dy
+//! x = y + θ₂y² + θ₃y³ + … up to y², y³, y⁴ or y⁷,  or  y = x + γ₂x² + γ₃x³,  or  x = y + Σ hⱼ bump((y − cⱼ)/s);
+//! likelihood with its Jacobian Σ ln dx/dy
 //! ```
 //!
-//! Parameters: coefficients of the inverse characteristic, or heights of six bumps over the range of y; output in standard
-//! deviations about its mean. Stage: sensor.
+//! Parameters: coefficients of the inverse characteristic or of the characteristic itself, or heights of six or twelve bumps over
+//! the range of y; output in standard deviations about its mean. Stage: sensor.
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
 use super::{Scene, Variant, own};
@@ -16,25 +17,27 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .into_iter()
         .map(|count| {
             let names = ["theta2", "theta3", "theta4", "theta5", "theta6", "theta7"];
-            let start = (0..count)
-                .map(|k| own(names[k], "per standard deviation of y", 0.0, (-0.6, 0.6), 0.0005))
-                .collect();
+            let start = (0..count).map(|k| own(names[k], UNIT, 0.0, (-0.6, 0.6), 0.0005)).collect();
             Variant::new(vec![start], |p, assembly| assembly.curve.powers = p.to_vec())
         })
         .collect();
-    out.push(bumps(scene));
+    let forwards = ["gamma2", "gamma3"].map(|name| own(name, UNIT, 0.0, (-0.4, 0.4), 0.0005));
+    out.push(Variant::new(vec![forwards.to_vec()], |p, assembly| assembly.curve.forwards = p.to_vec()));
+    out.extend(BUMPS.map(|count| bumps(scene, count)));
     out
 }
 
-/// Bumps of the free curve.
-const BUMPS: usize = 6;
+const UNIT: &str = "per standard deviation of y";
 
-fn bumps(scene: &Scene<'_>) -> Variant {
+/// Bumps of the free curves.
+const BUMPS: [usize; 2] = [6, 12];
+
+fn bumps(scene: &Scene<'_>, count: usize) -> Variant {
     let readings = || scene.campaign.fit().flat_map(|t| &t.y);
     let low = readings().fold(f64::INFINITY, |l, &y| l.min(y));
     let high = readings().fold(f64::NEG_INFINITY, |h, &y| h.max(y));
-    let spacing = (high - low) / (BUMPS - 1) as f64;
-    let start = (0..BUMPS)
+    let spacing = (high - low) / (count - 1) as f64;
+    let start = (0..count)
         .map(|_| own("height", "standard deviations of y", 0.0, (-0.8 * spacing, 0.8 * spacing), 0.0005))
         .collect();
     Variant::new(vec![start], move |p, assembly| {

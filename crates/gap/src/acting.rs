@@ -1,0 +1,151 @@
+//! Noise on the input that acts: what it adds to the equation error, and how that is coloured.
+//!
+//! ```text
+//! e(t) = ξ(t) + Σⱼ b̃ⱼ·g(t−j)·n(t−j),   g = √r·du/dv;   n new at every move, and while v rests zero, or kept
+//! cov(t, k) = Σⱼ Σₗ b̃ⱼ b̃ₗ·C(t−j, t−k−l),   C(s, s′) = g(s)·g(s′) within one rest, else 0
+//! ```
+//!
+//! in units of the variance of `ξ`. What switches the operator while `v` rests is white and adds to `C(s, s)`.
+
+use crate::assembly::InputNoise;
+use crate::design::DesignTrack;
+use crate::linear::Linear;
+use crate::spectrum::autocorrelation;
+
+/// Lags over which the colour is foretold, and the longest response for which it is.
+const LAGS: usize = 6;
+const LONGEST: usize = 12;
+
+/// The noise of one track in units of `u`.
+struct Acting {
+    /// Standard deviation of what depends on the slope.
+    gain: Vec<f64>,
+    /// Number of the rest (or move) that a sample belongs to.
+    rest: Vec<u32>,
+    /// Variance of what is white.
+    flips: Vec<f64>,
+}
+
+impl Acting {
+    fn new(track: &DesignTrack, law: InputNoise, p: &Linear) -> Option<Self> {
+        let [slope, gap] = track.sensitivity.as_ref()?;
+        let samples = track.x.len();
+        let mut out = Self {
+            gain: Vec::with_capacity(samples),
+            rest: Vec::with_capacity(samples),
+            flips: (0..samples).map(|t| law.by_gap * gap.dot(t, &p.f).powi(2)).collect(),
+        };
+        let root = law.by_slope.sqrt();
+        let (mut gain, mut rest) = (0.0, 0);
+        for (t, m) in track.moves.iter().enumerate() {
+            if m.step != 0.0 || !law.kept {
+                gain = root * slope.dot(t, &p.f);
+                rest += 1;
+            }
+            out.gain.push(gain);
+            out.rest.push(rest);
+        }
+        Some(out)
+    }
+
+    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`.
+    fn covariance(&self, h: &[f64], t: usize, lag: usize) -> f64 {
+        let mut sum = 0.0;
+        for (j, b) in h.iter().enumerate() {
+            let Some(s) = t.checked_sub(j + 1) else { break };
+            for (l, c) in h.iter().enumerate() {
+                let Some(r) = t.checked_sub(lag + l + 1) else { break };
+                if self.rest[s] == self.rest[r] {
+                    sum += b * c * self.gain[s] * self.gain[r];
+                }
+                if s == r {
+                    sum += b * c * self.flips[s];
+                }
+            }
+        }
+        sum
+    }
+
+    /// Its variance alone, where the response is long: what is kept counts as if it were new.
+    fn variance(&self, squares: &[f64], t: usize) -> f64 {
+        let past = self.gain[..t].iter().zip(&self.flips).rev();
+        squares.iter().zip(past).map(|(h, (g, f))| h * (g * g + f)).sum()
+    }
+}
+
+/// What the noise makes of the innovations.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Acted {
+    /// One over the standard deviation of each innovation, tracks apart.
+    pub(crate) scale: Vec<Vec<f64>>,
+    /// Autocorrelations of the scaled innovations at lags 1, 2, …; none where the response is long.
+    pub(crate) colour: Vec<f64>,
+}
+
+/// The noise through the response `h` of `B̃/den`.
+pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Acted {
+    let short = h.len() <= LONGEST;
+    let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
+    let mut colour = vec![0.0; if short { LAGS } else { 0 }];
+    let mut count = 0;
+    let mut scale = Vec::with_capacity(tracks.len());
+    for track in tracks {
+        let counted = track.from..track.x.len();
+        let Some(acting) = Acting::new(track, law, p) else {
+            scale.push(vec![1.0; counted.len()]);
+            continue;
+        };
+        let variance =
+            |t: usize| if short { acting.covariance(h, t, 0) } else { acting.variance(&squares, t) };
+        let own: Vec<f64> = counted.clone().map(|t| 1.0 / (1.0 + variance(t)).sqrt()).collect();
+        for (k, sum) in colour.iter_mut().enumerate() {
+            let lag = k + 1;
+            let at = |t: usize| own[t - track.from];
+            let pairs = counted.clone().skip(lag);
+            *sum += pairs.map(|t| acting.covariance(h, t, lag) * at(t) * at(t - lag)).sum::<f64>();
+        }
+        count += counted.len();
+        scale.push(own);
+    }
+    colour.iter_mut().for_each(|sum| *sum /= count.max(1) as f64);
+    Acted { scale, colour }
+}
+
+/// Deviance gained by a colour that is foretold, to second order in the autocorrelations `r`: `N·Σ[rₖ² − (rₖ − ρₖ)²]`.
+pub(crate) fn colour_gain(scaled: &[Vec<f64>], foretold: &[f64]) -> f64 {
+    if foretold.is_empty() {
+        return 0.0;
+    }
+    let r = autocorrelation(scaled, foretold.len());
+    let count: usize = scaled.iter().map(Vec::len).sum();
+    count as f64 * r[1..].iter().zip(foretold).map(|(r, rho)| rho * (2.0 * r - rho)).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_adds_up_over_a_rest_and_what_is_new_does_not() {
+        let acting = |rest: [u32; 6]| Acting { gain: vec![2.0; 6], rest: rest.to_vec(), flips: vec![0.5; 6] };
+        let h = [0.5, 0.25];
+        let new = acting([0, 1, 2, 3, 4, 5]);
+        assert!((new.covariance(&h, 4, 0) - 4.5 * (0.25 + 0.0625)).abs() < 1e-12);
+        assert!((new.covariance(&h, 4, 1) - 4.5 * 0.5 * 0.25).abs() < 1e-12);
+        assert_eq!(new.covariance(&h, 4, 2), 0.0);
+        assert!((new.variance(&[0.25, 0.0625], 4) - new.covariance(&h, 4, 0)).abs() < 1e-12);
+        let kept = acting([0; 6]);
+        assert!((kept.covariance(&h, 4, 0) - (4.0 * 0.5625 + 0.5 * 0.3125)).abs() < 1e-12);
+        assert!((kept.covariance(&h, 5, 2) - 4.0 * 0.5625).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_colour_foretold_exactly_gains_what_a_test_of_whiteness_finds() {
+        let z: Vec<f64> =
+            (0..500).map(|t| (f64::from(t) * 0.7).sin() + (f64::from(t * t) * 0.3).cos()).collect();
+        let r = autocorrelation(&[z.clone()], 3);
+        let found = 500.0 * r[1..].iter().map(|r| r * r).sum::<f64>();
+        assert!((colour_gain(&[z.clone()], &r[1..]) - found).abs() < 1e-9);
+        assert_eq!(colour_gain(&[z], &[]), 0.0);
+    }
+}
