@@ -214,17 +214,19 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 /// The same model re-fitted on another grid.
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
-    fit(Ground { campaign, grid }, build, &fitted.own, &start, 5)
+    let known = Some(&*fitted.design);
+    fit(Ground { campaign, grid, known }, build, &fitted.own, &start, 5)
 }
 
 /// The same model on another grid, one step from the present parameters.
 fn looked_at(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
-    fit(Ground { campaign, grid }, build, &fitted.own, &carried_over(fitted, grid), 1)
+    let known = Some(&*fitted.design);
+    fit(Ground { campaign, grid, known }, build, &fitted.own, &carried_over(fitted, grid), 1)
 }
 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
 fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let visits = visited(campaign);
@@ -281,7 +283,7 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
 /// Without the knots and jumps that earn less than they cost.
 fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let first = first_grid(campaign);
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
@@ -354,7 +356,7 @@ pub(crate) fn carried_over(fit: &Fit, grid: &Grid) -> crate::design::Linear {
 
 /// A finer grid, or nothing where no knot is worth its cost.
 fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let mut places = suspicious(campaign, best, &design, &innovations);

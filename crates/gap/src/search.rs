@@ -67,7 +67,11 @@ pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, question: &Question
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
-    let task = Task { ground: Ground { campaign, grid: &grid }, build: &build, held };
+    let task = Task {
+        ground: Ground { campaign, grid: &grid, known: Some(&sketch.fit.design) },
+        build: &build,
+        held,
+    };
     let law = sketch.parts.last().map(|part| part.search);
     let fit = match law {
         Some(Search::Profile) => task.pattern(sketch.fit.clone()),
@@ -91,7 +95,11 @@ fn look(
         Some(grid) => crate::knots::carried_over(&known.fit, grid),
         None => known.fit.linear.clone(),
     };
-    let task = Task { ground: Ground { campaign, grid }, build: &build, held: known.fit.own.len() };
+    let task = Task {
+        ground: Ground { campaign, grid, known: Some(&known.fit.design) },
+        build: &build,
+        held: known.fit.own.len(),
+    };
     // The own parameters of what is known, then those of the law.
     let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
     let starts = law.starts.iter().map(|own| joined(own));
@@ -155,13 +163,13 @@ impl Task<'_> {
             return None;
         }
         let mut p = self.padded(start, &assembly);
-        let design = Design::new(self.ground.campaign, self.ground.grid, &assembly, |t| t.is_fit());
+        let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
         let (na, nb) = (p.a.len(), p.b.len());
         let mut normal = Normal::new(na + nb);
         let mut row = vec![0.0; na + nb];
         for track in &design.tracks {
             let u = design.input(track, &p.f);
-            let x = whitener.apply(track.x.clone());
+            let x = whitener.apply(track.x.to_vec());
             let ahead =
                 |t: usize| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum();
             let u = whitener.apply((0..u.len()).map(ahead).collect());

@@ -31,7 +31,9 @@ impl Weights {
 /// Weighs the innovations by the law; samples at a limit of the sensor are left out of it.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
     let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
-        let mask = |t: &DesignTrack| t.clipped.clone().unwrap_or_else(|| vec![false; t.x.len() - t.from]);
+        let mask = |t: &DesignTrack| {
+            t.clipped.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+        };
         design.tracks.iter().map(mask).collect()
     });
     if let Some(ratios) = law.input_ratio {
@@ -95,7 +97,7 @@ fn input_noise(design: &Design, ratios: [f64; 2], p: &Linear) -> Vec<Vec<f64>> {
     let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
     let squares: Vec<f64> = response.iter().map(|h| h * h).collect();
     let factors = |track: &DesignTrack| {
-        let Some([moving, resting]) = &track.sensitivity else {
+        let Some([moving, resting]) = track.sensitivity.as_deref() else {
             return vec![1.0; track.x.len() - track.from];
         };
         let energy: Vec<f64> = (0..track.x.len())
