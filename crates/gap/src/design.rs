@@ -18,6 +18,7 @@ use crate::rows::{Rows, equation_columns, rows, sensitivity_rows};
 
 pub(crate) use crate::jacobian::filtered_rows;
 pub(crate) use crate::linear::Linear;
+use crate::whitener::add_lagged;
 pub(crate) use crate::whitener::{LEAD, Whitener};
 
 /// One track as the fit sees it. Its parts are shared among designs that differ elsewhere.
@@ -213,15 +214,6 @@ impl Design {
                 w
             })
             .collect()
-    }
-}
-
-/// `e(t) += c·x(t−lag)` for `t ≥ first`; what lies before the record is its first sample.
-fn add_lagged(e: &mut [f64], x: &[f64], first: usize, (lag, c): (usize, f64)) {
-    let before = lag.saturating_sub(first).min(e.len());
-    e[..before].iter_mut().for_each(|e| *e += c * x[0]);
-    for (e, x) in e[before..].iter_mut().zip(&x[(first + before) - lag.min(first + before)..]) {
-        *e += c * x;
     }
 }
 

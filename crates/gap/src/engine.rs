@@ -14,7 +14,7 @@ use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::given::settles;
-use crate::jacobian::Jacobian;
+use crate::jacobian::normal_equations;
 use crate::normal::Normal;
 use crate::weights::{Weights, weigh};
 
@@ -122,8 +122,9 @@ pub(crate) fn fit(
     let mut damping = 1e-9;
     for _ in 0..rounds {
         let extra = derivatives(&ground, build, &own, &design, &state, &p);
-        let jacobian = Jacobian::new(&design, &p, &state.whitener, state.weights.scale.as_deref());
-        let mut normal = jacobian.normal(&state.weights.applied(&state.innovations), &extra);
+        let weights = state.weights.scale.as_deref();
+        let w = state.weights.applied(&state.innovations);
+        let mut normal = normal_equations(&design, &p, &state.whitener, weights, (&w, &extra));
         priors(&mut normal, ground.grid, &p, &state.assembly);
         let mut better = None;
         let mut step_norm = 0.0;

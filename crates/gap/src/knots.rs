@@ -6,7 +6,8 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Whitener};
 use crate::engine::{Build, Fit, Ground, fit, priors};
 use crate::gains::{Gains, Scored};
-use crate::jacobian::Jacobian;
+use crate::jacobian::{Jacobian, normal_equations};
+use crate::motion::Motion;
 
 /// Cells of the first grid between the ends of the stroke.
 const FIRST_CELLS: usize = 10;
@@ -286,7 +287,7 @@ fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    let mut normal = normal_equations(&design, &best.linear, &whitener, None, (&innovations.concat(), &[]));
     // Without the gauge no border value would be determined.
     priors(&mut normal, &best.grid, &best.linear, &best.assembly);
     let Some(factor) = normal.factor(1e-9) else { return best };
@@ -450,23 +451,17 @@ fn column(
     shape: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
     let b = convolve(&best.linear.b, &design.taps);
-    campaign
-        .fit()
-        .zip(&design.tracks)
-        .flat_map(|(track, part)| {
-            let mut now = 0.0;
-            let g: Vec<f64> = part
-                .moves
-                .iter()
-                .zip(&track.v)
-                .map(|(m, v)| {
-                    if m.moves {
-                        now = if side(m.branch) == border { shape(*v) } else { 0.0 };
-                    }
-                    now
-                })
-                .collect();
-            whitener.column(&g, &b, part.from)
-        })
-        .collect()
+    let mut out = Vec::with_capacity(design.samples());
+    for (track, part) in campaign.fit().zip(&design.tracks) {
+        let mut now = 0.0;
+        let at = |(m, v): (&Motion, &f64)| {
+            if m.moves {
+                now = if side(m.branch) == border { shape(*v) } else { 0.0 };
+            }
+            now
+        };
+        let g: Vec<f64> = part.moves.iter().zip(&track.v).map(at).collect();
+        out.extend(whitener.column(&g, &b, part.from));
+    }
+    out
 }

@@ -23,7 +23,13 @@ impl Weights {
     pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
         match &self.scale {
             None => signals.concat(),
-            Some(scale) => signals.iter().flatten().zip(scale.iter().flatten()).map(|(w, s)| w * s).collect(),
+            Some(scale) => {
+                let mut out = Vec::with_capacity(signals.iter().map(Vec::len).sum());
+                for (w, s) in signals.iter().zip(scale) {
+                    out.extend(w.iter().zip(s).map(|(w, s)| w * s));
+                }
+                out
+            }
         }
     }
 }

@@ -8,13 +8,12 @@ use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::whitener::{LEAD, Whitener};
 
-/// The derivatives of one track, row-major, appended to `out`.
+/// Hands over the derivatives of one track, without weights: the number of the counted sample, and its row.
 pub(super) fn dense_rows(
-    out: &mut Vec<f64>,
     (design, track): (&Design, &DesignTrack),
     p: &Linear,
     whitener: &Whitener,
-    weights: Option<&[f64]>,
+    mut emit: impl FnMut(usize, &[f64]),
 ) {
     let (na, nb, k, m) = (p.a.len(), p.b.len(), p.f.len(), p.d.len());
     let size = p.len();
@@ -47,10 +46,9 @@ pub(super) fn dense_rows(
         for (x, psi) in row[na + nb + k..].iter_mut().zip(&track.columns[t * m..]) {
             *x = -psi;
         }
-        let weight = weights.filter(|_| t >= track.from).map_or(1.0, |w| w[t - track.from]);
         if whitener.ar.is_empty() && whitener.ma.is_empty() {
             if t >= track.from {
-                out.extend(raw.row(t).iter().map(|x| weight * x));
+                emit(t - track.from, raw.row(t));
             }
             continue;
         }
@@ -63,7 +61,7 @@ pub(super) fn dense_rows(
             white.add_past(t, i + 1, -c, 0..size);
         }
         if t >= track.from {
-            out.extend(white.row(t).iter().map(|x| weight * x));
+            emit(t - track.from, white.row(t));
         }
     }
 }

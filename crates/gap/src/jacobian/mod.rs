@@ -40,45 +40,38 @@ impl Jacobian {
         whitener: &Whitener,
         weights: Option<&[Vec<f64>]>,
     ) -> Self {
-        let spread = !design.poles.is_empty() || !whitener.ma.is_empty() || whitener.ar.len() > LEAD;
         let columns = p.len();
-        let store = if spread {
+        let parts = parts(design, weights);
+        let store = if spreads(design, whitener) {
             let mut out = Vec::with_capacity(design.samples() * columns);
-            for (number, track) in design.tracks.iter().enumerate() {
-                dense_rows(&mut out, (design, track), p, whitener, weights.map(|w| &w[number][..]));
+            for (track, weights) in parts {
+                dense_rows((design, track), p, whitener, |t, row| {
+                    let weight = weights.map_or(1.0, |w| w[t]);
+                    out.extend(row.iter().map(|x| weight * x));
+                });
             }
             Store::Dense(out)
         } else {
             let mut out = Rows::with_capacity(design.samples());
-            for (number, track) in design.tracks.iter().enumerate() {
-                sparse_rows(&mut out, (design, track), p, whitener, weights.map(|w| &w[number][..]));
+            for (track, weights) in parts {
+                sparse_rows((design, track), p, whitener, weights, |row| out.push(row, 1.0));
             }
             Store::Sparse(out)
         };
         Self { columns, store }
     }
 
-    /// `Σ x xᵀ` and `Σ x w` for weighted innovations `w`, with the columns of `extra` appended.
-    pub(crate) fn normal(&self, w: &[f64], extra: &[Vec<f64>]) -> Normal {
-        let mut normal = Normal::new(self.columns + extra.len());
+    /// `Σ x xᵀ` and `Σ x w` for weighted innovations `w`.
+    pub(crate) fn normal(&self, w: &[f64]) -> Normal {
+        let mut normal = Normal::new(self.columns);
         match &self.store {
             Store::Sparse(rows) => {
                 for (t, &w) in w.iter().enumerate() {
                     let (index, value) = rows.row(t);
-                    normal.add_sparse(index, value, w);
+                    normal.add_sparse(index.iter().copied().zip(value.iter().copied()), w);
                 }
             }
             Store::Dense(rows) => normal.add_dense(rows, self.columns, w),
-        }
-        for (j, column) in extra.iter().enumerate() {
-            let at = self.columns + j;
-            for (i, x) in self.cross(column).into_iter().enumerate() {
-                normal.set(i, at, x);
-            }
-            for (k, other) in extra.iter().enumerate().skip(j) {
-                normal.set(at, self.columns + k, column.iter().zip(other).map(|(x, y)| x * y).sum());
-            }
-            normal.gradient[at] = column.iter().zip(w).map(|(x, w)| x * w).sum();
         }
         normal
     }
@@ -104,6 +97,65 @@ impl Jacobian {
         }
         out
     }
+}
+
+/// `Σ x xᵀ` and `Σ x w` of the derivatives at `p` with the columns of `extra` appended, innovations `w`, everything weighted.
+/// No row is kept.
+pub(crate) fn normal_equations(
+    design: &Design,
+    p: &Linear,
+    whitener: &Whitener,
+    weights: Option<&[Vec<f64>]>,
+    (w, extra): (&[f64], &[Vec<f64>]),
+) -> Normal {
+    let columns = p.len();
+    let width = columns + extra.len();
+    let mut normal = Normal::new(width);
+    // Rows so far, and the first of them that is not yet in the equations.
+    let (mut row_number, mut from) = (0, 0);
+    let mut block: Vec<f64> = Vec::with_capacity(BLOCK * width);
+    for (track, weights) in parts(design, weights) {
+        if spreads(design, whitener) {
+            dense_rows((design, track), p, whitener, |t, row| {
+                let weight = weights.map_or(1.0, |w| w[t]);
+                block.extend(row.iter().map(|x| weight * x));
+                block.extend(extra.iter().map(|column| column[row_number]));
+                row_number += 1;
+                if row_number - from == BLOCK {
+                    normal.add_dense(&block, width, &w[from..row_number]);
+                    block.clear();
+                    from = row_number;
+                }
+            });
+        } else {
+            sparse_rows((design, track), p, whitener, weights, |row| {
+                let extra = extra.iter().enumerate();
+                row.extend(extra.map(|(j, column)| ((columns + j) as u32, column[row_number])));
+                normal.add_sparse(row.iter().copied(), w[row_number]);
+                row_number += 1;
+            });
+        }
+    }
+    if !block.is_empty() {
+        normal.add_dense(&block, width, &w[from..row_number]);
+    }
+    normal
+}
+
+/// Dense rows taken at a time: few enough to stay near the processor.
+const BLOCK: usize = 64;
+
+/// Whether a recursive filter spreads the border features over whole rows.
+fn spreads(design: &Design, whitener: &Whitener) -> bool {
+    !design.poles.is_empty() || !whitener.ma.is_empty() || whitener.ar.len() > LEAD
+}
+
+/// Tracks with the weights of their counted samples.
+fn parts<'a>(
+    design: &'a Design,
+    weights: Option<&'a [Vec<f64>]>,
+) -> impl Iterator<Item = (&'a DesignTrack, Option<&'a [f64]>)> {
+    design.tracks.iter().enumerate().map(move |(k, track)| (track, weights.map(|w| &w[k][..])))
 }
 
 /// `taps ∗ ũ`: what the coefficients of B multiply.
@@ -147,7 +199,7 @@ mod tests {
         let half_sum =
             |p: &Linear| 0.5 * design.innovations(p, &whitener).iter().flatten().map(|w| w * w).sum::<f64>();
         let innovations = design.innovations(p, &whitener).concat();
-        let normal = Jacobian::new(&design, p, &whitener, None).normal(&innovations, &[]);
+        let normal = normal_equations(&design, p, &whitener, None, (&innovations, &[]));
         gradient_is_the_slope(&normal, p, half_sum);
     }
 
@@ -165,7 +217,7 @@ mod tests {
         };
         let half_sum = |p: &Linear| 0.5 * errors(p).iter().map(|w| w * w).sum::<f64>();
         let whitener = design.whitener(&Assembly::default().noise, &p.a);
-        let normal = Jacobian::new(&design, &p, &whitener, None).normal(&errors(&p), &[]);
+        let normal = normal_equations(&design, &p, &whitener, None, (&errors(&p), &[]));
         gradient_is_the_slope(&normal, &p, half_sum);
     }
 
@@ -180,16 +232,41 @@ mod tests {
             .map(|t| (t.from..t.x.len()).map(|t| 0.5 + 0.1 * (t % 7) as f64).collect())
             .collect();
         let w = design.innovations(p, &whitener).concat();
-        let sparse = Jacobian::new(&design, p, &whitener, Some(&weights)).normal(&w, &[]);
+        let sparse = Jacobian::new(&design, p, &whitener, Some(&weights)).normal(&w);
         let mut rows = Vec::new();
         for (track, weights) in design.tracks.iter().zip(&weights) {
-            dense_rows(&mut rows, (&design, track), p, &whitener, Some(weights));
+            dense_rows((&design, track), p, &whitener, |t, row| {
+                rows.extend(row.iter().map(|x| weights[t] * x));
+            });
         }
-        let dense = Jacobian { columns: p.len(), store: Store::Dense(rows) }.normal(&w, &[]);
+        let dense = Jacobian { columns: p.len(), store: Store::Dense(rows) }.normal(&w);
         for i in 0..p.len() {
             assert!((sparse.gradient[i] - dense.gradient[i]).abs() < 1e-10);
             for j in i..p.len() {
                 assert!((sparse.entry(i, j) - dense.entry(i, j)).abs() < 1e-10, "{i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn further_columns_are_appended() {
+        let (campaign, grid) = small_campaign();
+        let f: Vec<f64> = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
+        let p = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+        for pole in [None, Some(0.5)] {
+            let mut assembly = Assembly::default();
+            pole.iter().for_each(|p: &f64| assembly.filter(&[1.0 - p], &[1.0, -p]));
+            let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+            let whitener = Whitener::default();
+            let w = design.innovations(&p, &whitener).concat();
+            let extra: Vec<f64> = (0..w.len()).map(|t| (t as f64 * 0.9).cos()).collect();
+            let jacobian = Jacobian::new(&design, &p, &whitener, None);
+            let (alone, cross) = (jacobian.normal(&w), jacobian.cross(&extra));
+            let both = normal_equations(&design, &p, &whitener, None, (&w, &[extra]));
+            for (i, x) in cross.iter().enumerate() {
+                assert!((both.entry(i, p.len()) - x).abs() < 1e-10);
+                assert!((both.gradient[i] - alone.gradient[i]).abs() < 1e-10);
+                assert!((both.entry(i, i) - alone.entry(i, i)).abs() < 1e-10);
             }
         }
     }

@@ -4,7 +4,6 @@ use super::tapped;
 use crate::assembly::convolve;
 use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
-use crate::rows::Rows;
 use crate::whitener::Whitener;
 
 /// A moving-average filter from a sample on; what lies before the record is its first sample.
@@ -19,13 +18,14 @@ fn averaged(filter: &[f64], x: &[f64], from: usize) -> Vec<f64> {
     out
 }
 
-/// Rows without recursive filters: whitening with `D` alone is a longer `b̃` and averaged lags.
+/// Hands over the weighted derivatives of one track, indices increasing; whitening with `D` alone is a longer `b̃` and averaged
+/// lags.
 pub(super) fn sparse_rows(
-    out: &mut Rows,
     (design, track): (&Design, &DesignTrack),
     p: &Linear,
     whitener: &Whitener,
     weights: Option<&[f64]>,
+    mut emit: impl FnMut(&mut Vec<(u32, f64)>),
 ) {
     let (na, nb, k, m) = (p.a.len(), p.b.len(), p.f.len(), p.d.len());
     let ar: Vec<f64> = std::iter::once(1.0).chain(whitener.ar.iter().copied()).collect();
@@ -50,7 +50,7 @@ pub(super) fn sparse_rows(
                 row.push(((na + nb + k + c) as u32, -weight * psi));
             }
         }
-        out.push(&row, 1.0);
+        emit(&mut row);
     }
 }
 
