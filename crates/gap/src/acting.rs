@@ -28,7 +28,7 @@ struct Acting {
 
 impl Acting {
     fn new(track: &DesignTrack, law: InputNoise, p: &Linear) -> Option<Self> {
-        let [slope, gap] = track.sensitivity.as_ref()?;
+        let [slope, gap] = track.sensitivity.as_deref()?;
         let samples = track.x.len();
         let mut out = Self {
             gain: Vec::with_capacity(samples),

@@ -149,6 +149,8 @@ pub(crate) struct Assembly {
     pub(crate) delay: f64,
     /// Standard deviation of noise on the position that acts, strokes; the branch follows the sign of the noisy moves.
     pub(crate) jitter: f64,
+    /// What acts lies between the last two positions, this share of a sample back.
+    pub(crate) late: f64,
     pub(crate) play: Play,
     pub(crate) transition: Option<Transition>,
     /// Narrowing of the loop.

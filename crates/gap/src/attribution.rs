@@ -4,11 +4,10 @@
 use crate::campaign::Campaign;
 use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
-use crate::effects::Scene;
 use crate::explain::Explanation;
-use crate::score::innovations;
-use crate::search::{Question, finish, sketch};
+use crate::search::{Prospect, Question, finish, look, prospects};
 use crate::settings::Settings;
+use crate::starts::Known;
 use crate::workers::Workers;
 
 /// What is to be explained, and with what.
@@ -76,17 +75,8 @@ impl<W: Workers> Attribution<'_, W> {
         questions: &[Question],
         finished: usize,
     ) -> Vec<Explanation> {
-        let w = innovations(self.campaign, &known.fit, |t| t.is_fit());
-        let scene = Scene { campaign: self.campaign, fit: &known.fit, innovations: &w };
-        let looks =
-            self.workers.map(questions, |question| (question.effect, sketch(&scene, known, question)));
+        let looks = self.looks(known, questions);
         let gain = |e: &Explanation| known.bic() - e.bic();
-        let mut looks: Vec<Look> = looks
-            .into_iter()
-            .filter(|(_, laws)| !laws.is_empty())
-            .map(|(effect, laws)| Look { effect, gain: gain(&laws[0]), laws })
-            .collect();
-        looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
         let most = looks.first().map_or(0.0, |look| look.gain);
         let mut promising: Vec<(Effect, Explanation)> = Vec::new();
         let mut done: Vec<(Effect, Explanation)> = Vec::new();
@@ -116,6 +106,36 @@ impl<W: Workers> Attribution<'_, W> {
             new
         });
         done.into_iter().map(|(_, e)| e).collect()
+    }
+
+    /// A look at each effect, the most promising first.
+    fn looks(&self, known: &Explanation, questions: &[Question]) -> Vec<Look> {
+        let base = Known::new(self.campaign, known);
+        let test = base.test();
+        let prospects: Vec<Prospect> = self
+            .workers
+            .map(questions, |question| prospects(&base, test.as_ref(), question))
+            .into_iter()
+            .flatten()
+            .collect();
+        let laws = self.workers.map(&prospects, |prospect| look(&base, prospect));
+        let mut looks: Vec<Look> = Vec::new();
+        for (effect, law) in prospects.iter().map(|p| p.effect).zip(laws) {
+            let Some(law) = law else { continue };
+            let gain = known.bic() - law.bic();
+            match looks.iter_mut().find(|look| look.effect == effect) {
+                Some(look) => {
+                    look.gain = look.gain.max(gain);
+                    look.laws.push(law);
+                }
+                None => looks.push(Look { effect, gain, laws: vec![law] }),
+            }
+        }
+        for look in &mut looks {
+            look.laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        }
+        looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
+        looks
     }
 
     /// The nominal fit placed its knots with the effect's trace in the residual: the rivals get theirs anew.

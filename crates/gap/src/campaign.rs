@@ -34,6 +34,14 @@ impl Track {
         self.usage == Usage::Fit
     }
 
+    /// The track whose positions act a share of a sample late.
+    pub(crate) fn late(&self, share: f64, rule: ReversalRule) -> Self {
+        let before = self.v.iter().take(1).chain(&self.v);
+        let v: Vec<f64> =
+            self.v.iter().zip(before).map(|(now, before)| now + share * (before - now)).collect();
+        Self { moves: motions(&v, Play::default(), rule).into(), v, ..self.clone() }
+    }
+
     /// Whether the input is a designed experiment with few levels.
     pub(crate) fn is_pulsed(&self) -> bool {
         self.role != Role::Free

@@ -99,7 +99,10 @@ pub(crate) fn measure(
             n => draws[((n - 1) as f64 * q).round() as usize],
         };
         let [low, high] = [at(0.05).min(estimate), at(0.95).max(estimate)];
-        Figure { estimate, ci90: [estimate - FITTED * (estimate - low), estimate + FITTED * (high - estimate)] }
+        Figure {
+            estimate,
+            ci90: [estimate - FITTED * (estimate - low), estimate + FITTED * (high - estimate)],
+        }
     };
     let [drawn_before, drawn_after, drawn_closure] = samples;
     let before = figure(before, drawn_before);

@@ -18,26 +18,27 @@ use crate::rows::{Rows, equation_columns, rows, sensitivity_rows};
 
 pub(crate) use crate::jacobian::filtered_rows;
 pub(crate) use crate::linear::Linear;
+use crate::whitener::add_lagged;
 pub(crate) use crate::whitener::{LEAD, Whitener};
 
-/// One track as the fit sees it.
+/// One track as the fit sees it. Its parts are shared among designs that differ elsewhere.
 #[derive(Debug, Clone)]
 pub(crate) struct DesignTrack {
     /// How the input moves, behind the play.
     pub(crate) moves: Arc<[Motion]>,
-    pub(crate) rows: Rows,
+    pub(crate) rows: Arc<Rows>,
     /// Equation columns, row-major.
-    pub(crate) columns: Vec<f64>,
+    pub(crate) columns: Arc<[f64]>,
     /// The output with the sensor's characteristic undone.
-    pub(crate) x: Vec<f64>,
+    pub(crate) x: Arc<[f64]>,
     /// `ln dx/dy`, summed over the counted samples.
     pub(crate) log_slope: f64,
     /// First counted sample.
     pub(crate) from: usize,
     /// Change of `u` per change of `v` while moving and while resting, where input noise is modelled.
-    pub(crate) sensitivity: Option<[Rows; 2]>,
+    pub(crate) sensitivity: Option<Arc<[Rows; 2]>>,
     /// Samples whose output, or a lag of it, sits at a limit of the sensor; they are not counted.
-    pub(crate) clipped: Option<Vec<bool>>,
+    pub(crate) clipped: Option<Arc<[bool]>>,
 }
 
 /// The chosen tracks under an assembly.
@@ -48,6 +49,9 @@ pub(crate) struct Design {
     /// Denominator beyond its leading one.
     pub(crate) poles: Vec<f64>,
     pub(crate) criterion: Criterion,
+    /// What it was built from.
+    grid: Grid,
+    assembly: Assembly,
 }
 
 impl Design {
@@ -63,6 +67,15 @@ impl Design {
         Self::of(campaign, grid, assembly, &numbered)
     }
 
+    /// The design of the fit records; what a design of the same records has in common with it is shared.
+    pub(crate) fn like(known: Option<&Self>, campaign: &Campaign, grid: &Grid, assembly: &Assembly) -> Self {
+        let numbered: Vec<(usize, &Track)> =
+            campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).collect();
+        let known = known.filter(|k| k.criterion == campaign.criterion && k.tracks.len() == numbered.len());
+        let common = known.map_or(Common::default(), |k| Common::between(k, grid, assembly));
+        Self::sharing(known.map(|k| (k, common)), campaign, (grid, assembly), &numbered)
+    }
+
     /// Builds the design of tracks given with their numbers in the campaign.
     pub(crate) fn of(
         campaign: &Campaign,
@@ -70,33 +83,70 @@ impl Design {
         assembly: &Assembly,
         tracks: &[(usize, &Track)],
     ) -> Self {
+        Self::sharing(None, campaign, (grid, assembly), tracks)
+    }
+
+    fn sharing(
+        known: Option<(&Self, Common)>,
+        campaign: &Campaign,
+        (grid, assembly): (&Grid, &Assembly),
+        tracks: &[(usize, &Track)],
+    ) -> Self {
         let tracks = tracks
             .iter()
-            .map(|&(number, track)| {
-                let (x, log_slope) = undo_sensor(track, assembly);
-                let moves = if assembly.play.is_none() {
-                    Arc::clone(&track.moves)
-                } else {
-                    motions(&track.v, assembly.play, campaign.rule).into()
+            .enumerate()
+            .map(|(k, &(number, track))| {
+                let late = (assembly.late > 0.0).then(|| track.late(assembly.late, campaign.rule));
+                let track = late.as_ref().unwrap_or(track);
+                // The same track of the known design, where a part of it serves.
+                let same = |part: fn(&Common) -> bool| {
+                    known.filter(|(_, common)| part(common)).map(|(design, _)| &design.tracks[k])
                 };
+                let (x, log_slope) = match same(|c| c.output) {
+                    Some(t) => (Arc::clone(&t.x), t.log_slope),
+                    None => undo_sensor(track, assembly),
+                };
+                let moves = match same(|c| c.moves) {
+                    Some(t) => Arc::clone(&t.moves),
+                    None if assembly.play.is_none() => Arc::clone(&track.moves),
+                    None => motions(&track.v, assembly.play, campaign.rule).into(),
+                };
+                let sensitive = assembly.noise.input.is_some();
                 DesignTrack {
-                    rows: rows((campaign, number, track), &moves, grid, assembly),
+                    rows: same(|c| c.rows).map_or_else(
+                        || rows((campaign, number, track), &moves, grid, assembly).into(),
+                        |t| Arc::clone(&t.rows),
+                    ),
                     moves,
-                    columns: equation_columns(campaign, (number, track), assembly),
+                    columns: same(|c| c.columns).map_or_else(
+                        || equation_columns(campaign, (number, track), assembly).into(),
+                        |t| Arc::clone(&t.columns),
+                    ),
                     x,
                     log_slope,
                     from: track.from,
-                    sensitivity: assembly
-                        .noise
-                        .input
-                        .is_some()
-                        .then(|| sensitivity_rows(track, grid, assembly.jitter)),
-                    clipped: assembly.saturation.map(|limits| clipped(track, limits)),
+                    sensitivity: sensitive.then(|| {
+                        same(|c| c.sensitivity)
+                            .and_then(|t| t.sensitivity.clone())
+                            .unwrap_or_else(|| sensitivity_rows(track, grid, assembly.jitter).into())
+                    }),
+                    clipped: assembly.saturation.map(|limits| {
+                        same(|c| c.clipped)
+                            .and_then(|t| t.clipped.clone())
+                            .unwrap_or_else(|| clipped(track, limits).into())
+                    }),
                 }
             })
             .collect();
         let poles = assembly.denominator.get(1..).map(<[f64]>::to_vec).unwrap_or_default();
-        Self { tracks, taps: assembly.taps(), poles, criterion: campaign.criterion }
+        Self {
+            tracks,
+            taps: assembly.taps(),
+            poles,
+            criterion: campaign.criterion,
+            grid: grid.clone(),
+            assembly: assembly.clone(),
+        }
     }
 
     /// The filter from equation errors to what is counted: innovations, or the errors `e/A` of the simulation from the
@@ -169,15 +219,6 @@ impl Design {
     }
 }
 
-/// `e(t) += c·x(t−lag)` for `t ≥ first`; what lies before the record is its first sample.
-fn add_lagged(e: &mut [f64], x: &[f64], first: usize, (lag, c): (usize, f64)) {
-    let before = lag.saturating_sub(first).min(e.len());
-    e[..before].iter_mut().for_each(|e| *e += c * x[0]);
-    for (e, x) in e[before..].iter_mut().zip(&x[(first + before) - lag.min(first + before)..]) {
-        *e += c * x;
-    }
-}
-
 const _: () = assert!(LEAD < WARM_UP);
 
 /// Which counted samples have an output at a limit among those the equation needs.
@@ -187,10 +228,10 @@ fn clipped(track: &Track, limits: Saturation) -> Vec<bool> {
 }
 
 /// `x` of one track and its summed log slope.
-fn undo_sensor(track: &Track, assembly: &Assembly) -> (Vec<f64>, f64) {
+fn undo_sensor(track: &Track, assembly: &Assembly) -> (Arc<[f64]>, f64) {
     let curve = &assembly.curve;
     if curve.is_straight() {
-        return (track.y.clone(), 0.0);
+        return (track.y.as_slice().into(), 0.0);
     }
     let mut log_slope = 0.0;
     let x = track
@@ -207,4 +248,38 @@ fn undo_sensor(track: &Track, assembly: &Assembly) -> (Vec<f64>, f64) {
         })
         .collect();
     (x, log_slope)
+}
+
+/// Which parts of a design serve another assembly or grid unchanged.
+#[derive(Debug, Clone, Copy, Default)]
+struct Common {
+    moves: bool,
+    rows: bool,
+    columns: bool,
+    output: bool,
+    sensitivity: bool,
+    clipped: bool,
+}
+
+impl Common {
+    fn between(known: &Design, grid: &Grid, assembly: &Assembly) -> Self {
+        let had = &known.assembly;
+        let moves = had.play == assembly.play && had.late == assembly.late;
+        let same_grid = known.grid == *grid;
+        let jitter = had.jitter == assembly.jitter;
+        Self {
+            moves,
+            rows: moves
+                && same_grid
+                && jitter
+                && had.transition == assembly.transition
+                && had.wear == assembly.wear
+                && had.gain == assembly.gain
+                && had.border_columns == assembly.border_columns,
+            columns: had.equation_columns == assembly.equation_columns,
+            output: had.curve == assembly.curve,
+            sensitivity: moves && same_grid && jitter,
+            clipped: had.saturation == assembly.saturation,
+        }
+    }
 }

@@ -7,12 +7,14 @@
 //! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
 //! ```
 
+use std::sync::Arc;
+
 use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::given::settles;
-use crate::jacobian::Jacobian;
+use crate::jacobian::normal_equations;
 use crate::normal::Normal;
 use crate::weights::{Weights, weigh};
 
@@ -48,6 +50,8 @@ pub(crate) struct Fit {
     pub(crate) samples: usize,
     /// Effective number of parameters.
     pub(crate) parameters: f64,
+    /// The fit records under it.
+    pub(crate) design: Arc<Design>,
 }
 
 /// Where the fit is done.
@@ -55,6 +59,8 @@ pub(crate) struct Fit {
 pub(crate) struct Ground<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) grid: &'a Grid,
+    /// A design of the same records: what the fit has in common with it is not built again.
+    pub(crate) known: Option<&'a Design>,
 }
 
 /// Weight of the prior that ties border values nobody visits to their neighbours, in units of one sample's information.
@@ -103,19 +109,22 @@ pub(crate) fn fit(
     start: &Linear,
     rounds: usize,
 ) -> Option<Fit> {
-    let design_of = |assembly: &Assembly| Design::new(ground.campaign, ground.grid, assembly, |t| t.is_fit());
+    let design_of = |assembly: &Assembly, known: Option<&Design>| {
+        Design::like(known, ground.campaign, ground.grid, assembly)
+    };
     let mut own = own.to_vec();
     let mut p = start.clone().gauged();
     let values = |own: &[Own]| own.iter().map(|o| o.value).collect::<Vec<f64>>();
     let assembly = build(&values(&own));
-    let mut design = design_of(&assembly);
+    let mut design = design_of(&assembly, ground.known);
     let mut state = evaluate(&design, assembly, &p)?;
     let mut own_se = vec![f64::NAN; own.len()];
     let mut damping = 1e-9;
     for _ in 0..rounds {
         let extra = derivatives(&ground, build, &own, &design, &state, &p);
-        let jacobian = Jacobian::new(&design, &p, &state.whitener, state.weights.scale.as_deref());
-        let mut normal = jacobian.normal(&state.weights.applied(&state.innovations), &extra);
+        let weights = state.weights.scale.as_deref();
+        let w = state.weights.applied(&state.innovations);
+        let mut normal = normal_equations(&design, &p, &state.whitener, weights, (&w, &extra));
         priors(&mut normal, ground.grid, &p, &state.assembly);
         let mut better = None;
         let mut step_norm = 0.0;
@@ -142,7 +151,7 @@ pub(crate) fn fit(
                 }
                 let assembly = build(&values(&next));
                 let redesign =
-                    if assembly.same_design(&state.assembly) { None } else { Some(design_of(&assembly)) };
+                    (!assembly.same_design(&state.assembly)).then(|| design_of(&assembly, Some(&design)));
                 let s = evaluate(redesign.as_ref().unwrap_or(&design), assembly, &moved)?;
                 (s.deviance < state.deviance).then_some((moved, next, redesign, s))
             };
@@ -212,6 +221,7 @@ pub(crate) fn fit(
         power,
         samples,
         parameters,
+        design: Arc::new(design),
     })
 }
 
@@ -241,7 +251,7 @@ fn derivatives(
             let there = if assembly.same_design(&state.assembly) {
                 design
             } else {
-                redesign = Design::new(ground.campaign, ground.grid, &assembly, |t| t.is_fit());
+                redesign = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
                 &redesign
             };
             let whitener = there.whitener(&assembly.noise, &p.a);

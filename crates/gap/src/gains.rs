@@ -25,7 +25,7 @@ pub(crate) struct Scored {
 impl<'a> Gains<'a> {
     /// The present parameters' derivatives and the innovations, both weighted.
     pub(crate) fn new(jacobian: &'a Jacobian, w: &'a [f64], variance: f64) -> Option<Self> {
-        let normal = jacobian.normal(w, &[]);
+        let normal = jacobian.normal(w);
         let factor = normal.factor(1e-8)?;
         let left = factor.solve(&normal.gradient);
         Some(Self { jacobian, w, variance, factor, left })

@@ -55,6 +55,7 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
         power: variance,
         samples,
         parameters: 0.0,
+        design: design.into(),
     })
 }
 

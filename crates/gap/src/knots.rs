@@ -6,7 +6,8 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Whitener};
 use crate::engine::{Build, Fit, Ground, fit, priors};
 use crate::gains::{Gains, Scored};
-use crate::jacobian::Jacobian;
+use crate::jacobian::{Jacobian, normal_equations};
+use crate::motion::Motion;
 
 /// Cells of the first grid between the ends of the stroke.
 const FIRST_CELLS: usize = 10;
@@ -214,17 +215,19 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 /// The same model re-fitted on another grid.
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
-    fit(Ground { campaign, grid }, build, &fitted.own, &start, 5)
+    let known = Some(&*fitted.design);
+    fit(Ground { campaign, grid, known }, build, &fitted.own, &start, 5)
 }
 
 /// The same model on another grid, one step from the present parameters.
 fn looked_at(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
-    fit(Ground { campaign, grid }, build, &fitted.own, &carried_over(fitted, grid), 1)
+    let known = Some(&*fitted.design);
+    fit(Ground { campaign, grid, known }, build, &fitted.own, &carried_over(fitted, grid), 1)
 }
 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
 fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let visits = visited(campaign);
@@ -281,10 +284,10 @@ fn moved_jumps(campaign: &Campaign, best: &Fit) -> Option<Grid> {
 /// Without the knots and jumps that earn less than they cost.
 fn pruned(campaign: &Campaign, best: Fit, build: &Build<'_>) -> Fit {
     let first = first_grid(campaign);
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let mut normal = Jacobian::new(&design, &best.linear, &whitener, None).normal(&innovations.concat(), &[]);
+    let mut normal = normal_equations(&design, &best.linear, &whitener, None, (&innovations.concat(), &[]));
     // Without the gauge no border value would be determined.
     priors(&mut normal, &best.grid, &best.linear, &best.assembly);
     let Some(factor) = normal.factor(1e-9) else { return best };
@@ -354,7 +357,7 @@ pub(crate) fn carried_over(fit: &Fit, grid: &Grid) -> crate::design::Linear {
 
 /// A finer grid, or nothing where no knot is worth its cost.
 fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::new(campaign, &best.grid, &best.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
     let mut places = suspicious(campaign, best, &design, &innovations);
@@ -448,23 +451,17 @@ fn column(
     shape: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
     let b = convolve(&best.linear.b, &design.taps);
-    campaign
-        .fit()
-        .zip(&design.tracks)
-        .flat_map(|(track, part)| {
-            let mut now = 0.0;
-            let g: Vec<f64> = part
-                .moves
-                .iter()
-                .zip(&track.v)
-                .map(|(m, v)| {
-                    if m.moves {
-                        now = if side(m.branch) == border { shape(*v) } else { 0.0 };
-                    }
-                    now
-                })
-                .collect();
-            whitener.column(&g, &b, part.from)
-        })
-        .collect()
+    let mut out = Vec::with_capacity(design.samples());
+    for (track, part) in campaign.fit().zip(&design.tracks) {
+        let mut now = 0.0;
+        let at = |(m, v): (&Motion, &f64)| {
+            if m.moves {
+                now = if side(m.branch) == border { shape(*v) } else { 0.0 };
+            }
+            now
+        };
+        let g: Vec<f64> = part.moves.iter().zip(&track.v).map(at).collect();
+        out.extend(whitener.column(&g, &b, part.from));
+    }
+    out
 }

@@ -39,6 +39,7 @@ mod simulate;
 mod simulators;
 mod spectral;
 mod spectrum;
+mod starts;
 mod weights;
 mod whitener;
 pub mod workbench;

@@ -29,7 +29,7 @@ pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, Diagno
         });
     }
     let start = first_guess(campaign, &grid, order, &Assembly::default())?;
-    let ground = Ground { campaign, grid: &grid };
+    let ground = Ground { campaign, grid: &grid, known: None };
     fit(ground, &|_| Assembly::default(), &[], &start, 12)
         .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })
 }

@@ -10,8 +10,8 @@ pub(crate) struct Normal {
     /// Row-major, upper triangle filled.
     matrix: Vec<f64>,
     pub(crate) gradient: Vec<f64>,
-    index: Vec<u32>,
-    value: Vec<f64>,
+    /// Room for a row.
+    terms: Vec<(u32, f64)>,
 }
 
 /// Dense rows on their way into normal equations.
@@ -77,35 +77,30 @@ impl Normal {
             size,
             matrix: vec![0.0; size * size],
             gradient: vec![0.0; size],
-            index: Vec::with_capacity(size),
-            value: Vec::with_capacity(size),
+            terms: Vec::with_capacity(size),
         }
     }
 
     /// Adds one row, mostly zeros.
     pub(crate) fn add(&mut self, row: &[f64], w: f64) {
-        self.index.clear();
-        self.value.clear();
-        for (i, &x) in row.iter().enumerate() {
-            if x != 0.0 {
-                self.index.push(i as u32);
-                self.value.push(x);
-            }
-        }
-        let (index, value) = (std::mem::take(&mut self.index), std::mem::take(&mut self.value));
-        self.add_sparse(&index, &value, w);
-        (self.index, self.value) = (index, value);
+        let present = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
+        self.add_sparse(present.map(|(i, x)| (i as u32, *x)), w);
     }
 
     /// Adds one sparse row, its indices increasing.
-    pub(crate) fn add_sparse(&mut self, index: &[u32], value: &[f64], w: f64) {
-        for (k, (&i, &x)) in index.iter().zip(value).enumerate() {
-            self.gradient[i as usize] += x * w;
-            let target = &mut self.matrix[i as usize * self.size..(i as usize + 1) * self.size];
-            for (&j, &y) in index[k..].iter().zip(&value[k..]) {
+    pub(crate) fn add_sparse(&mut self, row: impl Iterator<Item = (u32, f64)>, w: f64) {
+        let mut terms = std::mem::take(&mut self.terms);
+        terms.clear();
+        terms.extend(row);
+        for (k, &(i, x)) in terms.iter().enumerate() {
+            let i = i as usize;
+            self.gradient[i] += x * w;
+            let target = &mut self.matrix[i * self.size..(i + 1) * self.size];
+            for &(j, y) in &terms[k..] {
                 target[j as usize] += x * y;
             }
         }
+        self.terms = terms;
     }
 
     /// Adds dense rows of the first `columns` parameters, row-major.

@@ -118,7 +118,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         let raw: Vec<f64> = (0..u.len()).map(|t| part.rows.dot(t, &fit.linear.f)).collect();
         let moves = &track.moves;
         // A simulator is asked about what it simulates, not about the measured past.
-        let mut seen = part.x.clone();
+        let mut seen = part.x.to_vec();
         if design.criterion.simulates() {
             seen[part.from..].iter_mut().zip(&innovations[number]).for_each(|(x, w)| *x -= w);
         }

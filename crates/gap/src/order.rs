@@ -191,7 +191,7 @@ fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseE
     while !settles(&start.a) {
         start.a.iter_mut().enumerate().for_each(|(i, a)| *a *= 0.99_f64.powi(i as i32 + 1));
     }
-    let ground = Ground { campaign: &simulates, grid: &grid };
+    let ground = Ground { campaign: &simulates, grid: &grid, known: None };
     let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
     let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
     Ok(Tried { structure, one_step: error, simulator })

@@ -8,6 +8,7 @@ use crate::effects::{Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
 use crate::normal::Normal;
+use crate::starts::{Known, ScoreTest, padded};
 
 /// Gauss–Newton rounds of a look, and of the final fit.
 const LOOK: usize = 2;
@@ -51,23 +52,77 @@ impl Question {
     }
 }
 
-/// A cheap look at one more effect on top of what is known: its laws, each near its best start, likeliest first. Empty where
-/// the records rule the effect out.
-pub(crate) fn sketch(scene: &Scene<'_>, known: &Explanation, question: &Question) -> Vec<Explanation> {
+/// One law of an effect added to what is known, and how promising it is.
+pub(crate) struct Prospect {
+    pub(crate) effect: Effect,
+    law: Variant,
+    /// What is known, then the law.
+    parts: Vec<Part>,
+    /// Gain in deviance at its best start by the score test; unknown where the test is blind to the law.
+    pub(crate) score: Option<f64>,
+}
+
+/// Starts of a law that are fitted, likeliest first by the score test: those of a law with corners, and of any other.
+const CORNERED: usize = 5;
+const SMOOTH: usize = 2;
+/// Laws of an effect that are looked at, and the share of the best one's score that a further one needs.
+const LAWS: usize = 3;
+const LAW: f64 = 0.4;
+
+/// The laws of one more effect on top of what is known, each with its likeliest starts. Empty where the records rule the
+/// effect out.
+pub(crate) fn prospects(
+    known: &Known<'_>,
+    test: Option<&ScoreTest<'_>>,
+    question: &Question,
+) -> Vec<Prospect> {
     let effect = question.effect;
-    let mut laws: Vec<Explanation> = (variants(effect, scene).into_iter().enumerate())
+    let fit = &known.explanation.fit;
+    let scene = Scene { campaign: known.campaign, fit, innovations: &known.innovations };
+    let mut out: Vec<Prospect> = (variants(effect, &scene).into_iter().enumerate())
         .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
-        .filter_map(|(number, law)| look(scene.campaign, known, (effect, number), &law))
+        .map(|(number, law)| {
+            let mut parts = known.explanation.parts.clone();
+            let (apply, count) = (law.apply.clone(), law.starts[0].len());
+            parts.push(Part { effect, law: number, apply, count, search: law.search });
+            Prospect { effect, law, parts, score: None }
+        })
         .collect();
-    laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-    laws
+    // A law of the noise moves weights, or far more than a chord can tell; and a grid is no start.
+    let Some(test) = test.filter(|_| !effect.is_noise() && out.iter().all(|p| p.law.grid.is_none())) else {
+        return out;
+    };
+    out.iter_mut().for_each(|prospect| prospect.order_starts(test));
+    let score = |p: &Prospect| p.score.unwrap_or(0.0);
+    out.sort_by(|x, y| score(y).total_cmp(&score(x)));
+    let least = LAW * out.first().map_or(0.0, score);
+    out.retain(|p| score(p) >= least);
+    out.truncate(LAWS);
+    out
+}
+
+impl Prospect {
+    /// Keeps the likeliest starts.
+    fn order_starts(&mut self, test: &ScoreTest<'_>) {
+        let build = |values: &[f64]| assembled(&self.parts, values);
+        let mut scored: Vec<(f64, Vec<Own>)> =
+            self.law.starts.iter().map(|own| (test.gain(&build, own), own.clone())).collect();
+        scored.sort_by(|x, y| y.0.total_cmp(&x.0));
+        scored.truncate(if self.law.search == Search::Profile { CORNERED } else { SMOOTH });
+        self.score = scored.first().map(|s| s.0);
+        self.law.starts = scored.into_iter().map(|s| s.1).collect();
+    }
 }
 
 /// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
-    let task = Task { ground: Ground { campaign, grid: &grid }, build: &build, held };
+    let task = Task {
+        ground: Ground { campaign, grid: &grid, known: Some(&sketch.fit.design) },
+        build: &build,
+        held,
+    };
     let law = sketch.parts.last().map(|part| part.search);
     let fit = match law {
         Some(Search::Profile) => task.pattern(sketch.fit.clone()),
@@ -79,22 +134,18 @@ pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> 
     }
 }
 
-fn look(
-    campaign: &Campaign,
-    known: &Explanation,
-    (effect, number): (Effect, usize),
-    law: &Variant,
-) -> Option<Explanation> {
+/// A cheap look at a law on top of what is known: near its best start.
+pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
+    let (campaign, known) = (known.campaign, known.explanation);
+    let (law, parts) = (&prospect.law, &prospect.parts);
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
-    let mut parts = known.parts.clone();
-    let (apply, count) = (law.apply.clone(), law.starts[0].len());
-    parts.push(Part { effect, law: number, apply, count, search: law.search });
-    let build = |values: &[f64]| assembled(&parts, values);
+    let build = |values: &[f64]| assembled(parts, values);
     let base = match &law.grid {
         Some(grid) => crate::knots::carried_over(&known.fit, grid),
         None => known.fit.linear.clone(),
     };
-    let task = Task { ground: Ground { campaign, grid }, build: &build, held: known.fit.own.len() };
+    let ground = Ground { campaign, grid, known: Some(&known.fit.design) };
+    let task = Task { ground, build: &build, held: known.fit.own.len() };
     // The own parameters of what is known, then those of the law.
     let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
     let starts = law.starts.iter().map(|own| joined(own));
@@ -116,10 +167,11 @@ fn look(
             best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
         }
     }?;
-    is_sound(effect, &fit).then(|| Explanation {
-        parts,
+    let handicap = known.handicap + law.handicap;
+    is_sound(prospect.effect, &fit).then(|| Explanation {
+        parts: parts.clone(),
         fit,
-        handicap: known.handicap + law.handicap,
+        handicap,
         held_out: 0.0,
     })
 }
@@ -163,13 +215,13 @@ impl Task<'_> {
             return None;
         }
         let mut p = self.padded(start, &assembly);
-        let design = Design::new(self.ground.campaign, self.ground.grid, &assembly, |t| t.is_fit());
+        let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
         let (na, nb) = (p.a.len(), p.b.len());
         let mut normal = Normal::new(na + nb);
         let mut row = vec![0.0; na + nb];
         for track in &design.tracks {
             let u = design.input(track, &p.f);
-            let x = whitener.apply(track.x.clone());
+            let x = whitener.apply(track.x.to_vec());
             let ahead =
                 |t: usize| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum();
             let u = whitener.apply((0..u.len()).map(ahead).collect());
@@ -231,13 +283,8 @@ impl Task<'_> {
         self.held(&top.own, &top.linear, FINAL).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
     }
 
-    /// The linear parameters with zeros for what the assembly adds.
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
-        let mut p = start.clone();
-        p.b.resize(p.a.len() + assembly.extra_b, 0.0);
-        p.f.resize(self.ground.grid.len() + assembly.border_columns.len(), 0.0);
-        p.d.resize(assembly.equation_columns.len(), 0.0);
-        p
+        padded(start, self.ground.grid.len(), assembly)
     }
 }
 

@@ -27,7 +27,13 @@ impl Weights {
     pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
         match &self.scale {
             None => signals.concat(),
-            Some(scale) => signals.iter().flatten().zip(scale.iter().flatten()).map(|(w, s)| w * s).collect(),
+            Some(scale) => {
+                let mut out = Vec::with_capacity(signals.iter().map(Vec::len).sum());
+                for (w, s) in signals.iter().zip(scale) {
+                    out.extend(w.iter().zip(s).map(|(w, s)| w * s));
+                }
+                out
+            }
         }
     }
 }
@@ -35,7 +41,9 @@ impl Weights {
 /// Weighs the innovations by the law; samples at a limit of the sensor are left out of it.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
     let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
-        let mask = |t: &DesignTrack| t.clipped.clone().unwrap_or_else(|| vec![false; t.x.len() - t.from]);
+        let mask = |t: &DesignTrack| {
+            t.clipped.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+        };
         design.tracks.iter().map(mask).collect()
     });
     if let Some(noise) = law.input {

@@ -25,33 +25,41 @@ impl Whitener {
     /// The derivative of the innovations with respect to a coefficient of `g` added to `u`, from sample `from`.
     pub(crate) fn column(&self, g: &[f64], b: &[f64], from: usize) -> Vec<f64> {
         let first = from.saturating_sub(LEAD);
-        let e: Vec<f64> = (first..g.len())
-            .map(|t| -b.iter().enumerate().map(|(j, b)| b * g[t.saturating_sub(j + 1)]).sum::<f64>())
-            .collect();
+        let mut e = vec![0.0; g.len() - first];
+        for (j, b) in b.iter().enumerate() {
+            add_lagged(&mut e, g, first, (j + 1, -b));
+        }
         let mut w = self.apply(e);
         w.drain(..(from - first).min(w.len()));
         w
     }
 
     pub(crate) fn apply(&self, e: Vec<f64>) -> Vec<f64> {
-        if self.ar.is_empty() && self.ma.is_empty() {
-            return e;
-        }
-        let mut w = Vec::with_capacity(e.len());
-        for t in 0..e.len() {
-            let mut now = e[t];
+        let mut w = e;
+        if !self.ar.is_empty() {
+            let e = w.clone();
             for (i, d) in self.ar.iter().enumerate() {
-                if t > i {
-                    now += d * e[t - i - 1];
+                for (w, e) in w.iter_mut().skip(i + 1).zip(&e) {
+                    *w += d * e;
                 }
             }
-            for (i, c) in self.ma.iter().enumerate() {
-                if t > i {
-                    now -= c * w[t - i - 1];
-                }
+        }
+        if !self.ma.is_empty() {
+            for t in 0..w.len() {
+                let past = w[..t].iter().rev().zip(&self.ma);
+                let sum: f64 = past.map(|(w, c)| c * w).sum();
+                w[t] -= sum;
             }
-            w.push(now);
         }
         w
+    }
+}
+
+/// `e(t) += c·x(t−lag)` for `t ≥ first`; what lies before the record is its first sample.
+pub(crate) fn add_lagged(e: &mut [f64], x: &[f64], first: usize, (lag, c): (usize, f64)) {
+    let before = lag.saturating_sub(first).min(e.len());
+    e[..before].iter_mut().for_each(|e| *e += c * x[0]);
+    for (e, x) in e[before..].iter_mut().zip(&x[(first + before) - lag.min(first + before)..]) {
+        *e += c * x;
     }
 }

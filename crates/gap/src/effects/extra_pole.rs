@@ -9,9 +9,10 @@
 //!
 //! Parameter: `pole` (0.02…0.98; with feedthrough from 0.25, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
 
-use super::{Variant, own};
+use super::{Scene, Variant, fitted_tracks, own};
+use crate::assembly::EquationColumn;
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
         .into_iter()
         .map(|(lags, passes, zeros)| {
@@ -20,11 +21,17 @@ pub(super) fn variants() -> Vec<Variant> {
                 .iter()
                 .map(|&p| vec![own("pole", "1", p.max(least), (least, 0.98), 0.003)])
                 .collect();
+            // How far a slow lag was behind when a record began is unknown.
+            let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };
             Variant::conditional(starts, move |p, assembly| {
                 for _ in 0..lags {
                     assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 }
                 assembly.extra_b += zeros;
+                for &track in &tracks {
+                    let decay = EquationColumn::Decay { track, radius: p[0], frequency: 0.0, sine: false };
+                    assembly.equation_columns.push(decay);
+                }
                 if passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
                 }

@@ -1,7 +1,8 @@
 //! The input acts later than recorded.
 //!
 //! ```text
-//! ũ(t) = (1−δ)·u(t−k) + δ·u(t−k−1),   delay = k + δ
+//! ũ(t) = (1−δ)·u(t−k) + δ·u(t−k−1),            delay = k + δ      the actuator's response is late
+//! ũ(t) = F[(1−δ)·v + δ·v(·−1)](t−k)                                the positions are
 //! ```
 //!
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
@@ -9,12 +10,15 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let starts = [0.3, 0.7, 1.2, 1.7, 2.2, 2.7, 3.3, 5.0]
+    let starts: Vec<_> = [0.3, 0.7, 1.2, 1.7, 2.2, 2.7, 3.3, 5.0]
         .iter()
         .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
         .collect();
-    let mut variant = Variant::conditional(starts, |p, assembly| assembly.delay = p[0]);
+    let response = Variant::conditional(starts.clone(), |p, assembly| assembly.delay = p[0]);
+    let positions = Variant::conditional(starts, |p, assembly| {
+        assembly.delay = p[0].floor();
+        assembly.late = p[0] - assembly.delay;
+    });
     // B takes a whole sample where it has room: every start is a valley of its own.
-    variant.climbs = variant.starts.len();
-    vec![variant]
+    [response, positions].map(|law| Variant { climbs: law.starts.len(), ..law }).into()
 }

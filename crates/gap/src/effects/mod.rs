@@ -105,7 +105,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::Creep => creep::variants(scene),
         Effect::BorderWear => border_wear::variants(),
         Effect::Stribeck => stribeck::variants(scene),
-        Effect::ExtraPole => extra_pole::variants(),
+        Effect::ExtraPole => extra_pole::variants(scene),
         Effect::Resonance => resonance::variants(scene),
         Effect::GainDrift => gain_drift::variants(),
         Effect::ColouredNoise => coloured_noise::variants(),

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Laws: a line or cubic over the campaign, a line over each record (common slope), piecewise linear within each
-//! record. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
+//! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
 
 use super::{Scene, Variant};
 use crate::assembly::{Clock, EquationColumn};
@@ -21,20 +21,22 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }));
         }
     }
-    let tracks: Vec<(usize, usize)> = scene
-        .campaign
-        .tracks
-        .iter()
-        .enumerate()
-        .filter(|(_, t)| t.is_fit() && t.v.len() > 400)
-        .map(|(i, t)| (i, (t.v.len() / 400).clamp(1, 8)))
-        .collect();
-    out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
+    out.extend(PIECES.map(|pieces| piecewise(scene, pieces)));
+    out
+}
+
+/// Samples of a piece, and pieces of a record at most.
+const PIECES: [(usize, usize); 2] = [(400, 8), (120, 24)];
+
+fn piecewise(scene: &Scene<'_>, (samples, most): (usize, usize)) -> Variant {
+    let fitted = scene.campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit() && t.v.len() > samples);
+    let tracks: Vec<(usize, usize)> =
+        fitted.map(|(number, t)| (number, (t.v.len() / samples).clamp(1, most))).collect();
+    Variant::new(vec![Vec::new()], move |_, assembly| {
         for &(track, pieces) in &tracks {
             for piece in 0..=pieces {
                 assembly.equation_columns.push(EquationColumn::Local { track, piece, pieces });
             }
         }
-    }));
-    out
+    })
 }

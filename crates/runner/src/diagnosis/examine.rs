@@ -21,7 +21,8 @@ struct Pool;
 
 impl Workers for Pool {
     fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-        items.par_iter().map(work).collect()
+        // Pieces differ much in size: each is a task of its own.
+        items.par_iter().with_max_len(1).map(work).collect()
     }
 }
 

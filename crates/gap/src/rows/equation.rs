@@ -1,0 +1,99 @@
+//! Disturbance columns of the equation.
+
+use std::f64::consts::PI;
+
+use super::clock;
+use crate::assembly::{Assembly, EquationColumn};
+use crate::campaign::{Campaign, Track};
+
+/// The equation columns of one track, row-major, `columns` a sample.
+pub(crate) fn equation_columns(
+    campaign: &Campaign,
+    tracks: (usize, &Track),
+    assembly: &Assembly,
+) -> Vec<f64> {
+    let (number, track) = tracks;
+    let count = assembly.equation_columns.len();
+    let mut out = vec![0.0; track.v.len() * count];
+    for (j, column) in assembly.equation_columns.iter().enumerate() {
+        let cells = out.iter_mut().skip(j).step_by(count);
+        match *column {
+            EquationColumn::Line { track: Some(only), .. }
+            | EquationColumn::Decay { track: only, .. }
+            | EquationColumn::Local { track: only, .. }
+                if only != number => {}
+            EquationColumn::Line { frequency, track: only, sine } => {
+                let first = if only.is_some() { 0.0 } else { track.clock as f64 };
+                let mut wave = Wave::starting(frequency, first);
+                cells.for_each(|cell| *cell = wave.next(sine));
+            }
+            EquationColumn::Trend { clock: c, degree } => cells.enumerate().for_each(|(t, cell)| {
+                let at = clock(c, campaign, track, t, track.moves[t].path);
+                *cell = (2.0 * at - 1.0).powi(degree as i32);
+            }),
+            EquationColumn::Decay { radius, frequency, sine, .. } => {
+                let mut wave = Wave::starting(frequency, 0.0);
+                let mut size = 1.0;
+                let from = track.from.min(6);
+                for (t, cell) in cells.enumerate() {
+                    let value = size * wave.next(sine);
+                    *cell = if t < from { 0.0 } else { value };
+                    size *= radius;
+                    if size < 1e-9 {
+                        break;
+                    }
+                }
+            }
+            EquationColumn::Local { piece, pieces, .. } => cells.enumerate().for_each(|(t, cell)| {
+                let at = t as f64 / track.v.len() as f64 * pieces as f64;
+                *cell = (1.0 - (at - piece as f64).abs()).max(0.0);
+            }),
+        }
+    }
+    out
+}
+
+/// A sinusoid sample by sample, by rotation; set anew every so often, so that rounding does not add up.
+struct Wave {
+    frequency: f64,
+    at: f64,
+    left: usize,
+    turn: (f64, f64),
+    now: (f64, f64),
+}
+
+impl Wave {
+    /// Samples between exact values.
+    const AFRESH: usize = 256;
+
+    fn starting(frequency: f64, at: f64) -> Self {
+        Self { frequency, at, left: 0, turn: frequency.sin_cos(), now: (0.0, 1.0) }
+    }
+
+    fn next(&mut self, sine: bool) -> f64 {
+        if self.left == 0 {
+            self.now = ((self.frequency * self.at) % (2.0 * PI)).sin_cos();
+            self.left = Self::AFRESH;
+        }
+        let (s, c) = self.now;
+        let (ds, dc) = self.turn;
+        self.now = (s * dc + c * ds, c * dc - s * ds);
+        self.left -= 1;
+        self.at += 1.0;
+        if sine { s } else { c }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_by_rotation_is_the_wave() {
+        let mut wave = Wave::starting(0.37, 1200.0);
+        for t in 1200..3000 {
+            let exact = (0.37 * f64::from(t)).sin();
+            assert!((wave.next(true) - exact).abs() < 1e-11, "{t}");
+        }
+    }
+}

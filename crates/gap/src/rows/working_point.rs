@@ -1,0 +1,112 @@
+//! The working point as a sparse combination of border values.
+
+use crate::assembly::{Assembly, Transition, TransitionLaw};
+use crate::borders::{Grid, side};
+use crate::campaign::Criterion;
+use crate::motion::Motion;
+
+/// Weight below which a fading border value is dropped from a row.
+const NEGLIGIBLE: f64 = 1e-5;
+
+/// Follows the working point.
+pub(super) struct WorkingPoint<'a> {
+    grid: &'a Grid,
+    transition: Option<Transition>,
+    /// The present combination.
+    pub(super) terms: Vec<(u32, f64)>,
+    /// What fades during the present transition.
+    fading: Vec<(u32, f64)>,
+    /// Room for a sum of terms, and for border values.
+    sum: Vec<(u32, f64)>,
+    scratch: Vec<f64>,
+}
+
+impl<'a> WorkingPoint<'a> {
+    pub(super) fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64, criterion: Criterion) -> Self {
+        // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
+        let terms = match criterion {
+            Criterion::OneStep => hat(grid, usize::from(v >= 0.5), v, 1.0).to_vec(),
+            // A simulation goes on from there for long: the middle between the borders is never far off.
+            Criterion::Simulation { .. } => [0, 1].map(|s| hat(grid, s, v, 0.5)).concat(),
+        };
+        Self {
+            grid,
+            transition: assembly.transition,
+            terms,
+            fading: Vec::new(),
+            sum: Vec::new(),
+            scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
+        }
+    }
+
+    /// A reversal: notes what will fade.
+    pub(super) fn turn(&mut self, m: &Motion) {
+        let Some(transition) = self.transition else { return };
+        match transition.law {
+            TransitionLaw::Held => self.fading.clone_from(&self.terms),
+            TransitionLaw::OldBorder => self.fading.clear(),
+            TransitionLaw::Offset => {
+                self.sum.clone_from(&self.terms);
+                self.sum.extend(hat(self.grid, side(m.branch), m.turn, -1.0));
+                merge(&self.sum, &mut self.scratch, &mut self.fading);
+            }
+        }
+    }
+
+    /// A move on a border.
+    pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
+        let sum = &mut self.sum;
+        sum.clear();
+        let half = 0.5 * narrowing;
+        sum.extend(hat(self.grid, side(m.branch), v, 1.0 - half));
+        if narrowing != 0.0 {
+            sum.extend(hat(self.grid, side(-m.branch), v, half));
+        }
+        if let Some(transition) = self.transition {
+            let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
+            if fade > NEGLIGIBLE {
+                if transition.law != TransitionLaw::Offset {
+                    sum.iter_mut().for_each(|(_, w)| *w *= 1.0 - fade);
+                }
+                match transition.law {
+                    TransitionLaw::Offset | TransitionLaw::Held => {
+                        sum.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
+                    }
+                    TransitionLaw::OldBorder => sum.extend(hat(self.grid, side(-m.branch), v, fade)),
+                }
+            }
+        }
+        if sum.len() > 2 {
+            merge(sum, &mut self.scratch, &mut self.terms);
+        } else {
+            self.terms.clone_from(sum);
+        }
+    }
+
+    /// The mean over both borders where noise on the position decides the branch.
+    pub(super) fn jittered(&mut self, ascending: f64, v: f64) {
+        self.terms.clear();
+        for (side, p) in [(0, 1.0 - ascending), (1, ascending)] {
+            self.terms.extend(hat(self.grid, side, v, p));
+        }
+    }
+}
+
+/// The border values that carry `v`, with their weights times a factor.
+fn hat(grid: &Grid, side: usize, v: f64, factor: f64) -> [(u32, f64); 2] {
+    grid.hat(side, v).map(|(i, w)| (i as u32, w * factor))
+}
+
+/// Sums repeated indices and drops negligible weights.
+fn merge(terms: &[(u32, f64)], scratch: &mut [f64], out: &mut Vec<(u32, f64)>) {
+    for &(i, w) in terms {
+        scratch[i as usize] += w;
+    }
+    out.clear();
+    for &(i, _) in terms {
+        let w = std::mem::take(&mut scratch[i as usize]);
+        if w.abs() > NEGLIGIBLE {
+            out.push((i, w));
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Which starts of which laws are worth a fit: a score test on top of a known model orders them.
+//!
+//! ```text
+//! w(θ, p) ≈ w₀ + X·δ + α·(w(θₛ, p₀) − w₀) + Z·ζ,    gain = N ln(RSS₀/RSS)
+//! ```
+//!
+//! `X` holds the known model's derivatives, computed once for all laws; the chord to the innovations at a start `θₛ` stands
+//! for the law's own parameters (where it is nothing, their derivatives do), `Z` for the linear parameters that the law adds.
+
+use crate::assembly::{Assembly, EquationColumn};
+use crate::campaign::Campaign;
+use crate::design::{Design, Linear};
+use crate::engine::{Build, Own};
+use crate::explain::Explanation;
+use crate::gains::{Gains, Scored};
+use crate::jacobian::Jacobian;
+use crate::weights::{Weights, weigh};
+
+/// A known model with what score tests on top of it share.
+pub(crate) struct Known<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) explanation: &'a Explanation,
+    /// On the fit records, before weighting.
+    pub(crate) innovations: Vec<Vec<f64>>,
+    weights: Weights,
+    weighted: Vec<f64>,
+    jacobian: Jacobian,
+}
+
+impl<'a> Known<'a> {
+    pub(crate) fn new(campaign: &'a Campaign, explanation: &'a Explanation) -> Self {
+        let fit = &explanation.fit;
+        let (design, noise) = (&fit.design, &fit.assembly.noise);
+        let whitener = design.whitener(noise, &fit.linear.a);
+        let innovations = design.innovations(&fit.linear, &whitener);
+        let weights = weigh(design, noise, &fit.linear, &innovations);
+        let jacobian = Jacobian::new(design, &fit.linear, &whitener, weights.scale.as_deref());
+        let weighted = weights.applied(&innovations);
+        Self { campaign, explanation, innovations, weights, weighted, jacobian }
+    }
+
+    /// The test itself; nothing where the known parameters are not determined.
+    pub(crate) fn test(&self) -> Option<ScoreTest<'_>> {
+        let fit = &self.explanation.fit;
+        let variance = fit.variance / fit.design.criterion.share();
+        Some(ScoreTest { known: self, gains: Gains::new(&self.jacobian, &self.weighted, variance)? })
+    }
+}
+
+/// A score test of laws added to a known model.
+pub(crate) struct ScoreTest<'a> {
+    known: &'a Known<'a>,
+    gains: Gains<'a>,
+}
+
+/// A change of the innovations smaller than this, in their standard deviations, is none.
+const NOTHING: f64 = 1e-9;
+
+impl ScoreTest<'_> {
+    /// Approximate gain in deviance of a law that changes the assembly to `build(known own parameters, own)`.
+    pub(crate) fn gain(&self, build: &Build<'_>, own: &[Own]) -> f64 {
+        let fit = &self.known.explanation.fit;
+        let all: Vec<f64> = fit.own.iter().chain(own).map(|o| o.value).collect();
+        let assembly = build(&all);
+        let p = padded(&fit.linear, fit.grid.len(), &assembly);
+        let there = self.moved(&assembly, &p, &fit.design);
+        let mut columns = Vec::new();
+        let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
+        if own.is_empty() || energy(&chord) > NOTHING * fit.variance {
+            columns.push(chord);
+        } else {
+            for (j, o) in own.iter().enumerate() {
+                let h = if o.value + o.step > o.high { -o.step } else { o.step };
+                let mut values = all.clone();
+                values[fit.own.len() + j] += h;
+                let beside = self.moved(&build(&values), &p, &there.design);
+                columns.push(self.column(&there.innovations, &beside.innovations, 1.0 / h));
+            }
+        }
+        for added in added(&fit.linear, &p, &assembly) {
+            let whitener = there.design.whitener(&assembly.noise, &p.a);
+            let with = there.design.innovations(&added, &whitener);
+            columns.push(self.column(&there.innovations, &with, 1.0));
+        }
+        columns.retain(|c| energy(c) > NOTHING * fit.variance);
+        let scored: Vec<Scored> = columns.into_iter().map(|c| self.gains.score(c)).collect();
+        let n = fit.samples as f64;
+        let share = self.gains.of(&scored.iter().collect::<Vec<_>>()) / n;
+        -n * (1.0 - share.clamp(0.0, 0.999)).ln()
+    }
+
+    /// The innovations under another assembly, the other parameters as they are.
+    ///
+    /// The log slope of a sensor enters as a factor, as it does in the fit.
+    fn moved(&self, assembly: &Assembly, p: &Linear, like: &Design) -> Moved {
+        let fit = &self.known.explanation.fit;
+        let design = Design::like(Some(like), self.known.campaign, &fit.grid, assembly);
+        let whitener = design.whitener(&assembly.noise, &p.a);
+        let mut innovations = design.innovations(p, &whitener);
+        let slope = design.log_slope() - fit.design.log_slope();
+        if slope != 0.0 {
+            let factor = (-slope / design.samples() as f64).exp();
+            innovations.iter_mut().flatten().for_each(|w| *w *= factor);
+        }
+        Moved { design, innovations }
+    }
+
+    /// The weighted difference of innovations.
+    fn column(&self, from: &[Vec<f64>], to: &[Vec<f64>], scale: f64) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.known.weighted.len());
+        for (number, (from, to)) in from.iter().zip(to).enumerate() {
+            match &self.known.weights.scale {
+                None => out.extend(from.iter().zip(to).map(|(x, y)| scale * (y - x))),
+                Some(s) => {
+                    out.extend(from.iter().zip(to).zip(&s[number]).map(|((x, y), s)| scale * s * (y - x)));
+                }
+            }
+        }
+        out
+    }
+}
+
+struct Moved {
+    design: Design,
+    innovations: Vec<Vec<f64>>,
+}
+
+/// Mean square; infinite where it is no number.
+fn energy(column: &[f64]) -> f64 {
+    let sum = column.iter().map(|x| x * x).sum::<f64>() / column.len().max(1) as f64;
+    if sum.is_finite() { sum } else { 0.0 }
+}
+
+/// The linear parameters with zeros for what an assembly adds, the border values on a grid of the given size.
+pub(crate) fn padded(start: &Linear, grid: usize, assembly: &Assembly) -> Linear {
+    let mut p = start.clone();
+    p.b.resize(p.a.len() + assembly.extra_b, 0.0);
+    p.f.resize(grid + assembly.border_columns.len(), 0.0);
+    p.d.resize(assembly.equation_columns.len(), 0.0);
+    p
+}
+
+/// The padded parameters with one added linear parameter at a time set to one. What dies away at the start of a record orders
+/// nothing.
+fn added(known: &Linear, padded: &Linear, assembly: &Assembly) -> Vec<Linear> {
+    let mut out = Vec::new();
+    let mut with = |set: &dyn Fn(&mut Linear)| {
+        let mut one = padded.clone();
+        set(&mut one);
+        out.push(one);
+    };
+    for j in known.b.len()..padded.b.len() {
+        with(&|p| p.b[j] = 1.0);
+    }
+    for j in known.f.len()..padded.f.len() {
+        with(&|p| p.f[j] = 1.0);
+    }
+    for j in known.d.len()..padded.d.len() {
+        if !matches!(assembly.equation_columns[j], EquationColumn::Decay { .. }) {
+            with(&|p| p.d[j] = 1.0);
+        }
+    }
+    out
+}
