@@ -142,6 +142,13 @@ pub struct Together {
     pub left: f64,
     /// The same beside the best single effect.
     pub left_by_single: f64,
+    /// Shapley share of each effect in the penalised deviance that both gain over the nominal model; the shares sum to one.
+    ///
+    /// `φ₁ = (g₁ + g₁₂ − g₂)/(2·g₁₂)` with `gᵢ` the gain alone and `g₁₂` that of both (L. S. Shapley, "A value for n-person
+    /// games", 1953).
+    pub shares: Vec<f64>,
+    /// `(g₁₂ − g₁ − g₂)/g₁₂`: what they gain only together (positive), or could gain in place of each other (negative).
+    pub interaction: f64,
 }
 
 /// A kind of record that could be taken next.

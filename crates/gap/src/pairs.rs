@@ -20,13 +20,26 @@ pub(crate) struct Pair {
 }
 
 impl Together {
-    pub(crate) fn of(pair: &Pair) -> Self {
+    /// `gains` are those of the single effects over the nominal model.
+    pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)]) -> Self {
+        let effects = pair.explanation.effects();
+        let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
+        let both = pair.gain + gains.iter().map(|g| g.1).fold(0.0, f64::max);
+        let (shares, interaction) = Self::shapley(both, [alone(&effects[0]), alone(&effects[1])]);
         Self {
-            effects: pair.explanation.effects(),
+            effects,
             gain: pair.gain,
             left: pair.left,
             left_by_single: pair.left_by_single,
+            shares: shares.to_vec(),
+            interaction,
         }
+    }
+
+    /// Shares of two in what both gain, and their interaction, from what each gains alone.
+    fn shapley(both: f64, [one, other]: [f64; 2]) -> ([f64; 2], f64) {
+        let first = (both + one - other) / (2.0 * both);
+        ([first, 1.0 - first], (both - one - other) / both)
     }
 }
 
@@ -169,4 +182,20 @@ impl<W: Workers> Search<'_, '_, W> {
 fn is_another(first: Effect, second: Effect) -> bool {
     let is_stopgap = matches!(second, Effect::BorderResolution | Effect::Outliers);
     second != first && !first.twins().contains(&second) && !is_stopgap
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_sum_to_one_and_what_is_had_only_together_is_interaction() {
+        let shared = |both: f64, one: f64, other: f64| Together::shapley(both, [one, other]);
+        // Each brings its own.
+        assert_eq!(shared(100.0, 75.0, 25.0), ([0.75, 0.25], 0.0));
+        // One stands in for the other.
+        assert_eq!(shared(100.0, 100.0, 100.0), ([0.5, 0.5], -1.0));
+        // Neither is worth anything alone.
+        assert_eq!(shared(100.0, 0.0, 0.0), ([0.5, 0.5], 1.0));
+    }
 }

@@ -140,7 +140,9 @@ impl Plan {
         let mut joint = None;
         let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
         let pair = more.and_then(|tests| attribution.pair(&singles, tests));
-        let found = pair.as_ref().map(Together::of);
+        let gains: Vec<(Effect, f64)> =
+            singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
+        let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
             let together = odds_together(self.nominal.bic(), &pair, &effects);
             let explanation = pair.explanation;

@@ -82,6 +82,8 @@ struct Pair {
     gain: f64,
     left: f64,
     left_by_single: f64,
+    shares: Vec<f64>,
+    interaction: f64,
 }
 
 #[derive(Serialize)]
@@ -106,7 +108,8 @@ struct Next<'a> {
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
 /// output units, `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
 /// `bic` relative to the nominal model. `together` is the best pair of effects, `gain` in penalised deviance over the best
-/// single one; `left` is the deviance that causes in general would still gain, which grows with `samples`.
+/// single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
+/// `left` is the deviance that causes in general would still gain, which grows with `samples`.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -190,8 +193,15 @@ fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
 }
 
 fn pair(pair: &Together) -> Pair {
-    let Together { effects, gain, left, left_by_single } = pair;
-    Pair { effects: names(effects), gain: *gain, left: *left, left_by_single: *left_by_single }
+    let Together { effects, gain, left, left_by_single, shares, interaction } = pair;
+    Pair {
+        effects: names(effects),
+        gain: *gain,
+        left: *left,
+        left_by_single: *left_by_single,
+        shares: shares.clone(),
+        interaction: *interaction,
+    }
 }
 
 fn names(effects: &[Effect]) -> Vec<&'static str> {

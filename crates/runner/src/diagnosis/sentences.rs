@@ -61,6 +61,15 @@ fn judged(report: &Report) -> &'static str {
     }
 }
 
+/// How two causes share what they explain.
+fn shares(diagnosis: &Diagnosis) -> Option<String> {
+    let pair = diagnosis.together.as_ref().filter(|pair| pair.effects == diagnosis.verdict.effects)?;
+    let each = pair.effects.iter().zip(&pair.shares);
+    let each: Vec<String> =
+        each.map(|(e, share)| format!("{} % to {}", whole_percent(100.0 * share), e.name())).collect();
+    Some(format!(" Of what both explain, {} (Shapley shares).", each.join(" and ")))
+}
+
 fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
     let verdict = &diagnosis.verdict;
     let p = probability(verdict.probability);
@@ -70,9 +79,10 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             let each: Vec<_> =
                 verdict.effects.iter().map(|effect| described(*effect, diagnosis, units)).collect();
             format!(
-                "Causes, acting together: {}; probability {p}{}.",
+                "Causes, acting together: {}; probability {p}{}.{}",
                 each.join(" and "),
-                next_best(diagnosis)
+                next_best(diagnosis),
+                shares(diagnosis).unwrap_or_default()
             )
         }
         Status::Named => {
