@@ -3,10 +3,10 @@
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::campaign::Campaign;
-use crate::design::Design;
 use crate::diagnosis::Cell;
 use crate::engine::Fit;
 use crate::motion::Motion;
+use crate::score::innovations;
 
 /// Residual and circumstances of one sample.
 struct Sample {
@@ -18,17 +18,30 @@ struct Sample {
     excess: f64,
 }
 
-/// The map of the model's residuals on all records over a noise floor `variance` (innovations, dimensionless).
+/// Residuals of a model on all records, dimensionless.
+#[derive(Debug, Clone)]
+pub(crate) struct Residuals {
+    /// One series a track, from its first counted sample; empty where nothing is known of it.
+    pub(crate) series: Vec<Vec<f64>>,
+    /// Whether they are errors of a simulation: as slow as the input, wherever they come from.
+    pub(crate) simulated: bool,
+}
+
+impl Residuals {
+    /// Those of a model as the campaign judges it.
+    pub(crate) fn of(campaign: &Campaign, fit: &Fit) -> Self {
+        Self { series: innovations(campaign, fit, |_| true), simulated: campaign.criterion.simulates() }
+    }
+}
+
+/// The map of residuals over a noise floor `variance`.
 ///
 /// A cell's statistic is its sum of `w²/σ² − 1` over the standard deviation of that sum, taken from sums over short blocks of
 /// time so that neighbours may be dependent, and no smaller than white normal noise gives. q-values are Benjamini–Hochberg
 /// over all cells of all axes.
-pub(crate) fn localise(campaign: &Campaign, fit: &Fit, variance: f64) -> Vec<Cell> {
-    let design = Design::new(campaign, &fit.grid, &fit.assembly, |_| true);
-    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
-    let innovations = design.innovations(&fit.linear, &whitener);
+pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64) -> Vec<Cell> {
     let mut samples = Vec::new();
-    for (record, (track, w)) in campaign.tracks.iter().zip(&innovations).enumerate() {
+    for (record, (track, w)) in campaign.tracks.iter().zip(&residuals.series).enumerate() {
         let moves = &track.moves;
         for (k, w) in w.iter().enumerate() {
             // The innovation at t answers to the input one sample before.
@@ -70,9 +83,8 @@ pub(crate) fn localise(campaign: &Campaign, fit: &Fit, variance: f64) -> Vec<Cel
     let outputs = [f64::NEG_INFINITY, -1.5, -0.75, 0.0, 0.75, 1.5, f64::INFINITY];
     let scaled: Vec<f64> = outputs.iter().map(|x| campaign.y_mean + x * campaign.y_scale).collect();
     map(&mut cells, &samples, "y", &labels(&scaled), |s| bin(&outputs, s.y));
-    if !campaign.criterion.simulates() {
-        // Errors of a simulation are as slow as the input, wherever they come from.
-        spectrum_cells(&mut cells, &innovations, variance);
+    if !residuals.simulated {
+        spectrum_cells(&mut cells, &residuals.series, variance);
     }
     control_false_discoveries(&mut cells);
     cells

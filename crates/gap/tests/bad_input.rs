@@ -1,70 +1,12 @@
 //! Records that cannot be judged, or only in part.
 
+mod bench;
+
 use std::f64::consts::PI;
 
-use switchback_estimator::Record;
-use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+use bench::{input, made, output, record, rig, whole};
+use switchback_estimator::rig::{Rig, RigRecord, Usage};
 use switchback_gap::{DiagnoseError, Diagnosis, Effect, Model, NominalModel, Settings, Status, diagnose};
-
-/// A sweep of reversals of many sizes.
-fn input(samples: usize, phase: f64) -> Vec<f64> {
-    (0..samples)
-        .map(|t| {
-            let t = t as f64;
-            (0.55 * (2.0 * PI * t / 37.0 + phase).sin() + 0.45 * (2.0 * PI * t / 253.0).cos())
-                .clamp(-1.0, 1.0)
-        })
-        .collect()
-}
-
-/// A first-order rig with two straight borders a jump of one apart, and a little noise.
-fn output(v: &[f64]) -> Vec<f64> {
-    let (mut u, mut y, mut state) = (-1.0, 0.0, 12_345_u64);
-    (0..v.len())
-        .map(|t| {
-            let white = (0..12)
-                .map(|_| {
-                    state =
-                        state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                    (state >> 11) as f64 / (1_u64 << 53) as f64
-                })
-                .sum::<f64>()
-                - 6.0;
-            y = 0.6 * y + 0.4 * u + 0.01 * white;
-            if t > 0 && v[t] != v[t - 1] {
-                u = v[t] + 0.5 * (v[t] - v[t - 1]).signum();
-            }
-            y
-        })
-        .collect()
-}
-
-fn record(name: &str, usage: Usage, v: Vec<f64>, y: Vec<f64>) -> RigRecord {
-    let record = Record::new(v, y).expect("finite and equally long");
-    RigRecord { name: name.into(), role: Role::Free, usage, record, predicted: None }
-}
-
-fn made(name: &str, usage: Usage, samples: usize, phase: f64) -> RigRecord {
-    let v = input(samples, phase);
-    let y = output(&v);
-    record(name, usage, v, y)
-}
-
-fn rig(order: Option<usize>, records: Vec<RigRecord>) -> Rig {
-    Rig {
-        name: "bench".into(),
-        sample_time: 0.01,
-        order,
-        interval: None,
-        input_label: "v".into(),
-        output_label: "y".into(),
-        records,
-    }
-}
-
-fn whole() -> Vec<RigRecord> {
-    vec![made("sweep", Usage::Fit, 3000, 0.0), made("drive", Usage::Holdout, 1500, 1.0)]
-}
 
 fn found(rig: &Rig, model: Model) -> Diagnosis {
     diagnose(rig, model, &Settings::default()).expect("a diagnosis")

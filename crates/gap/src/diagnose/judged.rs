@@ -60,7 +60,7 @@ impl Plan {
             .map(|(i, &number)| {
                 let track = &self.campaign.tracks[number];
                 let before = match &self.foreign {
-                    Some(runs) => runs[i].clone(),
+                    Some(foreign) => foreign.runs[i].clone(),
                     None => free_run(&self.campaign, &self.nominal.fit, number, track),
                 };
                 Simulated { number, before, after: free_run(&self.campaign, fit, number, track) }

@@ -1,11 +1,13 @@
 //! The diagnosis itself: the nominal model, attribution, verdict, report.
 
+mod foreign;
 mod held_out;
 mod judged;
 mod report;
 
 use switchback_estimator::rig::Rig;
 
+use self::foreign::Foreign;
 use self::report::Conclusion;
 use crate::attribution::{Attribution, detail};
 use crate::campaign::Campaign;
@@ -19,7 +21,6 @@ use crate::omnibus::omnibus;
 use crate::order::choose;
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
-use crate::simulate::free_run;
 use crate::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
 
@@ -58,8 +59,8 @@ struct Plan {
     /// The same with border knots placed from the data.
     detailed: Explanation,
     nominal_innovations: Vec<Vec<f64>>,
-    /// Simulated outputs of the model under diagnosis, one a judged track, where it is not the identified one.
-    foreign: Option<Vec<Vec<f64>>>,
+    /// The model under diagnosis, where it is not the identified one.
+    foreign: Option<Foreign>,
     /// Tracks the gap is measured on.
     judged: Vec<usize>,
     limitations: Vec<String>,
@@ -97,14 +98,7 @@ impl Plan {
             settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
         }
         let judged = judged_tracks(&campaign, &mut limitations);
-        let foreign = match &model {
-            Model::Identify => None,
-            Model::Given(m) => {
-                let given = crate::given::scaled(&campaign, m)?;
-                Some(judged.iter().map(|&k| free_run(&campaign, &given, k, &campaign.tracks[k])).collect())
-            }
-            Model::Predicted => Some(predictions(rig, &campaign, &judged)?),
-        };
+        let foreign = Foreign::of(&model, rig, &campaign, &judged)?;
         note_what_the_records_lack(&campaign, &mut limitations);
         let detailed = Explanation::nominal(nominal);
         let nominal = coarse(&campaign, &detailed);
@@ -197,28 +191,6 @@ fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usiz
         return numbers(true);
     }
     held_out
-}
-
-/// The `y_sim` of the judged records, dimensionless.
-fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
-    judged
-        .iter()
-        .map(|&k| {
-            let r = &rig.records[k];
-            let found = r.predicted.as_deref().unwrap_or_default();
-            if found.len() != r.record.len() {
-                return Err(DiagnoseError::Prediction {
-                    record: r.name.clone(),
-                    found: found.len(),
-                    expected: r.record.len(),
-                });
-            }
-            if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
-                return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
-            }
-            Ok(found.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect())
-        })
-        .collect()
 }
 
 fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {

@@ -1,13 +1,15 @@
 //! From conclusions to the diagnosis that is handed out.
 
 use super::Plan;
+use super::foreign::Foreign;
 use crate::closure::{Simulated, measure};
 use crate::decide::Odds;
 use crate::diagnosis::{
-    Candidate, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
+    Candidate, Cell, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
 };
+use crate::engine::Fit;
 use crate::explain::Explanation;
-use crate::localise::localise;
+use crate::localise::{Residuals, localise};
 use crate::score::{innovations, picture};
 
 /// What the report is made of.
@@ -51,12 +53,12 @@ impl Plan {
             .collect::<Vec<_>>();
         let mut candidates = candidates;
         candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
-        let variance = self.innovation_floor(&c.augmented.fit);
+        let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &self.nominal_innovations);
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
         let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
         Diagnosis {
-            where_: localise(campaign, &self.nominal.fit, variance),
+            where_,
             verdict: c.verdict,
             gap,
             candidates,
@@ -70,6 +72,17 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
+        }
+    }
+
+    /// Where the model under diagnosis misses: as it was given, or else the identified nominal one. `noise` is the variance of the
+    /// noise in the output.
+    fn map(&self, augmented: &Fit, noise: f64) -> Vec<Cell> {
+        let floor = self.innovation_floor(augmented);
+        match &self.foreign {
+            Some(Foreign { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
+            Some(Foreign { residuals, .. }) => localise(&self.campaign, residuals, floor),
+            None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.fit), floor),
         }
     }
 

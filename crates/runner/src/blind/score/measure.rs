@@ -97,7 +97,7 @@ pub(super) fn measures(
     let place = places.iter().find(|p| p.axis == "all");
     let share = |s: Share| (s.value(), s.of);
     let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
-    let lines: [Line; 12] = [
+    let lines: [Line; 13] = [
         (
             "exact",
             "exact effect named, surviving gap ≥ 1 sd",
@@ -133,6 +133,12 @@ pub(super) fn measures(
             "effect outside the library, yet a cause named",
             |e| e.outside_named.map(Bound::AtMost),
             share(Share::over(of(Kind::Outside), Case::names_a_cause)),
+        ),
+        (
+            "outside_sure",
+            "the same, named for certain, not as one of rivals",
+            |_| None,
+            share(Share::over(of(Kind::Outside), |c| c.reply.status == "named")),
         ),
         (
             "ece",
