@@ -10,7 +10,7 @@
 use crate::assembly::InputNoise;
 use crate::design::DesignTrack;
 use crate::linear::Linear;
-use crate::spectrum::autocorrelation;
+use crate::spectrum::{autocorrelation, levinson};
 
 /// Lags over which the colour is foretold, and the longest response for which it is.
 const LAGS: usize = 6;
@@ -111,14 +111,19 @@ pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f6
     Acted { scale, colour }
 }
 
-/// Deviance gained by a colour that is foretold, to second order in the autocorrelations `r`: `N·Σ[rₖ² − (rₖ − ρₖ)²]`.
+/// Deviance gained by a colour that is foretold: `−N ln v`, `v` the variance that the filter which whitens the foretold
+/// autocorrelations leaves of the found ones.
 pub(crate) fn colour_gain(scaled: &[Vec<f64>], foretold: &[f64]) -> f64 {
     if foretold.is_empty() {
         return 0.0;
     }
-    let r = autocorrelation(scaled, foretold.len());
+    let found = autocorrelation(scaled, foretold.len());
+    let expected: Vec<f64> = std::iter::once(1.0).chain(foretold.iter().copied()).collect();
+    let filter: Vec<f64> = std::iter::once(1.0).chain(levinson(&expected).0).collect();
+    let row = |i: usize| filter.iter().enumerate().map(|(j, a)| a * found[i.abs_diff(j)]).sum::<f64>();
+    let left: f64 = filter.iter().enumerate().map(|(i, a)| a * row(i)).sum();
     let count: usize = scaled.iter().map(Vec::len).sum();
-    count as f64 * r[1..].iter().zip(foretold).map(|(r, rho)| rho * (2.0 * r - rho)).sum::<f64>()
+    -(count as f64) * left.max(1e-9).ln()
 }
 
 #[cfg(test)]
@@ -140,12 +145,19 @@ mod tests {
     }
 
     #[test]
-    fn a_colour_foretold_exactly_gains_what_a_test_of_whiteness_finds() {
-        let z: Vec<f64> =
-            (0..500).map(|t| (f64::from(t) * 0.7).sin() + (f64::from(t * t) * 0.3).cos()).collect();
-        let r = autocorrelation(&[z.clone()], 3);
-        let found = 500.0 * r[1..].iter().map(|r| r * r).sum::<f64>();
-        assert!((colour_gain(&[z.clone()], &r[1..]) - found).abs() < 1e-9);
-        assert_eq!(colour_gain(&[z], &[]), 0.0);
+    fn a_colour_foretold_exactly_gains_what_an_autoregression_does() {
+        let mut y = 0.0;
+        let z: Vec<f64> = (0..5000)
+            .map(|t| {
+                y = 0.6 * y + (f64::from(t * t % 1013) * 0.77).sin();
+                y
+            })
+            .collect();
+        let r = autocorrelation(std::slice::from_ref(&z), 3);
+        let gain = colour_gain(std::slice::from_ref(&z), &r[1..]);
+        assert!((gain + 5000.0 * levinson(&r).1.ln()).abs() < 1e-6);
+        // Another colour gains less, and none gains nothing.
+        assert!(colour_gain(std::slice::from_ref(&z), &[0.3, 0.1, 0.0]) < gain);
+        assert_eq!(colour_gain(&[z], &[0.0, 0.0]), 0.0);
     }
 }

@@ -16,6 +16,7 @@ mod engine;
 mod error;
 mod experiments;
 mod explain;
+mod forwards;
 mod gains;
 mod given;
 mod jacobian;

@@ -1,6 +1,8 @@
 //! The sensor's characteristic, by its inverse.
 
-/// The inverse characteristic `x = z + Σ θₖ zᵏ⁺² + Σ hⱼ bump((z−cⱼ)/s) + knees(z)`, dimensionless, `z + Σ γₖ zᵏ⁺² = y`.
+use crate::forwards::Forwards;
+
+/// The inverse characteristic `x = z + Σ θₖ zᵏ⁺² + Σ hⱼ bump((z−cⱼ)/s) + knees(z)`, dimensionless, `z + γ₂z² + γ₃z³ = y`.
 ///
 /// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly: it is the inverse that is linear in
 /// them, and the inverse that the likelihood of `y` needs. Curves that are powers forwards have no short inverse.
@@ -8,8 +10,7 @@
 pub(crate) struct SensorCurve {
     /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
-    /// Coefficients `γ` of the characteristic itself: of `x²`, `x³`, ….
-    pub(crate) forwards: Vec<f64>,
+    pub(crate) forwards: Option<Forwards>,
     pub(crate) bumps: Option<Bumps>,
     pub(crate) knees: Vec<Knee>,
 }
@@ -31,21 +32,17 @@ pub(crate) struct Knee {
     pub(crate) sign: f64,
 }
 
-/// Newton steps at most, and the slope below which a characteristic is taken to go on straight: one that folds back is no sensor.
-const NEWTON: usize = 40;
-const FLATTEST: f64 = 0.05;
-
 /// Excess over the width beyond which a knee goes on straight.
 const STEEPEST: f64 = 5.0;
 
 impl SensorCurve {
     pub(crate) fn is_straight(&self) -> bool {
-        self.powers.is_empty() && self.forwards.is_empty() && self.bumps.is_none() && self.knees.is_empty()
+        self.powers.is_empty() && self.forwards.is_none() && self.bumps.is_none() && self.knees.is_empty()
     }
 
     /// `x` and `dx/dy` at a reading `y`.
     pub(crate) fn undo(&self, y: f64) -> (f64, f64) {
-        let (y, inner) = self.before_powers(y);
+        let (y, inner) = self.forwards.map_or((y, 1.0), |curve| curve.undo(y));
         let (mut x, mut slope, mut power) = (y, 1.0, y);
         for (k, c) in self.powers.iter().enumerate() {
             slope += c * (k + 2) as f64 * power;
@@ -72,48 +69,23 @@ impl SensorCurve {
         (x, slope * inner)
     }
 
-    /// `z` with `z + Σ γₖ zᵏ⁺² = y` that continues from small readings, and `dz/dy`.
-    fn before_powers(&self, y: f64) -> (f64, f64) {
-        if self.forwards.is_empty() {
-            return (y, 1.0);
-        }
-        let value = |z: f64| {
-            let (mut value, mut slope, mut power) = (z, 1.0, z);
-            for (k, c) in self.forwards.iter().enumerate() {
-                slope += c * (k + 2) as f64 * power;
-                power *= z;
-                value += c * power;
-            }
-            (value, slope)
-        };
-        // From rest in steps: Newton's method from afar may land on another branch.
-        let mut z = 0.0;
-        for _ in 0..NEWTON {
-            let (value, slope) = value(z);
-            let step = ((value - y) / slope.max(FLATTEST)).clamp(-0.5, 0.5);
-            z -= step;
-            if step.abs() < 1e-12 {
-                break;
-            }
-        }
-        (z, 1.0 / value(z).1.max(FLATTEST))
-    }
-
     /// The reading `y` of `x`: the solution that continues from small readings, by Newton's method.
     pub(crate) fn read(&self, x: f64) -> f64 {
         if self.is_straight() {
             return x;
         }
+        // Powers forwards come last.
+        let inner = Self { forwards: None, ..self.clone() };
         let mut y = x;
         for _ in 0..40 {
-            let (value, slope) = self.undo(y);
+            let (value, slope) = inner.undo(y);
             let step = (value - x) / slope.max(0.05);
             y -= step.clamp(-1.0, 1.0);
             if step.abs() < 1e-12 {
                 break;
             }
         }
-        y
+        self.forwards.map_or(y, |curve| curve.at(y).0)
     }
 }
 
@@ -133,14 +105,7 @@ mod tests {
             ..SensorCurve::default()
         };
         inverts(&inverse);
-        inverts(&SensorCurve { forwards: vec![0.08, -0.01], ..SensorCurve::default() });
-    }
-
-    #[test]
-    fn a_power_is_undone_by_its_root() {
-        let curve = SensorCurve { forwards: vec![0.2], ..SensorCurve::default() };
-        let (x, slope) = curve.undo(1.4);
-        assert!((x + 0.2 * x * x - 1.4).abs() < 1e-12 && (slope * (1.0 + 0.4 * x) - 1.0).abs() < 1e-12);
+        inverts(&SensorCurve { forwards: Some(Forwards::new(0.08, -0.01)), ..SensorCurve::default() });
     }
 
     fn inverts(curve: &SensorCurve) {

@@ -103,17 +103,21 @@ pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
 /// Order of the autoregression behind [`unpredictable_variance`].
 const MEMORY: usize = 12;
 
-/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks
-/// (Levinson's recursion).
+/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks.
 pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
     let lagged = |lag: usize| -> f64 {
         signals.iter().map(|x| x.iter().zip(x.iter().skip(lag)).map(|(a, b)| a * b).sum::<f64>()).sum()
     };
     let covariance: Vec<f64> = (0..=MEMORY).map(|lag| lagged(lag) / count.max(1) as f64).collect();
+    levinson(&covariance).1
+}
+
+/// The autoregression `1 + a₁ q⁻¹ + …` of covariances at lags 0, 1, …, and the variance of its innovations (Levinson's recursion).
+pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
     let mut variance = covariance[0];
     let mut a: Vec<f64> = Vec::new();
-    for order in 0..MEMORY {
+    for order in 0..covariance.len() - 1 {
         if variance <= 1e-12 * covariance[0] {
             break;
         }
@@ -125,7 +129,7 @@ pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
         a = next;
         variance *= 1.0 - reflection * reflection;
     }
-    variance.max(0.0)
+    (a, variance.max(0.0))
 }
 
 #[cfg(test)]

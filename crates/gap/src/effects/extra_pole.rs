@@ -7,7 +7,7 @@
 //! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
-//! Parameter: `pole` (0.02…0.98; with feedthrough from 0.25, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
+//! Parameter: `pole` (0.02…0.98; with feedthrough from 0.15, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
@@ -16,10 +16,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
         .into_iter()
         .map(|(lags, passes, zeros)| {
-            let least = if zeros > 0 { 0.25 } else { 0.02 };
-            let starts = [0.2_f64, 0.5, 0.8]
+            let least = if zeros > 0 { 0.15 } else { 0.02 };
+            let starts = [0.2_f64, 0.5, 0.8, 0.95]
                 .iter()
-                .map(|&p| vec![own("pole", "1", p.max(least), (least, 0.98), 0.003)])
+                .map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)])
                 .collect();
             // How far a slow lag was behind when a record began is unknown.
             let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };

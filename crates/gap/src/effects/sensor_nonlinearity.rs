@@ -10,6 +10,7 @@
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
 use super::{Scene, Variant, own};
+use crate::forwards::Forwards;
 use crate::sensor::Bumps;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -22,7 +23,9 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         })
         .collect();
     let forwards = ["gamma2", "gamma3"].map(|name| own(name, UNIT, 0.0, (-0.4, 0.4), 0.0005));
-    out.push(Variant::new(vec![forwards.to_vec()], |p, assembly| assembly.curve.forwards = p.to_vec()));
+    out.push(Variant::new(vec![forwards.to_vec()], |p, assembly| {
+        assembly.curve.forwards = Some(Forwards::new(p[0], p[1]));
+    }));
     out.extend(BUMPS.map(|count| bumps(scene, count)));
     out
 }
