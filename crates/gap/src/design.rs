@@ -203,6 +203,19 @@ impl Design {
         e
     }
 
+    /// The derivative of the innovations with respect to the coefficient of an equation column.
+    pub(crate) fn disturbance(&self, column: usize, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let count = self.assembly.equation_columns.len();
+        let of_track = |track: &DesignTrack| {
+            let first = track.from.saturating_sub(LEAD);
+            let e = track.columns.iter().skip(first * count + column).step_by(count).map(|psi| -psi);
+            let mut w = whitener.apply(e.collect());
+            w.drain(..(track.from - first).min(w.len()));
+            w
+        };
+        self.tracks.iter().map(of_track).collect()
+    }
+
     /// Innovations of every track on the counted samples, before weighting.
     pub(crate) fn innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
         self.tracks

@@ -9,6 +9,7 @@ mod decide;
 mod design;
 mod diagnose;
 mod diagnosis;
+mod dynamics;
 mod effect;
 mod effects;
 mod engine;

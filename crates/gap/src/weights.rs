@@ -121,7 +121,7 @@ fn input_noise(design: &Design, ratios: [f64; 2], p: &Linear) -> Vec<Vec<f64>> {
 }
 
 /// The impulse response of `b/(1 + poles)`, as far as it matters.
-fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
+pub(crate) fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
     const LONGEST: usize = 200;
     const NEGLIGIBLE: f64 = 1e-3;
     let length = if poles.is_empty() { b.len() } else { LONGEST };

@@ -80,22 +80,27 @@ impl Jacobian {
     pub(crate) fn cross(&self, column: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.columns];
         for (t, &c) in column.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-            match &self.store {
-                Store::Sparse(rows) => {
-                    let (index, value) = rows.row(t);
-                    for (&i, x) in index.iter().zip(value) {
-                        out[i as usize] += x * c;
-                    }
+            self.add_row(t, c, &mut out);
+        }
+        out
+    }
+
+    /// `sum += scale·row(t)`.
+    pub(crate) fn add_row(&self, t: usize, scale: f64, sum: &mut [f64]) {
+        match &self.store {
+            Store::Sparse(rows) => {
+                let (index, value) = rows.row(t);
+                for (&i, x) in index.iter().zip(value) {
+                    sum[i as usize] += x * scale;
                 }
-                Store::Dense(rows) => {
-                    let row = &rows[t * self.columns..(t + 1) * self.columns];
-                    for (o, x) in out.iter_mut().zip(row) {
-                        *o += x * c;
-                    }
+            }
+            Store::Dense(rows) => {
+                let row = &rows[t * self.columns..(t + 1) * self.columns];
+                for (o, x) in sum.iter_mut().zip(row) {
+                    *o += x * scale;
                 }
             }
         }
-        out
     }
 }
 
