@@ -168,7 +168,7 @@ impl Design {
 
     /// `ũ` of one track.
     pub(crate) fn input(&self, track: &DesignTrack, f: &[f64]) -> Vec<f64> {
-        let mut u: Vec<f64> = (0..track.x.len()).map(|t| track.rows.dot(t, f)).collect();
+        let mut u = track.rows.times(f);
         if !self.poles.is_empty() {
             let rest = 1.0 / (1.0 + self.poles.iter().sum::<f64>());
             let before = u[0] * rest;
