@@ -4,8 +4,9 @@
 use crate::campaign::Campaign;
 use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
+use crate::effects::Search;
 use crate::explain::Explanation;
-use crate::search::{Prospect, Question, finish, look, prospects};
+use crate::search::{Prospect, Question, advance, finish, look, prospects};
 use crate::settings::Settings;
 use crate::starts::Known;
 use crate::workers::Workers;
@@ -33,6 +34,13 @@ const FINISHED: usize = 4;
 /// Laws of one effect fitted to convergence at most, and the share of its best gain that a further one needs.
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
+/// How far behind the leader, as a share of its gain and in penalised deviance at least, a law goes on to convergence.
+const BEHIND: f64 = 0.3;
+const NEAR: f64 = 100.0;
+/// As many times what its first rounds gained a law may be behind and still go on.
+const STRIDES: f64 = 3.0;
+/// Second effects looked at beside a first, the most promising by the score test.
+const SECONDS: usize = 6;
 /// Candidates whose knots are placed anew at most, and the share of the best gain that they need.
 const REPLACED: usize = 3;
 const RIVAL: f64 = 0.85;
@@ -94,9 +102,7 @@ impl<W: Workers> Attribution<'_, W> {
             let laws = laws.map(|law| (look.effect, law));
             if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
-        let held = known.fit.own.len();
-        let finished = |(effect, law): &(Effect, Explanation)| (*effect, finish(self.campaign, held, law));
-        done.extend(self.workers.map(&promising, finished));
+        done.extend(self.raced(known, &promising));
         done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
         // Several laws of one effect: the best counts.
         let mut seen: Vec<Effect> = Vec::new();
@@ -108,16 +114,44 @@ impl<W: Workers> Attribution<'_, W> {
         done.into_iter().map(|(_, e)| e).collect()
     }
 
+    /// Some rounds for every law, then convergence for those that may still win.
+    fn raced(&self, known: &Explanation, promising: &[(Effect, Explanation)]) -> Vec<(Effect, Explanation)> {
+        let held = known.fit.own.len();
+        let mut field: Vec<&(Effect, Explanation)> = promising.iter().collect();
+        // The longest first, so that nobody waits for them at the end.
+        field.sort_by_key(|(_, law)| !has_corners(law));
+        let mut race: Vec<Runner> = self.workers.map(&field, |(effect, sketch)| {
+            let law = advance(self.campaign, held, sketch);
+            Runner { effect: *effect, advanced: sketch.bic() - law.bic(), law }
+        });
+        race.sort_by(|x, y| x.law.bic().total_cmp(&y.law.bic()));
+        let Some(leader) = race.first() else { return Vec::new() };
+        let reach = (BEHIND * (known.bic() - leader.law.bic())).max(NEAR);
+        self.workers.map(&race, |runner| {
+            let behind = runner.law.bic() - leader.law.bic();
+            let may_win = behind < reach.max(STRIDES * runner.advanced)
+                || leader.effect.twins().contains(&runner.effect);
+            let law = match may_win && !has_corners(&runner.law) {
+                true => finish(self.campaign, held, &runner.law),
+                false => runner.law.clone(),
+            };
+            (runner.effect, law)
+        })
+    }
+
     /// A look at each effect, the most promising first.
     fn looks(&self, known: &Explanation, questions: &[Question]) -> Vec<Look> {
         let base = Known::new(self.campaign, known);
         let test = base.test();
-        let prospects: Vec<Prospect> = self
+        let mut prospects: Vec<Prospect> = self
             .workers
             .map(questions, |question| prospects(&base, test.as_ref(), question))
             .into_iter()
             .flatten()
             .collect();
+        if !known.parts.is_empty() {
+            keep_promising(&mut prospects);
+        }
         let laws = self.workers.map(&prospects, |prospect| look(&base, prospect));
         let mut looks: Vec<Look> = Vec::new();
         for (effect, law) in prospects.iter().map(|p| p.effect).zip(laws) {
@@ -170,6 +204,35 @@ impl<W: Workers> Attribution<'_, W> {
             _ => single,
         }
     }
+}
+
+/// A law after its first rounds.
+struct Runner {
+    effect: Effect,
+    law: Explanation,
+    /// Penalised deviance that the first rounds gained.
+    advanced: f64,
+}
+
+/// Whether the last law's likelihood has corners: its first rounds are its last.
+fn has_corners(law: &Explanation) -> bool {
+    law.parts.last().is_some_and(|part| part.search == Search::Profile)
+}
+
+/// Keeps the laws of the few most promising effects, and those that the test is blind to.
+fn keep_promising(prospects: &mut Vec<Prospect>) {
+    let mut effects: Vec<(Effect, f64)> = Vec::new();
+    for p in prospects.iter() {
+        let score = p.score.unwrap_or(f64::INFINITY);
+        match effects.iter_mut().find(|e| e.0 == p.effect) {
+            Some(e) => e.1 = e.1.max(score),
+            None => effects.push((p.effect, score)),
+        }
+    }
+    effects.sort_by(|x, y| y.1.total_cmp(&x.1));
+    let blind = effects.iter().filter(|e| e.1 == f64::INFINITY).count();
+    effects.truncate(blind + SECONDS);
+    prospects.retain(|p| effects.iter().any(|e| e.0 == p.effect));
 }
 
 /// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's

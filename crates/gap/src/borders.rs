@@ -20,11 +20,14 @@ impl Grid {
 
     /// The two border values that carry `v` on a border, with their weights (linear interpolation; constant outside).
     pub(crate) fn hat(&self, side: usize, v: f64) -> [(usize, f64); 2] {
+        self.hat_before(side, self.knots[side].partition_point(|&k| k < v), v)
+    }
+
+    /// The same, given the first knot not below `v`: a value on a jump belongs to its left end.
+    fn hat_before(&self, side: usize, right: usize, v: f64) -> [(usize, f64); 2] {
         let knots = &self.knots[side];
         let offset = side * self.knots[0].len();
         let last = knots.len() - 1;
-        // The first knot not below v: a value on a jump belongs to its left end.
-        let right = knots.partition_point(|&k| k < v);
         if right == 0 {
             return [(offset, 1.0), (offset, 0.0)];
         }
@@ -46,5 +49,74 @@ impl Grid {
             knots.insert(at, v);
         }
         present < wanted
+    }
+}
+
+/// Finds cells of a grid by a table of its axis.
+pub(crate) struct Finder<'a> {
+    grid: &'a Grid,
+    /// Of each border: the lower end, entries a unit, and how many knots lie below each entry's place.
+    tables: [(f64, f64, Vec<u32>); 2],
+}
+
+/// Entries of a finder's table.
+const ENTRIES: usize = 256;
+
+impl<'a> Finder<'a> {
+    pub(crate) fn new(grid: &'a Grid) -> Self {
+        let table = |knots: &Vec<f64>| {
+            let (low, high) = (knots[0], knots[knots.len() - 1]);
+            let scale = ENTRIES as f64 / (high - low).max(f64::MIN_POSITIVE);
+            let mut below = 0;
+            let entry = |i| {
+                let place = low + i as f64 / scale;
+                while below < knots.len() && knots[below] < place {
+                    below += 1;
+                }
+                below as u32
+            };
+            (low, scale, (0..=ENTRIES).map(entry).collect())
+        };
+        Self { grid, tables: [table(&grid.knots[0]), table(&grid.knots[1])] }
+    }
+
+    /// [`Grid::hat`].
+    pub(crate) fn hat(&self, side: usize, v: f64) -> [(usize, f64); 2] {
+        let knots = &self.grid.knots[side];
+        let (low, scale, table) = &self.tables[side];
+        let mut right = table[(((v - low) * scale) as usize).min(ENTRIES)] as usize;
+        while right < knots.len() && knots[right] < v {
+            right += 1;
+        }
+        // Rounding may have put v an entry too high.
+        while right > 0 && knots[right - 1] >= v {
+            right -= 1;
+        }
+        self.grid.hat_before(side, right, v)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn the_table_finds_what_a_search_does(
+            mut knots in prop::collection::vec(-0.5..1.5_f64, 2..30),
+            at in prop::collection::vec(-1.0..2.0_f64, 50),
+        ) {
+            knots.sort_by(f64::total_cmp);
+            knots.insert(1, knots[0]);
+            let grid = Grid { knots: [knots.clone(), vec![0.0, 1.0]] };
+            let finder = Finder::new(&grid);
+            for v in at.iter().chain(&knots) {
+                for side in 0..2 {
+                    prop_assert_eq!(finder.hat(side, *v), grid.hat(side, *v));
+                }
+            }
+        }
     }
 }

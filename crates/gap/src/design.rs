@@ -170,7 +170,7 @@ impl Design {
 
     /// `ũ` of one track.
     pub(crate) fn input(&self, track: &DesignTrack, f: &[f64]) -> Vec<f64> {
-        let mut u: Vec<f64> = (0..track.x.len()).map(|t| track.rows.dot(t, f)).collect();
+        let mut u = track.rows.times(f);
         if !self.poles.is_empty() {
             let rest = 1.0 / (1.0 + self.poles.iter().sum::<f64>());
             let before = u[0] * rest;
@@ -203,6 +203,19 @@ impl Design {
             }
         }
         e
+    }
+
+    /// The derivative of the innovations with respect to the coefficient of an equation column.
+    pub(crate) fn disturbance(&self, column: usize, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let count = self.assembly.equation_columns.len();
+        let of_track = |track: &DesignTrack| {
+            let first = track.from.saturating_sub(LEAD);
+            let e = track.columns.iter().skip(first * count + column).step_by(count).map(|psi| -psi);
+            let mut w = whitener.apply(e.collect());
+            w.drain(..(track.from - first).min(w.len()));
+            w
+        };
+        self.tracks.iter().map(of_track).collect()
     }
 
     /// Innovations of every track on the counted samples, before weighting.

@@ -22,6 +22,17 @@ pub(crate) struct Scored {
     gradient: f64,
 }
 
+/// What a column shares with the model.
+#[derive(Debug, Clone)]
+pub(crate) struct Sums {
+    /// With the derivatives.
+    pub(crate) cross: Vec<f64>,
+    /// With the innovations.
+    pub(crate) plain: f64,
+    /// With itself.
+    pub(crate) corner: f64,
+}
+
 impl<'a> Gains<'a> {
     /// The present parameters' derivatives and the innovations, both weighted.
     pub(crate) fn new(jacobian: &'a Jacobian, w: &'a [f64], variance: f64) -> Option<Self> {
@@ -54,5 +65,25 @@ impl<'a> Gains<'a> {
         let Some(factor) = small.factor(1e-9) else { return 0.0 };
         let x = factor.solve(&small.gradient);
         x.iter().zip(&small.gradient).map(|(x, g)| x * g).sum::<f64>() / self.variance
+    }
+
+    /// Sums of a column of zeros.
+    pub(crate) fn no_sums(&self) -> Sums {
+        Sums { cross: vec![0.0; self.left.len()], plain: 0.0, corner: 0.0 }
+    }
+
+    /// Adds `x` at a row of a column to what the column shares with the model.
+    pub(crate) fn add_to(&self, sums: &mut Sums, row: usize, x: f64) {
+        sums.plain += x * self.w[row];
+        self.jacobian.add_row(row, x, &mut sums.cross);
+    }
+
+    /// Approximate gain in deviance from adding one column.
+    pub(crate) fn of_sums(&self, sums: &Sums) -> f64 {
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let schur = sums.corner - dot(&sums.cross, &self.factor.solve(&sums.cross));
+        let gradient = sums.plain - dot(&sums.cross, &self.left);
+        let least = 1e-9 * sums.corner;
+        if schur.max(least) > 0.0 { gradient * gradient / schur.max(least) / self.variance } else { 0.0 }
     }
 }

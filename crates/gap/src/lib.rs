@@ -10,6 +10,7 @@ mod decide;
 mod design;
 mod diagnose;
 mod diagnosis;
+mod dynamics;
 mod effect;
 mod effects;
 mod engine;

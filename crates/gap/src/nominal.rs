@@ -68,8 +68,7 @@ pub(crate) fn first_guess(
                             }
                         }
                         None => {
-                            let (index, value) = track.rows.row(past);
-                            for (&j, x) in index.iter().zip(value) {
+                            for &(j, x) in track.rows.row(past) {
                                 block[j as usize] += tap * x;
                             }
                         }

@@ -83,24 +83,23 @@ impl Normal {
 
     /// Adds one row, mostly zeros.
     pub(crate) fn add(&mut self, row: &[f64], w: f64) {
-        let present = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
-        self.add_sparse(present.map(|(i, x)| (i as u32, *x)), w);
+        let mut terms = std::mem::take(&mut self.terms);
+        terms.clear();
+        terms.extend(row.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, x)| (i as u32, *x)));
+        self.add_sparse(&terms, w);
+        self.terms = terms;
     }
 
     /// Adds one sparse row, its indices increasing.
-    pub(crate) fn add_sparse(&mut self, row: impl Iterator<Item = (u32, f64)>, w: f64) {
-        let mut terms = std::mem::take(&mut self.terms);
-        terms.clear();
-        terms.extend(row);
-        for (k, &(i, x)) in terms.iter().enumerate() {
+    pub(crate) fn add_sparse(&mut self, row: &[(u32, f64)], w: f64) {
+        for (k, &(i, x)) in row.iter().enumerate() {
             let i = i as usize;
             self.gradient[i] += x * w;
             let target = &mut self.matrix[i * self.size..(i + 1) * self.size];
-            for &(j, y) in &terms[k..] {
+            for &(j, y) in &row[k..] {
                 target[j as usize] += x * y;
             }
         }
-        self.terms = terms;
     }
 
     /// Adds dense rows of the first `columns` parameters, row-major.

@@ -115,7 +115,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let mut extra: Vec<Vec<Vec<f64>>> = Vec::new();
     for (number, (track, part)) in campaign.fit().zip(&design.tracks).enumerate() {
         let u = design.input(part, &fit.linear.f);
-        let raw: Vec<f64> = (0..u.len()).map(|t| part.rows.dot(t, &fit.linear.f)).collect();
+        let raw = part.rows.times(&fit.linear.f);
         let moves = &track.moves;
         // A simulator is asked about what it simulates, not about the measured past.
         let mut seen = part.x.to_vec();

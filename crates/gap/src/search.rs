@@ -3,16 +3,17 @@
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
+use crate::dynamics::dynamics_refitted;
 use crate::effect::Effect;
-use crate::effects::{Scene, Search, Variant, is_sound, variants};
+use crate::effects::{CLIMBS, Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
-use crate::normal::Normal;
-use crate::starts::{Known, ScoreTest, padded};
+use crate::starts::{Known, Score, ScoreTest, padded};
 
-/// Gauss–Newton rounds of a look, and of the final fit.
+/// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
 const LOOK: usize = 2;
 const FINAL: usize = 14;
+const RACE: usize = 4;
 /// Points of one pattern search at most.
 const PATTERN_TRIALS: usize = 30;
 
@@ -102,20 +103,43 @@ pub(crate) fn prospects(
 }
 
 impl Prospect {
-    /// Keeps the likeliest starts.
+    /// Keeps the likeliest starts: by the test, and by what is left where a filter moves poles.
     fn order_starts(&mut self, test: &ScoreTest<'_>) {
         let build = |values: &[f64]| assembled(&self.parts, values);
-        let mut scored: Vec<(f64, Vec<Own>)> =
-            self.law.starts.iter().map(|own| (test.gain(&build, own), own.clone())).collect();
-        scored.sort_by(|x, y| y.0.total_cmp(&x.0));
-        scored.truncate(if self.law.search == Search::Profile { CORNERED } else { SMOOTH });
-        self.score = scored.first().map(|s| s.0);
+        let mut scored: Vec<(Score, Vec<Own>)> =
+            self.law.starts.iter().map(|own| (test.score(&build, own), own.clone())).collect();
+        self.score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
+        scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
+        let most = if self.law.search == Search::Profile { CORNERED } else { SMOOTH };
+        if scored.len() > most && scored.iter().all(|(score, _)| score.refitted.is_some()) {
+            // The best by the test, then the best of the others by what is left.
+            scored[1..].sort_by(|x, y| y.0.refitted.unwrap_or(0.0).total_cmp(&x.0.refitted.unwrap_or(0.0)));
+            scored.truncate(most + 1);
+        } else {
+            scored.truncate(most);
+        }
+        self.law.climbs =
+            self.law.climbs.min(scored.len()).min(if self.law.climbs > CLIMBS { most + 1 } else { most });
         self.law.starts = scored.into_iter().map(|s| s.1).collect();
     }
 }
 
+/// A sketch some rounds on: enough to see whether it may still win. A law with corners is fitted to convergence.
+pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
+    improved(campaign, held, sketch, |task, fit| task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit))
+}
+
 /// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
+    improved(campaign, held, sketch, |task, fit| task.settled(fit))
+}
+
+fn improved(
+    campaign: &Campaign,
+    held: usize,
+    sketch: &Explanation,
+    smooth: impl Fn(&Task<'_>, Fit) -> Fit,
+) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
     let task = Task {
@@ -126,7 +150,7 @@ pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> 
     let law = sketch.parts.last().map(|part| part.search);
     let fit = match law {
         Some(Search::Profile) => task.pattern(sketch.fit.clone()),
-        _ => task.settled(sketch.fit.clone()),
+        _ => smooth(&task, sketch.fit.clone()),
     };
     match sketch.parts.last() {
         Some(part) if !is_sound(part.effect, &fit) => sketch.clone(),
@@ -206,35 +230,16 @@ impl Task<'_> {
         Some(fitted)
     }
 
-    /// `A` and `B` by least squares, the borders as they are: behind a filter the nominal `A` may hold a pole that the
-    /// filter ought to have (and B a delay), and no small step gets out of that. Nothing without a filter.
+    /// `A` and `B` by least squares; nothing without a filter.
     fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
         let assembly = self.assembly(own);
         let whitener = Whitener::new(&assembly.noise, &start.a);
         if assembly.denominator.len() < 2 && assembly.delay == 0.0 && whitener.ar.is_empty() {
             return None;
         }
-        let mut p = self.padded(start, &assembly);
+        let p = self.padded(start, &assembly);
         let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
-        let (na, nb) = (p.a.len(), p.b.len());
-        let mut normal = Normal::new(na + nb);
-        let mut row = vec![0.0; na + nb];
-        for track in &design.tracks {
-            let u = design.input(track, &p.f);
-            let x = whitener.apply(track.x.to_vec());
-            let ahead =
-                |t: usize| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum();
-            let u = whitener.apply((0..u.len()).map(ahead).collect());
-            for t in track.from..x.len() {
-                (0..na).for_each(|i| row[i] = -x[t - i - 1]);
-                (0..nb).for_each(|j| row[na + j] = u[t - j - 1]);
-                normal.add(&row, x[t]);
-            }
-        }
-        let solved = normal.factor(1e-10)?.solve(&normal.gradient);
-        p.a.copy_from_slice(&solved[..na]);
-        p.b.copy_from_slice(&solved[na..]);
-        Some(p)
+        dynamics_refitted(&design, &whitener, &p)
     }
 
     /// Alternates between everything together and the own parameters held, until neither moves: where own parameters

@@ -10,6 +10,7 @@
 use crate::assembly::{Assembly, EquationColumn};
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear};
+use crate::dynamics::dynamics_refitted;
 use crate::engine::{Build, Own};
 use crate::explain::Explanation;
 use crate::gains::{Gains, Scored};
@@ -53,12 +54,27 @@ pub(crate) struct ScoreTest<'a> {
     gains: Gains<'a>,
 }
 
+/// How promising a start is: approximate gains in deviance.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Score {
+    /// By the score test.
+    pub(crate) linear: f64,
+    /// With `A` and `B` solved for at the start itself, where a filter moves poles too far for a chord.
+    pub(crate) refitted: Option<f64>,
+}
+
+impl Score {
+    pub(crate) fn most(&self) -> f64 {
+        self.refitted.map_or(self.linear, |refitted| refitted.max(self.linear))
+    }
+}
+
 /// A change of the innovations smaller than this, in their standard deviations, is none.
 const NOTHING: f64 = 1e-9;
 
 impl ScoreTest<'_> {
-    /// Approximate gain in deviance of a law that changes the assembly to `build(known own parameters, own)`.
-    pub(crate) fn gain(&self, build: &Build<'_>, own: &[Own]) -> f64 {
+    /// How promising a law that changes the assembly to `build(known own parameters, own)` is.
+    pub(crate) fn score(&self, build: &Build<'_>, own: &[Own]) -> Score {
         let fit = &self.known.explanation.fit;
         let all: Vec<f64> = fit.own.iter().chain(own).map(|o| o.value).collect();
         let assembly = build(&all);
@@ -77,16 +93,53 @@ impl ScoreTest<'_> {
                 columns.push(self.column(&there.innovations, &beside.innovations, 1.0 / h));
             }
         }
-        for added in added(&fit.linear, &p, &assembly) {
-            let whitener = there.design.whitener(&assembly.noise, &p.a);
-            let with = there.design.innovations(&added, &whitener);
-            columns.push(self.column(&there.innovations, &with, 1.0));
-        }
+        columns.extend(self.added(&assembly, &p, &there));
         columns.retain(|c| energy(c) > NOTHING * fit.variance);
         let scored: Vec<Scored> = columns.into_iter().map(|c| self.gains.score(c)).collect();
         let n = fit.samples as f64;
         let share = self.gains.of(&scored.iter().collect::<Vec<_>>()) / n;
-        -n * (1.0 - share.clamp(0.0, 0.999)).ln()
+        let linear = -n * (1.0 - share.clamp(0.0, 0.999)).ln();
+        Score { linear, refitted: self.refitted(&assembly, &p, &there) }
+    }
+
+    /// Columns of the linear parameters that the assembly adds. What dies away at the start of a record orders nothing.
+    fn added(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Vec<Vec<f64>> {
+        let known = &self.known.explanation.fit.linear;
+        let whitener = there.design.whitener(&assembly.noise, &p.a);
+        let with = |set: &dyn Fn(&mut Linear)| {
+            let mut one = p.clone();
+            set(&mut one);
+            let moved = there.design.innovations(&one, &whitener);
+            self.column(&there.innovations, &moved, 1.0)
+        };
+        let b = (known.b.len()..p.b.len()).map(|j| with(&|p| p.b[j] = 1.0));
+        let f = (known.f.len()..p.f.len()).map(|j| with(&|p| p.f[j] = 1.0));
+        let lasts = |j: &usize| !matches!(assembly.equation_columns[*j], EquationColumn::Decay { .. });
+        let d = (known.d.len()..p.d.len()).filter(lasts).map(|j| {
+            let moved = there.design.disturbance(j, &whitener);
+            let zero: Vec<Vec<f64>> = moved.iter().map(|w| vec![0.0; w.len()]).collect();
+            self.column(&zero, &moved, 1.0)
+        });
+        b.chain(f).chain(d).collect()
+    }
+
+    /// Gain in deviance with `A` and `B` solved for, where the assembly filters.
+    fn refitted(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Option<f64> {
+        let fit = &self.known.explanation.fit;
+        let filter = |a: &Assembly| (a.denominator.clone(), a.numerator.clone(), a.delay, a.noise.ar.clone());
+        if filter(assembly) == filter(&fit.assembly) || fit.design.criterion.simulates() {
+            return None;
+        }
+        let whitener = there.design.whitener(&assembly.noise, &p.a);
+        let rss = |w: &[Vec<f64>]| {
+            let zero: Vec<Vec<f64>> = w.iter().map(|w| vec![0.0; w.len()]).collect();
+            energy(&self.column(&zero, w, 1.0))
+        };
+        let afresh = dynamics_refitted(&there.design, &whitener, p)
+            .map(|p| rss(&there.design.innovations(&p, &whitener)));
+        let least = afresh.into_iter().chain([rss(&there.innovations)]).filter(|x| *x > 0.0);
+        let gain = |x: f64| fit.samples as f64 * (energy(&self.known.weighted) / x).ln();
+        least.min_by(f64::total_cmp).map(gain)
     }
 
     /// The innovations under another assembly, the other parameters as they are.
@@ -138,27 +191,4 @@ pub(crate) fn padded(start: &Linear, grid: usize, assembly: &Assembly) -> Linear
     p.f.resize(grid + assembly.border_columns.len(), 0.0);
     p.d.resize(assembly.equation_columns.len(), 0.0);
     p
-}
-
-/// The padded parameters with one added linear parameter at a time set to one. What dies away at the start of a record orders
-/// nothing.
-fn added(known: &Linear, padded: &Linear, assembly: &Assembly) -> Vec<Linear> {
-    let mut out = Vec::new();
-    let mut with = |set: &dyn Fn(&mut Linear)| {
-        let mut one = padded.clone();
-        set(&mut one);
-        out.push(one);
-    };
-    for j in known.b.len()..padded.b.len() {
-        with(&|p| p.b[j] = 1.0);
-    }
-    for j in known.f.len()..padded.f.len() {
-        with(&|p| p.f[j] = 1.0);
-    }
-    for j in known.d.len()..padded.d.len() {
-        if !matches!(assembly.equation_columns[j], EquationColumn::Decay { .. }) {
-            with(&|p| p.d[j] = 1.0);
-        }
-    }
-    out
 }

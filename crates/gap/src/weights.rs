@@ -106,7 +106,7 @@ fn mixture_of_the_rest(start: (f64, f64), w: &[Vec<f64>], clipped: &[Vec<bool>])
 }
 
 /// The impulse response of `b/(1 + poles)`, as far as it matters.
-fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
+pub(crate) fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
     const LONGEST: usize = 200;
     const NEGLIGIBLE: f64 = 1e-3;
     let length = if poles.is_empty() { b.len() } else { LONGEST };

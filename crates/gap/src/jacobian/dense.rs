@@ -119,8 +119,7 @@ impl<'a> Filtered<'a> {
     fn new(design: &'a Design, track: &'a DesignTrack, columns: Range<usize>, b: Vec<f64>) -> Self {
         let rest = b.iter().sum::<f64>() / (1.0 + design.poles.iter().sum::<f64>());
         let mut before = vec![0.0; columns.len()];
-        let (index, value) = track.rows.row(0);
-        for (&i, x) in index.iter().zip(value) {
+        for &(i, x) in track.rows.row(0) {
             before[i as usize] += x * rest;
         }
         Self { track, poles: &design.poles, b, columns, before }
@@ -131,8 +130,7 @@ impl<'a> Filtered<'a> {
         let row = &mut ring.row_mut(t)[self.columns.clone()];
         row.fill(0.0);
         for (j, b) in self.b.iter().enumerate() {
-            let (index, value) = self.track.rows.row(t.saturating_sub(j + 1));
-            for (&i, x) in index.iter().zip(value) {
+            for &(i, x) in self.track.rows.row(t.saturating_sub(j + 1)) {
                 row[i as usize] += b * x;
             }
         }

@@ -67,8 +67,7 @@ impl Jacobian {
         match &self.store {
             Store::Sparse(rows) => {
                 for (t, &w) in w.iter().enumerate() {
-                    let (index, value) = rows.row(t);
-                    normal.add_sparse(index.iter().copied().zip(value.iter().copied()), w);
+                    normal.add_sparse(rows.row(t), w);
                 }
             }
             Store::Dense(rows) => normal.add_dense(rows, self.columns, w),
@@ -80,22 +79,26 @@ impl Jacobian {
     pub(crate) fn cross(&self, column: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.columns];
         for (t, &c) in column.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-            match &self.store {
-                Store::Sparse(rows) => {
-                    let (index, value) = rows.row(t);
-                    for (&i, x) in index.iter().zip(value) {
-                        out[i as usize] += x * c;
-                    }
+            self.add_row(t, c, &mut out);
+        }
+        out
+    }
+
+    /// `sum += scale·row(t)`.
+    pub(crate) fn add_row(&self, t: usize, scale: f64, sum: &mut [f64]) {
+        match &self.store {
+            Store::Sparse(rows) => {
+                for &(i, x) in rows.row(t) {
+                    sum[i as usize] += x * scale;
                 }
-                Store::Dense(rows) => {
-                    let row = &rows[t * self.columns..(t + 1) * self.columns];
-                    for (o, x) in out.iter_mut().zip(row) {
-                        *o += x * c;
-                    }
+            }
+            Store::Dense(rows) => {
+                let row = &rows[t * self.columns..(t + 1) * self.columns];
+                for (o, x) in sum.iter_mut().zip(row) {
+                    *o += x * scale;
                 }
             }
         }
-        out
     }
 }
 
@@ -131,7 +134,7 @@ pub(crate) fn normal_equations(
             sparse_rows((design, track), p, whitener, weights, |row| {
                 let extra = extra.iter().enumerate();
                 row.extend(extra.map(|(j, column)| ((columns + j) as u32, column[row_number])));
-                normal.add_sparse(row.iter().copied(), w[row_number]);
+                normal.add_sparse(row, w[row_number]);
                 row_number += 1;
             });
         }

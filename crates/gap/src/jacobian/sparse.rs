@@ -47,7 +47,10 @@ pub(super) fn sparse_rows(
             border.drain((na + nb) as u32, &mut row);
             for c in 0..m {
                 let psi: f64 = ar.iter().enumerate().map(|(i, d)| d * track.columns[(t - i) * m + c]).sum();
-                row.push(((na + nb + k + c) as u32, -weight * psi));
+                // Most columns are those of other tracks.
+                if psi != 0.0 {
+                    row.push(((na + nb + k + c) as u32, -weight * psi));
+                }
             }
         }
         emit(&mut row);
@@ -66,8 +69,8 @@ impl Sparse {
         Self { value: vec![0.0; size], present: vec![false; size], index: Vec::new() }
     }
 
-    fn add(&mut self, (index, value): (&[u32], &[f64]), scale: f64) {
-        for (&i, x) in index.iter().zip(value) {
+    fn add(&mut self, row: &[(u32, f64)], scale: f64) {
+        for &(i, x) in row {
             if !std::mem::replace(&mut self.present[i as usize], true) {
                 self.index.push(i);
             }

@@ -13,42 +13,47 @@ use crate::borders::Grid;
 use crate::campaign::{Campaign, Track};
 use crate::motion::Motion;
 
-/// Sparse rows, one a sample.
-#[derive(Debug, Clone, PartialEq)]
+/// Sparse rows, one a sample: indices and values.
+#[derive(Debug, Clone)]
 pub(crate) struct Rows {
     start: Vec<u32>,
-    index: Vec<u32>,
-    value: Vec<f64>,
+    terms: Vec<(u32, f64)>,
 }
 
 impl Rows {
     pub(crate) fn with_capacity(samples: usize) -> Self {
         let mut start = Vec::with_capacity(samples + 1);
         start.push(0);
-        Self { start, index: Vec::with_capacity(2 * samples), value: Vec::with_capacity(2 * samples) }
+        Self { start, terms: Vec::with_capacity(2 * samples) }
     }
 
     pub(crate) fn push(&mut self, row: &[(u32, f64)], scale: f64) {
-        for &(i, x) in row {
-            if x != 0.0 {
-                self.index.push(i);
-                self.value.push(x * scale);
-            }
-        }
-        self.start.push(self.index.len() as u32);
+        let present = row.iter().filter(|(_, x)| *x != 0.0);
+        self.terms.extend(present.map(|&(i, x)| (i, x * scale)));
+        self.start.push(self.terms.len() as u32);
     }
 
     /// Non-zeros of row `t`.
-    pub(crate) fn row(&self, t: usize) -> (&[u32], &[f64]) {
-        let range = self.start[t] as usize..self.start[t + 1] as usize;
-        (&self.index[range.clone()], &self.value[range])
+    #[inline]
+    pub(crate) fn row(&self, t: usize) -> &[(u32, f64)] {
+        &self.terms[self.start[t] as usize..self.start[t + 1] as usize]
     }
 
     /// `u(t)` for border values (and column coefficients) `f`.
     #[inline]
     pub(crate) fn dot(&self, t: usize, f: &[f64]) -> f64 {
-        let (index, value) = self.row(t);
-        index.iter().zip(value).map(|(&i, x)| x * f[i as usize]).sum()
+        self.row(t).iter().map(|&(i, x)| x * f[i as usize]).sum()
+    }
+
+    /// `u` for border values (and column coefficients) `f`.
+    pub(crate) fn times(&self, f: &[f64]) -> Vec<f64> {
+        let mut rest = &self.terms[..];
+        let of_row = |w: &[u32]| {
+            let (row, later) = rest.split_at((w[1] - w[0]) as usize);
+            rest = later;
+            row.iter().map(|&(i, x)| x * f[i as usize]).sum()
+        };
+        self.start.windows(2).map(of_row).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The working point as a sparse combination of border values.
 
 use crate::assembly::{Assembly, Transition, TransitionLaw};
-use crate::borders::{Grid, side};
+use crate::borders::{Finder, Grid, side};
 use crate::campaign::Criterion;
 use crate::motion::Motion;
 
@@ -10,7 +10,7 @@ const NEGLIGIBLE: f64 = 1e-5;
 
 /// Follows the working point.
 pub(super) struct WorkingPoint<'a> {
-    grid: &'a Grid,
+    finder: Finder<'a>,
     transition: Option<Transition>,
     /// The present combination.
     pub(super) terms: Vec<(u32, f64)>,
@@ -23,14 +23,16 @@ pub(super) struct WorkingPoint<'a> {
 
 impl<'a> WorkingPoint<'a> {
     pub(super) fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64, criterion: Criterion) -> Self {
+        let finder = Finder::new(grid);
+        let hat = |side, factor| hat(&finder, side, v, factor);
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
         let terms = match criterion {
-            Criterion::OneStep => hat(grid, usize::from(v >= 0.5), v, 1.0).to_vec(),
+            Criterion::OneStep => hat(usize::from(v >= 0.5), 1.0).to_vec(),
             // A simulation goes on from there for long: the middle between the borders is never far off.
-            Criterion::Simulation { .. } => [0, 1].map(|s| hat(grid, s, v, 0.5)).concat(),
+            Criterion::Simulation { .. } => [0, 1].map(|s| hat(s, 0.5)).concat(),
         };
         Self {
-            grid,
+            finder,
             transition: assembly.transition,
             terms,
             fading: Vec::new(),
@@ -47,7 +49,7 @@ impl<'a> WorkingPoint<'a> {
             TransitionLaw::OldBorder => self.fading.clear(),
             TransitionLaw::Offset => {
                 self.sum.clone_from(&self.terms);
-                self.sum.extend(hat(self.grid, side(m.branch), m.turn, -1.0));
+                self.sum.extend(hat(&self.finder, side(m.branch), m.turn, -1.0));
                 merge(&self.sum, &mut self.scratch, &mut self.fading);
             }
         }
@@ -58,9 +60,9 @@ impl<'a> WorkingPoint<'a> {
         let sum = &mut self.sum;
         sum.clear();
         let half = 0.5 * narrowing;
-        sum.extend(hat(self.grid, side(m.branch), v, 1.0 - half));
+        sum.extend(hat(&self.finder, side(m.branch), v, 1.0 - half));
         if narrowing != 0.0 {
-            sum.extend(hat(self.grid, side(-m.branch), v, half));
+            sum.extend(hat(&self.finder, side(-m.branch), v, half));
         }
         if let Some(transition) = self.transition {
             let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
@@ -72,7 +74,7 @@ impl<'a> WorkingPoint<'a> {
                     TransitionLaw::Offset | TransitionLaw::Held => {
                         sum.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
                     }
-                    TransitionLaw::OldBorder => sum.extend(hat(self.grid, side(-m.branch), v, fade)),
+                    TransitionLaw::OldBorder => sum.extend(hat(&self.finder, side(-m.branch), v, fade)),
                 }
             }
         }
@@ -87,14 +89,14 @@ impl<'a> WorkingPoint<'a> {
     pub(super) fn jittered(&mut self, ascending: f64, v: f64) {
         self.terms.clear();
         for (side, p) in [(0, 1.0 - ascending), (1, ascending)] {
-            self.terms.extend(hat(self.grid, side, v, p));
+            self.terms.extend(hat(&self.finder, side, v, p));
         }
     }
 }
 
 /// The border values that carry `v`, with their weights times a factor.
-fn hat(grid: &Grid, side: usize, v: f64, factor: f64) -> [(u32, f64); 2] {
-    grid.hat(side, v).map(|(i, w)| (i as u32, w * factor))
+fn hat(finder: &Finder<'_>, side: usize, v: f64, factor: f64) -> [(u32, f64); 2] {
+    finder.hat(side, v).map(|(i, w)| (i as u32, w * factor))
 }
 
 /// Sums repeated indices and drops negligible weights.
