@@ -15,6 +15,9 @@ use crate::spectrum::{autocorrelation, levinson};
 /// Lags over which the colour is foretold, and the longest response for which it is.
 const LAGS: usize = 6;
 const LONGEST: usize = 12;
+/// The colour is a mean: one block in so many tells it, a block longer than a period of designed experiments.
+const EVERY: usize = 5;
+const BLOCK: usize = 256;
 
 /// The noise of one track in units of `u`.
 struct Acting {
@@ -48,28 +51,55 @@ impl Acting {
         Some(out)
     }
 
-    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`.
-    fn covariance(&self, h: &[f64], t: usize, lag: usize) -> f64 {
-        let mut sum = 0.0;
-        for (j, b) in h.iter().enumerate() {
-            let Some(s) = t.checked_sub(j + 1) else { break };
-            for (l, c) in h.iter().enumerate() {
-                let Some(r) = t.checked_sub(lag + l + 1) else { break };
-                if self.rest[s] == self.rest[r] {
-                    sum += b * c * self.gain[s] * self.gain[r];
-                }
-                if s == r {
-                    sum += b * c * self.flips[s];
+    /// What reaches the equation at `t` through the response `h`, by rest, latest first: `Σⱼ hⱼ·g(t−j)` over the samples of each.
+    fn reaching(&self, h: &[f64], t: usize) -> Reaching {
+        let mut out = Reaching { parts: [(0, 0.0); LONGEST], count: 0 };
+        for (b, s) in h.iter().zip((0..t).rev()) {
+            let part = b * self.gain[s];
+            match out.count.checked_sub(1).map(|last| &mut out.parts[last]) {
+                Some((rest, sum)) if *rest == self.rest[s] => *sum += part,
+                _ => {
+                    out.parts[out.count] = (self.rest[s], part);
+                    out.count += 1;
                 }
             }
         }
-        sum
+        out
+    }
+
+    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`.
+    fn covariance(&self, h: &[f64], t: usize, lag: usize) -> f64 {
+        let flips = h.iter().zip(h.iter().skip(lag)).zip((0..t.saturating_sub(lag)).rev());
+        let flips: f64 = flips.map(|((b, c), s)| b * c * self.flips[s]).sum();
+        flips + self.reaching(h, t).product(&self.reaching(h, t.saturating_sub(lag)))
     }
 
     /// Its variance alone, where the response is long: what is kept counts as if it were new.
     fn variance(&self, squares: &[f64], t: usize) -> f64 {
         let past = self.gain[..t].iter().zip(&self.flips).rev();
         squares.iter().zip(past).map(|(h, (g, f))| h * (g * g + f)).sum()
+    }
+}
+
+/// What reaches one sample.
+struct Reaching {
+    parts: [(u32, f64); LONGEST],
+    count: usize,
+}
+
+impl Reaching {
+    /// `Σ` over the rests that reach both.
+    fn product(&self, earlier: &Self) -> f64 {
+        let (mut i, mut k, mut sum) = (0, 0, 0.0);
+        while i < self.count && k < earlier.count {
+            let ((rest, part), (other, piece)) = (self.parts[i], earlier.parts[k]);
+            if rest == other {
+                sum += part * piece;
+            }
+            i += usize::from(rest >= other);
+            k += usize::from(other >= rest);
+        }
+        sum
     }
 }
 
@@ -86,7 +116,9 @@ pub(crate) struct Acted {
 pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Acted {
     let short = h.len() <= LONGEST;
     let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
-    let mut colour = vec![0.0; if short { LAGS } else { 0 }];
+    // What is not kept goes no further than the response does.
+    let lags = if law.kept { LAGS } else { LAGS.min(h.len().saturating_sub(1)) };
+    let mut colour = vec![0.0; if short { lags } else { 0 }];
     let mut count = 0;
     let mut scale = Vec::with_capacity(tracks.len());
     for track in tracks {
@@ -101,10 +133,10 @@ pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f6
         for (k, sum) in colour.iter_mut().enumerate() {
             let lag = k + 1;
             let at = |t: usize| own[t - track.from];
-            let pairs = counted.clone().skip(lag);
+            let pairs = counted.clone().skip(lag).filter(|t| t / BLOCK % EVERY == 0);
             *sum += pairs.map(|t| acting.covariance(h, t, lag) * at(t) * at(t - lag)).sum::<f64>();
         }
-        count += counted.len();
+        count += counted.filter(|t| t / BLOCK % EVERY == 0).count();
         scale.push(own);
     }
     colour.iter_mut().for_each(|sum| *sum /= count.max(1) as f64);
