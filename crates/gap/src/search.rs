@@ -118,8 +118,9 @@ impl Prospect {
         } else {
             scored.truncate(most);
         }
-        self.law.climbs =
-            self.law.climbs.min(scored.len()).min(if self.law.climbs > CLIMBS { most + 1 } else { most });
+        // Stages of one valley are climbed from the best two, valleys of their own from every start left.
+        let one_valley = self.law.climbs <= CLIMBS;
+        self.law.climbs = if one_valley { self.law.climbs.min(most) } else { scored.len() };
         self.law.starts = scored.into_iter().map(|s| s.1).collect();
     }
 }
