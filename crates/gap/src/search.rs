@@ -5,7 +5,7 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::dynamics::dynamics_refitted;
 use crate::effect::Effect;
-use crate::effects::{CLIMBS, Scene, Search, Variant, variants};
+use crate::effects::{Scene, Search, Variant, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
 use crate::starts::{Known, Score, ScoreTest, padded};
@@ -118,9 +118,7 @@ impl Prospect {
         } else {
             scored.truncate(most);
         }
-        // Stages of one valley are climbed from the best two, valleys of their own from every start left.
-        let one_valley = self.law.climbs <= CLIMBS;
-        self.law.climbs = if one_valley { self.law.climbs.min(most) } else { scored.len() };
+        self.law.climbs = self.law.climbs.min(scored.len());
         self.law.starts = scored.into_iter().map(|s| s.1).collect();
     }
 }
