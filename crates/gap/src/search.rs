@@ -5,7 +5,7 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::dynamics::dynamics_refitted;
 use crate::effect::Effect;
-use crate::effects::{CLIMBS, Scene, Search, Variant, is_sound, variants};
+use crate::effects::{Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
 use crate::starts::{Known, Score, ScoreTest, padded};
@@ -118,8 +118,7 @@ impl Prospect {
         } else {
             scored.truncate(most);
         }
-        self.law.climbs =
-            self.law.climbs.min(scored.len()).min(if self.law.climbs > CLIMBS { most + 1 } else { most });
+        self.law.climbs = self.law.climbs.min(scored.len());
         self.law.starts = scored.into_iter().map(|s| s.1).collect();
     }
 }

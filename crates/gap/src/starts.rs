@@ -192,3 +192,41 @@ pub(crate) fn padded(start: &Linear, grid: usize, assembly: &Assembly) -> Linear
     p.d.resize(assembly.equation_columns.len(), 0.0);
     p
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::{BorderColumn, Clock};
+    use crate::engine::{Ground, fit};
+    use crate::testing::small_campaign;
+
+    /// The oracle of the score: a fit. Added linear parameters leave the problem nearly linear.
+    #[test]
+    fn linear_parameters_gain_what_a_fit_says() {
+        let (campaign, grid) = small_campaign();
+        let f = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
+        let start = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 30).expect("a fit");
+        let explanation = Explanation::nominal(nominal);
+        let known = Known::new(&campaign, &explanation);
+        let test = known.test().expect("determined");
+        let trend = |_: &[f64]| Assembly {
+            equation_columns: vec![EquationColumn::Trend { clock: Clock::Record, degree: 1 }],
+            ..Assembly::default()
+        };
+        let since = |_: &[f64]| Assembly {
+            border_columns: vec![BorderColumn::ReversalLog { scale: 3.0 }],
+            ..Assembly::default()
+        };
+        let builds: [&Build<'_>; 2] = [&trend, &since];
+        for build in builds {
+            let start = padded(&explanation.fit.linear, grid.len(), &build(&[]));
+            let fitted = fit(ground, build, &[], &start, 30).expect("a fit");
+            let gain = explanation.fit.deviance - fitted.deviance;
+            let score = test.score(build, &[]);
+            assert!((score.linear - gain).abs() < 0.15 * gain.max(2.0), "{} {gain}", score.linear);
+            assert!(score.refitted.is_none());
+        }
+    }
+}

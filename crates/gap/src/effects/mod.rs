@@ -63,7 +63,7 @@ pub(crate) struct Variant {
 }
 
 /// Climbs of a law whose starts are stages of one valley.
-pub(crate) const CLIMBS: usize = 3;
+const CLIMBS: usize = 3;
 
 impl Variant {
     fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
