@@ -50,6 +50,8 @@ const SEED: f64 = 0.25;
 /// Restarts from members of the best pair at most, and further firsts while much is left.
 const RESTARTS: usize = 2;
 const TWINS: usize = 2;
+/// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
+const HOPELESS: f64 = 0.3;
 /// Pairs fitted to convergence on each first effect.
 const FINISHED: usize = 3;
 /// Deviance left a sample from which a second effect is looked for.
@@ -105,6 +107,9 @@ impl<W: Workers> Attribution<'_, W> {
             }
         }
         search.restart();
+        if search.is_hopeless() {
+            return search.best;
+        }
         for &effect in &serious {
             if search.tried.len() < SEEDS + RESTARTS + TWINS
                 && search.leaves_much()
@@ -159,11 +164,22 @@ impl<W: Workers> Search<'_, '_, W> {
         }
     }
 
+    /// Deviance left by the best pair; infinite where there is none.
+    fn left(&self) -> f64 {
+        let of_pair = |best: &Explanation| omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
+        self.best.as_ref().map_or(f64::INFINITY, of_pair)
+    }
+
+    /// Whether the best pair is so far from the whole that none will be.
+    fn is_hopeless(&self) -> bool {
+        let Some(best) = &self.best else { return true };
+        let left = self.left();
+        left > HOPELESS * (left + self.of.nominal.bic() - best.bic())
+    }
+
     /// Whether so much is left that another first may find a better pair.
     fn leaves_much(&self) -> bool {
-        let Some(best) = &self.best else { return true };
-        let left = omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
-        left > WORTH_A_LOOK * self.of.campaign.fit_samples() as f64
+        self.left() > WORTH_A_LOOK * self.of.campaign.fit_samples() as f64
     }
 
     fn ask(&mut self, first: Effect, questions: &[Question]) {

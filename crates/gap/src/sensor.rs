@@ -42,7 +42,13 @@ impl SensorCurve {
 
     /// `x` and `dx/dy` at a reading `y`.
     pub(crate) fn undo(&self, y: f64) -> (f64, f64) {
-        let (y, inner) = self.forwards.map_or((y, 1.0), |curve| curve.undo(y));
+        let (z, inner) = self.forwards.map_or((y, 1.0), |curve| curve.undo(y));
+        let (x, slope) = self.undo_inverse(z);
+        (x, slope * inner)
+    }
+
+    /// The same for what is given by its inverse.
+    fn undo_inverse(&self, y: f64) -> (f64, f64) {
         let (mut x, mut slope, mut power) = (y, 1.0, y);
         for (k, c) in self.powers.iter().enumerate() {
             slope += c * (k + 2) as f64 * power;
@@ -66,7 +72,7 @@ impl SensorCurve {
                 slope += e - 1.0;
             }
         }
-        (x, slope * inner)
+        (x, slope)
     }
 
     /// The reading `y` of `x`: the solution that continues from small readings, by Newton's method.
@@ -75,10 +81,9 @@ impl SensorCurve {
             return x;
         }
         // Powers forwards come last.
-        let inner = Self { forwards: None, ..self.clone() };
         let mut y = x;
         for _ in 0..40 {
-            let (value, slope) = inner.undo(y);
+            let (value, slope) = self.undo_inverse(y);
             let step = (value - x) / slope.max(0.05);
             y -= step.clamp(-1.0, 1.0);
             if step.abs() < 1e-12 {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign;
-//!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave; 1, 3, 5 and 7 a record
+//!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave
 //! ```
 //!
 //! Parameters: angular frequencies `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
@@ -33,17 +33,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }
         }
     };
-    let own_tracks = fitted_tracks(scene.campaign);
     let mut out = vec![Variant::new(starts.clone(), a_record.clone())];
-    // One wave whose phase is new in every record.
-    out.push(Variant::new(starts.clone(), move |p, assembly| {
-        for &track in &own_tracks {
-            for (harmonic, sine) in [1.0, 3.0, 5.0, 7.0].into_iter().flat_map(|h| [(h, false), (h, true)]) {
-                let frequency = harmonic * p[0];
-                assembly.equation_columns.push(EquationColumn::Line { frequency, track: Some(track), sine });
-            }
-        }
-    }));
     if !pairs.is_empty() {
         out.push(Variant::new(pairs, a_record));
     }

@@ -26,7 +26,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 }
 
 /// Samples of a piece, and pieces of a record at most.
-const PIECES: [(usize, usize); 2] = [(400, 8), (120, 24)];
+const PIECES: [(usize, usize); 2] = [(400, 8), (160, 16)];
 
 fn piecewise(scene: &Scene<'_>, (samples, most): (usize, usize)) -> Variant {
     let fitted = scene.campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit() && t.v.len() > samples);
