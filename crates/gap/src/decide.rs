@@ -45,11 +45,15 @@ mod calibration {
     /// Share of what the best explanation leaves that counts against the distance to its rivals: laws are never exact, so
     /// a rival is ruled out only by a distance large against what the best itself leaves unexplained.
     pub(super) const TEMPER: f64 = 0.12;
-    /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale.
-    pub(super) const LEFT: (f64, f64) = (0.15, 0.03);
-    /// Share of the held-out gap that the best must close for what it leaves not to matter: stand-ins follow the records they were
-    /// fitted to.
+    /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale; and the
+    /// same where the best is barely better than its rivals, as stand-ins are.
+    pub(super) const LEFT: (f64, f64) = (0.35, 0.05);
+    pub(super) const LEFT_BY_MANY: (f64, f64) = (0.03, 0.01);
+    /// Share of the held-out gap that the best must close for being barely better than its rivals not to matter: stand-ins
+    /// follow the records they were fitted to.
     pub(super) const CLOSES: f64 = 0.85;
+    /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
+    pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
     pub(super) const FOREIGN: f64 = 0.03;
     /// How often the ranking holds where the best leaves nothing, whatever its margin: a law that is not the cause leaves
@@ -119,8 +123,12 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let none = 1.0 / (1.0 + ((gain - SIGNIFICANT) / 6.0).clamp(-60.0, 60.0).exp());
     let fraction = left / (left + gain.max(1.0));
     let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
+    let alike = |e: Effect| first.is_some_and(|f| e == f || f.twins().contains(&e));
+    let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
+    let margin = (runner_up - best) / gain.max(1.0);
     let closes = best_leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES);
-    let (middle, scale) = calibration::LEFT;
+    let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
+    let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = if closes { 0.0 } else { logistic((fraction - middle) / scale) }.max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let none = calibration::SILENCE * none;
@@ -231,11 +239,13 @@ mod tests {
     }
 
     #[test]
-    fn what_leaves_much_is_no_cause_unless_it_closes_the_gap() {
+    fn one_of_many_that_leave_much_is_no_cause_unless_it_closes_the_gap() {
         let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -4500.0)];
-        assert!(weighed(rivals, 1500.0, 0.6).unexplained > UNEXPLAINED);
-        assert!(weighed(rivals, 1500.0, 0.05).unexplained < UNEXPLAINED);
-        assert!(weighed(rivals, 300.0, 0.6).unexplained < UNEXPLAINED);
+        assert!(weighed(rivals, 900.0, 0.6).unexplained > UNEXPLAINED);
+        assert!(weighed(rivals, 900.0, 0.05).unexplained < UNEXPLAINED);
+        // A rival of its own class is no other cause.
+        let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
+        assert!(weighed(twins, 900.0, 0.6).unexplained < UNEXPLAINED);
     }
 
     #[test]
