@@ -133,10 +133,10 @@ pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f6
         for (k, sum) in colour.iter_mut().enumerate() {
             let lag = k + 1;
             let at = |t: usize| own[t - track.from];
-            let pairs = counted.clone().skip(lag).filter(|t| t / BLOCK % EVERY == 0);
+            let pairs = counted.clone().skip(lag).filter(|t| (t / BLOCK).is_multiple_of(EVERY));
             *sum += pairs.map(|t| acting.covariance(h, t, lag) * at(t) * at(t - lag)).sum::<f64>();
         }
-        count += counted.filter(|t| t / BLOCK % EVERY == 0).count();
+        count += counted.filter(|t| (t / BLOCK).is_multiple_of(EVERY)).count();
         scale.push(own);
     }
     colour.iter_mut().for_each(|sum| *sum /= count.max(1) as f64);
