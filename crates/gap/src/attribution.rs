@@ -131,10 +131,7 @@ impl<W: Workers> Attribution<'_, W> {
             let behind = runner.law.bic() - leader.law.bic();
             let may_win = behind < reach.max(STRIDES * runner.advanced)
                 || leader.effect.twins().contains(&runner.effect);
-            let law = match may_win && !has_corners(&runner.law) {
-                true => finish(self.campaign, held, &runner.law),
-                false => runner.law.clone(),
-            };
+            let law = if may_win { finish(self.campaign, held, &runner.law) } else { runner.law.clone() };
             (runner.effect, law)
         })
     }

@@ -14,8 +14,9 @@ use crate::starts::{Known, Score, ScoreTest, padded};
 const LOOK: usize = 2;
 const FINAL: usize = 14;
 const RACE: usize = 4;
-/// Points of one pattern search at most.
-const PATTERN_TRIALS: usize = 30;
+/// Points of a pattern search at most: to see whether a law may still win, and in the end.
+const SCOUTED: usize = 8;
+const TRIALS: usize = 30;
 
 /// An effect that may explain more, and what is known about it.
 #[derive(Debug, Clone)]
@@ -123,21 +124,27 @@ impl Prospect {
     }
 }
 
-/// A sketch some rounds on: enough to see whether it may still win. A law with corners is fitted to convergence.
+/// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit| task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit))
+    improved(campaign, held, sketch, |task, fit, has_corners| match has_corners {
+        true => task.pattern(fit, SCOUTED, RACE),
+        false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
+    })
 }
 
 /// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit| task.settled(fit))
+    improved(campaign, held, sketch, |task, fit, has_corners| match has_corners {
+        true => task.pattern(fit, TRIALS, FINAL),
+        false => task.settled(fit),
+    })
 }
 
 fn improved(
     campaign: &Campaign,
     held: usize,
     sketch: &Explanation,
-    smooth: impl Fn(&Task<'_>, Fit) -> Fit,
+    improve: impl Fn(&Task<'_>, Fit, bool) -> Fit,
 ) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
@@ -146,11 +153,8 @@ fn improved(
         build: &build,
         held,
     };
-    let law = sketch.parts.last().map(|part| part.search);
-    let fit = match law {
-        Some(Search::Profile) => task.pattern(sketch.fit.clone()),
-        _ => smooth(&task, sketch.fit.clone()),
-    };
+    let has_corners = sketch.parts.last().is_some_and(|part| part.search == Search::Profile);
+    let fit = improve(&task, sketch.fit.clone(), has_corners);
     match sketch.parts.last() {
         Some(part) if !is_sound(part.effect, &fit) => sketch.clone(),
         _ => Explanation { fit, ..sketch.clone() },
@@ -259,10 +263,10 @@ impl Task<'_> {
     }
 
     /// A pattern search over own parameters whose likelihood has corners; steps start at each parameter's `step`.
-    fn pattern(&self, sketch: Fit) -> Fit {
+    fn pattern(&self, sketch: Fit, trials: usize, rounds: usize) -> Fit {
         let mut top = sketch;
         let mut share = 1.0;
-        let mut left = PATTERN_TRIALS;
+        let mut left = trials;
         while share > 0.02 && left > 0 {
             let mut improved = false;
             for j in self.held..top.own.len() {
@@ -284,7 +288,7 @@ impl Task<'_> {
                 share *= 0.4;
             }
         }
-        self.held(&top.own, &top.linear, FINAL).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
+        self.held(&top.own, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
     }
 
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
