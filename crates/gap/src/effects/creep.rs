@@ -10,7 +10,7 @@
 //!
 //! Equal weights on time constants spread evenly in their logarithm make the step response grow with the logarithm of
 //! time (Krejci and Kuhnen, "Inverse control of systems with hysteresis and creep", IEE Proc. Control Theory Appl. 148, 2001).
-//! Parameters: `kappa` (−0.9…3), time constant `tau` in samples (8…5000; the shortest
+//! Parameters: `kappa` (−0.9…1 for one time constant, beyond which the lag is the response and no after-effect; 3 for several), time constant `tau` in samples (8…5000; the shortest
 //! of several 1…1000), their ratio `rho` (1.5…20). Stage: operator. After each move the output goes on
 //! drifting the same way. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
@@ -23,7 +23,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .iter()
         .map(|&(kappa, tau): &(f64, f64)| {
             vec![
-                own("kappa", "1", kappa, (-0.9, 3.0), 0.002),
+                own("kappa", "1", kappa, (-0.9, 1.0), 0.002),
                 own("log_tau", "ln samples", tau.ln(), (2.0, 8.5), 0.02),
             ]
         })

@@ -16,11 +16,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
         .into_iter()
         .map(|(lags, passes, zeros)| {
-            let least = if zeros > 0 { 0.15 } else { 0.02 };
-            let starts = [0.2_f64, 0.5, 0.8, 0.95]
-                .iter()
-                .map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)])
-                .collect();
+            // What bypasses a lag lets the lag be slow.
+            let (least, starts): (f64, &[f64]) =
+                if zeros > 0 { (0.15, &[0.5, 0.97]) } else { (0.02, &[0.2, 0.5, 0.8]) };
+            let starts = starts.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
             // How far a slow lag was behind when a record began is unknown.
             let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };
             Variant::conditional(starts, move |p, assembly| {
