@@ -12,7 +12,7 @@ use crate::settings::Settings;
 pub(crate) const SIGNIFICANT: f64 = 40.0;
 
 /// Probability of "none of these" from which no candidate is offered.
-const UNEXPLAINED: f64 = 0.25;
+const UNEXPLAINED: f64 = 0.5 * calibration::ALL_FAIL;
 
 /// Least probability of a rival.
 const CLAIM: f64 = 0.04;
@@ -62,7 +62,7 @@ mod calibration {
     /// The same where it leaves much.
     pub(super) const PARTLY: f64 = 0.55;
     /// How often the cause is an effect without any claim by its gain, where the best leaves much: their laws may all be poor.
-    pub(super) const NO_CLAIM: f64 = 0.35;
+    pub(super) const NO_CLAIM: f64 = 0.18;
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
     pub(super) const NOTHING: (f64, f64) = (0.05, 0.01);
     /// The same where the best is supple enough to imitate others but for a little.
@@ -76,7 +76,7 @@ mod calibration {
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
     pub(super) const SILENCE: f64 = 0.68;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
-    pub(super) const ALL_FAIL: f64 = 0.5;
+    pub(super) const ALL_FAIL: f64 = 0.35;
 }
 
 fn logistic(x: f64) -> f64 {
