@@ -4,7 +4,6 @@
 use crate::campaign::Campaign;
 use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
-use crate::effects::Search;
 use crate::explain::Explanation;
 use crate::search::{Prospect, Question, advance, finish, look, prospects};
 use crate::settings::Settings;
@@ -119,7 +118,7 @@ impl<W: Workers> Attribution<'_, W> {
         let held = known.fit.own.len();
         let mut field: Vec<&(Effect, Explanation)> = promising.iter().collect();
         // The longest first, so that nobody waits for them at the end.
-        field.sort_by_key(|(_, law)| !has_corners(law));
+        field.sort_by_key(|(_, law)| !law.has_corners());
         let mut race: Vec<Runner> = self.workers.map(&field, |(effect, sketch)| {
             let law = advance(self.campaign, held, sketch);
             Runner { effect: *effect, advanced: sketch.bic() - law.bic(), law }
@@ -209,11 +208,6 @@ struct Runner {
     law: Explanation,
     /// Penalised deviance that the first rounds gained.
     advanced: f64,
-}
-
-/// Whether the last law's likelihood has corners: its first rounds are its last.
-fn has_corners(law: &Explanation) -> bool {
-    law.parts.last().is_some_and(|part| part.search == Search::Profile)
 }
 
 /// Keeps the laws of the few most promising effects, and those that the test is blind to.

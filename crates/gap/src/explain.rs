@@ -67,6 +67,11 @@ impl Explanation {
         self.bic() + self.held_out
     }
 
+    /// Whether the likelihood has corners in the own parameters of the law added last.
+    pub(crate) fn has_corners(&self) -> bool {
+        self.parts.last().is_some_and(|part| part.search == Search::Profile)
+    }
+
     /// The effects, in the order they were added.
     pub(crate) fn effects(&self) -> Vec<Effect> {
         self.parts.iter().map(|p| p.effect).collect()

@@ -104,7 +104,7 @@ impl Omnibus {
 
 /// Runs the tests on the fit records.
 pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
-    let design = Design::new(campaign, &fit.grid, &fit.assembly, |t| t.is_fit());
+    let design = Design::like(Some(&fit.design), campaign, &fit.grid, &fit.assembly);
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let innovations = design.innovations(&fit.linear, &whitener);
     let weights = crate::weights::weigh(&design, &fit.assembly.noise, &fit.linear, &innovations);

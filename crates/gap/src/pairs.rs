@@ -20,11 +20,11 @@ pub(crate) struct Pair {
 }
 
 impl Together {
-    /// `gains` are those of the single effects over the nominal model.
+    /// `gains` are those of the single effects over the nominal model, the best first.
     pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)]) -> Self {
         let effects = pair.explanation.effects();
         let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
-        let both = pair.gain + gains.iter().map(|g| g.1).fold(0.0, f64::max);
+        let both = pair.gain + gains.first().map_or(0.0, |g| g.1);
         let (shares, interaction) = Self::shapley(both, [alone(&effects[0]), alone(&effects[1])]);
         Self {
             effects,

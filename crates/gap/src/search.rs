@@ -126,7 +126,7 @@ impl Prospect {
 
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit, has_corners| match has_corners {
+    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, SCOUTED, RACE),
         false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
     })
@@ -134,7 +134,7 @@ pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) ->
 
 /// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit, has_corners| match has_corners {
+    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, TRIALS, FINAL),
         false => task.settled(fit),
     })
@@ -144,7 +144,7 @@ fn improved(
     campaign: &Campaign,
     held: usize,
     sketch: &Explanation,
-    improve: impl Fn(&Task<'_>, Fit, bool) -> Fit,
+    improve: impl Fn(&Task<'_>, Fit) -> Fit,
 ) -> Explanation {
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
@@ -153,8 +153,7 @@ fn improved(
         build: &build,
         held,
     };
-    let has_corners = sketch.parts.last().is_some_and(|part| part.search == Search::Profile);
-    let fit = improve(&task, sketch.fit.clone(), has_corners);
+    let fit = improve(&task, sketch.fit.clone());
     match sketch.parts.last() {
         Some(part) if !is_sound(part.effect, &fit) => sketch.clone(),
         _ => Explanation { fit, ..sketch.clone() },

@@ -115,11 +115,9 @@ impl ScoreTest<'_> {
         let b = (known.b.len()..p.b.len()).map(|j| with(&|p| p.b[j] = 1.0));
         let f = (known.f.len()..p.f.len()).map(|j| with(&|p| p.f[j] = 1.0));
         let lasts = |j: &usize| !matches!(assembly.equation_columns[*j], EquationColumn::Decay { .. });
-        let d = (known.d.len()..p.d.len()).filter(lasts).map(|j| {
-            let moved = there.design.disturbance(j, &whitener);
-            let zero: Vec<Vec<f64>> = moved.iter().map(|w| vec![0.0; w.len()]).collect();
-            self.column(&zero, &moved, 1.0)
-        });
+        let d = (known.d.len()..p.d.len())
+            .filter(lasts)
+            .map(|j| self.known.weights.applied(&there.design.disturbance(j, &whitener)));
         b.chain(f).chain(d).collect()
     }
 
@@ -131,10 +129,7 @@ impl ScoreTest<'_> {
             return None;
         }
         let whitener = there.design.whitener(&assembly.noise, &p.a);
-        let rss = |w: &[Vec<f64>]| {
-            let zero: Vec<Vec<f64>> = w.iter().map(|w| vec![0.0; w.len()]).collect();
-            energy(&self.column(&zero, w, 1.0))
-        };
+        let rss = |w: &[Vec<f64>]| energy(&self.known.weights.applied(w));
         let afresh = dynamics_refitted(&there.design, &whitener, p)
             .map(|p| rss(&there.design.innovations(&p, &whitener)));
         let least = afresh.into_iter().chain([rss(&there.innovations)]).filter(|x| *x > 0.0);
@@ -178,7 +173,7 @@ struct Moved {
     innovations: Vec<Vec<f64>>,
 }
 
-/// Mean square; infinite where it is no number.
+/// Mean square; nothing where it is no number, so that such a column counts as none.
 fn energy(column: &[f64]) -> f64 {
     let sum = column.iter().map(|x| x * x).sum::<f64>() / column.len().max(1) as f64;
     if sum.is_finite() { sum } else { 0.0 }
@@ -198,14 +193,13 @@ mod tests {
     use super::*;
     use crate::assembly::{BorderColumn, Clock};
     use crate::engine::{Ground, fit};
-    use crate::testing::small_campaign;
+    use crate::testing::{small_campaign, small_model};
 
     /// The oracle of the score: a fit. Added linear parameters leave the problem nearly linear.
     #[test]
     fn linear_parameters_gain_what_a_fit_says() {
         let (campaign, grid) = small_campaign();
-        let f = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
-        let start = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+        let start = small_model(&grid);
         let ground = Ground { campaign: &campaign, grid: &grid, known: None };
         let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 30).expect("a fit");
         let explanation = Explanation::nominal(nominal);

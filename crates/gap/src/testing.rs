@@ -5,6 +5,7 @@ use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
 use crate::borders::Grid;
 use crate::campaign::Campaign;
+use crate::linear::Linear;
 
 /// A short free record with rests and reversals of many sizes, and a grid with a jump.
 pub(crate) fn small_campaign() -> (Campaign, Grid) {
@@ -32,4 +33,10 @@ pub(crate) fn small_campaign() -> (Campaign, Grid) {
     };
     let campaign = Campaign::new(&rig).expect("a usable rig");
     (campaign, Grid { knots: [vec![0.0, 0.4, 1.0], vec![0.0, 0.5, 0.5, 1.0]] })
+}
+
+/// A model of second order on a grid.
+pub(crate) fn small_model(grid: &Grid) -> Linear {
+    let f = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
+    Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() }
 }

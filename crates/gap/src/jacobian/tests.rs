@@ -3,7 +3,7 @@
 use super::*;
 use crate::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Resting, Transition, TransitionLaw};
 use crate::campaign::{Criterion, Track};
-use crate::testing::small_campaign;
+use crate::testing::{small_campaign, small_model};
 
 /// Central differences of half the sum of squares.
 fn gradient_is_the_slope(normal: &Normal, p: &Linear, half_sum: impl Fn(&Linear) -> f64) {
@@ -34,8 +34,7 @@ fn check(assembly: &Assembly, p: &Linear) {
 fn the_jacobian_of_a_simulation_agrees_with_differences() {
     let (campaign, grid) = small_campaign();
     let campaign = campaign.judged_by(Criterion::Simulation { share: 1.0 });
-    let f: Vec<f64> = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
-    let p = Linear { a: vec![-0.9, 0.3], b: vec![0.8, 0.3], f, d: Vec::new() };
+    let p = Linear { a: vec![-0.9, 0.3], ..small_model(&grid) };
     let design = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
     // Here the filter 1/A moves with the parameters.
     let errors = |p: &Linear| {
@@ -78,8 +77,7 @@ fn same_as_dense(assembly: &Assembly, p: &Linear) {
 #[test]
 fn further_columns_are_appended() {
     let (campaign, grid) = small_campaign();
-    let f: Vec<f64> = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
-    let p = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+    let p = small_model(&grid);
     for pole in [None, Some(0.5)] {
         let mut assembly = Assembly::default();
         pole.iter().for_each(|p: &f64| assembly.filter(&[1.0 - p], &[1.0, -p]));
@@ -101,8 +99,7 @@ fn further_columns_are_appended() {
 #[test]
 fn the_jacobian_agrees_with_differences() {
     let (_, grid) = small_campaign();
-    let f: Vec<f64> = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
-    let plain = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+    let plain = small_model(&grid);
     check(&Assembly::default(), &plain);
 
     let mut assembly = Assembly {

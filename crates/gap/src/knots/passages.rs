@@ -139,15 +139,13 @@ mod tests {
     use crate::assembly::Assembly;
     use crate::engine::{Ground, fit};
     use crate::jacobian::Jacobian;
-    use crate::linear::Linear;
-    use crate::testing::small_campaign;
+    use crate::testing::{small_campaign, small_model};
 
     /// The oracle of the sums: the column itself.
     #[test]
     fn steps_gain_what_their_columns_do() {
         let (campaign, grid) = small_campaign();
-        let f = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
-        let start = Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() };
+        let start = small_model(&grid);
         for ma in [Vec::new(), vec![0.4]] {
             let mut assembly = Assembly::default();
             assembly.noise.ar = vec![0.3];

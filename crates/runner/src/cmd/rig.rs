@@ -21,7 +21,7 @@ pub struct Args {
     law: usize,
 
     /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     size: f64,
 
     /// Everything else is drawn from this.
