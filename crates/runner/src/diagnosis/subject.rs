@@ -29,6 +29,23 @@ impl Source {
             Self::Predicted => "y_sim",
         }
     }
+
+    /// What figures call its runs and errors.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Identified => "nominal",
+            Self::Given | Self::Predicted => self.name(),
+        }
+    }
+
+    /// What figures call the model itself.
+    pub fn model(self) -> &'static str {
+        match self {
+            Self::Identified => "nominal model",
+            Self::Given => "given model",
+            Self::Predicted => self.name(),
+        }
+    }
 }
 
 /// A rig and the model that meets its records.

@@ -20,19 +20,20 @@ const WINDOW: usize = 300;
 
 type Series = Vec<(f64, f64)>;
 
-/// Above, the errors over the whole record; in the middle, enlarged, the outputs where the nominal model misses most; below,
-/// the errors there.
+/// Above, the errors over the whole record; in the middle, enlarged, the outputs where the model under diagnosis misses
+/// most; below, the errors there.
 pub(super) fn figure(report: &Report, series: &HoldoutSeries) -> String {
     let drawing = Drawing::new(report, series);
+    let before = report.source.label();
     let sheet = Sheet {
         title: drawing.title(),
-        notes: vec![
-            "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the nominal model misses most, is enlarged below."
-                .to_owned(),
-        ],
+        notes: vec![format!(
+            "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the {} misses most, is enlarged below.",
+            report.source.model()
+        )],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(GREY, 4.0)), "measured"),
-            Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), "nominal, and measured − nominal"),
+            Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), format!("{before}, and measured − {before}")),
             Entry::new(Sample::Line(Pen::new(AFTER, 2.0)), "augmented, and measured − augmented"),
         ],
         grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 76.0 },
@@ -133,8 +134,9 @@ impl<'a> Drawing<'a> {
             panel.line(line, *pen);
         }
         panel.title(&format!(
-            "outputs, enlarged: the {} samples where the nominal model misses most",
-            self.window.len()
+            "outputs, enlarged: the {} samples where the {} misses most",
+            self.window.len(),
+            self.report.source.model()
         ));
         self.names(&panel, &self.report.rig.output_label);
     }

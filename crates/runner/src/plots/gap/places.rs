@@ -1,6 +1,6 @@
 //! Localisation maps: a panel an axis, a bar a cell.
 
-use crate::diagnosis::{Report, SIGNIFICANT, Source, Units, digits, edges};
+use crate::diagnosis::{Report, SIGNIFICANT, Units, digits, edges};
 use crate::plots::canvas::{Canvas, Pen, Point, TextLook};
 use crate::plots::legend::{Entry, Sample};
 use crate::plots::palette::{FAINT, GREY, INK, OKABE_ITO, tint};
@@ -14,15 +14,6 @@ const ROW: f64 = 20.0;
 const NAMES: f64 = 150.0;
 const FIGURES: f64 = 150.0;
 
-/// The model whose errors are mapped.
-fn whose(report: &Report) -> &'static str {
-    match report.source {
-        Source::Identified => "nominal model",
-        Source::Given => "the model given",
-        Source::Predicted => "y_sim where there is one",
-    }
-}
-
 /// Bars of share of the excess energy, a panel an axis, the cells that chance does not explain in colour.
 pub(super) fn figure(report: &Report) -> String {
     let axes = axes(&report.diagnosis.where_);
@@ -32,7 +23,7 @@ pub(super) fn figure(report: &Report) -> String {
         title: format!("{}: where the gap lies", report.rig.name),
         notes: vec![format!(
             "Share of the errors' energy beyond the noise, axis by axis; all records, {}.",
-            whose(report)
+            report.source.model()
         )],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(HOT, 10.0)), format!("significant: q < {SIGNIFICANT}")),
