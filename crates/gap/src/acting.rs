@@ -1,195 +1,330 @@
-//! Noise on the input that acts: what it adds to the equation error, and how that is coloured.
+//! Noise on the input that acts: what it adds to the equation error, and how errors that carry it are whitened.
 //!
 //! ```text
-//! e(t) = ξ(t) + Σⱼ b̃ⱼ·g(t−j)·n(t−j),   g = √r·du/dv;   n new at every move, and while v rests zero, or kept
-//! cov(t, k) = Σⱼ Σₗ b̃ⱼ b̃ₗ·C(t−j, t−k−l),   C(s, s′) = g(s)·g(s′) within one rest, else 0
+//! e(t) = ξ(t) + Σⱼ hⱼ·m(t−j),   m(t) = g(t)·n(t),   g = √r·du/dv;   n new at every move, and while v rests new too, or kept
 //! ```
 //!
-//! in units of the variance of `ξ`. What switches the operator while `v` rests is white and adds to `C(s, s)`.
+//! in units of the standard deviation of `ξ`. What switches the operator while `v` rests, and what is added to `u` itself, add to the
+//! variance of a new `m(t)`.
+//! Given the past, `e(t)` is normal: a Kalman filter whose state is the last `m` turns errors into independent ones of unit
+//! variance, and the likelihood is exact (Harvey, Forecasting, structural time series models and the Kalman filter, 1989, 3.4).
 
 use crate::assembly::InputNoise;
 use crate::design::DesignTrack;
 use crate::linear::Linear;
-use crate::spectrum::{autocorrelation, levinson};
+use crate::rows::Rows;
 
-/// Lags over which the colour is foretold, and the longest response for which it is.
-const LAGS: usize = 6;
+/// The longest response whose colour is followed; behind a longer one the noise counts as white.
 const LONGEST: usize = 12;
-/// The colour is a mean: one block in so many tells it, a block longer than a period of designed experiments.
-const EVERY: usize = 5;
-const BLOCK: usize = 256;
 
 /// The noise of one track in units of `u`.
 struct Acting {
-    /// Standard deviation of what depends on the slope.
-    gain: Vec<f64>,
-    /// Number of the rest (or move) that a sample belongs to.
-    rest: Vec<u32>,
-    /// Variance of what is white.
-    flips: Vec<f64>,
+    /// Variance of a new `m(t)`; `None` where the last one is kept.
+    fresh: Vec<Option<f64>>,
 }
 
 impl Acting {
     fn new(track: &DesignTrack, law: InputNoise, p: &Linear) -> Option<Self> {
         let [slope, gap] = track.sensitivity.as_deref()?;
-        let samples = track.x.len();
-        let mut out = Self {
-            gain: Vec::with_capacity(samples),
-            rest: Vec::with_capacity(samples),
-            flips: (0..samples).map(|t| law.by_gap * gap.dot(t, &p.f).powi(2)).collect(),
+        let moved = |t: usize| t == 0 || track.moves[t].step != 0.0 || !law.kept;
+        let squared = |ratio: f64, by: &Rows, t: usize| match ratio {
+            0.0 => 0.0,
+            _ => ratio * by.dot(t, &p.f).powi(2),
         };
-        let root = law.by_slope.sqrt();
-        let (mut gain, mut rest) = (0.0, 0);
-        for (t, m) in track.moves.iter().enumerate() {
-            if m.step != 0.0 || !law.kept {
-                gain = root * slope.dot(t, &p.f);
-                rest += 1;
-            }
-            out.gain.push(gain);
-            out.rest.push(rest);
-        }
-        Some(out)
+        let variance = |t: usize| law.direct + squared(law.by_slope, slope, t) + squared(law.by_gap, gap, t);
+        Some(Self { fresh: (0..track.x.len()).map(|t| moved(t).then(|| variance(t))).collect() })
     }
 
-    /// What reaches the equation at `t` through the response `h`, by rest, latest first: `Σⱼ hⱼ·g(t−j)` over the samples of each.
-    fn reaching(&self, h: &[f64], t: usize) -> Reaching {
-        let mut out = Reaching { parts: [(0, 0.0); LONGEST], count: 0 };
-        for (b, s) in h.iter().zip((0..t).rev()) {
-            let part = b * self.gain[s];
-            match out.count.checked_sub(1).map(|last| &mut out.parts[last]) {
-                Some((rest, sum)) if *rest == self.rest[s] => *sum += part,
-                _ => {
-                    out.parts[out.count] = (self.rest[s], part);
-                    out.count += 1;
-                }
+    /// Variance of each `m(t)`.
+    fn variances(&self) -> impl Iterator<Item = f64> {
+        let mut last = 0.0;
+        self.fresh.iter().map(move |fresh| {
+            last = fresh.unwrap_or(last);
+            last
+        })
+    }
+}
+
+/// Whitens one track.
+#[derive(Debug, Clone)]
+pub(crate) struct Predictor {
+    /// `h` at lags 1, 2, …; nothing where the noise counts as white.
+    response: Vec<f64>,
+    /// What a counted sample's surprise tells of the last `m`, one entry a lag.
+    gains: Vec<f64>,
+    /// Whether the last `m` lives on after a counted sample.
+    kept: Vec<bool>,
+    /// One over the standard deviation of each surprise; zero where the sample is left out.
+    pub(crate) scale: Vec<f64>,
+}
+
+impl Predictor {
+    /// For errors without noise on the input.
+    fn none(samples: usize) -> Self {
+        Self {
+            response: Vec::new(),
+            gains: Vec::new(),
+            kept: vec![false; samples],
+            scale: vec![1.0; samples],
+        }
+    }
+
+    fn new(track: &DesignTrack, acting: &Acting, h: &[f64], left_out: Option<&[bool]>) -> Self {
+        let samples = track.x.len() - track.from;
+        let used = |k: usize| left_out.is_none_or(|left_out| !left_out[k]);
+        if h.len() > LONGEST {
+            let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
+            let variances: Vec<f64> = acting.variances().collect();
+            let variance =
+                |t: usize| -> f64 { variances[..t].iter().rev().zip(&squares).map(|(m, h)| m * h).sum() };
+            let scale = |k: usize| if used(k) { 1.0 / (1.0 + variance(track.from + k)).sqrt() } else { 0.0 };
+            return Self { scale: (0..samples).map(scale).collect(), ..Self::none(samples) };
+        }
+        let mut state = Covariance::new(h);
+        let mut out = Self {
+            response: h.to_vec(),
+            gains: Vec::with_capacity(samples * h.len()),
+            kept: Vec::with_capacity(samples),
+            scale: Vec::with_capacity(samples),
+        };
+        for (t, fresh) in acting.fresh.iter().enumerate() {
+            if t >= track.from {
+                let scale = state.observe(used(t - track.from), &mut out.gains);
+                out.scale.push(scale);
+                out.kept.push(fresh.is_none());
             }
+            state.advance(*fresh);
         }
         out
     }
 
-    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`.
-    fn covariance(&self, h: &[f64], t: usize, lag: usize) -> f64 {
-        let flips = h.iter().zip(h.iter().skip(lag)).zip((0..t.saturating_sub(lag)).rev());
-        let flips: f64 = flips.map(|((b, c), s)| b * c * self.flips[s]).sum();
-        flips + self.reaching(h, t).product(&self.reaching(h, t.saturating_sub(lag)))
+    /// Replaces errors by their surprises, scaled; several signals at once, a row a sample.
+    pub(crate) fn follow<'a>(&'a self, width: usize) -> Follower<'a> {
+        Follower { predictor: self, width, at: 0, state: vec![0.0; self.response.len() * width] }
     }
 
-    /// Its variance alone, where the response is long: what is kept counts as if it were new.
-    fn variance(&self, squares: &[f64], t: usize) -> f64 {
-        let past = self.gain[..t].iter().zip(&self.flips).rev();
-        squares.iter().zip(past).map(|(h, (g, f))| h * (g * g + f)).sum()
+    /// One signal whitened.
+    pub(crate) fn applied(&self, signal: &[f64]) -> Vec<f64> {
+        let mut out = signal.to_vec();
+        let mut follower = self.follow(1);
+        out.chunks_exact_mut(1).for_each(|row| follower.next(row));
+        out
     }
 }
 
-/// What reaches one sample.
-struct Reaching {
-    parts: [(u32, f64); LONGEST],
-    count: usize,
+/// Whitens rows one after the other.
+pub(crate) struct Follower<'a> {
+    predictor: &'a Predictor,
+    width: usize,
+    at: usize,
+    /// The last `m` expected, latest first, a row each.
+    state: Vec<f64>,
 }
 
-impl Reaching {
-    /// `Σ` over the rests that reach both.
-    fn product(&self, earlier: &Self) -> f64 {
-        let (mut i, mut k, mut sum) = (0, 0, 0.0);
-        while i < self.count && k < earlier.count {
-            let ((rest, part), (other, piece)) = (self.parts[i], earlier.parts[k]);
-            if rest == other {
-                sum += part * piece;
+impl Follower<'_> {
+    /// The next row.
+    pub(crate) fn next(&mut self, row: &mut [f64]) {
+        let (p, width) = (self.predictor, self.width);
+        let lags = p.response.len();
+        for (h, m) in p.response.iter().zip(self.state.chunks_exact(width)) {
+            row.iter_mut().zip(m).for_each(|(x, m)| *x -= h * m);
+        }
+        for (gain, m) in p.gains[self.at * lags..].iter().zip(self.state.chunks_exact_mut(width)) {
+            row.iter().zip(m).for_each(|(x, m)| *m += gain * x);
+        }
+        if lags > 0 {
+            self.state.copy_within(..(lags - 1) * width, width);
+            if !p.kept[self.at] {
+                self.state[..width].fill(0.0);
             }
-            i += usize::from(rest >= other);
-            k += usize::from(other >= rest);
         }
-        sum
+        row.iter_mut().for_each(|x| *x *= p.scale[self.at]);
+        self.at += 1;
     }
 }
 
-/// What the noise makes of the innovations.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Acted {
-    /// One over the standard deviation of each innovation, tracks apart.
-    pub(crate) scale: Vec<Vec<f64>>,
-    /// Autocorrelations of the scaled innovations at lags 1, 2, …; none where the response is long.
-    pub(crate) colour: Vec<f64>,
+/// How well the last `m` are known.
+struct Covariance<'a> {
+    h: &'a [f64],
+    /// Row-major, latest first.
+    p: Vec<f64>,
 }
 
-/// The noise through the response `h` of `B̃/den`.
-pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Acted {
-    let short = h.len() <= LONGEST;
-    let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
-    // What is not kept goes no further than the response does.
-    let lags = if law.kept { LAGS } else { LAGS.min(h.len().saturating_sub(1)) };
-    let mut colour = vec![0.0; if short { lags } else { 0 }];
-    let mut count = 0;
-    let mut scale = Vec::with_capacity(tracks.len());
-    for track in tracks {
-        let counted = track.from..track.x.len();
-        let Some(acting) = Acting::new(track, law, p) else {
-            scale.push(vec![1.0; counted.len()]);
-            continue;
-        };
-        let variance =
-            |t: usize| if short { acting.covariance(h, t, 0) } else { acting.variance(&squares, t) };
-        let own: Vec<f64> = counted.clone().map(|t| 1.0 / (1.0 + variance(t)).sqrt()).collect();
-        for (k, sum) in colour.iter_mut().enumerate() {
-            let lag = k + 1;
-            let at = |t: usize| own[t - track.from];
-            let pairs = counted.clone().skip(lag).filter(|t| (t / BLOCK).is_multiple_of(EVERY));
-            *sum += pairs.map(|t| acting.covariance(h, t, lag) * at(t) * at(t - lag)).sum::<f64>();
+impl<'a> Covariance<'a> {
+    fn new(h: &'a [f64]) -> Self {
+        Self { h, p: vec![0.0; h.len() * h.len()] }
+    }
+
+    /// One over the standard deviation of the next error, which is then known; appends its gains.
+    fn observe(&mut self, used: bool, gains: &mut Vec<f64>) -> f64 {
+        let lags = self.h.len();
+        if !used {
+            gains.extend(std::iter::repeat_n(0.0, lags));
+            return 0.0;
         }
-        count += counted.filter(|t| (t / BLOCK).is_multiple_of(EVERY)).count();
-        scale.push(own);
+        let mut shared = [0.0; LONGEST];
+        for (shared, row) in shared.iter_mut().zip(self.p.chunks_exact(lags.max(1))) {
+            *shared = row.iter().zip(self.h).map(|(p, h)| p * h).sum();
+        }
+        let shared = &shared[..lags];
+        let variance = 1.0 + shared.iter().zip(self.h).map(|(s, h)| s * h).sum::<f64>();
+        for (row, s) in self.p.chunks_exact_mut(lags.max(1)).zip(shared) {
+            row.iter_mut().zip(shared).for_each(|(p, r)| *p -= s * r / variance);
+        }
+        gains.extend(shared.iter().map(|s| s / variance));
+        1.0 / variance.sqrt()
     }
-    colour.iter_mut().for_each(|sum| *sum /= count.max(1) as f64);
-    Acted { scale, colour }
+
+    /// One sample on: a fresh `m` of a variance, or the last one again.
+    fn advance(&mut self, fresh: Option<f64>) {
+        let lags = self.h.len();
+        for i in (0..lags).rev() {
+            for k in (0..lags).rev() {
+                let (earlier, later) = (i.saturating_sub(1), k.saturating_sub(1));
+                self.p[i * lags + k] = match (fresh, i.min(k)) {
+                    (Some(variance), 0) if i == k => variance,
+                    (Some(_), 0) => 0.0,
+                    _ => self.p[earlier * lags + later],
+                };
+            }
+        }
+    }
 }
 
-/// Deviance gained by a colour that is foretold: `−N ln v`, `v` the variance that the filter which whitens the foretold
-/// autocorrelations leaves of the found ones.
-pub(crate) fn colour_gain(scaled: &[Vec<f64>], foretold: &[f64]) -> f64 {
-    if foretold.is_empty() {
-        return 0.0;
-    }
-    let found = autocorrelation(scaled, foretold.len());
-    let expected: Vec<f64> = std::iter::once(1.0).chain(foretold.iter().copied()).collect();
-    let filter: Vec<f64> = std::iter::once(1.0).chain(levinson(&expected).0).collect();
-    let row = |i: usize| filter.iter().enumerate().map(|(j, a)| a * found[i.abs_diff(j)]).sum::<f64>();
-    let left: f64 = filter.iter().enumerate().map(|(i, a)| a * row(i)).sum();
-    let count: usize = scaled.iter().map(Vec::len).sum();
-    -(count as f64) * left.max(1e-9).ln()
+/// The whitening of every track, for noise through the response `h` of `B̃/den`.
+pub(crate) fn predictors(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Vec<Predictor> {
+    let of_track = |track: &DesignTrack| match Acting::new(track, law, p) {
+        Some(acting) => Predictor::new(track, &acting, h, track.clipped.as_deref()),
+        None => Predictor::none(track.x.len() - track.from),
+    };
+    tracks.iter().map(of_track).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use proptest::prelude::*;
 
-    #[test]
-    fn what_is_kept_adds_up_over_a_rest_and_what_is_new_does_not() {
-        let acting = |rest: [u32; 6]| Acting { gain: vec![2.0; 6], rest: rest.to_vec(), flips: vec![0.5; 6] };
-        let h = [0.5, 0.25];
-        let new = acting([0, 1, 2, 3, 4, 5]);
-        assert!((new.covariance(&h, 4, 0) - 4.5 * (0.25 + 0.0625)).abs() < 1e-12);
-        assert!((new.covariance(&h, 4, 1) - 4.5 * 0.5 * 0.25).abs() < 1e-12);
-        assert_eq!(new.covariance(&h, 4, 2), 0.0);
-        assert!((new.variance(&[0.25, 0.0625], 4) - new.covariance(&h, 4, 0)).abs() < 1e-12);
-        let kept = acting([0; 6]);
-        assert!((kept.covariance(&h, 4, 0) - (4.0 * 0.5625 + 0.5 * 0.3125)).abs() < 1e-12);
-        assert!((kept.covariance(&h, 5, 2) - 4.0 * 0.5625).abs() < 1e-12);
+    use super::*;
+    use crate::assembly::Assembly;
+    use crate::campaign::Track;
+    use crate::design::Design;
+    use crate::testing::{small_campaign, small_model};
+
+    /// The oracle: the covariance of all errors of a track, written down and factored.
+    fn covariance(acting: &Acting, h: &[f64], from: usize) -> Vec<Vec<f64>> {
+        let samples = acting.fresh.len();
+        let variances: Vec<f64> = acting.variances().collect();
+        let of_rest: Vec<usize> = acting
+            .fresh
+            .iter()
+            .scan(0, |rest, fresh| {
+                *rest += usize::from(fresh.is_some());
+                Some(*rest)
+            })
+            .collect();
+        let shared = |s: usize, t: usize| if of_rest[s] == of_rest[t] { variances[s] } else { 0.0 };
+        let entry = |t: usize, k: usize| {
+            let mut sum = f64::from(u8::from(t == k));
+            for (i, b) in h.iter().enumerate().take(t) {
+                for (j, c) in h.iter().enumerate().take(k) {
+                    sum += b * c * shared(t - i - 1, k - j - 1);
+                }
+            }
+            sum
+        };
+        (from..samples).map(|t| (from..samples).map(|k| entry(t, k)).collect()).collect()
+    }
+
+    /// `L⁻¹x` and the diagonal of `L`, `L·Lᵀ` the covariance.
+    fn whitened(covariance: &[Vec<f64>], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let n = x.len();
+        let mut l = vec![vec![0.0; n]; n];
+        let mut out = vec![0.0; n];
+        for i in 0..n {
+            for j in 0..=i {
+                let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+                let rest = covariance[i][j] - sum;
+                l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
+            }
+            let sum: f64 = (0..i).map(|k| l[i][k] * out[k]).sum();
+            out[i] = (x[i] - sum) / l[i][i];
+        }
+        (out, (0..n).map(|i| l[i][i]).collect())
+    }
+
+    fn track_with(samples: usize, from: usize) -> DesignTrack {
+        let (campaign, grid) = small_campaign();
+        let design = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+        let mut track = design.tracks[0].clone();
+        track.x = vec![0.0; samples].into();
+        track.from = from;
+        track
+    }
+
+    proptest! {
+        #[test]
+        fn surprises_are_those_of_the_whole_covariance(
+            fresh in prop::collection::vec(prop::option::of(0.0..4.0_f64), 30),
+            h in prop::collection::vec(-1.5..1.5_f64, 1..4),
+            from in 0_usize..6,
+        ) {
+            let mut acting = Acting { fresh };
+            acting.fresh[0] = Some(1.0);
+            let track = track_with(30, from);
+            let x: Vec<f64> = (from..30).map(|t| (t as f64 * 1.7).sin() * 2.0).collect();
+            let predictor = Predictor::new(&track, &acting, &h, None);
+            let (expected, sd) = whitened(&covariance(&acting, &h, from), &x);
+            for (k, found) in predictor.applied(&x).into_iter().enumerate() {
+                prop_assert!((found - expected[k]).abs() < 1e-9, "{k}: {found} {}", expected[k]);
+                prop_assert!((predictor.scale[k] * sd[k] - 1.0).abs() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn rows_are_whitened_as_signals_are(
+            fresh in prop::collection::vec(prop::option::of(0.0..4.0_f64), 20),
+            h in prop::collection::vec(-1.5..1.5_f64, 1..4),
+        ) {
+            let left_out: Vec<bool> = (0..17).map(|k| k % 5 == 2).collect();
+            let predictor = Predictor::new(&track_with(20, 3), &Acting { fresh }, &h, Some(&left_out));
+            let signals = [1.1, 0.3].map(|f: f64| (0..17).map(|k| (k as f64 * f).cos()).collect::<Vec<f64>>());
+            let mut follower = predictor.follow(2);
+            let [one, other] = signals.each_ref().map(|s| predictor.applied(s));
+            for k in 0..17 {
+                let mut row = [signals[0][k], signals[1][k]];
+                follower.next(&mut row);
+                prop_assert!((row[0] - one[k]).abs() + (row[1] - other[k]).abs() < 1e-12);
+                prop_assert!(!left_out[k] || row == [0.0, 0.0]);
+            }
+        }
     }
 
     #[test]
-    fn a_colour_foretold_exactly_gains_what_an_autoregression_does() {
-        let mut y = 0.0;
-        let z: Vec<f64> = (0..5000)
-            .map(|t| {
-                y = 0.6 * y + (f64::from(t * t % 1013) * 0.77).sin();
-                y
-            })
-            .collect();
-        let r = autocorrelation(std::slice::from_ref(&z), 3);
-        let gain = colour_gain(std::slice::from_ref(&z), &r[1..]);
-        assert!((gain + 5000.0 * levinson(&r).1.ln()).abs() < 1e-6);
-        // Another colour gains less, and none gains nothing.
-        assert!(colour_gain(std::slice::from_ref(&z), &[0.3, 0.1, 0.0]) < gain);
-        assert_eq!(colour_gain(&[z], &[0.0, 0.0]), 0.0);
+    fn behind_a_long_response_the_noise_counts_as_white() {
+        let h: Vec<f64> = (0..LONGEST + 3).map(|k| 0.8_f64.powi(k as i32)).collect();
+        let acting = Acting { fresh: vec![Some(0.5); 40] };
+        let predictor = Predictor::new(&track_with(40, 5), &acting, &h, None);
+        let short = covariance(&acting, &h, 5);
+        for (k, scale) in predictor.scale.iter().enumerate() {
+            assert!((scale - 1.0 / short[k][k].sqrt()).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn noise_acts_by_the_slope_and_is_kept_at_rest() {
+        let (campaign, grid) = small_campaign();
+        let mut assembly = Assembly::default();
+        let law = InputNoise { by_slope: 2.0, kept: true, ..InputNoise::default() };
+        assembly.noise.input = Some(law);
+        let p = small_model(&grid);
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        for track in &design.tracks {
+            let acting = Acting::new(track, law, &p).expect("a sensitivity");
+            let slope = &track.sensitivity.as_deref().expect("a sensitivity")[0];
+            for (t, fresh) in acting.fresh.iter().enumerate().skip(1) {
+                let moves = track.moves[t].step != 0.0;
+                assert_eq!(*fresh, moves.then(|| 2.0 * slope.dot(t, &p.f).powi(2)), "{t}");
+            }
+        }
     }
 }

@@ -26,7 +26,7 @@ pub(crate) enum TransitionLaw {
     /// `u = (1−φ)·C(v) + φ·u_rev`: the value at the reversal fades.
     Held,
     /// `u = (1−φ)·C(v) + φ·C_old(v)`: the other border fades.
-    OldBorder,
+    Crossing,
 }
 
 /// A clock that slow changes follow, from 0 to about 1.
@@ -114,12 +114,14 @@ pub(crate) struct Saturation {
 }
 
 /// Noise on the input that acts: its variance over that of the equation error.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct InputNoise {
     /// What comes by the slope of the borders.
     pub(crate) by_slope: f64,
     /// What comes by the distance between them, where noise switches the operator.
     pub(crate) by_gap: f64,
+    /// What is added to `u` itself.
+    pub(crate) direct: f64,
     /// Whether a miss is kept until the next move.
     pub(crate) kept: bool,
 }

@@ -111,9 +111,16 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let left = best_leaves.deviance;
     let best = effects.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
     let gain = nominal_bic - best;
+    let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
+    let closes = best_leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES);
+    // Noise moves no simulation error: it is no rival of what takes most of it away.
+    let moves = closes && first.is_some_and(|e| !e.is_noise());
     let share = |temperature: f64| {
-        let weights: Vec<f64> =
-            effects.iter().map(|(_, b)| (-(b - best) / (2.0 * temperature)).exp()).collect();
+        let weight = |(e, b): &(Effect, f64)| match moves && e.is_noise() {
+            true => 0.0,
+            false => (-(b - best) / (2.0 * temperature)).exp(),
+        };
+        let weights: Vec<f64> = effects.iter().map(weight).collect();
         let sum = weights.iter().sum::<f64>().max(1e-300);
         weights.into_iter().map(move |w| w / sum).collect::<Vec<f64>>()
     };
@@ -122,11 +129,9 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     // Nothing missing: the gain is what the search finds in noise.
     let none = 1.0 / (1.0 + ((gain - SIGNIFICANT) / 6.0).clamp(-60.0, 60.0).exp());
     let fraction = left / (left + gain.max(1.0));
-    let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
     let alike = |e: Effect| first.is_some_and(|f| e == f || f.twins().contains(&e));
     let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
     let margin = (runner_up - best) / gain.max(1.0);
-    let closes = best_leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES);
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = if closes { 0.0 } else { logistic((fraction - middle) / scale) }.max(calibration::FOREIGN);

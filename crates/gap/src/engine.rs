@@ -85,17 +85,11 @@ fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
     let innovations = design.innovations(p, &whitener);
     let weights = weigh(design, &assembly.noise, p, &innovations);
     let n = design.samples() as f64;
-    let mut sum = 0.0;
-    for (number, w) in innovations.iter().enumerate() {
-        match &weights.scale {
-            Some(s) => sum += w.iter().zip(&s[number]).map(|(w, s)| w * w * s * s).sum::<f64>(),
-            None => sum += w.iter().map(|w| w * w).sum::<f64>(),
-        }
-    }
+    let sum: f64 = weights.by_track(&innovations).iter().flatten().map(|w| w * w).sum();
     let variance = sum / (n - weights.left_out as f64).max(1.0);
     let deviance = match weights.deviance {
         Some(direct) => direct - 2.0 * design.log_slope(),
-        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope() - weights.credit,
+        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope(),
     };
     let deviance = deviance * design.criterion.share();
     deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
@@ -122,9 +116,8 @@ pub(crate) fn fit(
     let mut damping = 1e-9;
     for _ in 0..rounds {
         let extra = derivatives(&ground, build, &own, &design, &state, &p);
-        let weights = state.weights.scale.as_deref();
         let w = state.weights.applied(&state.innovations);
-        let mut normal = normal_equations(&design, &p, &state.whitener, weights, (&w, &extra));
+        let mut normal = normal_equations(&design, &p, &state.whitener, &state.weights, (&w, &extra));
         priors(&mut normal, ground.grid, &p, &state.assembly);
         let mut better = None;
         let mut step_norm = 0.0;
@@ -197,7 +190,7 @@ pub(crate) fn fit(
     let (mut sum, mut count) = (0.0, 0.0);
     for (number, w) in state.innovations.iter().enumerate() {
         for (k, w) in w.iter().enumerate() {
-            if state.weights.scale.as_ref().is_none_or(|s| s[number][k] > 0.0) {
+            if state.weights.counts(number, k) {
                 sum += w * w;
                 count += 1.0;
             }

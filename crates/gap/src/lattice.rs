@@ -3,8 +3,9 @@
 use crate::campaign::Campaign;
 use crate::engine::Fit;
 
-/// Deviance that a lattice is worth: chance leaves none.
-pub(crate) const WORTH: f64 = 2000.0;
+/// Deviance a sample that a lattice is worth. Chance leaves none, so it could be any number: large enough that no curve through the
+/// few values there are competes.
+const WORTH: f64 = 0.6;
 /// Least share of the innovations' variance that rounding must make to matter.
 const MATERIAL: f64 = 0.05;
 
@@ -27,6 +28,11 @@ pub(crate) fn lattice(campaign: &Campaign) -> Option<f64> {
         })
         .count();
     (fits * 100 >= values.len() * 98).then_some(step)
+}
+
+/// Deviance that a lattice is worth in so many samples.
+pub(crate) fn worth(samples: usize) -> f64 {
+    WORTH * samples as f64
 }
 
 /// Whether rounding to `step` makes a share of the innovations that matters.

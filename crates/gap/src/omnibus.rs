@@ -7,7 +7,7 @@ use crate::effect::Stage;
 use crate::engine::Fit;
 use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
-use crate::lattice::{is_material, lattice};
+use crate::lattice::{is_material, lattice, worth};
 use crate::weights::mixture;
 
 /// What the tests found.
@@ -82,7 +82,7 @@ impl Omnibus {
     /// a lattice that nothing in it makes.
     pub(crate) fn against(&self, samples: usize) -> f64 {
         let tails = if self.tails > TAILS * samples as f64 { self.tails } else { 0.0 };
-        self.excess() + tails + self.lattice
+        self.excess() + self.unrounded * tails + self.lattice
     }
 
     /// The stage that the residual points at.
@@ -179,7 +179,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             extra[j].push(column);
         }
     }
-    let jacobian = Jacobian::new(&design, &fit.linear, &whitener, weights.scale.as_deref());
+    let jacobian = Jacobian::new(&design, &fit.linear, &whitener, &weights);
     let weighted = weights.applied(&innovations);
     let gains = Gains::new(&jacobian, &weighted, fit.variance / share)?;
     let all: Vec<Scored> = extra.iter().map(|column| gains.score(weights.applied(column))).collect();
@@ -189,23 +189,13 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             names.iter().zip(&all).filter(|(name, _)| **name == group).map(|(_, c)| c).collect();
         groups.push((group, gains.of(&members), members.len()));
     }
-    let scaled: Vec<Vec<f64>> = match &weights.scale {
-        Some(scale) => innovations
-            .iter()
-            .zip(scale)
-            .map(|(w, s)| w.iter().zip(s).map(|(w, s)| w * s).collect())
-            .collect(),
-        None => innovations,
-    };
+    let scaled = weights.by_track(&innovations);
     // Samples without weight say nothing.
     let count = scaled.iter().flatten().filter(|w| **w != 0.0).count().max(1);
     let r = crate::spectrum::autocorrelation(&scaled, LAGS);
     // Errors of a simulation are coloured whatever the noise is.
     let white = f64::from(u8::from(!design.criterion.simulates()));
-    // Beyond the colour that the law of the noise foretells.
-    let foretold = weights.colour.iter().copied().chain(std::iter::repeat(0.0));
-    let ljung_box =
-        white * r[1..].iter().zip(foretold).map(|(r, rho)| (r - rho).powi(2)).sum::<f64>() * count as f64;
+    let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
     let (gain, dof) = scatter(campaign, &scaled);
     // Errors of a simulation are large where the model is wrong, which says nothing about noise.
@@ -227,7 +217,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
 
 fn unexplained_lattice(campaign: &Campaign, fit: &Fit) -> f64 {
     let found = || lattice(campaign).is_some_and(|step| is_material(step, fit));
-    if fit.assembly.noise.lattice.is_none() && found() { crate::lattice::WORTH } else { 0.0 }
+    if fit.assembly.noise.lattice.is_none() && found() { worth(campaign.fit_samples()) } else { 0.0 }
 }
 
 /// Chi-square of a regression of the innovations' size on circumstances.

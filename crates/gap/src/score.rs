@@ -37,11 +37,11 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
     let weights = weigh(&design, &fit.assembly.noise, &fit.linear, &w);
     let mut sum = 0.0;
     let mut count = 0.0_f64;
-    for (number, w) in w.iter().enumerate() {
+    for (number, w) in weights.by_track(&w).iter().enumerate() {
         for (k, x) in w.iter().enumerate() {
             let s = weights.scale.as_ref().map_or(1.0, |s| s[number][k]);
             if s > 0.0 {
-                sum += -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x * s * s / variance + s.ln();
+                sum += -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance + s.ln();
                 count += 1.0;
             }
         }

@@ -111,7 +111,8 @@ impl Prospect {
             self.law.starts.iter().map(|own| (test.score(&build, own), own.clone())).collect();
         self.score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
         scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
-        let most = if self.law.search == Search::Profile { CORNERED } else { SMOOTH };
+        let most =
+            if self.law.search == Search::Profile || self.law.climbs > SMOOTH { CORNERED } else { SMOOTH };
         if scored.len() > most && scored.iter().all(|(score, _)| score.refitted.is_some()) {
             // The best by the test, then the best of the others by what is left.
             scored[1..].sort_by(|x, y| y.0.refitted.unwrap_or(0.0).total_cmp(&x.0.refitted.unwrap_or(0.0)));

@@ -35,7 +35,7 @@ impl<'a> Known<'a> {
         let whitener = design.whitener(noise, &fit.linear.a);
         let innovations = design.innovations(&fit.linear, &whitener);
         let weights = weigh(design, noise, &fit.linear, &innovations);
-        let jacobian = Jacobian::new(design, &fit.linear, &whitener, weights.scale.as_deref());
+        let jacobian = Jacobian::new(design, &fit.linear, &whitener, &weights);
         let weighted = weights.applied(&innovations);
         Self { campaign, explanation, innovations, weights, weighted, jacobian }
     }
@@ -155,16 +155,10 @@ impl ScoreTest<'_> {
 
     /// The weighted difference of innovations.
     fn column(&self, from: &[Vec<f64>], to: &[Vec<f64>], scale: f64) -> Vec<f64> {
-        let mut out = Vec::with_capacity(self.known.weighted.len());
-        for (number, (from, to)) in from.iter().zip(to).enumerate() {
-            match &self.known.weights.scale {
-                None => out.extend(from.iter().zip(to).map(|(x, y)| scale * (y - x))),
-                Some(s) => {
-                    out.extend(from.iter().zip(to).zip(&s[number]).map(|((x, y), s)| scale * s * (y - x)));
-                }
-            }
-        }
-        out
+        let difference = |(from, to): (&Vec<f64>, &Vec<f64>)| {
+            from.iter().zip(to).map(|(x, y)| scale * (y - x)).collect::<Vec<f64>>()
+        };
+        self.known.weights.applied(&from.iter().zip(to).map(difference).collect::<Vec<_>>())
     }
 }
 

@@ -1,6 +1,8 @@
 //! Laws of the innovations other than one normal distribution.
 
-use crate::acting::{Acted, acted, colour_gain};
+use std::borrow::Cow;
+
+use crate::acting::{Predictor, predictors};
 use crate::assembly::{NoiseLaw, convolve};
 use crate::design::{Design, DesignTrack, Linear};
 
@@ -9,32 +11,51 @@ use crate::design::{Design, DesignTrack, Linear};
 pub(crate) struct Weights {
     /// Factor on each innovation that makes them equally distributed; absent where all are 1.
     pub(crate) scale: Option<Vec<Vec<f64>>>,
+    /// What takes from the innovations what the past foretells, and holds the factors, where noise on the input colours them.
+    pub(crate) predictors: Option<Vec<Predictor>>,
     /// Samples left out.
     pub(crate) left_out: usize,
     /// Sum of the factors' logarithms.
     pub(crate) log_scale: f64,
     /// The deviance itself, where it does not follow from the weighted sum of squares.
     pub(crate) deviance: Option<f64>,
-    /// Autocorrelations of the weighted innovations that the law foretells, at lags 1, 2, …, and the deviance they gain.
-    pub(crate) colour: Vec<f64>,
-    pub(crate) credit: f64,
     /// The mixture found.
     pub(crate) mixture: Option<(f64, f64)>,
 }
 
 impl Weights {
-    /// Signals on the counted samples times the factors, all tracks one after the other.
+    /// Signals on the counted samples, weighted, all tracks one after the other.
     pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
-        match &self.scale {
-            None => signals.concat(),
-            Some(scale) => {
-                let mut out = Vec::with_capacity(signals.iter().map(Vec::len).sum());
-                for (w, s) in signals.iter().zip(scale) {
-                    out.extend(w.iter().zip(s).map(|(w, s)| w * s));
-                }
-                out
-            }
+        self.by_track(signals).concat()
+    }
+
+    /// Signals on the counted samples, weighted.
+    pub(crate) fn by_track<'a>(&self, signals: &'a [Vec<f64>]) -> Cow<'a, [Vec<f64>]> {
+        if let Some(predictors) = &self.predictors {
+            return signals.iter().zip(predictors).map(|(w, p)| p.applied(w)).collect();
         }
+        let Some(scale) = &self.scale else { return Cow::Borrowed(signals) };
+        let products = |(w, s): (&Vec<f64>, &Vec<f64>)| w.iter().zip(s).map(|(w, s)| w * s).collect();
+        signals.iter().zip(scale).map(products).collect()
+    }
+
+    /// Weighs rows of derivatives of one track, one after the other.
+    pub(crate) fn rows(&self, track: usize, width: usize) -> Box<dyn FnMut(&mut [f64]) + '_> {
+        if let Some(predictors) = &self.predictors {
+            let mut follower = predictors[track].follow(width);
+            return Box::new(move |row| follower.next(row));
+        }
+        let Some(scale) = &self.scale else { return Box::new(|_| {}) };
+        let mut factors = scale[track].iter();
+        Box::new(move |row| {
+            let factor = factors.next().copied().unwrap_or_default();
+            row.iter_mut().for_each(|x| *x *= factor);
+        })
+    }
+
+    /// Whether the counted sample has a say.
+    pub(crate) fn counts(&self, track: usize, sample: usize) -> bool {
+        self.scale.as_ref().is_none_or(|s| s[track][sample] > 0.0)
     }
 }
 
@@ -48,14 +69,13 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
     });
     if let Some(noise) = law.input {
         let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
-        let Acted { mut scale, colour } = acted(&design.tracks, noise, p, &response);
-        let left_out = clipped.map_or(0, |clipped| leave_out(&mut scale, &clipped));
+        let predictors = predictors(&design.tracks, noise, p, &response);
+        let scale: Vec<Vec<f64>> = predictors.iter().map(|p| p.scale.clone()).collect();
+        let left_out = scale.iter().flatten().filter(|s| **s == 0.0).count();
         let counted: f64 = scale.iter().flatten().filter(|s| **s > 0.0).map(|s| s.ln()).sum();
         let log_scale = counted * stretch(&scale, left_out);
-        let products = |(w, s): (&Vec<f64>, &Vec<f64>)| w.iter().zip(s).map(|(w, s)| w * s).collect();
-        let scaled: Vec<Vec<f64>> = w.iter().zip(&scale).map(products).collect();
-        let credit = colour_gain(&scaled, &colour);
-        return Weights { scale: Some(scale), left_out, log_scale, colour, credit, ..Weights::default() };
+        let (scale, predictors) = (Some(scale), Some(predictors));
+        return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
     }
     match (law.mixture, clipped) {
         (Some(start), None) => mixture(start, w),

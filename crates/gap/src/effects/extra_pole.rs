@@ -18,7 +18,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .map(|(lags, passes, zeros)| {
             // What bypasses a lag lets the lag be slow.
             let (least, starts): (f64, &[f64]) =
-                if zeros > 0 { (0.15, &[0.5, 0.97]) } else { (0.02, &[0.2, 0.5, 0.8]) };
+                if zeros > 0 { (0.15, &[0.3, 0.5, 0.7, 0.85, 0.93, 0.97]) } else { (0.02, &[0.2, 0.5, 0.8]) };
             let starts = starts.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
             // How far a slow lag was behind when a record began is unknown.
             let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };

@@ -4,7 +4,7 @@
 //! φ(x) = exp(−(x/length)^shape),  x the travel since the reversal
 //! u = C(v) + φ·(u_rev − C(v_rev))      the distance to the border fades
 //! u = (1−φ)·C(v) + φ·u_rev             the value at the reversal fades
-//! u = (1−φ)·C(v) + φ·C_old(v)          the other border fades
+//! u = (1−w)·C(v) + w·C_old(v), w = φ·w_rev   the other border fades, of which a reversal makes the own one: w_rev ← 1 − w
 //! ```
 //!
 //! Parameters: `length` in strokes (0.002…1), `shape` (0.4…3.5; steeper envelopes are a rest that ends in a jump, which is play). Stage: operator. It rounds the loop after every reversal,
@@ -15,7 +15,7 @@ use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::{BorderColumn, Transition, TransitionLaw};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::OldBorder]
+    [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing]
         .into_iter()
         .map(|law| {
             let starts = [(0.012, 1.0), (0.04, 1.0), (0.12, 1.0), (0.12, 2.5), (0.35, 1.0)]
@@ -27,9 +27,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                     ]
                 })
                 .collect();
-            // A working point that remembers was somewhere when the record began.
-            let simulates = scene.campaign.criterion.simulates();
-            let tracks = if simulates { fitted_tracks(scene.campaign) } else { Vec::new() };
+            // A working point that remembers was somewhere when the record began; the first pulse makes it forget.
+            let mut tracks = fitted_tracks(scene.campaign);
+            if !scene.campaign.criterion.simulates() {
+                tracks.retain(|track| !scene.campaign.tracks[*track].is_pulsed());
+            }
             Variant::conditional(starts, move |p, assembly| {
                 assembly.transition = Some(Transition { length: p[0], shape: p[1], law });
                 let columns = tracks.iter().map(|&track| BorderColumn::Start { track });

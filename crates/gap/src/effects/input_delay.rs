@@ -10,7 +10,7 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let starts: Vec<_> = [0.3, 0.7, 1.2, 1.7, 2.2, 2.7, 3.3, 5.0]
+    let starts: Vec<_> = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0]
         .iter()
         .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
         .collect();

@@ -3,11 +3,12 @@
 //! ```text
 //! var w(t) = σ²·(1 + Σⱼ b̃ⱼ²·(r₁·slope²(t−j) + r₂·gap²(t−j)))                    small noise
 //! the same by slope, a miss kept until the next move                               positioning errors
+//! var w(t) = σ²·(1 + Σⱼ b̃ⱼ²·r)                                                     noise added to u, a drive's
 //! E u = p·C_asc(v) + (1−p)·C_desc(v),  p = P(v + n rises),  var u = s²·slope² + p(1−p)·gap²   jitter n of sd s
 //! ```
 //!
 //! Parameters: variance ratios `r₁` while moving (by the border's slope) and `r₂` while resting (by the distance between the
-//! borders, which noise makes the operator switch between); or the jitter's standard deviation `s` in strokes and the
+//! borders, which noise makes the operator switch between), or `r` at any time; or the jitter's standard deviation `s` in strokes and the
 //! inverse variance of the equation error. The colour that the response gives the noise counts as well. Stage: input. Confused with: outliers.
 
 use crate::assembly::InputNoise;
@@ -15,7 +16,7 @@ use crate::assembly::InputNoise;
 use super::{Scene, Search, Variant, own};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    vec![small(), kept(), jitter(scene)]
+    vec![small(), kept(), direct(), jitter(scene)]
 }
 
 fn jitter(scene: &Scene<'_>) -> Variant {
@@ -33,7 +34,7 @@ fn jitter(scene: &Scene<'_>) -> Variant {
         assembly.jitter = p[0].exp();
         let flips = p[1].exp();
         let by_slope = flips * assembly.jitter.powi(2);
-        assembly.noise.input = Some(InputNoise { by_slope, by_gap: flips, kept: false });
+        assembly.noise.input = Some(InputNoise { by_slope, by_gap: flips, ..InputNoise::default() });
     });
     variant.search = Search::Profile;
     variant
@@ -45,7 +46,19 @@ fn kept() -> Variant {
         .map(|&ratio| vec![own("log_ratio", "ln variance ratio", ratio, (-12.0, 14.0), 1.0)])
         .collect();
     let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), by_gap: 0.0, kept: true });
+        assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), kept: true, ..InputNoise::default() });
+    });
+    variant.search = Search::Profile;
+    variant
+}
+
+fn direct() -> Variant {
+    let starts = [-1.0, 2.0, 5.0]
+        .iter()
+        .map(|&ratio| vec![own("log_ratio", "ln variance ratio", ratio, (-8.0, 14.0), 1.0)])
+        .collect();
+    let mut variant = Variant::new(starts, |p, assembly| {
+        assembly.noise.input = Some(InputNoise { direct: p[0].exp(), ..InputNoise::default() });
     });
     variant.search = Search::Profile;
     variant
@@ -62,7 +75,8 @@ fn small() -> Variant {
         })
         .collect();
     let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), by_gap: p[1].exp(), kept: false });
+        assembly.noise.input =
+            Some(InputNoise { by_slope: p[0].exp(), by_gap: p[1].exp(), ..InputNoise::default() });
     });
     // The ratios act on the weights only: the innovations have no derivative that would lead to them.
     variant.search = Search::Profile;

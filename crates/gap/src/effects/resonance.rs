@@ -14,22 +14,30 @@ use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // A mode rings in the residual: its lines are the likeliest frequencies.
-    let mut omegas = strongest_lines(scene.innovations, 2);
-    omegas.retain(|w| *w > 0.1);
-    omegas.extend([0.35, 0.75, 1.2, 1.8]);
-    let second = omegas[1..].iter().copied().filter(|w| (w - omegas[0]).abs() > 0.1).take(SECONDS);
-    let one = |omega: &f64| mode(*omega).to_vec();
-    let two = |omega: f64| [mode(omegas[0]), mode(omega)].concat();
-    let alone: Vec<Vec<Own>> = omegas.iter().map(one).collect();
-    let laws = [(alone.clone(), false), (alone, true), (second.map(two).collect(), false)];
-    laws.map(|(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes)).into()
+    let mut lines = strongest_lines(scene.innovations, LINES);
+    lines.retain(|w| *w > 0.1);
+    let sharp = lines.iter().map(|w| mode(*w, SHARP).to_vec());
+    let blunt = lines.iter().chain(&ELSEWHERE).map(|w| mode(*w, BLUNT).to_vec());
+    let alone: Vec<Vec<Own>> = blunt.chain(sharp).collect();
+    let mut two = Vec::new();
+    for (k, one) in lines.iter().enumerate() {
+        let others = lines[k + 1..].iter().chain(&ELSEWHERE).filter(|w| (*w - one).abs() > 0.1);
+        two.extend(others.map(|other| [mode(*one, SHARP), mode(*other, SHARP)].concat()));
+    }
+    let laws = [(alone.clone(), false), (alone, true), (two, false)];
+    let laws = laws.into_iter().filter(|(starts, _)| !starts.is_empty());
+    laws.map(|(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes)).collect()
 }
 
-/// Second modes that a search starts from.
-const SECONDS: usize = 3;
+/// Lines of the residual that a search starts from, and frequencies without a line.
+const LINES: usize = 3;
+const ELSEWHERE: [f64; 4] = [0.35, 0.75, 1.2, 1.8];
+/// Pole radii that a search starts from.
+const SHARP: f64 = 0.97;
+const BLUNT: f64 = 0.91;
 
-fn mode(omega: f64) -> [Own; 2] {
-    let zeta = damping(0.91, omega).min(0.4);
+fn mode(omega: f64, radius: f64) -> [Own; 2] {
+    let zeta = damping(radius, omega).min(0.4);
     [
         own("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
         own("zeta", "1", zeta, (0.003, 0.6), 0.002),

@@ -8,7 +8,7 @@
 //! A lattice too fine to matter is no cause.
 
 use super::{Scene, Variant};
-use crate::lattice::{is_material, lattice};
+use crate::lattice::{is_material, lattice, worth};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let Some(step) = lattice(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
@@ -19,6 +19,6 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         assembly.noise.output_ratio = p[0].exp();
         assembly.noise.lattice = Some(step);
     });
-    variant.handicap = -crate::lattice::WORTH;
+    variant.handicap = -worth(scene.campaign.fit_samples());
     vec![variant]
 }

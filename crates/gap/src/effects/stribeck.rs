@@ -14,11 +14,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);
     let mut out = Vec::new();
     for while_resting in [Resting::Held, Resting::Zero] {
-        let starts = [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0)]
+        let starts = [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)]
             .iter()
             .map(|&(share, power)| {
                 let scale = share * typical;
-                let range = (0.02 * typical, 4.0 * typical);
+                let range = (0.02 * typical, 20.0 * typical);
                 vec![
                     own("stribeck_speed", "strokes per sample", scale, range, 0.02 * scale),
                     own("power", "1", power, (0.3, 4.0), 0.02),

@@ -8,12 +8,12 @@ use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::whitener::{LEAD, Whitener};
 
-/// Hands over the derivatives of one track, without weights: the number of the counted sample, and its row.
+/// Hands over the derivatives of one track without weights, a row a counted sample.
 pub(super) fn dense_rows(
     (design, track): (&Design, &DesignTrack),
     p: &Linear,
     whitener: &Whitener,
-    mut emit: impl FnMut(usize, &[f64]),
+    mut emit: impl FnMut(&[f64]),
 ) {
     let (na, nb, k, m) = (p.a.len(), p.b.len(), p.f.len(), p.d.len());
     let size = p.len();
@@ -48,7 +48,7 @@ pub(super) fn dense_rows(
         }
         if whitener.ar.is_empty() && whitener.ma.is_empty() {
             if t >= track.from {
-                emit(t - track.from, raw.row(t));
+                emit(raw.row(t));
             }
             continue;
         }
@@ -61,7 +61,7 @@ pub(super) fn dense_rows(
             white.add_past(t, i + 1, -c, 0..size);
         }
         if t >= track.from {
-            emit(t - track.from, white.row(t));
+            emit(white.row(t));
         }
     }
 }

@@ -16,6 +16,7 @@ use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::normal::Normal;
 use crate::rows::Rows;
+use crate::weights::Weights;
 use crate::whitener::{LEAD, Whitener};
 
 /// Weighted derivatives, all tracks one after the other.
@@ -34,26 +35,22 @@ enum Store {
 
 impl Jacobian {
     /// The derivatives at `p`; each row times its weight.
-    pub(crate) fn new(
-        design: &Design,
-        p: &Linear,
-        whitener: &Whitener,
-        weights: Option<&[Vec<f64>]>,
-    ) -> Self {
+    pub(crate) fn new(design: &Design, p: &Linear, whitener: &Whitener, weights: &Weights) -> Self {
         let columns = p.len();
-        let parts = parts(design, weights);
-        let store = if spreads(design, whitener) {
+        let store = if spreads(design, whitener, weights) {
             let mut out = Vec::with_capacity(design.samples() * columns);
-            for (track, weights) in parts {
-                dense_rows((design, track), p, whitener, |t, row| {
-                    let weight = weights.map_or(1.0, |w| w[t]);
-                    out.extend(row.iter().map(|x| weight * x));
+            for (number, track) in design.tracks.iter().enumerate() {
+                let mut weigh = weights.rows(number, columns);
+                dense_rows((design, track), p, whitener, |row| {
+                    let from = out.len();
+                    out.extend_from_slice(row);
+                    weigh(&mut out[from..]);
                 });
             }
             Store::Dense(out)
         } else {
             let mut out = Rows::with_capacity(design.samples());
-            for (track, weights) in parts {
+            for (track, weights) in parts(design, weights) {
                 sparse_rows((design, track), p, whitener, weights, |row| out.push(row, 1.0));
             }
             Store::Sparse(out)
@@ -108,7 +105,7 @@ pub(crate) fn normal_equations(
     design: &Design,
     p: &Linear,
     whitener: &Whitener,
-    weights: Option<&[Vec<f64>]>,
+    weights: &Weights,
     (w, extra): (&[f64], &[Vec<f64>]),
 ) -> Normal {
     let columns = p.len();
@@ -117,11 +114,13 @@ pub(crate) fn normal_equations(
     // Rows so far, and the first of them that is not yet in the equations.
     let (mut row_number, mut from) = (0, 0);
     let mut block: Vec<f64> = Vec::with_capacity(BLOCK * width);
-    for (track, weights) in parts(design, weights) {
-        if spreads(design, whitener) {
-            dense_rows((design, track), p, whitener, |t, row| {
-                let weight = weights.map_or(1.0, |w| w[t]);
-                block.extend(row.iter().map(|x| weight * x));
+    for (number, (track, factors)) in parts(design, weights).enumerate() {
+        if spreads(design, whitener, weights) {
+            let mut weigh = weights.rows(number, columns);
+            dense_rows((design, track), p, whitener, |row| {
+                let from_here = block.len();
+                block.extend_from_slice(row);
+                weigh(&mut block[from_here..]);
                 block.extend(extra.iter().map(|column| column[row_number]));
                 row_number += 1;
                 if row_number - from == BLOCK {
@@ -131,7 +130,7 @@ pub(crate) fn normal_equations(
                 }
             });
         } else {
-            sparse_rows((design, track), p, whitener, weights, |row| {
+            sparse_rows((design, track), p, whitener, factors, |row| {
                 let extra = extra.iter().enumerate();
                 row.extend(extra.map(|(j, column)| ((columns + j) as u32, column[row_number])));
                 normal.add_sparse(row, w[row_number]);
@@ -149,16 +148,20 @@ pub(crate) fn normal_equations(
 const BLOCK: usize = 64;
 
 /// Whether a recursive filter spreads the border features over whole rows.
-fn spreads(design: &Design, whitener: &Whitener) -> bool {
-    !design.poles.is_empty() || !whitener.ma.is_empty() || whitener.ar.len() > LEAD
+fn spreads(design: &Design, whitener: &Whitener, weights: &Weights) -> bool {
+    !design.poles.is_empty()
+        || !whitener.ma.is_empty()
+        || whitener.ar.len() > LEAD
+        || weights.predictors.is_some()
 }
 
 /// Tracks with the weights of their counted samples.
 fn parts<'a>(
     design: &'a Design,
-    weights: Option<&'a [Vec<f64>]>,
+    weights: &'a Weights,
 ) -> impl Iterator<Item = (&'a DesignTrack, Option<&'a [f64]>)> {
-    design.tracks.iter().enumerate().map(move |(k, track)| (track, weights.map(|w| &w[k][..])))
+    let factors = |k: usize| weights.scale.as_ref().map(|s| &s[k][..]);
+    design.tracks.iter().enumerate().map(move |(k, track)| (track, factors(k)))
 }
 
 /// `taps ∗ ũ`: what the coefficients of B multiply.

@@ -26,7 +26,7 @@ fn check(assembly: &Assembly, p: &Linear) {
     let half_sum =
         |p: &Linear| 0.5 * design.innovations(p, &whitener).iter().flatten().map(|w| w * w).sum::<f64>();
     let innovations = design.innovations(p, &whitener).concat();
-    let normal = normal_equations(&design, p, &whitener, None, (&innovations, &[]));
+    let normal = normal_equations(&design, p, &whitener, &Weights::default(), (&innovations, &[]));
     gradient_is_the_slope(&normal, p, half_sum);
 }
 
@@ -43,7 +43,7 @@ fn the_jacobian_of_a_simulation_agrees_with_differences() {
     };
     let half_sum = |p: &Linear| 0.5 * errors(p).iter().map(|w| w * w).sum::<f64>();
     let whitener = design.whitener(&Assembly::default().noise, &p.a);
-    let normal = normal_equations(&design, &p, &whitener, None, (&errors(&p), &[]));
+    let normal = normal_equations(&design, &p, &whitener, &Weights::default(), (&errors(&p), &[]));
     gradient_is_the_slope(&normal, &p, half_sum);
 }
 
@@ -52,17 +52,18 @@ fn same_as_dense(assembly: &Assembly, p: &Linear) {
     let (campaign, grid) = small_campaign();
     let design = Design::new(&campaign, &grid, assembly, Track::is_fit);
     let whitener = Whitener::new(&assembly.noise, &p.a);
-    let weights: Vec<Vec<f64>> = design
-        .tracks
-        .iter()
-        .map(|t| (t.from..t.x.len()).map(|t| 0.5 + 0.1 * (t % 7) as f64).collect())
-        .collect();
+    let factors = |t: &DesignTrack| (t.from..t.x.len()).map(|t| 0.5 + 0.1 * (t % 7) as f64).collect();
+    let scale: Vec<Vec<f64>> = design.tracks.iter().map(factors).collect();
+    let weights = Weights { scale: Some(scale), ..Weights::default() };
     let w = design.innovations(p, &whitener).concat();
-    let sparse = Jacobian::new(&design, p, &whitener, Some(&weights)).normal(&w);
+    let sparse = Jacobian::new(&design, p, &whitener, &weights).normal(&w);
     let mut rows = Vec::new();
-    for (track, weights) in design.tracks.iter().zip(&weights) {
-        dense_rows((&design, track), p, &whitener, |t, row| {
-            rows.extend(row.iter().map(|x| weights[t] * x));
+    for (number, track) in design.tracks.iter().enumerate() {
+        let mut weigh = weights.rows(number, p.len());
+        dense_rows((&design, track), p, &whitener, |row| {
+            rows.extend_from_slice(row);
+            let from = rows.len() - row.len();
+            weigh(&mut rows[from..]);
         });
     }
     let dense = Jacobian { columns: p.len(), store: Store::Dense(rows) }.normal(&w);
@@ -85,9 +86,9 @@ fn further_columns_are_appended() {
         let whitener = Whitener::default();
         let w = design.innovations(&p, &whitener).concat();
         let extra: Vec<f64> = (0..w.len()).map(|t| (t as f64 * 0.9).cos()).collect();
-        let jacobian = Jacobian::new(&design, &p, &whitener, None);
+        let jacobian = Jacobian::new(&design, &p, &whitener, &Weights::default());
         let (alone, cross) = (jacobian.normal(&w), jacobian.cross(&extra));
-        let both = normal_equations(&design, &p, &whitener, None, (&w, &[extra]));
+        let both = normal_equations(&design, &p, &whitener, &Weights::default(), (&w, &[extra]));
         for (i, x) in cross.iter().enumerate() {
             assert!((both.entry(i, p.len()) - x).abs() < 1e-10);
             assert!((both.gradient[i] - alone.gradient[i]).abs() < 1e-10);

@@ -9,6 +9,7 @@ use crate::engine::Fit;
 use crate::gains::Gains;
 use crate::jacobian::Jacobian;
 use crate::motion::Motion;
+use crate::weights::Weights;
 
 /// Gain in deviance that a new knot must bring: two parameters and the search over its place among N samples.
 pub(super) const KNOT_GAIN: f64 = 30.0;
@@ -35,7 +36,7 @@ pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     if places.is_empty() {
         return None;
     }
-    let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
+    let jacobian = Jacobian::new(&design, &best.linear, &whitener, &Weights::default());
     let innovations = innovations.concat();
     let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;
     let mut grid = best.grid.clone();

@@ -8,6 +8,7 @@ use crate::design::Design;
 use crate::engine::{Fit, Ground, fit};
 use crate::gains::Gains;
 use crate::jacobian::Jacobian;
+use crate::weights::Weights;
 
 /// Moves of the jumps after each round.
 const POLISHES: usize = 3;
@@ -111,7 +112,7 @@ fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
     let design = Design::like(Some(&best.design), model.campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener).concat();
-    let jacobian = Jacobian::new(&design, &best.linear, &whitener, None);
+    let jacobian = Jacobian::new(&design, &best.linear, &whitener, &Weights::default());
     let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;
     let mut steps = Steps::new(&gains, &design, best);
     let mut grid = best.grid.clone();

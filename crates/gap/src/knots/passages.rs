@@ -140,6 +140,7 @@ mod tests {
     use crate::engine::{Ground, fit};
     use crate::jacobian::Jacobian;
     use crate::testing::{small_campaign, small_model};
+    use crate::weights::Weights;
 
     /// The oracle of the sums: the column itself.
     #[test]
@@ -155,7 +156,7 @@ mod tests {
             let design = &fit.design;
             let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
             let w = design.innovations(&fit.linear, &whitener).concat();
-            let jacobian = Jacobian::new(design, &fit.linear, &whitener, None);
+            let jacobian = Jacobian::new(design, &fit.linear, &whitener, &Weights::default());
             let gains = Gains::new(&jacobian, &w, 1.0).expect("determined");
             let passages = Passages::new(&campaign, design);
             let mut steps = Steps::new(&gains, design, &fit);

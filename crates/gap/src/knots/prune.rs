@@ -4,6 +4,7 @@ use super::{Model, first_grid};
 use crate::design::Design;
 use crate::engine::{Fit, priors};
 use crate::jacobian::normal_equations;
+use crate::weights::Weights;
 
 /// Gain in deviance below which an added knot is taken out again.
 const WORTH: f64 = 16.0;
@@ -15,7 +16,8 @@ pub(super) fn pruned(model: &Model<'_>, best: Fit) -> Fit {
     let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.innovations(&best.linear, &whitener);
-    let mut normal = normal_equations(&design, &best.linear, &whitener, None, (&innovations.concat(), &[]));
+    let mut normal =
+        normal_equations(&design, &best.linear, &whitener, &Weights::default(), (&innovations.concat(), &[]));
     // Without the gauge no border value would be determined.
     priors(&mut normal, &best.grid, &best.linear, &best.assembly);
     let Some(factor) = normal.factor(1e-9) else { return best };

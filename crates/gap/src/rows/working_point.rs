@@ -16,9 +16,14 @@ pub(super) struct WorkingPoint<'a> {
     pub(super) terms: Vec<(u32, f64)>,
     /// What fades during the present transition.
     fading: Vec<(u32, f64)>,
+    /// Share of the other border in the working point, and what it was just after the last reversal.
+    share: f64,
+    after_turn: f64,
     /// Room for a sum of terms, and for border values.
     sum: Vec<(u32, f64)>,
     scratch: Vec<f64>,
+    /// Number of border values.
+    borders: u32,
 }
 
 impl<'a> WorkingPoint<'a> {
@@ -36,7 +41,10 @@ impl<'a> WorkingPoint<'a> {
             transition: assembly.transition,
             terms,
             fading: Vec::new(),
+            share: 0.0,
+            after_turn: 0.0,
             sum: Vec::new(),
+            borders: grid.len() as u32,
             scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
         }
     }
@@ -46,7 +54,13 @@ impl<'a> WorkingPoint<'a> {
         let Some(transition) = self.transition else { return };
         match transition.law {
             TransitionLaw::Held => self.fading.clone_from(&self.terms),
-            TransitionLaw::OldBorder => self.fading.clear(),
+            TransitionLaw::Crossing => {
+                // What was the own border is the other one now.
+                self.after_turn = 1.0 - self.share;
+                // Beyond the borders' values, what the record began with: it fades once.
+                self.fading.clear();
+                self.fading.extend(self.terms.iter().filter(|(i, _)| *i >= self.borders));
+            }
             TransitionLaw::Offset => {
                 self.sum.clone_from(&self.terms);
                 self.sum.extend(hat(&self.finder, side(m.branch), m.turn, -1.0));
@@ -57,26 +71,24 @@ impl<'a> WorkingPoint<'a> {
 
     /// A move on a border.
     pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
+        let fade = self.transition.map_or(0.0, |transition| {
+            let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
+            if fade > NEGLIGIBLE { fade } else { 0.0 }
+        });
+        let law = self.transition.map(|transition| transition.law);
+        self.share = if law == Some(TransitionLaw::Crossing) { fade * self.after_turn } else { 0.0 };
         let sum = &mut self.sum;
         sum.clear();
-        let half = 0.5 * narrowing;
-        sum.extend(hat(&self.finder, side(m.branch), v, 1.0 - half));
-        if narrowing != 0.0 {
-            sum.extend(hat(&self.finder, side(-m.branch), v, half));
+        let other = 0.5 * narrowing + self.share * (1.0 - narrowing);
+        sum.extend(hat(&self.finder, side(m.branch), v, 1.0 - other));
+        if other != 0.0 {
+            sum.extend(hat(&self.finder, side(-m.branch), v, other));
         }
-        if let Some(transition) = self.transition {
-            let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
-            if fade > NEGLIGIBLE {
-                if transition.law != TransitionLaw::Offset {
-                    sum.iter_mut().for_each(|(_, w)| *w *= 1.0 - fade);
-                }
-                match transition.law {
-                    TransitionLaw::Offset | TransitionLaw::Held => {
-                        sum.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
-                    }
-                    TransitionLaw::OldBorder => sum.extend(hat(&self.finder, side(-m.branch), v, fade)),
-                }
+        if fade > 0.0 {
+            if law == Some(TransitionLaw::Held) {
+                sum.iter_mut().for_each(|(_, w)| *w *= 1.0 - fade);
             }
+            sum.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
         }
         if sum.len() > 2 {
             merge(sum, &mut self.scratch, &mut self.terms);
