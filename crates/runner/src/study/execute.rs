@@ -12,8 +12,8 @@ use std::ops::Range;
 /// Replicates of one noise pass: a whole number of lanes at every width.
 pub(super) const BATCH: usize = 16;
 
-/// Least and largest number of replicates whose noise is held at once: what begins anew with each such chunk costs less a replicate in the
-/// larger, and memory more.
+/// Least and largest number of replicates in a chunk, of which two are held at once, one being drawn and one being taken in: what begins anew
+/// with each chunk costs less a replicate in the larger, and memory more.
 const CHUNKS: [usize; 2] = [8 * BATCH, 32 * BATCH];
 
 /// Told how the work goes on; called from several threads.
@@ -150,7 +150,7 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// Its replicates in runs of a few, whose noise is held at once: about sixteen, so that progress is seen.
+    /// Its replicates in chunks: about sixteen, so that progress is seen.
     fn chunks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let [least, largest] = CHUNKS;
         let chunk = (self.range.len() / 16).next_multiple_of(BATCH).clamp(least, largest);
