@@ -1,16 +1,19 @@
 //! Running the replicates, in parallel and reproducibly.
 
-use super::cell::{CellSpec, Workload};
+use super::abreast::Memory;
+use super::cell::{ActiveCells, CellSpec, Chunk, Task, Workload};
+use super::moments::LaneNoise;
 use super::sections::{CellSums, SECTIONS, Sections};
 use crate::scenario::{Replication, Scenario, Stopping};
 use rayon::prelude::*;
+use std::mem;
 use std::ops::Range;
 
 /// Replicates of one noise pass: a whole number of lanes at every width.
 pub(super) const BATCH: usize = 16;
 
-/// Least and largest number of replicates whose noise is held at once: what begins anew with each such chunk costs less a replicate in the
-/// larger, and memory more.
+/// Least and largest number of replicates in a chunk, of which two are held at once, one being drawn and one being taken in: what begins anew
+/// with each chunk costs less a replicate in the larger, and memory more.
 const CHUNKS: [usize; 2] = [8 * BATCH, 32 * BATCH];
 
 /// Told how the work goes on; called from several threads.
@@ -42,22 +45,8 @@ pub(super) fn run(
     while done < next.target {
         progress.planned(next.forecast as u64);
         let round = Round { seed: scenario.seed(), range: done..next.target };
-        for chunk in round.chunks() {
-            let mut first_cell = 0;
-            for workload in workloads {
-                let cells = first_cell..first_cell + workload.cells();
-                first_cell = cells.end;
-                if active[cells.clone()].contains(&true) {
-                    workload.run(
-                        &round,
-                        chunk.clone(),
-                        &active[cells.clone()],
-                        &mut sections.by_cell()[cells],
-                    );
-                }
-            }
-            progress.advanced((chunk.end - chunk.start) as u64);
-        }
+        let places = places(workloads, &active);
+        run_steps(&round, Step::all(&round, &places), (&active, &mut sections), progress);
         done = next.target;
         if let Some(stopping) = replication.stopping {
             next = Next::after(&stopping, &sections, &mut active, done);
@@ -66,6 +55,84 @@ pub(super) fn run(
     }
     let precise = replication.stopping.map(|_| active.iter().map(|active| !active).collect());
     Outcome { sections, precise }
+}
+
+/// Takes the steps of a round one after the other; while the cells take in the noise of one, that of the next is drawn.
+///
+/// The threads wait for each other once a step. The wait is short: drawing, whose tasks are long, comes first, and what is left at the end are
+/// short ones.
+fn run_steps<'a>(
+    round: &Round,
+    mut steps: impl Iterator<Item = Step<'a>>,
+    (active, sections): (&[bool], &mut Sections),
+    progress: &dyn Progress,
+) {
+    let (mut drawn, mut ahead): (Vec<LaneNoise>, Vec<LaneNoise>) = Default::default();
+    let mut step: Option<Step<'a>> = None;
+    loop {
+        let next = steps.next();
+        let draw = next.as_ref().map(|next| next.workload.draw(round, next.chunk.clone(), &mut ahead));
+        let take_in = step.as_ref().map(|step| step.take_in(round, &drawn, (active, sections)));
+        work_off(draw.into_iter().chain(take_in).flatten());
+        progress.advanced(step.map_or(0, |step| step.completes));
+        if next.is_none() {
+            return;
+        }
+        step = next;
+        mem::swap(&mut drawn, &mut ahead);
+    }
+}
+
+/// Does the tasks in their order, each as soon as a thread is free.
+fn work_off<'a>(tasks: impl Iterator<Item = Task<'a>> + Send) {
+    tasks.par_bridge().for_each_init(Memory::default, |memory, task| task(memory));
+}
+
+/// The workloads that have anything active, and where their cells stand among all.
+fn places<'a>(workloads: &[&'a dyn Workload], active: &[bool]) -> Vec<(&'a dyn Workload, Range<usize>)> {
+    let mut first_cell = 0;
+    let place = |workload: &&'a dyn Workload| {
+        let cells = first_cell..first_cell + workload.cells();
+        first_cell = cells.end;
+        (*workload, cells)
+    };
+    workloads.iter().map(place).filter(|(_, cells)| active[cells.clone()].contains(&true)).collect()
+}
+
+/// A chunk of replicates in the cells of one workload.
+struct Step<'a> {
+    workload: &'a dyn Workload,
+    /// Where its cells stand among all.
+    cells: Range<usize>,
+    chunk: Range<usize>,
+    /// How many replicates are done in every workload after it that were not before.
+    completes: u64,
+}
+
+impl<'a> Step<'a> {
+    /// The steps of a round: every chunk through all workloads, then the next.
+    fn all(round: &Round, places: &[(&'a dyn Workload, Range<usize>)]) -> impl Iterator<Item = Self> {
+        round.chunks().flat_map(move |chunk| {
+            places.iter().enumerate().map(move |(k, (workload, cells))| Self {
+                workload: *workload,
+                cells: cells.clone(),
+                completes: if k + 1 == places.len() { chunk.len() as u64 } else { 0 },
+                chunk: chunk.clone(),
+            })
+        })
+    }
+
+    /// What is left to do when its noise is drawn.
+    fn take_in<'s>(
+        &'s self,
+        round: &'s Round,
+        noise: &'s [LaneNoise],
+        (active, sections): (&'s [bool], &'s mut Sections),
+    ) -> Vec<Task<'s>> {
+        let chunk = Chunk { round, range: self.chunk.clone(), noise };
+        let sums = &mut sections.by_cell()[self.cells.clone()];
+        self.workload.take_in(chunk, ActiveCells { active: &active[self.cells.clone()], sums })
+    }
 }
 
 /// What all replicates left behind.
@@ -83,7 +150,7 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// Its replicates in runs of a few, whose noise is held at once: about sixteen, so that progress is seen.
+    /// Its replicates in chunks: about sixteen, so that progress is seen.
     fn chunks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let [least, largest] = CHUNKS;
         let chunk = (self.range.len() / 16).next_multiple_of(BATCH).clamp(least, largest);
@@ -96,14 +163,14 @@ impl Round {
     }
 }
 
-/// Runs the replicates `chunk` one by one in parallel: each section's part is summed on its own, and the parts are added in order.
+/// Runs the replicates of a chunk one by one in parallel: each section's part is summed on its own, and the parts are added in order.
 pub(super) fn by_sections(
-    round: &Round,
-    chunk: Range<usize>,
+    chunk: &Chunk<'_>,
     cells: &mut [Vec<CellSums>],
     replicate: impl Fn(u32, &mut [CellSums]) + Sync,
 ) {
-    let replicates: Vec<usize> = chunk.collect();
+    let round = chunk.round;
+    let replicates: Vec<usize> = chunk.range.clone().collect();
     let parts: Vec<&[usize]> = replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
     let empty: Vec<CellSums> =
         cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();

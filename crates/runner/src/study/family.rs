@@ -1,9 +1,10 @@
 //! Cells of one border, m and N: they share all but the noise level and the method.
 
 use super::abreast::{ABREAST, Cell, Memory, Place};
+use super::cell::ActiveCells;
 use super::moments::LaneNoise;
-use super::sections::CellSums;
 use super::world::Setting;
+use std::cmp::Reverse;
 use std::ops::Range;
 use switchback_estimator::simulation::LaneSuperposition;
 use switchback_estimator::statistics::LaneSums;
@@ -53,13 +54,9 @@ struct NoiseLevel<'a> {
 }
 
 impl<'a> Family<'a> {
-    /// The families that have anything active; `active` and `cells` are in the order of the world's cells.
-    pub(super) fn all(
-        plans: &'a [FamilyPlan],
-        settings: &'a [Setting],
-        mut active: &'a [bool],
-        mut cells: &'a mut [Vec<CellSums>],
-    ) -> Vec<Self> {
+    /// The families that have anything active, from the largest to the smallest; `cells` are in the order of the world's.
+    pub(super) fn all(plans: &'a [FamilyPlan], settings: &'a [Setting], cells: ActiveCells<'a>) -> Vec<Self> {
+        let ActiveCells { mut active, sums: mut cells } = cells;
         let mut families = Vec::with_capacity(plans.len());
         for plans in plans.chunk_by(|p, q| p.settings == q.settings) {
             let settings = &settings[plans[0].settings.clone()];
@@ -87,7 +84,7 @@ impl<'a> Family<'a> {
         }
         families.retain(|family| !family.levels.is_empty());
         // Those of one m and N take in the same noise: next to each other, they find it in the cache.
-        families.sort_by_key(|family| (family.place.period, family.place.plan.checkpoint));
+        families.sort_by_key(|family| Reverse((family.place.period, family.place.plan.checkpoint)));
         families
     }
 

@@ -2,9 +2,9 @@
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
 //! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight abreast
-//! (`family`, `abreast`); batches of noise and families of cells run in parallel (`execute`). The oracle of all this is an engine of its own, which
-//! simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N (`judge`) and compared between cells
-//! on the same noise (`paired`). Results depend on the scenario and its seed only.
+//! (`family`, `abreast`); while all families take in the noise of some replicates, that of the next is drawn (`execute`). The oracle of
+//! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
+//! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
 
 mod abreast;
 mod bench;

@@ -82,19 +82,14 @@ impl LaneNoise {
     }
 }
 
-/// Draws the noise of a run of replicates.
-pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>) -> Vec<LaneNoise> {
+/// Draws the noise of a run of replicates into `noise`, an entry eight of them.
+pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>, noise: &mut [LaneNoise]) {
     let seed = round.seed;
     let start = replicates.start;
-    let mut noise: Vec<LaneNoise> = replicates
-        .clone()
-        .step_by(LANES)
-        .map(|first| LaneNoise {
-            first,
-            sections: (first..replicates.end).take(LANES).map(|r| round.section(r as usize)).collect(),
-            ..LaneNoise::default()
-        })
-        .collect();
+    for (first, noise) in replicates.clone().step_by(LANES).zip(&mut *noise) {
+        let sections = (first..replicates.end).take(LANES).map(|r| round.section(r as usize)).collect();
+        *noise = LaneNoise { first, sections, ..LaneNoise::default() };
+    }
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
     let plan = &world.pulses;
     let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
@@ -125,7 +120,6 @@ pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>) -
             into.iter_mut().zip(means).for_each(|(into, mean)| into.0[lane] = *mean);
         });
     }
-    noise
 }
 
 /// Sorts moments, by number of samples and then period, into the groups of their designs.

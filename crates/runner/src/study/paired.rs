@@ -52,32 +52,33 @@ struct Match<'a> {
 impl<'a> Table<'a> {
     /// Each parameter of a cell with the first method that estimates it too.
     fn pairs_of_methods(&self, world: Range<usize>) -> Vec<Pair> {
-        let mut pairs: Vec<Pair> = Vec::new();
-        for cell in world.clone() {
+        let of_cell = |cell: usize| {
             let before: Vec<usize> =
                 (world.start..cell).filter(|&over| self.differ_in_method(cell, over)).collect();
+            let mut pairs: Vec<Pair> = Vec::new();
             for k in 0..self.specs[cell].parameters.len() {
                 let first = before.iter().find_map(|&over| Some((over, self.twin(cell, k, over)?)));
                 let Some((over, twin)) = first else { continue };
-                match pairs.iter_mut().rfind(|p| (p.cell, p.over) == (cell, over)) {
+                match pairs.iter_mut().find(|p| p.over == over) {
                     Some(pair) => pair.parameters.push((k, twin)),
                     None => pairs.push(Pair { cell, over, parameters: vec![(k, twin)] }),
                 }
             }
-        }
-        pairs
+            pairs
+        };
+        world.clone().into_par_iter().flat_map_iter(of_cell).collect()
     }
 
     /// Each cell with the same of the first border.
     fn pairs_of_borders(&self, world: Range<usize>) -> Vec<Pair> {
-        let pair = |cell: usize| {
+        let of_cell = |cell: usize| {
             let over = (world.start..cell).find(|&over| self.differ_in_border(cell, over))?;
             let parameters: Vec<(usize, usize)> = (0..self.specs[cell].parameters.len())
                 .filter_map(|k| Some((k, self.twin(cell, k, over)?)))
                 .collect();
             (!parameters.is_empty()).then_some(Pair { cell, over, parameters })
         };
-        world.clone().filter_map(pair).collect()
+        world.clone().into_par_iter().filter_map(of_cell).collect()
     }
 
     fn differ_in_method(&self, cell: usize, over: usize) -> bool {

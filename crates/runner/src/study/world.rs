@@ -1,19 +1,17 @@
 //! Worlds: cells that share their noise.
 
 use super::StudyError;
-use super::abreast::Memory;
 use super::bench::{Bench, Bound, NoiseFilter};
-use super::cell::{CellSpec, ParameterName, Workload};
+use super::cell::{ActiveCells, CellSpec, Chunk, ParameterName, Task, Workload};
 use super::execute::{BATCH, Round};
 use super::family::{Family, FamilyPlan};
 use super::moments::{LaneNoise, draw_lanes};
 use super::pulse_kind::PulseKind;
-use super::sections::CellSums;
 use crate::results::{Group, Series};
 use crate::scenario::{Case, Coupling, Disturbance, Method, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
-use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
+use switchback_estimator::estimators::pulse::lanes::{LANES, LaneControl, LaneMethod};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
 use switchback_estimator::simulation::Grouping;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
@@ -247,16 +245,27 @@ impl Workload for World {
         World::cells(self).count()
     }
 
-    /// The noise of the chunk is drawn batch by batch, then every cell takes in its replicates in order: so neither the estimates nor the
-    /// order in which they are added up depends on threads.
-    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
-        let (start, end) = (chunk.start as u32, chunk.end as u32);
-        let batches: Vec<Range<u32>> =
-            (start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH as u32)).collect();
-        let noise: Vec<LaneNoise> =
-            batches.par_iter().flat_map_iter(|batch| draw_lanes(self, round, batch.clone())).collect();
-        Family::all(&self.families, &self.settings, active, cells)
-            .into_par_iter()
-            .for_each_init(Memory::default, |memory, family| family.run(&noise, memory));
+    /// A batch a task.
+    fn draw<'a>(
+        &'a self,
+        round: &'a Round,
+        chunk: Range<usize>,
+        noise: &'a mut Vec<LaneNoise>,
+    ) -> Vec<Task<'a>> {
+        let end = chunk.end as u32;
+        noise.resize_with(chunk.len().div_ceil(LANES), LaneNoise::default);
+        let batches = (chunk.start as u32..end).step_by(BATCH).zip(noise.chunks_mut(BATCH / LANES));
+        let draw = |(first, noise): (u32, &'a mut [LaneNoise])| -> Task<'a> {
+            let batch = first..end.min(first + BATCH as u32);
+            Box::new(move |_| draw_lanes(self, round, batch, noise))
+        };
+        batches.map(draw).collect()
+    }
+
+    /// A family a task: each takes in its replicates in order, so that the order in which errors are added up does not depend on threads.
+    fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
+        let take_in =
+            |family: Family<'a>| -> Task<'a> { Box::new(move |memory| family.run(chunk.noise, memory)) };
+        Family::all(&self.families, &self.settings, cells).into_iter().map(take_in).collect()
     }
 }

@@ -11,13 +11,13 @@ mod regression;
 
 pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
-use super::cell::Workload;
-use super::execute::{Round, by_sections};
+use super::abreast::Memory;
+use super::cell::{ActiveCells, Chunk, Task, Workload};
+use super::execute::by_sections;
 use super::sections::CellSums;
 use super::world::{Contender, Setting, World};
 use crate::scenario::{Case, Scenario};
 use regression::Experiment;
-use std::ops::Range;
 use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
 
 /// A world whose cells are simulated one by one.
@@ -59,10 +59,13 @@ impl Workload for DirectWorld<'_> {
         self.world.cells().count()
     }
 
-    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
-        by_sections(round, chunk, cells, |replicate, sums| {
-            self.replicate(round.seed, replicate, active, sums);
-        });
+    fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
+        let ActiveCells { active, sums } = cells;
+        let seed = chunk.round.seed;
+        let all = move |_: &mut Memory| {
+            by_sections(&chunk, sums, |replicate, sums| self.replicate(seed, replicate, active, sums));
+        };
+        vec![Box::new(all)]
     }
 }
 

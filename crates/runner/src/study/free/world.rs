@@ -5,12 +5,12 @@ use super::setting::{GridOnDrive, Ingredients, NoiseSums, Response, Setting};
 use super::simulate::Simulator;
 use crate::scenario::{Case, Engine, Sweep};
 use crate::study::StudyError;
+use crate::study::abreast::Memory;
 use crate::study::bench::NoiseFilter;
-use crate::study::cell::{CellSpec, Workload};
-use crate::study::execute::{Round, by_sections};
+use crate::study::cell::{ActiveCells, CellSpec, Chunk, Task, Workload};
+use crate::study::execute::by_sections;
 use crate::study::sections::CellSums;
 use nalgebra::DMatrix;
-use std::ops::Range;
 use switchback_estimator::estimators::Estimate;
 use switchback_estimator::estimators::free::{Moments, Regression};
 use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
@@ -174,10 +174,13 @@ impl Workload for FreeWorld {
         self.settings.len() * self.checkpoints
     }
 
-    fn run(&self, round: &Round, chunk: Range<usize>, active: &[bool], cells: &mut [Vec<CellSums>]) {
-        by_sections(round, chunk, cells, |replicate, sums| {
-            self.replicate(round.seed, replicate, active, sums);
-        });
+    fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
+        let ActiveCells { active, sums } = cells;
+        let seed = chunk.round.seed;
+        let all = move |_: &mut Memory| {
+            by_sections(&chunk, sums, |replicate, sums| self.replicate(seed, replicate, active, sums));
+        };
+        vec![Box::new(all)]
     }
 }
 
