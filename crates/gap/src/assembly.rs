@@ -70,6 +70,8 @@ pub(crate) enum BorderColumn {
     Speed { power: f64, scale: f64, while_resting: Resting },
     /// `branch·exp(−(r/scale)^power)`.
     LowSpeed { power: f64, scale: f64, while_resting: Resting },
+    /// A bristle that bends towards `branch·exp(−(r/scale)^power)` along a travel of `length` strokes.
+    Bristle { power: f64, scale: f64, length: f64 },
     /// `branch·ln(1 + rest/scale)` while the input rests.
     RestingLog { scale: f64 },
     /// `branch·(1 − e^(−rest/scale))`, an after-effect that ends, while the input rests.

@@ -170,7 +170,7 @@ impl Effect {
     pub fn twins(self) -> &'static [Self] {
         match self {
             Self::InputDelay => &[Self::ExtraPole, Self::Resonance],
-            Self::InputNoise => &[Self::Outliers],
+            Self::InputNoise => &[Self::Outliers, Self::ColouredNoise],
             Self::Backlash => &[Self::GradualTransition],
             Self::GradualTransition => &[Self::Backlash],
             Self::RateDependence => &[Self::Stribeck, Self::Creep],
@@ -180,7 +180,7 @@ impl Effect {
             Self::ExtraPole => &[Self::InputDelay, Self::Resonance],
             Self::Resonance => &[Self::ExtraPole, Self::InputDelay],
             Self::GainDrift => &[Self::BorderWear],
-            Self::ColouredNoise => &[Self::OutputNoise],
+            Self::ColouredNoise => &[Self::OutputNoise, Self::InputNoise],
             Self::OutputNoise => &[Self::ColouredNoise],
             Self::Outliers => &[Self::InputNoise],
             Self::SensorSaturation => &[Self::SensorNonlinearity],

@@ -82,7 +82,7 @@ impl Omnibus {
     /// a lattice that nothing in it makes.
     pub(crate) fn against(&self, samples: usize) -> f64 {
         let tails = if self.tails > TAILS * samples as f64 { self.tails } else { 0.0 };
-        self.excess() + self.unrounded * tails + self.lattice
+        self.excess() + tails + self.lattice
     }
 
     /// The stage that the residual points at.
@@ -203,15 +203,16 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
     let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
+    let unrounded = (1.0 - rounding / SUSPECT).clamp(0.0, 1.0);
     Some(Omnibus {
         groups,
         regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
-        tails: tails(fit, &scaled) * white,
+        tails: tails(fit, &scaled) * white * unrounded,
         lattice: unexplained_lattice(campaign, fit),
         period: period_lack(campaign, &scaled, second),
-        unrounded: (1.0 - rounding / SUSPECT).clamp(0.0, 1.0),
+        unrounded,
     })
 }
 

@@ -9,7 +9,8 @@
 //!
 //! Parameters: variance ratios `r₁` while moving (by the border's slope) and `r₂` while resting (by the distance between the
 //! borders, which noise makes the operator switch between), or `r` at any time; or the jitter's standard deviation `s` in strokes and the
-//! inverse variance of the equation error. The colour that the response gives the noise counts as well. Stage: input. Confused with: outliers.
+//! inverse variance of the equation error. The colour that the response gives the noise counts as well. Stage: input. Confused with:
+//! outliers, and coloured noise, which what is added to `u` is at order 2.
 
 use crate::assembly::InputNoise;
 

@@ -1,10 +1,11 @@
 //! Friction that falls as the speed rises from zero.
 //!
 //! ```text
-//! u = C(v) + c·branch·exp(−(r/r_s)^power),   r = |v(t) − v(t−1)|
+//! u = C(v) + c·g(t),   g = branch·exp(−(r/r_s)^power),   r = |v(t) − v(t−1)|
+//! the same with z for g,   z(t) = g − (g − z(t−1))·exp(−r/length)               a bristle bends first (LuGre)
 //! ```
 //!
-//! Parameters: Stribeck speed `r_s` in strokes per sample, `power` (0.3…4; 2 is the Gaussian law, below 1 near the hyperbolic one); the coefficient is estimated with the borders. Stage:
+//! Parameters: Stribeck speed `r_s` in strokes per sample, `power` (0.3…4; 2 is the Gaussian law, below 1 near the hyperbolic one); `length` in strokes (0.002…0.2); the coefficient is estimated with the borders. Stage:
 //! operator. Slow passages show a wider loop than fast ones, and only below `r_s`. Confused with: rate dependence.
 
 use super::{Scene, Variant, own, typical_speed};
@@ -12,23 +13,27 @@ use crate::assembly::{BorderColumn, Resting};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);
-    let mut out = Vec::new();
-    for while_resting in [Resting::Held, Resting::Zero] {
-        let starts = [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)]
-            .iter()
-            .map(|&(share, power)| {
-                let scale = share * typical;
-                let range = (0.02 * typical, 20.0 * typical);
-                vec![
-                    own("stribeck_speed", "strokes per sample", scale, range, 0.02 * scale),
-                    own("power", "1", power, (0.3, 4.0), 0.02),
-                ]
-            })
-            .collect();
-        out.push(Variant::conditional(starts, move |p, assembly| {
+    let slow = |(share, power): (f64, f64)| {
+        let scale = share * typical;
+        let range = (0.02 * typical, 20.0 * typical);
+        vec![
+            own("stribeck_speed", "strokes per sample", scale, range, 0.02 * scale),
+            own("power", "1", power, (0.3, 4.0), 0.02),
+        ]
+    };
+    let low_speed = |while_resting| {
+        let starts = [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)].map(slow);
+        Variant::conditional(starts.into(), move |p, assembly| {
             let column = BorderColumn::LowSpeed { power: p[1], scale: p[0], while_resting };
             assembly.border_columns.push(column);
-        }));
-    }
-    out
+        })
+    };
+    let bends = own("length", "strokes", 0.02, (0.002, 0.2), 0.001);
+    let starts =
+        [(0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)].map(|start| [slow(start), vec![bends]].concat());
+    let bristle = Variant::conditional(starts.into(), |p, assembly| {
+        let column = BorderColumn::Bristle { power: p[1], scale: p[0], length: p[2] };
+        assembly.border_columns.push(column);
+    });
+    vec![low_speed(Resting::Held), low_speed(Resting::Zero), bristle]
 }

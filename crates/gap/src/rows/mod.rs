@@ -128,6 +128,10 @@ fn column_value(column: &BorderColumn, m: &Motion, s: f64, held: f64) -> f64 {
             (true, Resting::Zero) => m.branch,
             _ => m.branch * (-(speed / scale).powf(power)).exp(),
         },
+        BorderColumn::Bristle { power, scale, length } => {
+            let aim = m.branch * (-(speed / scale).powf(power)).exp();
+            held - (aim - held) * (-speed / length).exp_m1()
+        }
         BorderColumn::RestingLog { scale } => m.branch * (m.rest as f64 / scale).ln_1p(),
         BorderColumn::ReversalLog { scale } => m.branch * (m.since as f64 / scale).ln_1p(),
         BorderColumn::RestingRise { scale } => -m.branch * (-(m.rest as f64) / scale).exp_m1(),
