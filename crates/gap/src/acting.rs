@@ -67,11 +67,37 @@ impl Acting {
         out
     }
 
-    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`.
-    fn covariance(&self, h: &[f64], t: usize, lag: usize) -> f64 {
+    /// Covariance of what the noise adds at `t` and `lag` samples before, through the response `h`, given what reaches both.
+    fn covariance(&self, h: &[f64], (t, lag): (usize, usize), [now, earlier]: [&Reaching; 2]) -> f64 {
         let flips = h.iter().zip(h.iter().skip(lag)).zip((0..t.saturating_sub(lag)).rev());
         let flips: f64 = flips.map(|((b, c), s)| b * c * self.flips[s]).sum();
-        flips + self.reaching(h, t).product(&self.reaching(h, t.saturating_sub(lag)))
+        flips + now.product(earlier)
+    }
+
+    /// Variance of what the noise adds at `t`.
+    fn power(&self, h: &[f64], t: usize) -> f64 {
+        let now = self.reaching(h, t);
+        self.covariance(h, (t, 0), [&now, &now])
+    }
+
+    /// Covariances of what the noise adds at lags 1, 2, … up to as many as `sums`, each error times its `scale`, summed over
+    /// some of the samples from `from` on.
+    fn add_colour(&self, h: &[f64], scale: &[f64], from: usize, sums: &mut [f64]) {
+        let scale = |t: usize| scale[t - from];
+        let end = self.gain.len();
+        let mut of_track = vec![0.0; sums.len()];
+        for block in (from / BLOCK..end.div_ceil(BLOCK)).filter(|block| block.is_multiple_of(EVERY)) {
+            let samples = (block * BLOCK).max(from)..((block + 1) * BLOCK).min(end);
+            let first = samples.start.saturating_sub(sums.len());
+            let reaching: Vec<Reaching> = (first..samples.end).map(|t| self.reaching(h, t)).collect();
+            for (sum, lag) in of_track.iter_mut().zip(1..) {
+                for t in samples.clone().skip((from + lag).saturating_sub(samples.start)) {
+                    let both = [&reaching[t - first], &reaching[t - lag - first]];
+                    *sum += self.covariance(h, (t, lag), both) * scale(t) * scale(t - lag);
+                }
+            }
+        }
+        sums.iter_mut().zip(of_track).for_each(|(sum, x)| *sum += x);
     }
 
     /// Its variance alone, where the response is long: what is kept counts as if it were new.
@@ -127,14 +153,10 @@ pub(crate) fn acted(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f6
             scale.push(vec![1.0; counted.len()]);
             continue;
         };
-        let variance =
-            |t: usize| if short { acting.covariance(h, t, 0) } else { acting.variance(&squares, t) };
+        let variance = |t: usize| if short { acting.power(h, t) } else { acting.variance(&squares, t) };
         let own: Vec<f64> = counted.clone().map(|t| 1.0 / (1.0 + variance(t)).sqrt()).collect();
-        for (k, sum) in colour.iter_mut().enumerate() {
-            let lag = k + 1;
-            let at = |t: usize| own[t - track.from];
-            let pairs = counted.clone().skip(lag).filter(|t| (t / BLOCK).is_multiple_of(EVERY));
-            *sum += pairs.map(|t| acting.covariance(h, t, lag) * at(t) * at(t - lag)).sum::<f64>();
+        if short {
+            acting.add_colour(h, &own, track.from, &mut colour);
         }
         count += counted.filter(|t| (t / BLOCK).is_multiple_of(EVERY)).count();
         scale.push(own);
@@ -166,14 +188,43 @@ mod tests {
     fn what_is_kept_adds_up_over_a_rest_and_what_is_new_does_not() {
         let acting = |rest: [u32; 6]| Acting { gain: vec![2.0; 6], rest: rest.to_vec(), flips: vec![0.5; 6] };
         let h = [0.5, 0.25];
+        let covariance = |acting: &Acting, t: usize, lag: usize| {
+            acting.covariance(&h, (t, lag), [&acting.reaching(&h, t), &acting.reaching(&h, t - lag)])
+        };
         let new = acting([0, 1, 2, 3, 4, 5]);
-        assert!((new.covariance(&h, 4, 0) - 4.5 * (0.25 + 0.0625)).abs() < 1e-12);
-        assert!((new.covariance(&h, 4, 1) - 4.5 * 0.5 * 0.25).abs() < 1e-12);
-        assert_eq!(new.covariance(&h, 4, 2), 0.0);
-        assert!((new.variance(&[0.25, 0.0625], 4) - new.covariance(&h, 4, 0)).abs() < 1e-12);
+        assert!((covariance(&new, 4, 0) - 4.5 * (0.25 + 0.0625)).abs() < 1e-12);
+        assert!((covariance(&new, 4, 1) - 4.5 * 0.5 * 0.25).abs() < 1e-12);
+        assert_eq!(covariance(&new, 4, 2), 0.0);
+        assert_eq!(new.power(&h, 4), covariance(&new, 4, 0));
+        assert!((new.variance(&[0.25, 0.0625], 4) - covariance(&new, 4, 0)).abs() < 1e-12);
         let kept = acting([0; 6]);
-        assert!((kept.covariance(&h, 4, 0) - (4.0 * 0.5625 + 0.5 * 0.3125)).abs() < 1e-12);
-        assert!((kept.covariance(&h, 5, 2) - 4.0 * 0.5625).abs() < 1e-12);
+        assert!((covariance(&kept, 4, 0) - (4.0 * 0.5625 + 0.5 * 0.3125)).abs() < 1e-12);
+        assert!((covariance(&kept, 5, 2) - 4.0 * 0.5625).abs() < 1e-12);
+    }
+
+    /// The oracle: every pair of the blocks on its own.
+    #[test]
+    fn the_colour_is_the_sum_over_pairs_in_every_fifth_block() {
+        let count = 3000;
+        let acting = Acting {
+            gain: (0..count).map(|t| f64::from(t * 7 % 11)).collect(),
+            rest: (0..count as u32).map(|t| t / 3).collect(),
+            flips: (0..count).map(|t| f64::from(t % 5)).collect(),
+        };
+        let h = [0.5, 0.25, 0.125];
+        for from in [6, 300, 1290] {
+            let scale: Vec<f64> = (from..count as usize).map(|t| 1.0 / (1.0 + (t % 3) as f64)).collect();
+            let mut found = [0.0; 4];
+            acting.add_colour(&h, &scale, from, &mut found);
+            for (lag, found) in (1..).zip(found) {
+                let pairs =
+                    (from + lag..count as usize).filter(|t| (t / BLOCK).is_multiple_of(EVERY)).map(|t| {
+                        let both = [&acting.reaching(&h, t), &acting.reaching(&h, t - lag)];
+                        acting.covariance(&h, (t, lag), both) * scale[t - from] * scale[t - lag - from]
+                    });
+                assert_eq!(found, pairs.sum::<f64>(), "{from} {lag}");
+            }
+        }
     }
 
     #[test]

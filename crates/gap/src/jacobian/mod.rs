@@ -9,14 +9,15 @@
 mod dense;
 mod sparse;
 
-use self::dense::dense_rows;
 pub(crate) use self::dense::filtered_rows;
+use self::dense::{Acting, dense_rows};
 use self::sparse::sparse_rows;
+use crate::dense_sums::DenseSums;
 use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::normal::Normal;
 use crate::rows::Rows;
-use crate::whitener::{LEAD, Whitener};
+use crate::whitener::Whitener;
 
 /// Weighted derivatives, all tracks one after the other.
 #[derive(Debug, Clone)]
@@ -43,11 +44,16 @@ impl Jacobian {
         let columns = p.len();
         let parts = parts(design, weights);
         let store = if spreads(design, whitener) {
-            let mut out = Vec::with_capacity(design.samples() * columns);
+            let mut out = vec![0.0; design.samples() * columns];
+            let mut rows = out.chunks_exact_mut(columns);
             for (track, weights) in parts {
-                dense_rows((design, track), p, whitener, |t, row| {
+                let acting = Acting::on(track, p);
+                let parameters = acting.parameters(p);
+                dense_rows((design, track), p, whitener, &acting, |t, row| {
                     let weight = weights.map_or(1.0, |w| w[t]);
-                    out.extend(row.iter().map(|x| weight * x));
+                    if let Some(out) = rows.next() {
+                        parameters.iter().zip(row).for_each(|(&i, x)| out[i] = weight * x);
+                    }
                 });
             }
             Store::Dense(out)
@@ -70,7 +76,13 @@ impl Jacobian {
                     normal.add_sparse(rows.row(t), w);
                 }
             }
-            Store::Dense(rows) => normal.add_dense(rows, self.columns, w),
+            Store::Dense(rows) => {
+                let mut sums = DenseSums::new((0..self.columns).collect());
+                for (row, &w) in rows.chunks_exact(self.columns).zip(w) {
+                    sums.push((1.0, row), std::iter::empty(), w);
+                }
+                sums.add_to(&mut normal);
+            }
         }
         normal
     }
@@ -114,22 +126,17 @@ pub(crate) fn normal_equations(
     let columns = p.len();
     let width = columns + extra.len();
     let mut normal = Normal::new(width);
-    // Rows so far, and the first of them that is not yet in the equations.
-    let (mut row_number, mut from) = (0, 0);
-    let mut block: Vec<f64> = Vec::with_capacity(BLOCK * width);
+    let mut row_number = 0;
     for (track, weights) in parts(design, weights) {
         if spreads(design, whitener) {
-            dense_rows((design, track), p, whitener, |t, row| {
+            let acting = Acting::on(track, p);
+            let mut sums = DenseSums::new(acting.parameters(p).into_iter().chain(columns..width).collect());
+            dense_rows((design, track), p, whitener, &acting, |t, row| {
                 let weight = weights.map_or(1.0, |w| w[t]);
-                block.extend(row.iter().map(|x| weight * x));
-                block.extend(extra.iter().map(|column| column[row_number]));
+                sums.push((weight, row), extra.iter().map(|column| column[row_number]), w[row_number]);
                 row_number += 1;
-                if row_number - from == BLOCK {
-                    normal.add_dense(&block, width, &w[from..row_number]);
-                    block.clear();
-                    from = row_number;
-                }
             });
+            sums.add_to(&mut normal);
         } else {
             sparse_rows((design, track), p, whitener, weights, |row| {
                 let extra = extra.iter().enumerate();
@@ -139,18 +146,12 @@ pub(crate) fn normal_equations(
             });
         }
     }
-    if !block.is_empty() {
-        normal.add_dense(&block, width, &w[from..row_number]);
-    }
     normal
 }
 
-/// Dense rows taken at a time: few enough to stay near the processor.
-const BLOCK: usize = 64;
-
 /// Whether a recursive filter spreads the border features over whole rows.
 fn spreads(design: &Design, whitener: &Whitener) -> bool {
-    !design.poles.is_empty() || !whitener.ma.is_empty() || whitener.ar.len() > LEAD
+    !design.poles.is_empty() || !whitener.ma.is_empty()
 }
 
 /// Tracks with the weights of their counted samples.

@@ -61,8 +61,12 @@ fn same_as_dense(assembly: &Assembly, p: &Linear) {
     let sparse = Jacobian::new(&design, p, &whitener, Some(&weights)).normal(&w);
     let mut rows = Vec::new();
     for (track, weights) in design.tracks.iter().zip(&weights) {
-        dense_rows((&design, track), p, &whitener, |t, row| {
-            rows.extend(row.iter().map(|x| weights[t] * x));
+        let acting = Acting::on(track, p);
+        let parameters = acting.parameters(p);
+        dense_rows((&design, track), p, &whitener, &acting, |t, row| {
+            let mut whole = vec![0.0; p.len()];
+            parameters.iter().zip(row).for_each(|(&i, x)| whole[i] = weights[t] * x);
+            rows.extend(whole);
         });
     }
     let dense = Jacobian { columns: p.len(), store: Store::Dense(rows) }.normal(&w);
@@ -115,6 +119,12 @@ fn the_jacobian_agrees_with_differences() {
     rich.d.push(0.1);
     check(&assembly, &rich);
     same_as_dense(&assembly, &rich);
+
+    // Longer than what is known before the first counted sample.
+    let short = std::mem::replace(&mut assembly.noise.ar, (1..=9).map(|k| 0.4 / f64::from(k)).collect());
+    check(&assembly, &rich);
+    same_as_dense(&assembly, &rich);
+    assembly.noise.ar = short;
 
     assembly.filter(&[0.5], &[1.0, -0.5]);
     assembly.noise.ma = vec![-0.4];

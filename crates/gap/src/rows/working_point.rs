@@ -57,6 +57,11 @@ impl<'a> WorkingPoint<'a> {
 
     /// A move on a border.
     pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
+        if narrowing == 0.0 && self.transition.is_none() {
+            self.terms.clear();
+            self.terms.extend(hat(&self.finder, side(m.branch), v, 1.0));
+            return;
+        }
         let sum = &mut self.sum;
         sum.clear();
         let half = 0.5 * narrowing;
