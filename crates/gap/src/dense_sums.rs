@@ -1,13 +1,11 @@
 //! Normal equations of dense rows, summed up block by block.
 
-use switchback_estimator::lanes::{Work, widest};
+use switchback_estimator::lanes::{LANES, Work, keep_apart, widest};
 
 use crate::normal::Normal;
 
 /// Rows taken at a time: the matrix is read and written once for all of them.
 const ABREAST: usize = 8;
-/// Numbers a vector holds on the widest machines: rows are filled up to whole ones.
-const LANES: usize = 8;
 /// Rows kept before they are summed up: few enough to stay near the processor.
 const BLOCK: usize = 64;
 
@@ -15,7 +13,7 @@ const BLOCK: usize = 64;
 pub(crate) struct DenseSums {
     /// The parameters that the entries belong to, increasing.
     parameters: Vec<usize>,
-    /// Entries from one row to the next.
+    /// Entries from one row to the next: whole vectors.
     stride: usize,
     /// Row-major; below the diagonal nothing that counts.
     matrix: Vec<f64>,
@@ -94,21 +92,36 @@ impl Work for Block<'_> {
                 // From the vector that holds the diagonal: what of it lies below is not read.
                 let from = i / LANES * LANES;
                 let target = &mut matrix[i * stride + from..(i + 1) * stride];
-                let (y0, y1, y2, y3) = (&r0[from..], &r1[from..], &r2[from..], &r3[from..]);
-                let (y4, y5, y6, y7) = (&r4[from..], &r5[from..], &r6[from..], &r7[from..]);
+                let y = [r0, r1, r2, r3, r4, r5, r6, r7].map(|row| row[from..].as_chunks::<LANES>().0);
                 for (j, target) in target.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
-                    let at = j * LANES..(j + 1) * LANES;
-                    let (y0, y1, y2, y3) =
-                        (&y0[at.clone()], &y1[at.clone()], &y2[at.clone()], &y3[at.clone()]);
-                    let (y4, y5, y6, y7) = (&y4[at.clone()], &y5[at.clone()], &y6[at.clone()], &y7[at]);
-                    for l in 0..LANES {
-                        target[l] += ((x0 * y0[l] + x1 * y1[l]) + (x2 * y2[l] + x3 * y3[l]))
-                            + ((x4 * y4[l] + x5 * y5[l]) + (x6 * y6[l] + x7 * y7[l]));
-                    }
+                    keep_apart();
+                    let low = plus(
+                        plus(times(x0, y[0][j]), times(x1, y[1][j])),
+                        plus(times(x2, y[2][j]), times(x3, y[3][j])),
+                    );
+                    let high = plus(
+                        plus(times(x4, y[4][j]), times(x5, y[5][j])),
+                        plus(times(x6, y[6][j]), times(x7, y[7][j])),
+                    );
+                    *target = plus(*target, plus(low, high));
                 }
             }
         }
     }
+}
+
+/// Lanes by value: nothing is stored before all of them are read, so that they stay together in a vector.
+#[inline(always)]
+fn times(x: f64, y: [f64; LANES]) -> [f64; LANES] {
+    y.map(|y| x * y)
+}
+
+#[inline(always)]
+fn plus(mut x: [f64; LANES], y: [f64; LANES]) -> [f64; LANES] {
+    for l in 0..LANES {
+        x[l] += y[l];
+    }
+    x
 }
 
 /// The rows of a block of four.
