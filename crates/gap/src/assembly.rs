@@ -108,6 +108,18 @@ pub(crate) enum EquationColumn {
     Local { track: usize, piece: usize, pieces: usize },
 }
 
+impl EquationColumn {
+    /// Whether it is more than zeros on a track.
+    pub(crate) fn acts_on(&self, number: usize) -> bool {
+        match self {
+            Self::Line { track: Some(only), .. }
+            | Self::Decay { track: only, .. }
+            | Self::Local { track: only, .. } => *only == number,
+            Self::Line { track: None, .. } | Self::Trend { .. } => true,
+        }
+    }
+}
+
 /// The sensor's range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Saturation {

@@ -20,6 +20,14 @@ pub(crate) struct Attribution<'a, W> {
     pub(crate) workers: &'a W,
 }
 
+/// How many effects are fitted to convergence at least as far as their looks go, and the penalised deviance found elsewhere that
+/// the winner has to beat to be of any use.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Contest {
+    pub(crate) finished: usize,
+    pub(crate) to_beat: Option<f64>,
+}
+
 /// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.
 struct Look {
     effect: Effect,
@@ -48,7 +56,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// Every effect on its own, best first.
     pub(crate) fn singles(&self) -> Vec<Explanation> {
         let all: Vec<Question> = self.settings.effects.iter().map(|e| Question::open(*e)).collect();
-        let mut singles = self.on_top_of(self.detailed, &all, FINISHED);
+        let mut singles = self.on_top_of(self.detailed, &all, Contest { finished: FINISHED, to_beat: None });
         if self.settings.effects.contains(&Effect::BorderResolution) {
             self.compare_with_detail(&mut singles);
         }
@@ -80,7 +88,7 @@ impl<W: Workers> Attribution<'_, W> {
         &self,
         known: &Explanation,
         questions: &[Question],
-        finished: usize,
+        contest: Contest,
     ) -> Vec<Explanation> {
         let looks = self.looks(known, questions);
         let gain = |e: &Explanation| known.bic() - e.bic();
@@ -90,7 +98,7 @@ impl<W: Workers> Attribution<'_, W> {
         let mut twins: Vec<Effect> = Vec::new();
         for (rank, look) in looks.into_iter().enumerate() {
             // A look may miss a narrow optimum: no twin of a promising effect is ruled out by it.
-            let worth = rank < finished
+            let worth = rank < contest.finished
                 || known.parts.is_empty()
                     && (look.gain > PROMISING * most.max(SIGNIFICANT) || twins.contains(&look.effect));
             if worth && look.gain > SIGNIFICANT {
@@ -101,7 +109,7 @@ impl<W: Workers> Attribution<'_, W> {
             let laws = laws.map(|law| (look.effect, law));
             if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
-        done.extend(self.raced(known, &promising));
+        done.extend(self.raced(known, &promising, contest.to_beat));
         done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
         // Several laws of one effect: the best counts.
         let mut seen: Vec<Effect> = Vec::new();
@@ -113,8 +121,13 @@ impl<W: Workers> Attribution<'_, W> {
         done.into_iter().map(|(_, e)| e).collect()
     }
 
-    /// Some rounds for every law, then convergence for those that may still win.
-    fn raced(&self, known: &Explanation, promising: &[(Effect, Explanation)]) -> Vec<(Effect, Explanation)> {
+    /// Some rounds for every law, then convergence for those that may still win, also against what was found elsewhere.
+    fn raced(
+        &self,
+        known: &Explanation,
+        promising: &[(Effect, Explanation)],
+        to_beat: Option<f64>,
+    ) -> Vec<(Effect, Explanation)> {
         let held = known.fit.own.len();
         let mut field: Vec<&(Effect, Explanation)> = promising.iter().collect();
         // The longest first, so that nobody waits for them at the end.
@@ -126,10 +139,11 @@ impl<W: Workers> Attribution<'_, W> {
         race.sort_by(|x, y| x.law.bic().total_cmp(&y.law.bic()));
         let Some(leader) = race.first() else { return Vec::new() };
         let reach = (BEHIND * (known.bic() - leader.law.bic())).max(NEAR);
+        let ahead = leader.law.bic().min(to_beat.unwrap_or(f64::INFINITY));
+        let near = |runner: &Runner| runner.law.bic() - ahead < reach.max(STRIDES * runner.advanced);
+        let leads = near(leader);
         self.workers.map(&race, |runner| {
-            let behind = runner.law.bic() - leader.law.bic();
-            let may_win = behind < reach.max(STRIDES * runner.advanced)
-                || leader.effect.twins().contains(&runner.effect);
+            let may_win = near(runner) || leads && leader.effect.twins().contains(&runner.effect);
             let law = if may_win { finish(self.campaign, held, &runner.law) } else { runner.law.clone() };
             (runner.effect, law)
         })

@@ -14,7 +14,7 @@ use crate::assembly::{Assembly, NoiseLaw, Saturation, convolve};
 use crate::borders::Grid;
 use crate::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::motion::{Motion, motions};
-use crate::rows::{Rows, equation_columns, rows, sensitivity_rows};
+use crate::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
 
 pub(crate) use crate::jacobian::filtered_rows;
 pub(crate) use crate::linear::Linear;
@@ -27,8 +27,7 @@ pub(crate) struct DesignTrack {
     /// How the input moves, behind the play.
     pub(crate) moves: Arc<[Motion]>,
     pub(crate) rows: Arc<Rows>,
-    /// Equation columns, row-major.
-    pub(crate) columns: Arc<[f64]>,
+    pub(crate) columns: Arc<EquationColumns>,
     /// The output with the sensor's characteristic undone.
     pub(crate) x: Arc<[f64]>,
     /// `ln dx/dy`, summed over the counted samples.
@@ -196,10 +195,10 @@ impl Design {
         for (j, b) in b.iter().enumerate() {
             add_lagged(&mut e, &u, first, (j + 1, -b));
         }
-        let m = p.d.len();
-        if m > 0 {
-            for (e, psi) in e.iter_mut().zip(track.columns[first * m..].chunks_exact(m)) {
-                *e -= p.d.iter().zip(psi).map(|(d, psi)| d * psi).sum::<f64>();
+        let d = track.columns.coefficients(&p.d);
+        if !d.is_empty() {
+            for (t, e) in e.iter_mut().enumerate() {
+                *e -= d.iter().zip(track.columns.row(first + t)).map(|(d, psi)| d * psi).sum::<f64>();
             }
         }
         e
@@ -207,10 +206,12 @@ impl Design {
 
     /// The derivative of the innovations with respect to the coefficient of an equation column.
     pub(crate) fn disturbance(&self, column: usize, whitener: &Whitener) -> Vec<Vec<f64>> {
-        let count = self.assembly.equation_columns.len();
         let of_track = |track: &DesignTrack| {
+            let Some(at) = track.columns.numbers.iter().position(|&j| j == column) else {
+                return vec![0.0; track.x.len() - track.from];
+            };
             let first = track.from.saturating_sub(LEAD);
-            let e = track.columns.iter().skip(first * count + column).step_by(count).map(|psi| -psi);
+            let e = (first..track.x.len()).map(|t| -track.columns.row(t)[at]);
             let mut w = whitener.apply(e.collect());
             w.drain(..(track.from - first).min(w.len()));
             w
@@ -220,15 +221,23 @@ impl Design {
 
     /// Innovations of every track on the counted samples, before weighting.
     pub(crate) fn innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
-        self.tracks
-            .iter()
-            .map(|track| {
-                let mut w = whitener.apply(self.errors(track, p));
-                let skip = track.from - track.from.saturating_sub(LEAD);
-                w.drain(..skip.min(w.len()));
-                w
-            })
-            .collect()
+        self.whitened(self.all_errors(p), whitener)
+    }
+
+    /// Equation errors of every track.
+    pub(crate) fn all_errors(&self, p: &Linear) -> Vec<Vec<f64>> {
+        self.tracks.iter().map(|track| self.errors(track, p)).collect()
+    }
+
+    /// Innovations from the equation errors of every track.
+    pub(crate) fn whitened(&self, errors: Vec<Vec<f64>>, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let of_track = |(track, e): (&DesignTrack, Vec<f64>)| {
+            let mut w = whitener.apply(e);
+            let skip = track.from - track.from.saturating_sub(LEAD);
+            w.drain(..skip.min(w.len()));
+            w
+        };
+        self.tracks.iter().zip(errors).map(of_track).collect()
     }
 }
 

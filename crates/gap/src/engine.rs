@@ -7,6 +7,7 @@
 //! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
 //! ```
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use crate::assembly::Assembly;
@@ -16,6 +17,7 @@ use crate::design::{Design, Linear, Whitener};
 use crate::given::settles;
 use crate::jacobian::normal_equations;
 use crate::normal::Normal;
+use crate::sums::energy;
 use crate::weights::{Weights, weigh};
 
 /// One own parameter of an effect: its value and how it may move.
@@ -66,6 +68,18 @@ pub(crate) struct Ground<'a> {
 /// Weight of the prior that ties border values nobody visits to their neighbours, in units of one sample's information.
 const SMOOTHNESS: f64 = 1e-3;
 
+/// Gain in deviance, of independent samples, below which a round is the last one; a step that foretells no more and fails is
+/// not tried again.
+const SETTLED: f64 = 0.2;
+/// Shares of a step that are tried where the whole of it leads uphill.
+const SHORTENED: [f64; 2] = [0.35, 0.12];
+const SHORTEST: f64 = 0.04;
+/// Relative damping after a failure: at least the first, by a factor more, never beyond the last. Weaker damping turns no step
+/// of a determined problem that failed into one that succeeds.
+const STRONG: f64 = 1e-3;
+const STRONGER: f64 = 1e3;
+const STRONGEST: f64 = 0.5;
+
 /// The state of a fit at given parameters.
 struct State {
     assembly: Assembly,
@@ -85,7 +99,7 @@ fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
     let innovations = design.innovations(p, &whitener);
     let weights = weigh(design, &assembly.noise, p, &innovations);
     let n = design.samples() as f64;
-    let sum: f64 = weights.by_track(&innovations).iter().flatten().map(|w| w * w).sum();
+    let sum: f64 = weights.by_track(&innovations).iter().map(|w| energy(w)).sum();
     let variance = sum / (n - weights.left_out as f64).max(1.0);
     let deviance = match weights.deviance {
         Some(direct) => direct - 2.0 * design.log_slope(),
@@ -150,16 +164,25 @@ pub(crate) fn fit(
             };
             better = tried(&step, 1.0);
             if better.is_none() {
+                let foretold: f64 = step.iter().zip(&normal.gradient).map(|(x, g)| x * g).sum();
+                if foretold < SETTLED * state.variance {
+                    break;
+                }
                 // Where b and f trade against each other the joint step overshoots; each block alone is exactly linear.
                 let borders = p.a.len() + p.b.len()..p.a.len() + p.b.len() + p.f.len();
                 let blocks = [
                     normal.restricted(|i| !borders.contains(&i)),
                     normal.restricted(|i| borders.contains(&i)),
                 ];
-                better = blocks
+                let alone = blocks
                     .iter()
-                    .filter_map(|block| tried(&block.factor(damping)?.solve(&block.gradient), 1.0))
-                    .chain([0.35, 0.12, 0.04].iter().filter_map(|share| tried(&step, *share)))
+                    .filter_map(|block| tried(&block.factor(damping)?.solve(&block.gradient), 1.0));
+                // Where the shortest step leads uphill, so do the longer ones.
+                let shortest = tried(&step, SHORTEST);
+                let shares: &[f64] = if shortest.is_some() { &SHORTENED } else { &[] };
+                better = alone
+                    .chain(shares.iter().filter_map(|share| tried(&step, *share)))
+                    .chain(shortest)
                     .min_by(|x, y| x.3.deviance.total_cmp(&y.3.deviance));
             }
             if let Some(b) = &better {
@@ -169,8 +192,8 @@ pub(crate) fn fit(
                 damping = (damping * 0.1).max(1e-9);
                 break;
             }
-            damping = (damping * 1000.0).max(1e-6);
-            if damping > 1.0 {
+            damping = (damping * STRONGER).max(STRONG);
+            if damping > STRONGEST {
                 break;
             }
         }
@@ -181,7 +204,7 @@ pub(crate) fn fit(
             design = d;
         }
         state = s;
-        if step_norm < 0.2 * design.criterion.share() {
+        if step_norm < SETTLED * design.criterion.share() {
             break;
         }
     }
@@ -231,6 +254,8 @@ fn derivatives(
     p: &Linear,
 ) -> Vec<Vec<f64>> {
     let n = design.samples() as f64;
+    // Where only the law of the noise moves, the errors stay.
+    let errors = OnceCell::new();
     (0..own.len())
         .map(|j| {
             let mut values: Vec<f64> = own.iter().map(|o| o.value).collect();
@@ -240,16 +265,14 @@ fn derivatives(
             }
             values[j] += h;
             let assembly = build(&values);
-            let redesign;
-            let there = if assembly.same_design(&state.assembly) {
-                design
+            let (moved, factor) = if assembly.same_design(&state.assembly) {
+                let errors = errors.get_or_init(|| design.all_errors(p)).clone();
+                (design.whitened(errors, &design.whitener(&assembly.noise, &p.a)), 1.0)
             } else {
-                redesign = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
-                &redesign
+                let there = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
+                let moved = there.innovations(p, &there.whitener(&assembly.noise, &p.a));
+                (moved, (-(there.log_slope() - design.log_slope()) / n).exp())
             };
-            let whitener = there.whitener(&assembly.noise, &p.a);
-            let moved = there.innovations(p, &whitener);
-            let factor = (-(there.log_slope() - design.log_slope()) / n).exp();
             let slopes: Vec<Vec<f64>> = moved
                 .iter()
                 .zip(&state.innovations)

@@ -2,6 +2,7 @@
 
 use crate::jacobian::Jacobian;
 use crate::normal::{Factor, Normal};
+use crate::sums::dot;
 
 /// A model at its fit, to which columns may be added.
 pub(crate) struct Gains<'a> {
@@ -46,8 +47,7 @@ impl<'a> Gains<'a> {
     pub(crate) fn score(&self, column: Vec<f64>) -> Scored {
         let cross = self.jacobian.cross(&column);
         let solved = self.factor.solve(&cross);
-        let plain: f64 = column.iter().zip(self.w).map(|(c, w)| c * w).sum();
-        let gradient = plain - cross.iter().zip(&self.left).map(|(c, l)| c * l).sum::<f64>();
+        let gradient = dot(&column, self.w) - dot(&cross, &self.left);
         Scored { column, cross, solved, gradient }
     }
 
@@ -57,8 +57,8 @@ impl<'a> Gains<'a> {
         for (i, c) in columns.iter().enumerate() {
             small.gradient[i] = c.gradient;
             for (j, d) in columns.iter().enumerate().skip(i) {
-                let corner: f64 = c.column.iter().zip(&d.column).map(|(x, y)| x * y).sum();
-                let s = corner - c.cross.iter().zip(&d.solved).map(|(x, y)| x * y).sum::<f64>();
+                let corner = dot(&c.column, &d.column);
+                let s = corner - dot(&c.cross, &d.solved);
                 small.set(i, j, if i == j { s.max(1e-9 * corner) } else { s });
             }
         }
@@ -80,7 +80,6 @@ impl<'a> Gains<'a> {
 
     /// Approximate gain in deviance from adding one column.
     pub(crate) fn of_sums(&self, sums: &Sums) -> f64 {
-        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let schur = sums.corner - dot(&sums.cross, &self.factor.solve(&sums.cross));
         let gradient = sums.plain - dot(&sums.cross, &self.left);
         let least = 1e-9 * sums.corner;

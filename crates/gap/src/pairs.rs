@@ -1,6 +1,6 @@
 //! A second effect: a forward step from several firsts, then a restart from each member of the best pair.
 
-use crate::attribution::Attribution;
+use crate::attribution::{Attribution, Contest};
 use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::explain::Explanation;
@@ -63,7 +63,7 @@ impl<W: Workers> Attribution<'_, W> {
         let best_single = singles.first()?;
         let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
         let explanation = if tests.excess() > worth_a_look {
-            self.searched(singles)?.with_knots_refined(self.campaign)
+            self.searched(singles)?
         } else if tests.tails > worth_a_look {
             self.with_outliers(best_single)?
         } else {
@@ -80,7 +80,10 @@ impl<W: Workers> Attribution<'_, W> {
         let outliers = Effect::Outliers;
         let other = present != outliers && !present.twins().contains(&outliers);
         (other && self.settings.effects.contains(&outliers))
-            .then(|| self.on_top_of(first, &[Question::open(outliers)], 1))
+            .then(|| {
+                let alone = Contest { finished: 1, to_beat: None };
+                self.on_top_of(first, &[Question::open(outliers)], alone)
+            })
             .and_then(|pairs| pairs.into_iter().next())
     }
 
@@ -88,7 +91,7 @@ impl<W: Workers> Attribution<'_, W> {
     ///
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
     /// best pair found is in turn held while every other effect is tried beside it; then twins of the firsts, while much is
-    /// left; then every law of both members and their twins.
+    /// left; then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
     fn searched(&self, singles: &[Explanation]) -> Option<Explanation> {
         let best_single = singles.first()?;
         let gained = |s: &Explanation| self.nominal.bic() - s.bic();
@@ -120,7 +123,7 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         search.every_law();
-        search.best
+        search.best.map(|best| best.with_knots_refined(self.campaign))
     }
 }
 
@@ -184,7 +187,9 @@ impl<W: Workers> Search<'_, '_, W> {
 
     fn ask(&mut self, first: Effect, questions: &[Question]) {
         let Some(first) = self.single(first) else { return };
-        let second = self.of.on_top_of(first, questions, FINISHED).into_iter().next();
+        let to_beat = self.best.as_ref().map(Explanation::bic);
+        let contest = Contest { finished: FINISHED, to_beat };
+        let second = self.of.on_top_of(first, questions, contest).into_iter().next();
         self.best = self.best.take().into_iter().chain(second).min_by(|x, y| x.bic().total_cmp(&y.bic()));
     }
 

@@ -16,7 +16,7 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
         start(&mut u, &design, fit);
     }
     let b = convolve(&fit.linear.b, &design.taps);
-    let m = fit.linear.d.len();
+    let d = part.columns.coefficients(&fit.linear.d);
     let mut x = part.x[..part.from].to_vec();
     let limit = 1e6;
     for t in part.from..track.v.len() {
@@ -27,8 +27,8 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
         for (j, b) in b.iter().enumerate() {
             now += b * u[t.saturating_sub(j + 1)];
         }
-        for (k, d) in fit.linear.d.iter().enumerate() {
-            now += d * part.columns[t * m + k];
+        for (d, psi) in d.iter().zip(part.columns.row(t)) {
+            now += d * psi;
         }
         // An unstable model leaves every range; the bound keeps its error finite.
         x.push(now.clamp(-limit, limit));

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::sums::{dot, energy};
+
 /// In-place radix-2 fast Fourier transform.
 ///
 /// # Panics
@@ -82,15 +84,9 @@ pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64
 
 /// Autocorrelation at lags `0…most`, pooled over tracks.
 pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
-    let energy: f64 = tracks.iter().flatten().map(|x| x * x).sum::<f64>().max(1e-300);
+    let energy = tracks.iter().map(|w| energy(w)).sum::<f64>().max(1e-300);
     (0..=most)
-        .map(|lag| {
-            tracks
-                .iter()
-                .map(|w| w.iter().zip(w.iter().skip(lag)).map(|(x, y)| x * y).sum::<f64>())
-                .sum::<f64>()
-                / energy
-        })
+        .map(|lag| tracks.iter().map(|w| dot(w, w.get(lag..).unwrap_or_default())).sum::<f64>() / energy)
         .collect()
 }
 

@@ -169,7 +169,7 @@ struct Moved {
 
 /// Mean square; nothing where it is no number, so that such a column counts as none.
 fn energy(column: &[f64]) -> f64 {
-    let sum = column.iter().map(|x| x * x).sum::<f64>() / column.len().max(1) as f64;
+    let sum = crate::sums::energy(column) / column.len().max(1) as f64;
     if sum.is_finite() { sum } else { 0.0 }
 }
 

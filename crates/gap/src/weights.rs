@@ -40,17 +40,17 @@ impl Weights {
     }
 
     /// Weighs rows of derivatives of one track, one after the other.
-    pub(crate) fn rows(&self, track: usize, width: usize) -> Box<dyn FnMut(&mut [f64]) + '_> {
-        if let Some(predictors) = &self.predictors {
-            let mut follower = predictors[track].follow(width);
-            return Box::new(move |row| follower.next(row));
+    pub(crate) fn rows(&self, track: usize, width: usize) -> impl FnMut(&mut [f64]) + '_ {
+        let mut follower = self.predictors.as_ref().map(|predictors| predictors[track].follow(width));
+        let mut factors = self.scale.as_ref().map(|scale| scale[track].iter());
+        move |row| match (&mut follower, &mut factors) {
+            (Some(follower), _) => follower.next(row),
+            (None, Some(factors)) => {
+                let factor = factors.next().copied().unwrap_or_default();
+                row.iter_mut().for_each(|x| *x *= factor);
+            }
+            (None, None) => {}
         }
-        let Some(scale) = &self.scale else { return Box::new(|_| {}) };
-        let mut factors = scale[track].iter();
-        Box::new(move |row| {
-            let factor = factors.next().copied().unwrap_or_default();
-            row.iter_mut().for_each(|x| *x *= factor);
-        })
     }
 
     /// Whether the counted sample has a say.
@@ -72,7 +72,7 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let predictors = predictors(&design.tracks, noise, p, &response);
         let scale: Vec<Vec<f64>> = predictors.iter().map(|p| p.scale.clone()).collect();
         let left_out = scale.iter().flatten().filter(|s| **s == 0.0).count();
-        let counted: f64 = scale.iter().flatten().filter(|s| **s > 0.0).map(|s| s.ln()).sum();
+        let counted = sum_of_logarithms(scale.iter().flatten().copied().filter(|s| *s > 0.0));
         let log_scale = counted * stretch(&scale, left_out);
         let (scale, predictors) = (Some(scale), Some(predictors));
         return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
@@ -87,6 +87,25 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
             Weights { scale: Some(scale), left_out, ..Weights::default() }
         }
     }
+}
+
+/// `Σ ln x` of positive numbers: few logarithms of long products.
+fn sum_of_logarithms(values: impl Iterator<Item = f64>) -> f64 {
+    // The product of two such numbers is far from the ends of the range.
+    const SAFE: std::ops::Range<f64> = 1e-150..1e150;
+    let (mut sum, mut product) = (0.0, 1.0_f64);
+    for x in values {
+        if !SAFE.contains(&x) {
+            sum += x.ln();
+            continue;
+        }
+        product *= x;
+        if !SAFE.contains(&product) {
+            sum += product.ln();
+            product = 1.0;
+        }
+    }
+    sum + product.ln()
 }
 
 /// What is left out counts as much as the rest does in the mean, so that nothing is gained by leaving out.
@@ -147,6 +166,9 @@ pub(crate) fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
     h
 }
 
+/// The exponential of this is less than any density that counts.
+const LEAST_EXPONENT: f64 = -700.0;
+
 /// `w ~ (1−ε)·N(0,σ²) + ε·N(0,κ²σ²)`, fitted by expectation–maximisation.
 pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Weights {
     let all: Vec<f64> = w.iter().flatten().copied().collect();
@@ -155,23 +177,27 @@ pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Wei
     let middle = magnitudes.len() / 2;
     let (_, median, _) = magnitudes.select_nth_unstable_by(middle, f64::total_cmp);
     let mut variance = (*median / 0.6745).powi(2).max(1e-300);
+    let squares: Vec<f64> = all.iter().map(|x| x * x).collect();
     let mut wide = vec![0.0; all.len()];
     let mut deviance = 0.0;
     for _ in 0..25 {
         let (mut count, mut narrow_sum, mut wide_sum) = (0.0, 0.0, 0.0);
         let before = deviance;
-        deviance = 0.0;
         let wide_variance = ratio * ratio * variance;
-        for (x, tau) in all.iter().zip(&mut wide) {
-            let narrow = (1.0 - share) * (-0.5 * x * x / variance).exp() / variance.sqrt();
-            let broad = share * (-0.5 * x * x / wide_variance).exp() / wide_variance.sqrt();
+        let (narrow_rate, broad_rate) = (-0.5 / variance, -0.5 / wide_variance);
+        let (narrow_top, broad_top) = ((1.0 - share) / variance.sqrt(), share / wide_variance.sqrt());
+        let densities = squares.iter().zip(&mut wide).map(|(square, tau)| {
+            // Below the floor the exponential is nothing, and slow.
+            let broad = broad_top * (broad_rate * square).max(LEAST_EXPONENT).exp();
+            let narrow = narrow_top * (narrow_rate * square).max(LEAST_EXPONENT).exp();
             let both = (narrow + broad).max(1e-300);
-            deviance -= 2.0 * both.ln();
             *tau = broad / both;
             count += *tau;
-            narrow_sum += (1.0 - *tau) * x * x;
-            wide_sum += *tau * x * x;
-        }
+            narrow_sum += (1.0 - *tau) * square;
+            wide_sum += *tau * square;
+            both
+        });
+        deviance = -2.0 * sum_of_logarithms(densities);
         share = (count / n).clamp(1e-5, 0.3);
         variance = (narrow_sum / (n - count).max(1.0)).max(1e-300);
         ratio = (wide_sum / count.max(1e-9) / variance).sqrt().clamp(2.5, 1e3);
@@ -197,7 +223,18 @@ pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Wei
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn logarithms_add_up(exponents in prop::collection::vec(-300.0..300.0_f64, 0..50)) {
+            let values = exponents.iter().map(|e| 10f64.powf(*e));
+            let slow: f64 = values.clone().map(f64::ln).sum();
+            prop_assert!((sum_of_logarithms(values) - slow).abs() < 1e-9);
+        }
+    }
 
     #[test]
     fn the_response_of_a_lag_is_geometric() {

@@ -4,5 +4,4 @@ mod lane;
 mod wide;
 
 pub use lane::{LANES, Lane};
-pub(crate) use wide::keep_apart;
-pub use wide::{Work, widest};
+pub use wide::{Work, keep_apart, widest};

@@ -27,7 +27,7 @@ pub fn widest(work: impl Work) {
 /// Stands first in a loop over lanes: keeps the compiler from vectorising it across its iterations, which gathers and scatters what
 /// lies side by side. Costs nothing.
 #[inline(always)]
-pub(crate) fn keep_apart() {
+pub fn keep_apart() {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: an empty instruction sequence.
     unsafe {

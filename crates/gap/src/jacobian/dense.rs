@@ -8,15 +8,46 @@ use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::whitener::{LEAD, Whitener};
 
-/// Hands over the derivatives of one track without weights, a row a counted sample.
+/// The parameters that act on one track: of border values nobody visits there and of other tracks' disturbances all derivatives
+/// are zero.
+pub(super) struct Active<'a> {
+    /// Numbers of the border values (and columns).
+    border: Vec<usize>,
+    /// Where each border value stands among these; of no meaning for others.
+    place: Vec<u32>,
+    /// Numbers of the equation columns.
+    columns: &'a [usize],
+}
+
+impl<'a> Active<'a> {
+    pub(super) fn on(track: &'a DesignTrack, p: &Linear) -> Self {
+        let touched = track.rows.touched(p.f.len());
+        let border: Vec<usize> = (0..touched.len()).filter(|&i| touched[i]).collect();
+        let mut place = vec![0; touched.len()];
+        border.iter().zip(0..).for_each(|(&i, at)| place[i] = at);
+        Self { border, place, columns: &track.columns.numbers }
+    }
+
+    /// Numbers of the parameters among all, in the order of a row.
+    pub(super) fn parameters(&self, p: &Linear) -> Vec<usize> {
+        let dynamics = p.a.len() + p.b.len();
+        let border = self.border.iter().map(|i| dynamics + i);
+        let columns = self.columns.iter().map(|j| dynamics + p.f.len() + j);
+        (0..dynamics).chain(border).chain(columns).collect()
+    }
+}
+
+/// Hands over the derivatives of one track with respect to the parameters that act on it, without weights: a row a counted
+/// sample, to be changed at will.
 pub(super) fn dense_rows(
     (design, track): (&Design, &DesignTrack),
     p: &Linear,
     whitener: &Whitener,
-    mut emit: impl FnMut(&[f64]),
+    active: &Active<'_>,
+    mut emit: impl FnMut(&mut [f64]),
 ) {
-    let (na, nb, k, m) = (p.a.len(), p.b.len(), p.f.len(), p.d.len());
-    let size = p.len();
+    let (na, nb, k) = (p.a.len(), p.b.len(), active.border.len());
+    let size = na + nb + k + active.columns.len();
     let negated: Vec<f64> = convolve(&p.b, &design.taps).iter().map(|b| -b).collect();
     let tapped = tapped(design, track, p);
     let first = track.from.saturating_sub(LEAD);
@@ -28,8 +59,13 @@ pub(super) fn dense_rows(
     };
     let memory = design.poles.len().max(whitener.ar.len());
     let mut raw = Ring::new(size, memory + 1);
-    let border = Filtered::new(design, track, na + nb..na + nb + k, negated);
+    let border = Filtered::new((design, track), &active.place, na + nb..na + nb + k, negated);
     let mut white = Ring::new(size, whitener.ma.len() + 1);
+    let mut out = vec![0.0; size];
+    let mut emit = |row: &[f64]| {
+        out.copy_from_slice(row);
+        emit(&mut out);
+    };
     for t in 0..track.x.len() {
         border.write(&mut raw, t);
         if t < first {
@@ -43,7 +79,7 @@ pub(super) fn dense_rows(
         for j in 0..nb {
             row[na + j] = -tapped[t.saturating_sub(j + 1)];
         }
-        for (x, psi) in row[na + nb + k..].iter_mut().zip(&track.columns[t * m..]) {
+        for (x, psi) in row[na + nb + k..].iter_mut().zip(track.columns.row(t)) {
             *x = -psi;
         }
         if whitener.ar.is_empty() && whitener.ma.is_empty() {
@@ -109,6 +145,8 @@ impl Ring {
 struct Filtered<'a> {
     track: &'a DesignTrack,
     poles: &'a [f64],
+    /// Place of each feature among its columns.
+    place: &'a [u32],
     /// Coefficients of lags 1, 2, ….
     b: Vec<f64>,
     columns: Range<usize>,
@@ -116,13 +154,18 @@ struct Filtered<'a> {
 }
 
 impl<'a> Filtered<'a> {
-    fn new(design: &'a Design, track: &'a DesignTrack, columns: Range<usize>, b: Vec<f64>) -> Self {
+    fn new(
+        (design, track): (&'a Design, &'a DesignTrack),
+        place: &'a [u32],
+        columns: Range<usize>,
+        b: Vec<f64>,
+    ) -> Self {
         let rest = b.iter().sum::<f64>() / (1.0 + design.poles.iter().sum::<f64>());
         let mut before = vec![0.0; columns.len()];
         for &(i, x) in track.rows.row(0) {
-            before[i as usize] += x * rest;
+            before[place[i as usize] as usize] += x * rest;
         }
-        Self { track, poles: &design.poles, b, columns, before }
+        Self { track, poles: &design.poles, place, b, columns, before }
     }
 
     /// Writes its columns of row `t`, the one after the last.
@@ -131,7 +174,7 @@ impl<'a> Filtered<'a> {
         row.fill(0.0);
         for (j, b) in self.b.iter().enumerate() {
             for &(i, x) in self.track.rows.row(t.saturating_sub(j + 1)) {
-                row[i as usize] += b * x;
+                row[self.place[i as usize] as usize] += b * x;
             }
         }
         for (lag, p) in self.poles.iter().enumerate() {
@@ -147,7 +190,8 @@ impl<'a> Filtered<'a> {
 /// Border features behind the poles, row-major, `k` a sample.
 pub(crate) fn filtered_rows(design: &Design, track: &DesignTrack, k: usize) -> Vec<f64> {
     // What is written for one sample ahead is the feature itself.
-    let features = Filtered::new(design, track, 0..k, vec![1.0]);
+    let place: Vec<u32> = (0..k as u32).collect();
+    let features = Filtered::new((design, track), &place, 0..k, vec![1.0]);
     let mut ring = Ring::new(k, design.poles.len() + 1);
     let mut out = Vec::with_capacity(track.x.len() * k);
     features.write(&mut ring, 0);

@@ -9,15 +9,16 @@
 mod dense;
 mod sparse;
 
-use self::dense::dense_rows;
 pub(crate) use self::dense::filtered_rows;
+use self::dense::{Active, dense_rows};
 use self::sparse::sparse_rows;
+use crate::dense_sums::DenseSums;
 use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
 use crate::normal::Normal;
 use crate::rows::Rows;
 use crate::weights::Weights;
-use crate::whitener::{LEAD, Whitener};
+use crate::whitener::Whitener;
 
 /// Weighted derivatives, all tracks one after the other.
 #[derive(Debug, Clone)]
@@ -38,20 +39,24 @@ impl Jacobian {
     pub(crate) fn new(design: &Design, p: &Linear, whitener: &Whitener, weights: &Weights) -> Self {
         let columns = p.len();
         let store = if spreads(design, whitener, weights) {
-            let mut out = Vec::with_capacity(design.samples() * columns);
+            let mut out = vec![0.0; design.samples() * columns];
+            let mut rows = out.chunks_exact_mut(columns);
             for (number, track) in design.tracks.iter().enumerate() {
-                let mut weigh = weights.rows(number, columns);
-                dense_rows((design, track), p, whitener, |row| {
-                    let from = out.len();
-                    out.extend_from_slice(row);
-                    weigh(&mut out[from..]);
+                let active = Active::on(track, p);
+                let parameters = active.parameters(p);
+                let mut weigh = weights.rows(number, parameters.len());
+                dense_rows((design, track), p, whitener, &active, |row| {
+                    weigh(row);
+                    if let Some(out) = rows.next() {
+                        parameters.iter().zip(row).for_each(|(&i, x)| out[i] = *x);
+                    }
                 });
             }
             Store::Dense(out)
         } else {
             let mut out = Rows::with_capacity(design.samples());
-            for (track, weights) in parts(design, weights) {
-                sparse_rows((design, track), p, whitener, weights, |row| out.push(row, 1.0));
+            for (track, factors) in parts(design, weights) {
+                sparse_rows((design, track), p, whitener, factors, |row| out.push(row, 1.0));
             }
             Store::Sparse(out)
         };
@@ -67,7 +72,13 @@ impl Jacobian {
                     normal.add_sparse(rows.row(t), w);
                 }
             }
-            Store::Dense(rows) => normal.add_dense(rows, self.columns, w),
+            Store::Dense(rows) => {
+                let mut sums = DenseSums::new((0..self.columns).collect());
+                for (row, &w) in rows.chunks_exact(self.columns).zip(w) {
+                    sums.push(row, std::iter::empty(), w);
+                }
+                sums.add_to(&mut normal);
+            }
         }
         normal
     }
@@ -111,24 +122,19 @@ pub(crate) fn normal_equations(
     let columns = p.len();
     let width = columns + extra.len();
     let mut normal = Normal::new(width);
-    // Rows so far, and the first of them that is not yet in the equations.
-    let (mut row_number, mut from) = (0, 0);
-    let mut block: Vec<f64> = Vec::with_capacity(BLOCK * width);
+    let mut row_number = 0;
     for (number, (track, factors)) in parts(design, weights).enumerate() {
         if spreads(design, whitener, weights) {
-            let mut weigh = weights.rows(number, columns);
-            dense_rows((design, track), p, whitener, |row| {
-                let from_here = block.len();
-                block.extend_from_slice(row);
-                weigh(&mut block[from_here..]);
-                block.extend(extra.iter().map(|column| column[row_number]));
+            let active = Active::on(track, p);
+            let parameters = active.parameters(p);
+            let mut weigh = weights.rows(number, parameters.len());
+            let mut sums = DenseSums::new(parameters.into_iter().chain(columns..width).collect());
+            dense_rows((design, track), p, whitener, &active, |row| {
+                weigh(row);
+                sums.push(row, extra.iter().map(|column| column[row_number]), w[row_number]);
                 row_number += 1;
-                if row_number - from == BLOCK {
-                    normal.add_dense(&block, width, &w[from..row_number]);
-                    block.clear();
-                    from = row_number;
-                }
             });
+            sums.add_to(&mut normal);
         } else {
             sparse_rows((design, track), p, whitener, factors, |row| {
                 let extra = extra.iter().enumerate();
@@ -138,21 +144,12 @@ pub(crate) fn normal_equations(
             });
         }
     }
-    if !block.is_empty() {
-        normal.add_dense(&block, width, &w[from..row_number]);
-    }
     normal
 }
 
-/// Dense rows taken at a time: few enough to stay near the processor.
-const BLOCK: usize = 64;
-
 /// Whether a recursive filter spreads the border features over whole rows.
 fn spreads(design: &Design, whitener: &Whitener, weights: &Weights) -> bool {
-    !design.poles.is_empty()
-        || !whitener.ma.is_empty()
-        || whitener.ar.len() > LEAD
-        || weights.predictors.is_some()
+    !design.poles.is_empty() || !whitener.ma.is_empty() || weights.predictors.is_some()
 }
 
 /// Tracks with the weights of their counted samples.

@@ -1,21 +1,50 @@
 //! Rows without recursive filters.
 
+use std::ops::Range;
+
 use super::tapped;
 use crate::assembly::convolve;
 use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
-use crate::whitener::Whitener;
+use crate::whitener::{LEAD, Whitener};
 
-/// A moving-average filter from a sample on; what lies before the record is its first sample.
-fn averaged(filter: &[f64], x: &[f64], from: usize) -> Vec<f64> {
+/// What whitening by a moving average makes of one track.
+struct Averaged<'a> {
+    /// The average, the leading one included.
+    ar: &'a [f64],
+    /// Whitened `x` and `taps ∗ ũ`, from the first sample that is needed on.
+    x: Vec<f64>,
+    tapped: Vec<f64>,
+    first: usize,
+    /// `b̃` times the average.
+    b: Vec<f64>,
+}
+
+impl<'a> Averaged<'a> {
+    /// For some samples, of which lags up to `lags` are needed.
+    fn new(ar: &'a [f64], signals: [&[f64]; 2], b: &[f64], (samples, lags): (Range<usize>, usize)) -> Self {
+        let first = samples.start.saturating_sub(lags);
+        let [x, tapped] = signals.map(|signal| averaged(ar, signal, first..samples.end));
+        Self { ar, x, tapped, first, b: convolve(b, ar) }
+    }
+}
+
+/// A moving-average filter over some samples; what lies before the record is its first sample.
+fn averaged(filter: &[f64], x: &[f64], samples: Range<usize>) -> Vec<f64> {
     if filter.len() == 1 && filter[0] == 1.0 {
-        return x.to_vec();
+        return x[samples].to_vec();
     }
-    let mut out = vec![0.0; x.len()];
-    for t in from..x.len() {
-        out[t] = filter.iter().enumerate().map(|(k, c)| c * x[t.saturating_sub(k)]).sum();
-    }
-    out
+    let at = |t: usize| filter.iter().enumerate().map(|(k, c)| c * x[t.saturating_sub(k)]).sum();
+    samples.map(at).collect()
+}
+
+/// Counted samples with the length of the whitening filter there: no error before the [`LEAD`] is known.
+fn spans(track: &DesignTrack, ar: usize) -> impl Iterator<Item = (Range<usize>, usize)> {
+    let (from, end) = (track.from, track.x.len());
+    let known = from - from.saturating_sub(LEAD);
+    let short = ar.saturating_sub(known);
+    let whole = (from + short).min(end);
+    (from..whole).map(move |t| (t..t + 1, known + t - from)).chain([(whole..end, ar)])
 }
 
 /// Hands over the weighted derivatives of one track, indices increasing; whitening with `D` alone is a longer `b̃` and averaged
@@ -27,63 +56,61 @@ pub(super) fn sparse_rows(
     weights: Option<&[f64]>,
     mut emit: impl FnMut(&mut Vec<(u32, f64)>),
 ) {
-    let (na, nb, k, m) = (p.a.len(), p.b.len(), p.f.len(), p.d.len());
+    let (na, nb, k) = (p.a.len(), p.b.len(), p.f.len());
     let ar: Vec<f64> = std::iter::once(1.0).chain(whitener.ar.iter().copied()).collect();
-    let b = convolve(&convolve(&p.b, &design.taps), &ar);
-    let first = track.from.saturating_sub(na + nb + 1);
-    let x = averaged(&ar, &track.x, first);
-    let tapped = averaged(&ar, &tapped(design, track, p), first);
-    let mut border = Sparse::new(k);
+    let b = convolve(&p.b, &design.taps);
+    let tapped = tapped(design, track, p);
+    let numbers = &track.columns.numbers;
+    let mut border = Sparse::default();
     let mut row: Vec<(u32, f64)> = Vec::with_capacity(64);
-    for t in track.from..track.x.len() {
-        let weight = weights.map_or(1.0, |w| w[t - track.from]);
-        row.clear();
-        if weight != 0.0 {
-            row.extend((0..na).map(|i| (i as u32, weight * x[t - i - 1])));
-            row.extend((0..nb).map(|j| ((na + j) as u32, -weight * tapped[t - j - 1])));
-            for (j, b) in b.iter().enumerate() {
-                border.add(track.rows.row(t.saturating_sub(j + 1)), -weight * b);
-            }
-            border.drain((na + nb) as u32, &mut row);
-            for c in 0..m {
-                let psi: f64 = ar.iter().enumerate().map(|(i, d)| d * track.columns[(t - i) * m + c]).sum();
-                // Most columns are those of other tracks.
-                if psi != 0.0 {
-                    row.push(((na + nb + k + c) as u32, -weight * psi));
+    for (samples, length) in spans(track, whitener.ar.len()) {
+        let signals = [&track.x[..], &tapped];
+        let white = Averaged::new(&ar[..=length], signals, &b, (samples.clone(), na.max(nb)));
+        for t in samples {
+            let weight = weights.map_or(1.0, |w| w[t - track.from]);
+            row.clear();
+            if weight != 0.0 {
+                row.extend((0..na).map(|i| (i as u32, weight * white.x[t - white.first - i - 1])));
+                row.extend(
+                    (0..nb).map(|j| ((na + j) as u32, -weight * white.tapped[t - white.first - j - 1])),
+                );
+                for (j, b) in white.b.iter().enumerate() {
+                    border.add(track.rows.row(t.saturating_sub(j + 1)), -weight * b);
+                }
+                border.drain((na + nb) as u32, &mut row);
+                for (c, number) in numbers.iter().enumerate() {
+                    let lags = white.ar.iter().enumerate();
+                    let psi: f64 = lags.map(|(i, d)| d * track.columns.row(t - i)[c]).sum();
+                    if psi != 0.0 {
+                        row.push(((na + nb + k + number) as u32, -weight * psi));
+                    }
                 }
             }
+            emit(&mut row);
         }
-        emit(&mut row);
     }
 }
 
-/// A sparse sum of sparse rows.
+/// A sparse sum of sparse rows: so few terms that a search among them is quick.
+#[derive(Default)]
 struct Sparse {
-    value: Vec<f64>,
-    present: Vec<bool>,
-    index: Vec<u32>,
+    /// By increasing index.
+    terms: Vec<(u32, f64)>,
 }
 
 impl Sparse {
-    fn new(size: usize) -> Self {
-        Self { value: vec![0.0; size], present: vec![false; size], index: Vec::new() }
-    }
-
     fn add(&mut self, row: &[(u32, f64)], scale: f64) {
         for &(i, x) in row {
-            if !std::mem::replace(&mut self.present[i as usize], true) {
-                self.index.push(i);
+            let at = self.terms.iter().position(|term| term.0 >= i).unwrap_or(self.terms.len());
+            match self.terms.get_mut(at) {
+                Some(term) if term.0 == i => term.1 += scale * x,
+                _ => self.terms.insert(at, (i, scale * x)),
             }
-            self.value[i as usize] += scale * x;
         }
     }
 
     /// Moves the sum to a row, by increasing index.
     fn drain(&mut self, offset: u32, row: &mut Vec<(u32, f64)>) {
-        self.index.sort_unstable();
-        for i in self.index.drain(..) {
-            self.present[i as usize] = false;
-            row.push((offset + i, std::mem::take(&mut self.value[i as usize])));
-        }
+        row.extend(self.terms.drain(..).map(|(i, x)| (offset + i, x)));
     }
 }

@@ -59,11 +59,14 @@ fn same_as_dense(assembly: &Assembly, p: &Linear) {
     let sparse = Jacobian::new(&design, p, &whitener, &weights).normal(&w);
     let mut rows = Vec::new();
     for (number, track) in design.tracks.iter().enumerate() {
-        let mut weigh = weights.rows(number, p.len());
-        dense_rows((&design, track), p, &whitener, |row| {
-            rows.extend_from_slice(row);
-            let from = rows.len() - row.len();
-            weigh(&mut rows[from..]);
+        let active = Active::on(track, p);
+        let parameters = active.parameters(p);
+        let mut weigh = weights.rows(number, parameters.len());
+        dense_rows((&design, track), p, &whitener, &active, |row| {
+            weigh(row);
+            let mut whole = vec![0.0; p.len()];
+            parameters.iter().zip(row).for_each(|(&i, x)| whole[i] = *x);
+            rows.extend(whole);
         });
     }
     let dense = Jacobian { columns: p.len(), store: Store::Dense(rows) }.normal(&w);
@@ -116,6 +119,12 @@ fn the_jacobian_agrees_with_differences() {
     rich.d.push(0.1);
     check(&assembly, &rich);
     same_as_dense(&assembly, &rich);
+
+    // Longer than what is known before the first counted sample.
+    let short = std::mem::replace(&mut assembly.noise.ar, (1..=9).map(|k| 0.4 / f64::from(k)).collect());
+    check(&assembly, &rich);
+    same_as_dense(&assembly, &rich);
+    assembly.noise.ar = short;
 
     assembly.filter(&[0.5], &[1.0, -0.5]);
     assembly.noise.ma = vec![-0.4];

@@ -6,22 +6,42 @@ use super::clock;
 use crate::assembly::{Assembly, EquationColumn};
 use crate::campaign::{Campaign, Track};
 
-/// The equation columns of one track, row-major, `columns` a sample.
+/// The equation columns that act on one track.
+#[derive(Debug, Clone)]
+pub(crate) struct EquationColumns {
+    /// Their numbers among all columns, increasing: most of these are those of other tracks.
+    pub(crate) numbers: Vec<usize>,
+    /// Row-major, as many a sample as there are numbers.
+    values: Vec<f64>,
+}
+
+impl EquationColumns {
+    /// The values at a sample.
+    #[inline]
+    pub(crate) fn row(&self, t: usize) -> &[f64] {
+        let count = self.numbers.len();
+        &self.values[t * count..(t + 1) * count]
+    }
+
+    /// Coefficients of the columns here, given those of all.
+    pub(crate) fn coefficients(&self, all: &[f64]) -> Vec<f64> {
+        self.numbers.iter().map(|&j| all[j]).collect()
+    }
+}
+
+/// The equation columns of one track.
 pub(crate) fn equation_columns(
     campaign: &Campaign,
-    tracks: (usize, &Track),
+    (number, track): (usize, &Track),
     assembly: &Assembly,
-) -> Vec<f64> {
-    let (number, track) = tracks;
-    let count = assembly.equation_columns.len();
+) -> EquationColumns {
+    let all = &assembly.equation_columns;
+    let numbers: Vec<usize> = (0..all.len()).filter(|&j| all[j].acts_on(number)).collect();
+    let count = numbers.len();
     let mut out = vec![0.0; track.v.len() * count];
-    for (j, column) in assembly.equation_columns.iter().enumerate() {
-        let cells = out.iter_mut().skip(j).step_by(count);
-        match *column {
-            EquationColumn::Line { track: Some(only), .. }
-            | EquationColumn::Decay { track: only, .. }
-            | EquationColumn::Local { track: only, .. }
-                if only != number => {}
+    for (k, &j) in numbers.iter().enumerate() {
+        let cells = out.iter_mut().skip(k).step_by(count);
+        match all[j] {
             EquationColumn::Line { frequency, track: only, sine } => {
                 let first = if only.is_some() { 0.0 } else { track.clock as f64 };
                 let mut wave = Wave::starting(frequency, first);
@@ -50,7 +70,7 @@ pub(crate) fn equation_columns(
             }),
         }
     }
-    out
+    EquationColumns { numbers, values: out }
 }
 
 /// A sinusoid sample by sample, by rotation; set anew every so often, so that rounding does not add up.

@@ -4,7 +4,7 @@ mod equation;
 mod sensitivity;
 mod working_point;
 
-pub(crate) use self::equation::equation_columns;
+pub(crate) use self::equation::{EquationColumns, equation_columns};
 use self::sensitivity::ascending;
 pub(crate) use self::sensitivity::sensitivity_rows;
 use self::working_point::WorkingPoint;
@@ -37,6 +37,13 @@ impl Rows {
     #[inline]
     pub(crate) fn row(&self, t: usize) -> &[(u32, f64)] {
         &self.terms[self.start[t] as usize..self.start[t + 1] as usize]
+    }
+
+    /// Whether each of `count` columns has a non-zero.
+    pub(crate) fn touched(&self, count: usize) -> Vec<bool> {
+        let mut touched = vec![false; count];
+        self.terms.iter().for_each(|&(i, _)| touched[i as usize] = true);
+        touched
     }
 
     /// `u(t)` for border values (and column coefficients) `f`.
@@ -93,6 +100,11 @@ pub(crate) fn rows(
             let narrowing = assembly.wear.as_ref().map_or(0.0, slow);
             point.step(m, track.v[t], narrowing);
         }
+        let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
+        if assembly.border_columns.is_empty() {
+            out.push(&point.terms, gain);
+            continue;
+        }
         row.clear();
         row.extend_from_slice(&point.terms);
         for (j, column) in assembly.border_columns.iter().enumerate() {
@@ -109,7 +121,6 @@ pub(crate) fn rows(
             held[j] = column_value(column, m, s, held[j]);
             row.push((columns + j as u32, held[j]));
         }
-        let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
         out.push(&row, gain);
     }
     out

@@ -71,6 +71,11 @@ impl<'a> WorkingPoint<'a> {
 
     /// A move on a border.
     pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
+        if narrowing == 0.0 && self.transition.is_none() {
+            self.terms.clear();
+            self.terms.extend(hat(&self.finder, side(m.branch), v, 1.0));
+            return;
+        }
         let fade = self.transition.map_or(0.0, |transition| {
             let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
             if fade > NEGLIGIBLE { fade } else { 0.0 }

@@ -10,8 +10,9 @@ use switchback_maker::MakeError;
 /// Who diagnoses: a function of what a user's folder holds and of the effects to consider.
 pub type Examiner<'a> = &'a (dyn Fn(&Rig, &Settings) -> Result<Diagnosis, DiagnoseError> + Sync);
 
-/// Rigs diagnosed before their keys are opened; bounds memory, changes no result.
-const BATCH: usize = 64;
+/// Rigs diagnosed before their keys are opened; bounds memory, changes no result. At the end of a batch threads wait for the
+/// last rig.
+const BATCH: usize = 128;
 
 /// Diagnoses batch after batch in parallel; the keys of a batch stay closed until all of it is diagnosed.
 ///
@@ -28,6 +29,8 @@ pub fn examine(
     for batch in sealed.chunks(BATCH) {
         let diagnosed: Vec<Option<Diagnosis>> = batch
             .par_iter()
+            // One rig may take as long as twenty others: each is a task of its own.
+            .with_max_len(1)
             .map(|one| {
                 let diagnosis = examiner(&one.rig()?, &settings(one)).ok();
                 done();

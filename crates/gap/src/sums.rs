@@ -1,0 +1,40 @@
+//! Sums over samples.
+
+/// Sums kept apart, so that no addition waits for the one before.
+const APART: usize = 8;
+
+/// `Σ x·y` over the shorter of two signals.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let count = x.len().min(y.len());
+    let ((x, last_x), (y, last_y)) = (x[..count].as_chunks::<APART>(), y[..count].as_chunks::<APART>());
+    let mut sums = [0.0; APART];
+    for (x, y) in x.iter().zip(y) {
+        for k in 0..APART {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    let last: f64 = last_x.iter().zip(last_y).map(|(x, y)| x * y).sum();
+    sums.iter().sum::<f64>() + last
+}
+
+/// `Σ x²`.
+pub(crate) fn energy(x: &[f64]) -> f64 {
+    dot(x, x)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn sums_apart_are_the_sum(x in prop::collection::vec(-1e3..1e3_f64, 0..100), more in 0..20_usize) {
+            let y: Vec<f64> = x.iter().rev().map(|x| x + 0.5).chain(vec![1e9; more]).collect();
+            let slow: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
+            prop_assert!((dot(&x, &y) - slow).abs() <= 1e-7);
+            prop_assert_eq!(dot(&x, &y), dot(&y, &x));
+        }
+    }
+}
