@@ -50,6 +50,16 @@ pub(crate) struct Slow {
     pub(crate) wave: Option<(f64, f64, f64)>,
 }
 
+impl NoiseLaw {
+    /// Samples back that whitening reaches, all of them where it is recursive.
+    pub(crate) fn reach(&self) -> usize {
+        match self.ma.is_empty() && self.output_ratio == 0.0 {
+            true => self.ar.len(),
+            false => usize::MAX,
+        }
+    }
+}
+
 impl Slow {
     /// The change at clock `s`.
     pub(crate) fn at(&self, s: f64) -> f64 {
@@ -125,6 +135,8 @@ impl EquationColumn {
 pub(crate) struct Saturation {
     pub(crate) low: f64,
     pub(crate) high: f64,
+    /// Order of the equation.
+    pub(crate) order: usize,
 }
 
 /// Noise on the input that acts: its variance over that of the equation error.

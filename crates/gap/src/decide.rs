@@ -22,7 +22,7 @@ const WIDEST: usize = 3;
 
 /// Deviance left in general that is still no gap worth a verdict: on ten thousand samples, a tenth of the noise's
 /// standard deviation.
-const IMMATERIAL: f64 = 100.0;
+pub(crate) const IMMATERIAL: f64 = 100.0;
 
 /// Probabilities of the explanations, of none and of none of these.
 #[derive(Debug, Clone)]
@@ -77,6 +77,8 @@ mod calibration {
     pub(super) const SILENCE: f64 = 0.68;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
     pub(super) const ALL_FAIL: f64 = 0.35;
+    /// The same where the best should close the gap on held-out records and does not.
+    pub(super) const REFUTED: f64 = 0.85;
 }
 
 fn logistic(x: f64) -> f64 {
@@ -97,6 +99,8 @@ pub(crate) struct Leavings {
     pub(crate) deviance: f64,
     /// Share of the gap on the held-out records, where there is one.
     pub(crate) gap: Option<f64>,
+    /// Whether it should close that gap and does not.
+    pub(crate) refuted: bool,
 }
 
 /// Weighs single-effect explanations against each other, against none and against none of these.
@@ -137,7 +141,11 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let foreign = if closes { 0.0 } else { logistic((fraction - middle) / scale) }.max(calibration::FOREIGN);
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let none = calibration::SILENCE * none;
-    let unexplained = (1.0 - none) * calibration::ALL_FAIL * foreign;
+    let unexplained = (1.0 - none)
+        * match best_leaves.refuted {
+            true => calibration::REFUTED,
+            false => calibration::ALL_FAIL * foreign,
+        };
     let rest = (1.0 - none - unexplained).max(0.0);
     let whole = first.map_or(1.0, |effect| wholeness(effect, fraction));
     let trust = calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole;
@@ -162,7 +170,7 @@ pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
 /// Weighs two effects named together; the singles are no rivals of a pair that holds one of them.
 pub(crate) fn odds_together(nominal_bic: f64, pair: &Pair, singles: &[(Effect, f64)]) -> Odds {
     let members = pair.explanation.effects();
-    let leaves = Leavings { deviance: pair.left, gap: None };
+    let leaves = Leavings { deviance: pair.left, gap: None, refuted: false };
     let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], leaves);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
@@ -231,7 +239,7 @@ mod tests {
     const NOMINAL: f64 = 0.0;
 
     fn weighed(rivals: [(Effect, f64); 2], deviance: f64, gap: f64) -> Odds {
-        let odds = odds(NOMINAL, &rivals, Leavings { deviance, gap: Some(gap) });
+        let odds = odds(NOMINAL, &rivals, Leavings { deviance, gap: Some(gap), refuted: false });
         let sum = odds.effects.iter().sum::<f64>() + odds.none + odds.unexplained;
         assert!((sum - 1.0).abs() < 1e-9, "probabilities sum to {sum}");
         odds

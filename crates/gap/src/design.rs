@@ -132,7 +132,7 @@ impl Design {
                     clipped: assembly.saturation.map(|limits| {
                         same(|c| c.clipped)
                             .and_then(|t| t.clipped.clone())
-                            .unwrap_or_else(|| clipped(track, limits).into())
+                            .unwrap_or_else(|| clipped(track, limits, assembly.noise.reach()).into())
                     }),
                 }
             })
@@ -244,9 +244,12 @@ impl Design {
 const _: () = assert!(LEAD < WARM_UP);
 
 /// Which counted samples have an output at a limit among those the equation needs.
-fn clipped(track: &Track, limits: Saturation) -> Vec<bool> {
+///
+/// The equation reaches back by its order, its errors by what whitens them.
+fn clipped(track: &Track, limits: Saturation, whitener: usize) -> Vec<bool> {
+    let reach = limits.order.saturating_add(whitener).min(LEAD);
     let at: Vec<bool> = track.y.iter().map(|y| *y <= limits.low || *y >= limits.high).collect();
-    (track.from..track.y.len()).map(|t| at[t - LEAD..=t].iter().any(|c| *c)).collect()
+    (track.from..track.y.len()).map(|t| at[t - reach..=t].iter().any(|c| *c)).collect()
 }
 
 /// `x` of one track and its summed log slope.
@@ -301,7 +304,7 @@ impl Common {
             columns: had.equation_columns == assembly.equation_columns,
             output: had.curve == assembly.curve,
             sensitivity: moves && same_grid && jitter,
-            clipped: had.saturation == assembly.saturation,
+            clipped: had.saturation == assembly.saturation && had.noise.reach() == assembly.noise.reach(),
         }
     }
 }

@@ -67,9 +67,14 @@ impl Explanation {
         self.bic() + self.held_out
     }
 
+    /// Whether the own parameters of the law added last only weigh the samples.
+    pub(crate) fn only_weighs(&self) -> bool {
+        self.parts.last().is_some_and(|part| part.search == Search::Weights)
+    }
+
     /// Whether the likelihood has corners in the own parameters of the law added last.
     pub(crate) fn has_corners(&self) -> bool {
-        self.parts.last().is_some_and(|part| part.search == Search::Profile)
+        self.parts.last().is_some_and(|part| part.search.is_by_pattern())
     }
 
     /// The effects, in the order they were added.

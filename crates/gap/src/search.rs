@@ -46,7 +46,7 @@ impl Question {
             return None;
         }
         // Where the likelihood has corners what was found alone may be far off: all starts are needed.
-        if law.search != Search::Profile && own.len() == law.starts[0].len() {
+        if !law.search.is_by_pattern() && own.len() == law.starts[0].len() {
             let middle = law.starts.swap_remove(law.starts.len() / 2);
             law.starts = vec![own.clone(), middle];
         }
@@ -68,7 +68,7 @@ pub(crate) struct Prospect {
 const CORNERED: usize = 5;
 const SMOOTH: usize = 2;
 /// Laws of an effect that are looked at, and the share of the best one's score that a further one needs.
-const LAWS: usize = 3;
+const LAWS: usize = 4;
 const LAW: f64 = 0.4;
 
 /// The laws of one more effect on top of what is known, each with its likeliest starts. Empty where the records rule the
@@ -112,7 +112,7 @@ impl Prospect {
         self.score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
         scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
         let most =
-            if self.law.search == Search::Profile || self.law.climbs > SMOOTH { CORNERED } else { SMOOTH };
+            if self.law.search.is_by_pattern() || self.law.climbs > SMOOTH { CORNERED } else { SMOOTH };
         if scored.len() > most && scored.iter().all(|(score, _)| score.refitted.is_some()) {
             // The best by the test, then the best of the others by what is left.
             scored[1..].sort_by(|x, y| y.0.refitted.unwrap_or(0.0).total_cmp(&x.0.refitted.unwrap_or(0.0)));
@@ -128,7 +128,7 @@ impl Prospect {
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
-        true => task.pattern(fit, SCOUTED, RACE),
+        true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
         false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
     })
 }
@@ -136,7 +136,7 @@ pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) ->
 /// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
-        true => task.pattern(fit, TRIALS, FINAL),
+        true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
         false => task.settled(fit),
     })
 }
@@ -181,6 +181,8 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
         Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
         Search::Smooth => best(starts.filter_map(|own| task.together(&own, &base, LOOK))),
         Search::Profile => best(starts.filter_map(|own| task.held(&own, &base, LOOK))),
+        Search::Weights => best(starts.filter_map(|own| task.held(&own, &base, 0)))
+            .and_then(|best| task.held(&best.own, &best.linear, LOOK)),
         Search::Conditional => {
             let mut held: Vec<Fit> = starts
                 .filter_map(|own| {
@@ -263,7 +265,9 @@ impl Task<'_> {
     }
 
     /// A pattern search over own parameters whose likelihood has corners; steps start at each parameter's `step`.
-    fn pattern(&self, sketch: Fit, trials: usize, rounds: usize) -> Fit {
+    /// Where they only weigh the samples, the rest need not follow at every step.
+    fn pattern(&self, sketch: Fit, only_weighs: bool, trials: usize, rounds: usize) -> Fit {
+        let follows = if only_weighs { 0 } else { 2 };
         let mut top = sketch;
         let mut share = 1.0;
         let mut left = trials;
@@ -275,7 +279,7 @@ impl Task<'_> {
                     let o = &mut own[j];
                     o.value = (o.value + direction * share * o.step).clamp(o.low, o.high);
                     left = left.saturating_sub(1);
-                    if let Some(f) = self.held(&own, &top.linear, 2)
+                    if let Some(f) = self.held(&own, &top.linear, follows)
                         && f.deviance < top.deviance
                     {
                         top = f;

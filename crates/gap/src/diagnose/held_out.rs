@@ -3,6 +3,9 @@
 use super::Plan;
 use crate::campaign::Criterion;
 use crate::closure::measure;
+use crate::decide::IMMATERIAL;
+use crate::diagnosis::Gap;
+use crate::effect::Effect;
 use crate::engine::Fit;
 use crate::explain::Explanation;
 use crate::repeats::Repeating;
@@ -18,6 +21,9 @@ const REPEATS: f64 = 0.12;
 /// it must gain to be heard.
 const SYSTEMATIC: f64 = 0.88;
 const SERIOUS: f64 = 0.2;
+
+/// Share of the gap that an explanation closes which is its cause: the upper end of the interval lies above.
+const MATERIAL: f64 = 0.5;
 
 impl Plan {
     /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
@@ -95,10 +101,31 @@ impl Plan {
         simulates.then(|| self.gap_left(fit)).flatten().map(|left| 1.0 - left)
     }
 
+    /// Whether there is a gap on the judged records that an explanation does not close, though a cause would.
+    ///
+    /// What follows a clock or has a phase in every record is excused, and so is what is random but makes errors that last; and
+    /// noise that leaves nothing, `left` being the deviance that it does: its colour makes a gap where there is none.
+    pub(super) fn hardly_closes(&self, explanation: &Explanation, left: f64) -> bool {
+        let excused =
+            |e: &Effect| e.is_of_its_record() || matches!(e, Effect::InputNoise | Effect::SensorQuantisation);
+        let effects = explanation.effects();
+        let whole = left < IMMATERIAL && effects.iter().all(|e| e.is_noise());
+        if self.campaign.criterion.simulates() || effects.iter().any(excused) || whole {
+            return false;
+        }
+        let gap = self.gap(&explanation.fit, self.settings.resamples);
+        gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
+    }
+
+    /// The gap on the judged records before and after.
+    fn gap(&self, fit: &Fit, resamples: usize) -> Gap {
+        let draws = (self.settings.seed, resamples);
+        measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), draws)
+    }
+
     /// Share of the gap on the judged records that a model leaves, where there is a gap.
     pub(super) fn gap_left(&self, fit: &Fit) -> Option<f64> {
-        let gap =
-            measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), (self.settings.seed, 0));
+        let gap = self.gap(fit, 0);
         (gap.before.estimate > 0.0).then(|| gap.after.estimate / gap.before.estimate)
     }
 

@@ -129,7 +129,8 @@ impl Plan {
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         // The tests of one-step predictions say nothing about simulators.
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
-        let leaves = Leavings { deviance, gap: self.gap_left(&best.fit) };
+        let refuted = significant && self.hardly_closes(&best, left);
+        let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
         let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;
         let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
@@ -139,10 +140,12 @@ impl Plan {
         let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
             let together = odds_together(self.nominal.bic(), &pair, &effects);
-            let explanation = pair.explanation;
-            if together.most() >= self.settings.name_at && self.better_held_out(&explanation, &best) {
+            let (explanation, pair_left) = (pair.explanation, pair.left);
+            let holds =
+                self.better_held_out(&explanation, &best) && !self.hardly_closes(&explanation, pair_left);
+            if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
-                (left, odds, joint) = (pair.left, together, Some(explanation));
+                (left, odds, joint) = (pair_left, together, Some(explanation));
             }
         }
         let told = joint.as_ref().unwrap_or(&best);

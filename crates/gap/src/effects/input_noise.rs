@@ -49,7 +49,7 @@ fn kept() -> Variant {
     let mut variant = Variant::new(starts, |p, assembly| {
         assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), kept: true, ..InputNoise::default() });
     });
-    variant.search = Search::Profile;
+    variant.search = Search::Weights;
     variant
 }
 
@@ -61,7 +61,7 @@ fn direct() -> Variant {
     let mut variant = Variant::new(starts, |p, assembly| {
         assembly.noise.input = Some(InputNoise { direct: p[0].exp(), ..InputNoise::default() });
     });
-    variant.search = Search::Profile;
+    variant.search = Search::Weights;
     variant
 }
 
@@ -80,6 +80,6 @@ fn small() -> Variant {
             Some(InputNoise { by_slope: p[0].exp(), by_gap: p[1].exp(), ..InputNoise::default() });
     });
     // The ratios act on the weights only: the innovations have no derivative that would lead to them.
-    variant.search = Search::Profile;
+    variant.search = Search::Weights;
     variant
 }

@@ -43,6 +43,8 @@ pub(crate) enum Search {
     Conditional,
     /// A profile refined around its best point: the likelihood has corners.
     Profile,
+    /// The same where the own parameters only weigh the samples: the rest hardly moves with them, and is fitted afterwards.
+    Weights,
 }
 
 /// The change an effect makes to an assembly, given its own parameters.
@@ -64,6 +66,13 @@ pub(crate) struct Variant {
 
 /// Climbs of a law whose starts are stages of one valley.
 const CLIMBS: usize = 3;
+
+impl Search {
+    /// Whether own parameters are moved one by one, without derivatives.
+    pub(crate) fn is_by_pattern(self) -> bool {
+        matches!(self, Self::Profile | Self::Weights)
+    }
+}
 
 impl Variant {
     fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {

@@ -21,12 +21,15 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let alone: Vec<Vec<Own>> = blunt.chain(sharp).collect();
     let mut two = Vec::new();
     for (k, one) in lines.iter().enumerate() {
-        let others = lines[k + 1..].iter().chain(&ELSEWHERE).filter(|w| (*w - one).abs() > 0.1);
+        let elsewhere = if k == 0 { &ELSEWHERE[..] } else { &[] };
+        let others = lines[k + 1..].iter().chain(elsewhere).filter(|w| (*w - one).abs() > 0.1);
         two.extend(others.map(|other| [mode(*one, SHARP), mode(*other, SHARP)].concat()));
     }
     let laws = [(alone.clone(), false), (alone, true), (two, false)];
     let laws = laws.into_iter().filter(|(starts, _)| !starts.is_empty());
-    laws.map(|(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes)).collect()
+    // Every line is a valley of its own.
+    let ringing = |(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes);
+    laws.map(ringing).map(|law| Variant { climbs: LINES + 1, ..law }).collect()
 }
 
 /// Lines of the residual that a search starts from, and frequencies without a line.

@@ -1,20 +1,21 @@
 //! The sensor's characteristic is curved.
 //!
 //! ```text
-//! x = y + θ₂y² + θ₃y³ + … up to y², y³, y⁴ or y⁷,  or  y = x + γ₂x² + γ₃x³,  or  x = y + Σ hⱼ bump((y − cⱼ)/s);
+//! x = y + θ₂y² + θ₃y³ + … up to y³ or y⁷,  or  y = x + γ₂x² + γ₃x³,  or  x = y + Σ hⱼ bump((y − cⱼ)/s);
 //! likelihood with its Jacobian Σ ln dx/dy
 //! ```
 //!
-//! Parameters: coefficients of the inverse characteristic or of the characteristic itself, or heights of six or twelve bumps over
+//! Parameters: coefficients of the inverse characteristic or of the characteristic itself, or heights of twelve bumps over
 //! the range of y; output in standard deviations about its mean. Stage: sensor.
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
 use super::{Scene, Variant, own};
+use crate::engine::Own;
 use crate::forwards::Forwards;
 use crate::sensor::Bumps;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let mut out: Vec<Variant> = [1, 2, 3, 6]
+    let mut out: Vec<Variant> = [2, 6]
         .into_iter()
         .map(|count| {
             let names = ["theta2", "theta3", "theta4", "theta5", "theta6", "theta7"];
@@ -22,18 +23,23 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             Variant::new(vec![start], |p, assembly| assembly.curve.powers = p.to_vec())
         })
         .collect();
-    let forwards = ["gamma2", "gamma3"].map(|name| own(name, UNIT, 0.0, (-0.4, 0.4), 0.0005));
-    out.push(Variant::new(vec![forwards.to_vec()], |p, assembly| {
+    let forwards = [(0.0, 0.0), (0.0, 0.1), (0.0, 0.4), (0.0, -0.05), (0.15, 0.05), (-0.15, 0.05)]
+        .map(|(square, cube)| vec![gamma("gamma2", square), gamma("gamma3", cube)]);
+    out.push(Variant::conditional(forwards.into(), |p, assembly| {
         assembly.curve.forwards = Some(Forwards::new(p[0], p[1]));
     }));
-    out.extend(BUMPS.map(|count| bumps(scene, count)));
+    out.push(bumps(scene, BUMPS));
     out
+}
+
+fn gamma(name: &'static str, value: f64) -> Own {
+    own(name, UNIT, value, (-2.0, 2.0), 0.0005)
 }
 
 const UNIT: &str = "per standard deviation of y";
 
-/// Bumps of the free curves.
-const BUMPS: [usize; 2] = [6, 12];
+/// Bumps of the free curve.
+const BUMPS: usize = 12;
 
 fn bumps(scene: &Scene<'_>, count: usize) -> Variant {
     let readings = || scene.campaign.fit().flat_map(|t| &t.y);

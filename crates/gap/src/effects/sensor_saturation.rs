@@ -79,6 +79,7 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
     let limits = Saturation {
         low: if at_low { low } else { f64::NEG_INFINITY },
         high: if at_high { high } else { f64::INFINITY },
+        order: scene.fit.linear.a.len(),
     };
     let tied = if at_low { low_ties } else { 0 } + if at_high { high_ties } else { 0 };
     let mut variant = Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits));
