@@ -62,6 +62,9 @@ const SUSPECT: f64 = 0.4;
 /// Deviance a sample that heavy tails may gain without a cause.
 const TAILS: f64 = 0.02;
 
+/// The same where the sensor rounds coarsely.
+const ROUNDED_TAILS: f64 = 0.3;
+
 /// Lags of the Ljung–Box statistic.
 pub(crate) const LAGS: usize = 20;
 
@@ -209,7 +212,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
-        tails: tails(fit, &scaled) * white * unrounded,
+        tails: beyond_rounding(tails(fit, &scaled) * white, unrounded, count),
         lattice: unexplained_lattice(campaign, fit),
         period: period_lack(campaign, &scaled, second),
         unrounded,
@@ -248,6 +251,11 @@ fn scatter(campaign: &Campaign, innovations: &[Vec<f64>]) -> (f64, usize) {
         f.solve(&normal.gradient).iter().zip(&normal.gradient).map(|(x, g)| x * g).sum::<f64>() / spread
     });
     (gain, COLUMNS)
+}
+
+/// Heavy tails that rounding, which has no normal distribution, does not make.
+fn beyond_rounding(tails: f64, unrounded: f64, count: usize) -> f64 {
+    if tails > ROUNDED_TAILS * count as f64 { tails } else { tails * unrounded }
 }
 
 /// What heavy tails would gain: the heavier, the more a few large errors rule the variance.

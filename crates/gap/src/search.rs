@@ -110,6 +110,16 @@ impl Prospect {
         let mut scored: Vec<(Score, Vec<Own>)> =
             self.law.starts.iter().map(|own| (test.score(&build, own), own.clone())).collect();
         self.score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
+        if let Some(valley) = self.law.valley {
+            let alone = |score: &Score| score.refitted.unwrap_or(score.linear);
+            scored.sort_by(|x, y| alone(&y.0).total_cmp(&alone(&x.0)));
+            let mut seen = Vec::new();
+            scored.retain(|(_, own)| {
+                let new = !seen.contains(&valley(own));
+                seen.push(valley(own));
+                new
+            });
+        }
         scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
         let most =
             if self.law.search.is_by_pattern() || self.law.climbs > SMOOTH { CORNERED } else { SMOOTH };

@@ -11,6 +11,7 @@
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
+use crate::engine::Fit;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
@@ -37,4 +38,16 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             })
         })
         .collect()
+}
+
+/// Least magnitude of the fastest pole of `A`.
+const GONE: f64 = 0.03;
+
+/// A pole in series is no extra one where `A` has given up one of its own: the plant's noise then is that of its output.
+pub(super) fn is_sound(fit: &Fit) -> bool {
+    let in_series = fit.assembly.denominator.len() > 1;
+    let a = &fit.linear.a;
+    let before_last = if a.len() > 1 { a[a.len() - 2].abs() } else { 1.0 };
+    // Vieta: far poles apart, the last two coefficients have the ratio of the fastest.
+    !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last)
 }

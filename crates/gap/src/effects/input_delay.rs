@@ -8,6 +8,7 @@
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
 use super::{Variant, own};
+use crate::engine::Own;
 
 pub(super) fn variants() -> Vec<Variant> {
     let starts: Vec<_> = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0]
@@ -19,6 +20,7 @@ pub(super) fn variants() -> Vec<Variant> {
         assembly.delay = p[0].floor();
         assembly.late = p[0] - assembly.delay;
     });
-    // B takes a whole sample where it has room: every start is a valley of its own.
-    [response, positions].map(|law| Variant { climbs: law.starts.len(), ..law }).into()
+    // B takes a whole sample where it has room: every whole sample is a valley of its own.
+    let whole = |own: &[Own]| own[0].value.floor() as i64;
+    [response, positions].map(|law| Variant { climbs: law.starts.len(), valley: Some(whole), ..law }).into()
 }

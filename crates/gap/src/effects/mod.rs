@@ -57,6 +57,8 @@ pub(crate) struct Variant {
     pub(crate) search: Search,
     /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
     pub(crate) climbs: usize,
+    /// Which valley a start lies in, where only the likeliest of each is climbed from.
+    pub(crate) valley: Option<fn(&[Own]) -> i64>,
     pub(crate) apply: Apply,
     /// A finer border grid that comes with the law.
     pub(crate) grid: Option<Grid>,
@@ -80,6 +82,7 @@ impl Variant {
             starts,
             search: Search::Smooth,
             climbs: CLIMBS,
+            valley: None,
             apply: Arc::new(apply),
             grid: None,
             handicap: 0.0,
@@ -133,6 +136,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
 pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {
     match effect {
         Effect::GainDrift => gain_drift::is_sound(fit),
+        Effect::ExtraPole => extra_pole::is_sound(fit),
         _ => true,
     }
 }

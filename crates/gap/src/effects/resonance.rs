@@ -14,15 +14,20 @@ use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // A mode rings in the residual: its lines are the likeliest frequencies.
-    let mut lines = strongest_lines(scene.innovations, LINES);
-    lines.retain(|w| *w > 0.1);
+    let mut lines: Vec<f64> = Vec::new();
+    for line in strongest_lines(scene.innovations, CANDIDATES).into_iter().filter(|w| *w > 0.1) {
+        // A mode is as broad as several lines.
+        if lines.len() < LINES && lines.iter().all(|l| (l - line).abs() > APART) {
+            lines.push(line);
+        }
+    }
     let sharp = lines.iter().map(|w| mode(*w, SHARP).to_vec());
     let blunt = lines.iter().chain(&ELSEWHERE).map(|w| mode(*w, BLUNT).to_vec());
     let alone: Vec<Vec<Own>> = blunt.chain(sharp).collect();
     let mut two = Vec::new();
     for (k, one) in lines.iter().enumerate() {
         let elsewhere = if k == 0 { &ELSEWHERE[..] } else { &[] };
-        let others = lines[k + 1..].iter().chain(elsewhere).filter(|w| (*w - one).abs() > 0.1);
+        let others = lines[k + 1..].iter().chain(elsewhere).filter(|w| (*w - one).abs() > APART);
         two.extend(others.map(|other| [mode(*one, SHARP), mode(*other, SHARP)].concat()));
     }
     let laws = [(alone.clone(), false), (alone, true), (two, false)];
@@ -34,6 +39,9 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 
 /// Lines of the residual that a search starts from, and frequencies without a line.
 const LINES: usize = 3;
+/// Lines among which these are looked for, and how far they are apart in radians a sample.
+const CANDIDATES: usize = 24;
+const APART: f64 = 0.08;
 const ELSEWHERE: [f64; 4] = [0.35, 0.75, 1.2, 1.8];
 /// Pole radii that a search starts from.
 const SHARP: f64 = 0.97;

@@ -23,8 +23,9 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             Variant::new(vec![start], |p, assembly| assembly.curve.powers = p.to_vec())
         })
         .collect();
-    let forwards = [(0.0, 0.0), (0.0, 0.1), (0.0, 0.4), (0.0, -0.05), (0.15, 0.05), (-0.15, 0.05)]
-        .map(|(square, cube)| vec![gamma("gamma2", square), gamma("gamma3", cube)]);
+    let forwards =
+        [(0.0, 0.0), (0.0, 0.1), (0.0, 0.4), (0.0, -0.05), (0.2, 0.0), (-0.2, 0.0), (0.4, 0.1), (-0.4, 0.1)]
+            .map(|(square, cube)| vec![gamma("gamma2", square), gamma("gamma3", cube)]);
     out.push(Variant::conditional(forwards.into(), |p, assembly| {
         assembly.curve.forwards = Some(Forwards::new(p[0], p[1]));
     }));
