@@ -262,6 +262,21 @@ mod tests {
     }
 
     #[test]
+    fn what_should_close_the_gap_and_does_not_is_no_cause() {
+        let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -1000.0)];
+        let leaves = Leavings { deviance: 0.0, gap: Some(0.9), refuted: true };
+        let odds = odds(NOMINAL, &rivals, leaves);
+        assert!((odds.unexplained - calibration::REFUTED).abs() < 1e-9, "{odds:?}");
+    }
+
+    #[test]
+    fn noise_is_no_rival_of_what_closes_the_gap() {
+        let rivals = [(Effect::Backlash, -5000.0), (Effect::ColouredNoise, -4990.0)];
+        let noise = |gap: f64| weighed(rivals, 900.0, gap).effects[1];
+        assert!(noise(0.05) < 0.5 * noise(0.6), "{} {}", noise(0.05), noise(0.6));
+    }
+
+    #[test]
     fn a_gain_that_a_search_finds_in_noise_is_nothing() {
         let odds = weighed([(Effect::Backlash, -3.0), (Effect::Creep, 2.0)], 0.0, 1.0);
         assert!(odds.none > 0.5, "{odds:?}");

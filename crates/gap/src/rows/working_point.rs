@@ -16,7 +16,9 @@ pub(super) struct WorkingPoint<'a> {
     pub(super) terms: Vec<(u32, f64)>,
     /// What fades during the present transition.
     fading: Vec<(u32, f64)>,
-    /// Share of the other border in the working point, and what it was just after the last reversal.
+    /// The border that the last move was on, the share of the other one in the working point, and what that was just after the last
+    /// reversal.
+    own: usize,
     share: f64,
     after_turn: f64,
     /// Room for a sum of terms, and for border values.
@@ -31,18 +33,22 @@ impl<'a> WorkingPoint<'a> {
         let finder = Finder::new(grid);
         let hat = |side, factor| hat(&finder, side, v, factor);
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
-        let terms = match criterion {
-            Criterion::OneStep => hat(usize::from(v >= 0.5), 1.0).to_vec(),
+        let own = usize::from(v >= 0.5);
+        let share = match criterion {
+            Criterion::OneStep => 0.0,
             // A simulation goes on from there for long: the middle between the borders is never far off.
-            Criterion::Simulation { .. } => [0, 1].map(|s| hat(s, 0.5)).concat(),
+            Criterion::Simulation { .. } => 0.5,
         };
+        let terms =
+            if share == 0.0 { hat(own, 1.0).to_vec() } else { [0, 1].map(|s| hat(s, share)).concat() };
         Self {
             finder,
             transition: assembly.transition,
             terms,
             fading: Vec::new(),
-            share: 0.0,
-            after_turn: 0.0,
+            own,
+            share,
+            after_turn: share,
             sum: Vec::new(),
             borders: grid.len() as u32,
             scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
@@ -55,8 +61,10 @@ impl<'a> WorkingPoint<'a> {
         match transition.law {
             TransitionLaw::Held => self.fading.clone_from(&self.terms),
             TransitionLaw::Crossing => {
-                // What was the own border is the other one now.
-                self.after_turn = 1.0 - self.share;
+                // What was the own border is the other one now, unless the first move is along it.
+                let turned = self.own != side(m.branch);
+                self.own = side(m.branch);
+                self.after_turn = if turned { 1.0 - self.share } else { self.share };
                 // Beyond the borders' values, what the record began with: it fades once.
                 self.fading.clear();
                 self.fading.extend(self.terms.iter().filter(|(i, _)| *i >= self.borders));
@@ -126,6 +134,65 @@ fn merge(terms: &[(u32, f64)], scratch: &mut [f64], out: &mut Vec<(u32, f64)>) {
         let w = std::mem::take(&mut scratch[i as usize]);
         if w.abs() > NEGLIGIBLE {
             out.push((i, w));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::assembly::{Assembly, BorderColumn, Transition, TransitionLaw};
+    use crate::campaign::Track;
+    use crate::design::Design;
+    use crate::testing::{small_campaign, small_model};
+
+    /// The oracle: the state `z` of friction between −1 and 1, stepped by `dz = (s − z)·|dv|/length`.
+    #[test]
+    fn a_crossing_is_the_state_of_friction() {
+        let (campaign, grid) = small_campaign();
+        let length = 0.09;
+        let law = TransitionLaw::Crossing;
+        let transition = Some(Transition { length, shape: 1.0, law });
+        let assembly = Assembly { transition, ..Assembly::default() };
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let f = small_model(&grid).f;
+        for (track, part) in campaign.fit().zip(&design.tracks) {
+            let u = design.input(part, &f);
+            let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
+            let mut z = if track.v[0] >= 0.5 { 1.0 } else { -1.0 };
+            let mut expected = u[0];
+            for t in 1..track.v.len() {
+                let step = track.v[t] - track.v[t - 1];
+                if step != 0.0 {
+                    z = step.signum() + (z - step.signum()) * (-step.abs() / length).exp();
+                    expected = 0.5 * (1.0 + z) * on(1, track.v[t]) + 0.5 * (1.0 - z) * on(0, track.v[t]);
+                }
+                assert!((u[t] - expected).abs() < 1e-4, "{t}: {} {expected}", u[t]);
+            }
+        }
+    }
+
+    /// The oracle: the bristle itself.
+    #[test]
+    fn a_bristle_bends_along_a_travel() {
+        let (campaign, grid) = small_campaign();
+        let (power, scale, length) = (2.0, 0.03, 0.05);
+        let border_columns = vec![BorderColumn::Bristle { power, scale, length }];
+        let assembly = Assembly { border_columns, ..Assembly::default() };
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let mut f = vec![0.0; grid.len()];
+        f.push(1.0);
+        for (track, part) in campaign.fit().zip(&design.tracks) {
+            let u = design.input(part, &f);
+            let mut bristle = 0.0;
+            for t in 1..track.v.len() {
+                let step = track.v[t] - track.v[t - 1];
+                let aim = step.signum() * (-(step / scale).powi(2)).exp();
+                let share = (-step.abs() / length).exp();
+                if step != 0.0 {
+                    bristle = share * bristle + (1.0 - share) * aim;
+                }
+                assert!((u[t] - bristle).abs() < 1e-12, "{t}");
+            }
         }
     }
 }
