@@ -1,7 +1,7 @@
 //! A composition of effects as plain data: what the fit and the simulation both interpret.
 //!
 //! ```text
-//! v → delay → play → borders (transition, wear) + border columns → gain → num/den → B/A → + disturbances → sensor → y
+//! v → delay → play → borders (transition, wear, widening) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
 use crate::motion::Play;
@@ -70,6 +70,21 @@ impl Slow {
             sum += sine * (rate * s).sin() + cosine * ((rate * s).cos() - 1.0);
         }
         sum
+    }
+}
+
+/// A loop that is wider the faster the input moves: by the share `share·(r/scale)^power` of its width, `r` the speed in strokes per
+/// sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Widening {
+    pub(crate) share: f64,
+    pub(crate) power: f64,
+    pub(crate) scale: f64,
+}
+
+impl Widening {
+    pub(crate) fn at(&self, speed: f64) -> f64 {
+        self.share * (speed / self.scale).powf(self.power)
     }
 }
 
@@ -183,6 +198,8 @@ pub(crate) struct Assembly {
     pub(crate) transition: Option<Transition>,
     /// Narrowing of the loop.
     pub(crate) wear: Option<Slow>,
+    /// How the loop widens with the speed.
+    pub(crate) widening: Option<Widening>,
     pub(crate) border_columns: Vec<BorderColumn>,
     /// Relative change of the gain.
     pub(crate) gain: Option<Slow>,

@@ -299,6 +299,7 @@ impl Common {
                 && jitter
                 && had.transition == assembly.transition
                 && had.wear == assembly.wear
+                && had.widening == assembly.widening
                 && had.gain == assembly.gain
                 && had.border_columns == assembly.border_columns,
             columns: had.equation_columns == assembly.equation_columns,

@@ -7,7 +7,7 @@
 //! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
-//! Parameter: `pole` (0.02…0.98; with feedthrough from 0.15, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
+//! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
@@ -18,8 +18,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .into_iter()
         .map(|(lags, passes, zeros)| {
             // What bypasses a lag lets the lag be slow.
-            let (least, starts): (f64, &[f64]) =
-                if zeros > 0 { (0.15, &[0.3, 0.5, 0.7, 0.85, 0.93, 0.97]) } else { (0.02, &[0.2, 0.5, 0.8]) };
+            let (least, starts): (f64, &[f64]) = if zeros > 0 {
+                (0.15, &[0.3, 0.5, 0.7, 0.85, 0.93, 0.97])
+            } else {
+                (0.004, &[0.03, 0.2, 0.5, 0.8])
+            };
             let starts = starts.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
             // How far a slow lag was behind when a record began is unknown.
             let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };

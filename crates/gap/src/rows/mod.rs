@@ -97,7 +97,8 @@ pub(crate) fn rows(
         if assembly.jitter > 0.0 {
             point.jittered(ascending(m.step, assembly.jitter), track.v[t]);
         } else if m.moves {
-            let narrowing = assembly.wear.as_ref().map_or(0.0, slow);
+            let widening = assembly.widening.map_or(0.0, |widening| widening.at(m.step.abs()));
+            let narrowing = assembly.wear.as_ref().map_or(0.0, slow) - widening;
             point.step(m, track.v[t], narrowing);
         }
         let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);

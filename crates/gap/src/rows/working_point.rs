@@ -140,7 +140,7 @@ fn merge(terms: &[(u32, f64)], scratch: &mut [f64], out: &mut Vec<(u32, f64)>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::assembly::{Assembly, BorderColumn, Transition, TransitionLaw};
+    use crate::assembly::{Assembly, BorderColumn, Transition, TransitionLaw, Widening};
     use crate::campaign::Track;
     use crate::design::Design;
     use crate::testing::{small_campaign, small_model};
@@ -167,6 +167,30 @@ mod tests {
                     expected = 0.5 * (1.0 + z) * on(1, track.v[t]) + 0.5 * (1.0 - z) * on(0, track.v[t]);
                 }
                 assert!((u[t] - expected).abs() < 1e-4, "{t}: {} {expected}", u[t]);
+            }
+        }
+    }
+
+    /// The oracle: the width of the loop times what the speed makes of it.
+    #[test]
+    fn a_widening_loop_keeps_its_middle() {
+        let (campaign, grid) = small_campaign();
+        let widening = Widening { share: 0.7, power: 0.5, scale: 0.02 };
+        let plain = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+        let assembly = Assembly { widening: Some(widening), ..Assembly::default() };
+        let wide = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let f = small_model(&grid).f;
+        for (number, track) in campaign.fit().enumerate() {
+            let [plain, wide] = [&plain, &wide].map(|design| design.input(&design.tracks[number], &f));
+            let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
+            let mut growth = 0.0;
+            for t in 1..track.v.len() {
+                let step = track.v[t] - track.v[t - 1];
+                if step != 0.0 {
+                    let half = 0.5 * (on(1, track.v[t]) - on(0, track.v[t]));
+                    growth = step.signum() * half * 0.7 * (step.abs() / 0.02).sqrt();
+                }
+                assert!((wide[t] - plain[t] - growth).abs() < 1e-12, "{t}");
             }
         }
     }
