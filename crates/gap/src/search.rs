@@ -64,9 +64,8 @@ pub(crate) struct Prospect {
     pub(crate) score: Option<f64>,
 }
 
-/// Starts of a law that are fitted, likeliest first by the score test: those of a law with corners, and of any other.
-const CORNERED: usize = 5;
-const SMOOTH: usize = 2;
+/// Starts of a law that are fitted, likeliest first by the score test.
+const STARTS: usize = 5;
 /// Laws of an effect that are looked at, and the share of the best one's score that a further one needs.
 const LAWS: usize = 4;
 const LAW: f64 = 0.4;
@@ -121,14 +120,12 @@ impl Prospect {
             });
         }
         scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
-        let most =
-            if self.law.search.is_by_pattern() || self.law.climbs > SMOOTH { CORNERED } else { SMOOTH };
-        if scored.len() > most && scored.iter().all(|(score, _)| score.refitted.is_some()) {
+        if scored.len() > STARTS && scored.iter().all(|(score, _)| score.refitted.is_some()) {
             // The best by the test, then the best of the others by what is left.
             scored[1..].sort_by(|x, y| y.0.refitted.unwrap_or(0.0).total_cmp(&x.0.refitted.unwrap_or(0.0)));
-            scored.truncate(most + 1);
+            scored.truncate(STARTS + 1);
         } else {
-            scored.truncate(most);
+            scored.truncate(STARTS);
         }
         self.law.climbs = self.law.climbs.min(scored.len());
         self.law.starts = scored.into_iter().map(|s| s.1).collect();
