@@ -163,8 +163,20 @@ impl Round {
     }
 }
 
+/// One task that runs the replicates of a chunk one by one, each drawing its own noise: `replicate` takes the seed, the replicate's number and
+/// which cells are active, and adds to the cells' sums.
+pub(super) fn one_by_one<'a>(
+    chunk: Chunk<'a>,
+    cells: ActiveCells<'a>,
+    replicate: impl Fn(u64, u32, &[bool], &mut [CellSums]) + Send + Sync + 'a,
+) -> Vec<Task<'a>> {
+    let ActiveCells { active, sums } = cells;
+    let seed = chunk.round.seed;
+    vec![Box::new(move |_| by_sections(&chunk, sums, |r, sums| replicate(seed, r, active, sums)))]
+}
+
 /// Runs the replicates of a chunk one by one in parallel: each section's part is summed on its own, and the parts are added in order.
-pub(super) fn by_sections(
+fn by_sections(
     chunk: &Chunk<'_>,
     cells: &mut [Vec<CellSums>],
     replicate: impl Fn(u32, &mut [CellSums]) + Sync,

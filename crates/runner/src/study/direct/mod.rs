@@ -11,9 +11,8 @@ mod regression;
 
 pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
-use super::abreast::Memory;
 use super::cell::{ActiveCells, Chunk, Task, Workload};
-use super::execute::by_sections;
+use super::execute::one_by_one;
 use super::sections::CellSums;
 use super::world::{Contender, Setting, World};
 use crate::scenario::{Case, Scenario};
@@ -60,12 +59,9 @@ impl Workload for DirectWorld<'_> {
     }
 
     fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
-        let ActiveCells { active, sums } = cells;
-        let seed = chunk.round.seed;
-        let all = move |_: &mut Memory| {
-            by_sections(&chunk, sums, |replicate, sums| self.replicate(seed, replicate, active, sums));
-        };
-        vec![Box::new(all)]
+        one_by_one(chunk, cells, |seed, replicate, active, sums| {
+            self.replicate(seed, replicate, active, sums)
+        })
     }
 }
 

@@ -5,10 +5,9 @@ use super::setting::{GridOnDrive, Ingredients, NoiseSums, Response, Setting};
 use super::simulate::Simulator;
 use crate::scenario::{Case, Engine, Sweep};
 use crate::study::StudyError;
-use crate::study::abreast::Memory;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{ActiveCells, CellSpec, Chunk, Task, Workload};
-use crate::study::execute::by_sections;
+use crate::study::execute::one_by_one;
 use crate::study::sections::CellSums;
 use nalgebra::DMatrix;
 use switchback_estimator::estimators::Estimate;
@@ -175,12 +174,9 @@ impl Workload for FreeWorld {
     }
 
     fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
-        let ActiveCells { active, sums } = cells;
-        let seed = chunk.round.seed;
-        let all = move |_: &mut Memory| {
-            by_sections(&chunk, sums, |replicate, sums| self.replicate(seed, replicate, active, sums));
-        };
-        vec![Box::new(all)]
+        one_by_one(chunk, cells, |seed, replicate, active, sums| {
+            self.replicate(seed, replicate, active, sums)
+        })
     }
 }
 
