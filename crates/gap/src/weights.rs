@@ -61,12 +61,6 @@ impl Weights {
 
 /// Weighs the innovations by the law; samples at a limit of the sensor are left out of it.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
-    let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
-        let mask = |t: &DesignTrack| {
-            t.clipped.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
-        };
-        design.tracks.iter().map(mask).collect()
-    });
     if let Some(noise) = law.input {
         let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
         let predictors = predictors(&design.tracks, noise, p, &response);
@@ -77,6 +71,12 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let (scale, predictors) = (Some(scale), Some(predictors));
         return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
     }
+    let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
+        let mask = |t: &DesignTrack| {
+            t.clipped.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+        };
+        design.tracks.iter().map(mask).collect()
+    });
     match (law.mixture, clipped) {
         (Some(start), None) => mixture(start, w),
         (Some(start), Some(clipped)) => mixture_of_the_rest(start, w, &clipped),
