@@ -19,8 +19,8 @@ fn step_of(method: &PulseMethod<'_>) -> Option<StepMean> {
     }
 }
 
-fn near(what: &str, fast: f64, slow: f64, scale: f64) -> Result<(), TestCaseError> {
-    prop_assert!((fast - slow).abs() < 1e-9 * scale, "{}: {} against {}", what, fast, slow);
+fn near(what: &str, fast: f64, slow: f64, tolerance: f64) -> Result<(), TestCaseError> {
+    prop_assert!((fast - slow).abs() < tolerance, "{}: {} against {}", what, fast, slow);
     Ok(())
 }
 
@@ -42,7 +42,7 @@ fn several_give_the_bits_of_one(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
     fn lanes_give_what_every_replicate_gives_by_itself(
@@ -94,18 +94,19 @@ proptest! {
                 let slow_method = methods(&both, steps)[m].0;
                 let Ok(slow) = slow_method.fit() else { continue };
                 prop_assert!(fit.sound[l], "method {} has an estimate", m);
-                let scale = slow.parameters().fold(1.0_f64, |s, p| s.max(p.value.abs()));
+                // Rounding is amplified by the condition of the normal equations, and so is the standard error.
+                let tolerance = slow.parameters().fold(1e-9_f64, |s, p| s.max(1e-9 * p.value.abs()).max(1e-6 * p.se));
                 for (k, p) in slow.parameters().enumerate() {
-                    near(&format!("method {m}, parameter {k}"), fit.values[k].0[l], p.value, scale)?;
-                    near(&format!("method {m}, se {k}"), fit.variances[k].0[l].sqrt(), p.se, scale)?;
+                    near(&format!("method {m}, parameter {k}"), fit.values[k].0[l], p.value, tolerance)?;
+                    near(&format!("method {m}, se {k}"), fit.variances[k].0[l].sqrt(), p.se, tolerance)?;
                 }
                 if let Some(limit) = &limit {
                     let ErrorTerms { first, second } = limit.terms(&slow_method);
                     for (k, slow) in first.into_iter().enumerate() {
-                        near(&format!("method {m}, first-order {k}"), terms[0].first[k].0[l], slow, scale)?;
+                        near(&format!("method {m}, first-order {k}"), terms[0].first[k].0[l], slow, tolerance)?;
                     }
                     for (k, slow) in second.into_iter().enumerate() {
-                        near(&format!("method {m}, second-order {k}"), terms[0].second[k].0[l], slow, scale)?;
+                        near(&format!("method {m}, second-order {k}"), terms[0].second[k].0[l], slow, tolerance)?;
                     }
                 }
             }
