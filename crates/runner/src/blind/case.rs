@@ -161,6 +161,13 @@ impl Case {
         matches!(self.reply.status, "named" | "class" | "ambiguous")
     }
 
+    /// Whether a twin of the effect put in is given, alone or first among the rivals: nothing else in the library is as near.
+    pub fn names_a_twin(&self) -> bool {
+        let given = self.reply.effects.first().or(self.reply.class.first());
+        let [truth] = self.truth.as_slice() else { return false };
+        self.reply.effects.len() < 2 && given.is_some_and(|given| same_class(given, truth))
+    }
+
     /// Whether every effect named was put in.
     pub fn all_named_are_true(&self) -> bool {
         self.reply.status == "named" && self.reply.effects.iter().all(|e| self.truth.contains(e))

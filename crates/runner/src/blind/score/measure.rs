@@ -97,7 +97,7 @@ pub(super) fn measures(
     let place = places.iter().find(|p| p.axis == "all");
     let share = |s: Share| (s.value(), s.of);
     let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
-    let lines: [Line; 13] = [
+    let lines: [Line; 14] = [
         (
             "exact",
             "exact effect named, surviving gap ≥ 1 sd",
@@ -139,6 +139,12 @@ pub(super) fn measures(
             "the same, named for certain, not as one of rivals",
             |_| None,
             share(Share::over(of(Kind::Outside), |c| c.reply.status == "named")),
+        ),
+        (
+            "outside_no_twin",
+            "the same, not counting a twin of what was taken out",
+            |_| None,
+            share(Share::over(of(Kind::Outside), |c| c.names_a_cause() && !c.names_a_twin())),
         ),
         (
             "ece",
