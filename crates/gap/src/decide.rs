@@ -52,6 +52,8 @@ mod calibration {
     /// Share of the held-out gap that the best must close for being barely better than its rivals not to matter: stand-ins
     /// follow the records they were fitted to.
     pub(super) const CLOSES: f64 = 0.85;
+    /// Fraction of the gap left from which the best, with a rival of another class behind it, stands in for something else.
+    pub(super) const STANDS_IN: f64 = 0.05;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
@@ -136,9 +138,15 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let alike = |e: Effect| first.is_some_and(|f| e == f || f.twins().contains(&e));
     let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
     let margin = (runner_up - best) / gain.max(1.0);
+    let second = effects.iter().filter(|e| Some(e.0) != first).min_by(|x, y| x.1.total_cmp(&y.1));
+    let is_stand_in = second.is_some_and(|e| !alike(e.0)) && fraction > calibration::STANDS_IN;
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
-    let foreign = if closes { 0.0 } else { logistic((fraction - middle) / scale) }.max(calibration::FOREIGN);
+    let foreign = match (is_stand_in, closes) {
+        (true, _) => 1.0,
+        (false, true) => calibration::FOREIGN,
+        (false, false) => logistic((fraction - middle) / scale).max(calibration::FOREIGN),
+    };
     let none = if gain < SIGNIFICANT { none * (-((left - IMMATERIAL) / 40.0).max(0.0)).exp() } else { none };
     let none = calibration::SILENCE * none;
     let unexplained = (1.0 - none)
@@ -254,8 +262,8 @@ mod tests {
     #[test]
     fn one_of_many_that_leave_much_is_no_cause_unless_it_closes_the_gap() {
         let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -4500.0)];
-        assert!(weighed(rivals, 900.0, 0.6).unexplained > UNEXPLAINED);
-        assert!(weighed(rivals, 900.0, 0.05).unexplained < UNEXPLAINED);
+        assert!(weighed(rivals, 200.0, 0.6).unexplained > UNEXPLAINED);
+        assert!(weighed(rivals, 200.0, 0.05).unexplained < UNEXPLAINED);
         // A rival of its own class is no other cause.
         let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
         assert!(weighed(twins, 900.0, 0.6).unexplained < UNEXPLAINED);
@@ -267,6 +275,15 @@ mod tests {
         let leaves = Leavings { deviance: 0.0, gap: Some(0.9), refuted: true };
         let odds = odds(NOMINAL, &rivals, leaves);
         assert!((odds.unexplained - calibration::REFUTED).abs() < 1e-9, "{odds:?}");
+    }
+
+    #[test]
+    fn what_leaves_much_with_a_rival_of_another_class_behind_it_stands_in_for_something_else() {
+        let closing = 0.05;
+        let rivals =
+            |second: Effect| weighed([(Effect::Backlash, -9000.0), (second, -2000.0)], 900.0, closing);
+        assert!(rivals(Effect::Creep).unexplained > UNEXPLAINED);
+        assert!(rivals(Effect::GradualTransition).unexplained < UNEXPLAINED);
     }
 
     #[test]

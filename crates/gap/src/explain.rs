@@ -22,6 +22,14 @@ pub(crate) struct Part {
     pub(crate) search: Search,
 }
 
+impl Part {
+    /// Details of the borders: they are in the grid.
+    fn details() -> Self {
+        let apply: Apply = Arc::new(|_, _| {});
+        Self { effect: Effect::BorderResolution, law: 0, apply, count: 0, search: Search::Smooth }
+    }
+}
+
 impl fmt::Debug for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}({})", self.effect, self.count)
@@ -47,14 +55,14 @@ impl Explanation {
 
     /// The nominal model on a grid whose knots follow details of the borders.
     pub(crate) fn detailed(fit: Fit) -> Self {
-        let part = Part {
-            effect: Effect::BorderResolution,
-            law: 0,
-            apply: Arc::new(|_, _| {}),
-            count: 0,
-            search: Search::Smooth,
-        };
-        Self { parts: vec![part], fit, handicap: 0.0, held_out: 0.0 }
+        Self { parts: vec![Part::details()], fit, handicap: 0.0, held_out: 0.0 }
+    }
+
+    /// The same explanation and details of the borders beside it: knots placed anew are a part of their own.
+    pub(crate) fn with_details(self, campaign: &Campaign) -> Self {
+        let mut detailed = self.with_knots_refined(campaign);
+        detailed.parts.push(Part::details());
+        detailed
     }
 
     /// Penalised deviance: Bayesian information criterion plus the handicap.

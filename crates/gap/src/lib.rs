@@ -27,6 +27,8 @@ mod lattice;
 mod linear;
 mod localise;
 mod motion;
+mod noise_response;
+mod noise_size;
 mod nominal;
 mod normal;
 mod omnibus;

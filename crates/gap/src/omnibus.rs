@@ -8,6 +8,7 @@ use crate::engine::Fit;
 use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
 use crate::lattice::{is_material, lattice, worth};
+use crate::noise_size::{Evenness, unweighted};
 use crate::weights::mixture;
 
 /// What the tests found.
@@ -21,6 +22,8 @@ pub(crate) struct Omnibus {
     pub(crate) ljung_box: f64,
     /// Dependence of the scaled innovations' size on circumstances, and its degrees of freedom.
     pub(crate) scatter: (f64, usize),
+    /// McLeod–Li statistic: autocorrelation of the innovations' size over [`LAGS`] lags.
+    pub(crate) bursts: f64,
     /// Deviance that a mixture of a narrow and a wide normal distribution gains over one.
     pub(crate) tails: f64,
     /// What a lattice of the outputs is worth where the model has none.
@@ -78,7 +81,8 @@ impl Omnibus {
         let regressors = over(self.regressors.0, self.regressors.1);
         let period = over(self.period.0, self.period.1);
         let colour = over(self.ljung_box, LAGS);
-        self.unrounded * (regressors.max(period) + colour + over(self.scatter.0, self.scatter.1))
+        let size = over(self.scatter.0, self.scatter.1).max(over(self.bursts, LAGS));
+        self.unrounded * (regressors.max(period) + colour + size)
     }
 
     /// Deviance that counts against the model as the whole explanation: what is left in general, tails too heavy to be chance and
@@ -200,9 +204,12 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let white = f64::from(u8::from(!design.criterion.simulates()));
     let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
-    let (gain, dof) = scatter(campaign, &scaled);
+    let size = match fit.assembly.noise.mixture {
+        None => Evenness::of_all(campaign, &scaled),
+        Some(_) => Evenness::of_rare(campaign, &unweighted(&scaled, &innovations)),
+    };
     // Errors of a simulation are large where the model is wrong, which says nothing about noise.
-    let scatter = (white * gain, dof);
+    let scatter = (white * size.scatter.0, size.scatter.1);
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
     let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
@@ -212,6 +219,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
         ljung_box,
         scatter,
+        bursts: white * size.bursts,
         tails: beyond_rounding(tails(fit, &scaled) * white, unrounded, count),
         lattice: unexplained_lattice(campaign, fit),
         period: period_lack(campaign, &scaled, second),
@@ -222,35 +230,6 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
 fn unexplained_lattice(campaign: &Campaign, fit: &Fit) -> f64 {
     let found = || lattice(campaign).is_some_and(|step| is_material(step, fit));
     if fit.assembly.noise.lattice.is_none() && found() { worth(campaign.fit_samples()) } else { 0.0 }
-}
-
-/// Chi-square of a regression of the innovations' size on circumstances.
-///
-/// The size is the square, cut at nine variances so that a few outliers do not decide.
-fn scatter(campaign: &Campaign, innovations: &[Vec<f64>]) -> (f64, usize) {
-    const COLUMNS: usize = 7;
-    let counted = || innovations.iter().flatten().filter(|w| **w != 0.0);
-    let count = counted().count().max(1) as f64;
-    let variance = counted().map(|w| w * w).sum::<f64>() / count;
-    let size = |w: f64| (w * w / variance).min(9.0);
-    let mean = counted().map(|w| size(*w)).sum::<f64>() / count;
-    let spread = counted().map(|w| (size(*w) - mean).powi(2)).sum::<f64>() / count;
-    let mut normal = crate::normal::Normal::new(COLUMNS);
-    for (track, w) in campaign.fit().zip(innovations) {
-        for (k, w) in w.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            let t = track.from + k;
-            let step = (track.v[t - 1] - track.v[t - 2]).abs();
-            let y = track.y[t - 1];
-            let moved = f64::from(u8::from(step > 0.0));
-            let time = (track.clock + t) as f64 / campaign.total as f64;
-            let pulsed = f64::from(u8::from(track.is_pulsed()));
-            normal.add(&[1.0, y * y, y.abs(), moved, step, time, pulsed], size(*w) - mean);
-        }
-    }
-    let gain = normal.factor(1e-9).map_or(0.0, |f| {
-        f.solve(&normal.gradient).iter().zip(&normal.gradient).map(|(x, g)| x * g).sum::<f64>() / spread
-    });
-    (gain, COLUMNS)
 }
 
 /// Heavy tails that rounding, which has no normal distribution, does not make.

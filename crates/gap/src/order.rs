@@ -9,9 +9,10 @@ use crate::error::DiagnoseError;
 use crate::given::settles;
 use crate::knots::{first_grid, refine};
 use crate::motion::Begins;
+use crate::noise_response::NoiseResponse;
 use crate::nominal::{first_fit, identify};
 use crate::score::innovations;
-use crate::simulate::{free_run, repeat_variance};
+use crate::simulate::free_run;
 use crate::spectrum::{autocorrelation, unpredictable_variance};
 use crate::workers::Workers;
 
@@ -125,7 +126,8 @@ impl Chosen {
             return false;
         }
         let error = simulation_error(&self.campaign, &self.fit);
-        let noise = repeat_variance(&self.campaign, Track::is_fit).map_or(0.0, |(variance, _)| variance);
+        let repeats = NoiseResponse::of(&self.fit).repeat_variance(&self.campaign, Track::is_fit);
+        let noise = repeats.map_or(0.0, |(variance, _)| variance);
         let w = innovations(&self.campaign, &self.fit, Track::is_fit);
         let colour = 1.0 - unpredictable_variance(&w) / self.fit.power.max(1e-300);
         error < NOISE * noise || (colour < COLOURED && simulator.power > EFFICIENT * error)

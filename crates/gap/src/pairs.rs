@@ -1,6 +1,6 @@
 //! A second effect: a forward step from several firsts, then a restart from each member of the best pair.
 
-use crate::attribution::{Attribution, Contest};
+use crate::attribution::{Attribution, Contest, detail};
 use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::explain::Explanation;
@@ -17,6 +17,17 @@ pub(crate) struct Pair {
     /// Deviance that causes in general would still gain beside both, and beside the best single effect.
     pub(crate) left: f64,
     pub(crate) left_by_single: f64,
+    /// Whether the best single effect rounds so coarsely that the tests are blind to a second one.
+    pub(crate) is_hidden: bool,
+}
+
+/// Single effects to start from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Firsts<'a> {
+    /// Those that may be the cause by themselves, best first.
+    pub(crate) ranked: &'a [Explanation],
+    /// Every one that was fitted.
+    pub(crate) all: &'a [Explanation],
 }
 
 impl Together {
@@ -50,28 +61,36 @@ const SEED: f64 = 0.25;
 /// Restarts from members of the best pair at most, and further firsts while much is left.
 const RESTARTS: usize = 2;
 const TWINS: usize = 2;
+/// Single effects beside which details of the borders are looked for.
+const DETAILED: usize = 6;
 /// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
 const HOPELESS: f64 = 0.3;
+/// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
+const NEAR: f64 = 0.9;
+const NEARBY: usize = 2;
 /// Pairs fitted to convergence on each first effect.
 const FINISHED: usize = 3;
+/// Share of the innovations' variance that no rounding makes, below which the tests are blind to whatever else there is.
+const HIDDEN: f64 = 0.5;
 /// Deviance left a sample from which a second effect is looked for.
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
     /// The best pair of effects, where the best single one leaves something that a second may explain.
-    pub(crate) fn pair(&self, singles: &[Explanation], tests: &Omnibus) -> Option<Pair> {
-        let best_single = singles.first()?;
+    pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
+        let best_single = singles.ranked.first()?;
         let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
-        let explanation = if tests.excess() > worth_a_look {
-            self.searched(singles)?
-        } else if tests.tails > worth_a_look {
+        let is_hidden = tests.unrounded < HIDDEN;
+        let explanation = if tests.excess() <= worth_a_look && tests.tails > worth_a_look {
             self.with_outliers(best_single)?
+        } else if tests.excess() > worth_a_look || is_hidden {
+            self.searched(singles)?
         } else {
             return None;
         };
         let gain = best_single.bic() - explanation.bic();
         let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
-        Some(Pair { explanation, gain, left, left_by_single: tests.excess() })
+        Some(Pair { explanation, gain, left, left_by_single: tests.excess(), is_hidden })
     }
 
     /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.
@@ -92,16 +111,18 @@ impl<W: Workers> Attribution<'_, W> {
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
     /// best pair found is in turn held while every other effect is tried beside it; then twins of the firsts, while much is
     /// left; then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
-    fn searched(&self, singles: &[Explanation]) -> Option<Explanation> {
-        let best_single = singles.first()?;
+    fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
+        let best_single = singles.ranked.first()?;
         let gained = |s: &Explanation| self.nominal.bic() - s.bic();
-        let serious: Vec<Effect> = (singles.iter())
+        let serious: Vec<Effect> = (singles.ranked.iter())
             .filter(|s| gained(s) > SEED * gained(best_single))
             .map(|s| s.parts[0].effect)
             // Heavy tails stand in for whatever else is missing.
             .filter(|e| *e != Effect::Outliers || *e == best_single.parts[0].effect)
             .collect();
-        let mut search = Search { of: self, singles, tried: Vec::new(), best: None };
+        let mut search =
+            Search { of: self, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() };
+        search.details(&serious[..serious.len().min(DETAILED)]);
         for &effect in &serious {
             let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
             // A twin of what was tried finds the same seconds.
@@ -111,7 +132,7 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         if search.is_hopeless() {
-            return search.best;
+            return search.found.into_iter().next();
         }
         for &effect in &serious {
             if search.tried.len() < SEEDS + RESTARTS + TWINS
@@ -123,17 +144,20 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         search.every_law();
-        search.best.map(|best| best.with_knots_refined(self.campaign))
+        search.found.into_iter().next().map(|best| best.with_knots_refined(self.campaign))
     }
 }
 
 /// A search for two effects under way.
 struct Search<'a, 'b, W> {
     of: &'a Attribution<'b, W>,
-    singles: &'a [Explanation],
+    singles: Firsts<'a>,
     /// Firsts that seconds were looked for on.
     tried: Vec<Effect>,
-    best: Option<Explanation>,
+    /// Firsts that details of the borders were looked for on.
+    detailed: Vec<Effect>,
+    /// Pairs found, the best first: of every two effects the best.
+    found: Vec<Explanation>,
 }
 
 impl<W: Workers> Search<'_, '_, W> {
@@ -144,38 +168,78 @@ impl<W: Workers> Search<'_, '_, W> {
         let questions: Vec<Question> =
             others.map(|e| self.single(*e).map_or_else(|| Question::open(*e), Question::after)).collect();
         self.ask(first, &questions);
+        self.details(&[first]);
+    }
+
+    /// Details of the borders beside each first: the knots that follow them, placed with the effect known.
+    fn details(&mut self, firsts: &[Effect]) {
+        let of = self.of;
+        if !of.settings.effects.contains(&Effect::BorderResolution) {
+            return;
+        }
+        let is_new = |e: &&Effect| **e != Effect::BorderResolution && !self.detailed.contains(e);
+        let firsts: Vec<Effect> = firsts.iter().filter(is_new).copied().collect();
+        let singles: Vec<&Explanation> = firsts.iter().filter_map(|e| self.single(*e)).collect();
+        let found = of.workers.map(&singles, |first| {
+            let detailed = (*first).clone().with_details(of.campaign);
+            (first.bic() - detailed.bic() > detail(of.campaign)).then_some(detailed)
+        });
+        self.detailed.extend(firsts);
+        self.consider(found.into_iter().flatten());
+    }
+
+    /// Adds to the pairs found.
+    fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
+        self.found.extend(pairs);
+        self.found.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        let mut seen: Vec<[Effect; 2]> = Vec::new();
+        self.found.retain(|pair| {
+            let both = members(pair);
+            let new = !seen.contains(&both);
+            seen.push(both);
+            new
+        });
+    }
+
+    /// The best pair found.
+    fn best(&self) -> Option<&Explanation> {
+        self.found.first()
     }
 
     /// Steps from members of the best pair that were no firsts yet.
     fn restart(&mut self) {
         for _ in 0..RESTARTS {
-            let members = self.best.as_ref().map_or_else(Vec::new, Explanation::effects);
+            let members = self.best().map_or_else(Vec::new, Explanation::effects);
             let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
             self.step(next);
         }
     }
 
-    /// Every law of both members and of their twins.
+    /// Every law of both members and of their twins, of the best pair and of one that comes near it.
     fn every_law(&mut self) {
-        let Some(best) = &self.best else { return };
-        let members = best.effects();
-        for (held, moved) in [(members[0], members[1]), (members[1], members[0])] {
-            let alike = std::iter::once(&moved).chain(moved.twins());
-            let considered = |e: &&Effect| is_another(held, **e) && self.of.settings.effects.contains(e);
-            let questions: Vec<Question> = alike.filter(considered).map(|e| Question::open(*e)).collect();
-            self.ask(held, &questions);
+        let gain = |pair: &Explanation| self.of.nominal.bic() - pair.bic();
+        let Some(most) = self.best().map(gain) else { return };
+        let near: Vec<[Effect; 2]> =
+            self.found.iter().filter(|pair| gain(pair) > NEAR * most).take(NEARBY).map(members).collect();
+        for [one, other] in near {
+            for (held, moved) in [(one, other), (other, one)] {
+                let alike = std::iter::once(&moved).chain(moved.twins());
+                let considered = |e: &&Effect| is_another(held, **e) && self.of.settings.effects.contains(e);
+                let questions: Vec<Question> = alike.filter(considered).map(|e| Question::open(*e)).collect();
+                self.ask(held, &questions);
+            }
         }
     }
 
     /// Deviance left by the best pair; infinite where there is none.
     fn left(&self) -> f64 {
         let of_pair = |best: &Explanation| omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
-        self.best.as_ref().map_or(f64::INFINITY, of_pair)
+        self.best().map_or(f64::INFINITY, of_pair)
     }
 
     /// Whether the best pair is so far from the whole that none will be.
     fn is_hopeless(&self) -> bool {
-        let Some(best) = &self.best else { return true };
+        let Some(best) = self.best() else { return true };
         let left = self.left();
         left > HOPELESS * (left + self.of.nominal.bic() - best.bic())
     }
@@ -187,15 +251,22 @@ impl<W: Workers> Search<'_, '_, W> {
 
     fn ask(&mut self, first: Effect, questions: &[Question]) {
         let Some(first) = self.single(first) else { return };
-        let to_beat = self.best.as_ref().map(Explanation::bic);
+        let to_beat = self.best().map(Explanation::bic);
         let contest = Contest { finished: FINISHED, to_beat };
         let second = self.of.on_top_of(first, questions, contest).into_iter().next();
-        self.best = self.best.take().into_iter().chain(second).min_by(|x, y| x.bic().total_cmp(&y.bic()));
+        self.consider(second);
     }
 
     fn single(&self, effect: Effect) -> Option<&Explanation> {
-        self.singles.iter().find(|s| s.parts[0].effect == effect)
+        self.singles.all.iter().find(|s| s.parts[0].effect == effect)
     }
+}
+
+/// Both effects of a pair, in one order.
+fn members(pair: &Explanation) -> [Effect; 2] {
+    let mut both = [pair.parts[0].effect, pair.parts[1].effect];
+    both.sort_unstable();
+    both
 }
 
 /// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact

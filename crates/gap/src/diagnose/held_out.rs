@@ -22,6 +22,11 @@ const REPEATS: f64 = 0.12;
 const SYSTEMATIC: f64 = 0.88;
 const SERIOUS: f64 = 0.2;
 
+/// Log score a sample that is no difference.
+const AS_GOOD: f64 = 0.01;
+/// Share of another's simulation error that is clearly less: a log score hangs on the few samples beside a jump.
+const CLEARLY: f64 = 0.9;
+
 /// Share of the gap that an explanation closes which is its cause: the upper end of the interval lies above.
 const MATERIAL: f64 = 0.5;
 
@@ -56,10 +61,10 @@ impl Plan {
     /// their own record, which need not hold in others.
     pub(super) fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
         let excused = one.effects().iter().any(|e| e.is_of_its_record());
-        let runs_away = self.simulation_error(&one.fit) > RUNAWAY * self.simulation_error(&than.fit);
-        !runs_away
-            && (excused
-                || self.score(&one.fit).zip(self.score(&than.fit)).is_none_or(|(one, other)| one > other))
+        let (error, other) = (self.simulation_error(&one.fit), self.simulation_error(&than.fit));
+        let scores = self.score(&one.fit).zip(self.score(&than.fit));
+        error < RUNAWAY * other
+            && (excused || error < CLEARLY * other || scores.is_none_or(|(one, other)| one > other - AS_GOOD))
     }
 
     /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
@@ -115,6 +120,15 @@ impl Plan {
         }
         let gap = self.gap(&explanation.fit, self.settings.resamples);
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
+    }
+
+    /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: noise,
+    /// or what closes a gap there.
+    pub(super) fn shows_in_simulations(&self, explanation: &Explanation) -> bool {
+        let beside = |e: &&Effect| **e != Effect::SensorQuantisation;
+        let noise = explanation.effects().iter().filter(beside).all(|e| e.is_noise());
+        let gap = self.gap(&explanation.fit, self.settings.resamples);
+        noise || gap.closure.is_some_and(|closure| closure.ci90[0] > MATERIAL)
     }
 
     /// The gap on the judged records before and after.

@@ -4,7 +4,8 @@ use super::Plan;
 use crate::campaign::Criterion;
 use crate::closure::Simulated;
 use crate::engine::Fit;
-use crate::simulate::{free_run, noise_gain, repeat_variance};
+use crate::noise_response::NoiseResponse;
+use crate::simulate::free_run;
 use crate::spectrum::unpredictable_variance;
 
 impl Plan {
@@ -16,11 +17,12 @@ impl Plan {
         if self.campaign.criterion.simulates() {
             return self.unforeseeable(fit);
         }
-        let model = fit.power * noise_gain(fit);
+        let response = NoiseResponse::of(fit);
+        let model = fit.power * response.gain();
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         // Rounding repeats with the input, and is noise all the same.
         let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0);
-        match repeat_variance(&self.campaign, |_| true).map(|(repeat, n)| (repeat + rounding, n)) {
+        match response.repeat_variance(&self.campaign, |_| true).map(|(repeat, n)| (repeat + rounding, n)) {
             Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
             _ => (model, relative(fit.samples as f64)),
         }

@@ -19,6 +19,7 @@ use crate::explain::Explanation;
 use crate::nominal::identify;
 use crate::omnibus::omnibus;
 use crate::order::choose;
+use crate::pairs::Firsts;
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
 use crate::simulators::weighed_by_closure;
@@ -117,6 +118,8 @@ impl Plan {
         };
         let mut singles = attribution.singles();
         self.hear_the_held_out(&mut singles);
+        // What is no cause by itself may still be one of two.
+        let all = singles.clone();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
@@ -134,15 +137,16 @@ impl Plan {
         let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;
         let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
-        let pair = more.and_then(|tests| attribution.pair(&singles, tests));
+        let pair = more.and_then(|tests| attribution.pair(Firsts { ranked: &singles, all: &all }, tests));
         let gains: Vec<(Effect, f64)> =
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
         let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
             let together = odds_together(self.nominal.bic(), &pair, &effects);
             let (explanation, pair_left) = (pair.explanation, pair.left);
-            let holds =
-                self.better_held_out(&explanation, &best) && !self.hardly_closes(&explanation, pair_left);
+            let holds = self.better_held_out(&explanation, &best)
+                && !self.hardly_closes(&explanation, pair_left)
+                && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
                 (left, odds, joint) = (pair_left, together, Some(explanation));
