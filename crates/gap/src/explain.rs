@@ -7,8 +7,9 @@ use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search};
-use crate::engine::{Build, Fit};
+use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
+use crate::starts::padded;
 
 /// One effect of an explanation: which, and how its own parameters change the assembly.
 #[derive(Clone)]
@@ -20,13 +21,25 @@ pub(crate) struct Part {
     /// Number of own parameters.
     pub(crate) count: usize,
     pub(crate) search: Search,
+    /// What the law adds to the deviance for its hidden freedom.
+    pub(crate) handicap: f64,
 }
+
+/// Rounds of a fit of one effect without the others.
+const ALONE: usize = 8;
 
 impl Part {
     /// Details of the borders: they are in the grid.
     fn details() -> Self {
         let apply: Apply = Arc::new(|_, _| {});
-        Self { effect: Effect::BorderResolution, law: 0, apply, count: 0, search: Search::Smooth }
+        Self {
+            effect: Effect::BorderResolution,
+            law: 0,
+            apply,
+            count: 0,
+            search: Search::Smooth,
+            handicap: 0.0,
+        }
     }
 }
 
@@ -94,6 +107,25 @@ impl Explanation {
     pub(crate) fn handicapped(mut self, by: f64) -> Self {
         self.handicap += by;
         self
+    }
+
+    /// One of the effects without the others, by the law and with the own parameters that it has beside them, the rest fitted
+    /// anew on the same knots.
+    pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
+        let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
+        let part = self.parts[number].clone();
+        let own = &self.fit.own[from..from + part.count];
+        let handicap = part.handicap;
+        let parts = vec![part];
+        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+        let mut linear = self.fit.linear.clone();
+        linear.b.truncate(linear.a.len());
+        linear.f.truncate(self.fit.grid.len());
+        linear.d.clear();
+        let start = padded(&linear, self.fit.grid.len(), &assembled(&parts, &values));
+        let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
+        let fit = fit(ground, &|values| assembled(&parts, values), own, &start, ALONE)?;
+        Some(Self { parts, fit, handicap, held_out: 0.0 })
     }
 
     /// The same explanation with border knots placed anew, where that is better.

@@ -85,7 +85,8 @@ pub(crate) fn prospects(
         .map(|(number, law)| {
             let mut parts = known.explanation.parts.clone();
             let (apply, count) = (law.apply.clone(), law.starts[0].len());
-            parts.push(Part { effect, law: number, apply, count, search: law.search });
+            let (search, handicap) = (law.search, law.handicap);
+            parts.push(Part { effect, law: number, apply, count, search, handicap });
             Prospect { effect, law, parts, score: None }
         })
         .collect();

@@ -1,58 +1,12 @@
-//! A second effect: a forward step from several firsts, then a restart from each member of the best pair.
+//! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
 
+use super::{Firsts, WORTH_A_LOOK};
 use crate::attribution::{Attribution, Contest, detail};
-use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::explain::Explanation;
-use crate::omnibus::{Omnibus, omnibus};
+use crate::omnibus::omnibus;
 use crate::search::Question;
 use crate::workers::Workers;
-
-/// Two effects together.
-#[derive(Debug, Clone)]
-pub(crate) struct Pair {
-    pub(crate) explanation: Explanation,
-    /// Penalised deviance gained over the best single effect.
-    pub(crate) gain: f64,
-    /// Deviance that causes in general would still gain beside both, and beside the best single effect.
-    pub(crate) left: f64,
-    pub(crate) left_by_single: f64,
-    /// Whether the best single effect rounds so coarsely that the tests are blind to a second one.
-    pub(crate) is_hidden: bool,
-}
-
-/// Single effects to start from.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Firsts<'a> {
-    /// Those that may be the cause by themselves, best first.
-    pub(crate) ranked: &'a [Explanation],
-    /// Every one that was fitted.
-    pub(crate) all: &'a [Explanation],
-}
-
-impl Together {
-    /// `gains` are those of the single effects over the nominal model, the best first.
-    pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)]) -> Self {
-        let effects = pair.explanation.effects();
-        let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
-        let both = pair.gain + gains.first().map_or(0.0, |g| g.1);
-        let (shares, interaction) = Self::shapley(both, [alone(&effects[0]), alone(&effects[1])]);
-        Self {
-            effects,
-            gain: pair.gain,
-            left: pair.left,
-            left_by_single: pair.left_by_single,
-            shares: shares.to_vec(),
-            interaction,
-        }
-    }
-
-    /// Shares of two in what both gain, and their interaction, from what each gains alone.
-    fn shapley(both: f64, [one, other]: [f64; 2]) -> ([f64; 2], f64) {
-        let first = (both + one - other) / (2.0 * both);
-        ([first, 1.0 - first], (both - one - other) / both)
-    }
-}
 
 /// First effects that a second one is looked for on top of before the restarts, and the share of the best gain that a
 /// further one needs.
@@ -66,52 +20,20 @@ const DETAILED: usize = 6;
 /// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
 const HOPELESS: f64 = 0.3;
 /// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
-const NEAR: f64 = 0.9;
-const NEARBY: usize = 2;
+const NEAR: f64 = 0.95;
+const NEARBY: usize = 3;
+/// Times that a member of a pair is held as it is beside the other.
+const ROUNDS: usize = 2;
 /// Pairs fitted to convergence on each first effect.
 const FINISHED: usize = 3;
-/// Share of the innovations' variance that no rounding makes, below which the tests are blind to whatever else there is.
-const HIDDEN: f64 = 0.5;
-/// Deviance left a sample from which a second effect is looked for.
-const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
-    /// The best pair of effects, where the best single one leaves something that a second may explain.
-    pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
-        let best_single = singles.ranked.first()?;
-        let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
-        let is_hidden = tests.unrounded < HIDDEN;
-        let explanation = if tests.excess() <= worth_a_look && tests.tails > worth_a_look {
-            self.with_outliers(best_single)?
-        } else if tests.excess() > worth_a_look || is_hidden {
-            self.searched(singles)?
-        } else {
-            return None;
-        };
-        let gain = best_single.bic() - explanation.bic();
-        let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
-        Some(Pair { explanation, gain, left, left_by_single: tests.excess(), is_hidden })
-    }
-
-    /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.
-    fn with_outliers(&self, first: &Explanation) -> Option<Explanation> {
-        let present = first.parts[0].effect;
-        let outliers = Effect::Outliers;
-        let other = present != outliers && !present.twins().contains(&outliers);
-        (other && self.settings.effects.contains(&outliers))
-            .then(|| {
-                let alone = Contest { finished: 1, to_beat: None };
-                self.on_top_of(first, &[Question::open(outliers)], alone)
-            })
-            .and_then(|pairs| pairs.into_iter().next())
-    }
-
     /// The best pair by a forward step and restarts.
     ///
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
     /// best pair found is in turn held while every other effect is tried beside it; then twins of the firsts, while much is
     /// left; then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
-    fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
+    pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let best_single = singles.ranked.first()?;
         let gained = |s: &Explanation| self.nominal.bic() - s.bic();
         let serious: Vec<Effect> = (singles.ranked.iter())
@@ -160,7 +82,7 @@ struct Search<'a, 'b, W> {
     found: Vec<Explanation>,
 }
 
-impl<W: Workers> Search<'_, '_, W> {
+impl<'a, W: Workers> Search<'a, '_, W> {
     /// Looks for the best second beside a first.
     fn step(&mut self, first: Effect) {
         self.tried.push(first);
@@ -215,7 +137,8 @@ impl<W: Workers> Search<'_, '_, W> {
         }
     }
 
-    /// Every law of both members and of their twins, of the best pair and of one that comes near it.
+    /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it
+    /// was alone, then as it is beside the other.
     fn every_law(&mut self) {
         let gain = |pair: &Explanation| self.of.nominal.bic() - pair.bic();
         let Some(most) = self.best().map(gain) else { return };
@@ -223,12 +146,25 @@ impl<W: Workers> Search<'_, '_, W> {
             self.found.iter().filter(|pair| gain(pair) > NEAR * most).take(NEARBY).map(members).collect();
         for [one, other] in near {
             for (held, moved) in [(one, other), (other, one)] {
-                let alike = std::iter::once(&moved).chain(moved.twins());
-                let considered = |e: &&Effect| is_another(held, **e) && self.of.settings.effects.contains(e);
-                let questions: Vec<Question> = alike.filter(considered).map(|e| Question::open(*e)).collect();
-                self.ask(held, &questions);
+                self.ask(held, &self.laws_of(held, moved));
+            }
+            for round in 0..ROUNDS {
+                let Some(pair) = self.found.iter().find(|pair| members(pair) == [one, other]).cloned() else {
+                    break;
+                };
+                let held = round % 2;
+                let Some(first) = pair.part(held, self.of.campaign) else { break };
+                let moved = pair.parts[1 - held].effect;
+                self.ask_beside(&first, &self.laws_of(first.parts[0].effect, moved));
             }
         }
+    }
+
+    /// Questions after every law of an effect and of its twins beside another.
+    fn laws_of(&self, held: Effect, moved: Effect) -> Vec<Question> {
+        let alike = std::iter::once(moved).chain(moved.twins().iter().copied());
+        let considered = |e: &Effect| is_another(held, *e) && self.of.settings.effects.contains(e);
+        alike.filter(considered).map(Question::open).collect()
     }
 
     /// Deviance left by the best pair; infinite where there is none.
@@ -250,14 +186,19 @@ impl<W: Workers> Search<'_, '_, W> {
     }
 
     fn ask(&mut self, first: Effect, questions: &[Question]) {
-        let Some(first) = self.single(first) else { return };
+        if let Some(first) = self.single(first) {
+            self.ask_beside(first, questions);
+        }
+    }
+
+    fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
         let to_beat = self.best().map(Explanation::bic);
         let contest = Contest { finished: FINISHED, to_beat };
         let second = self.of.on_top_of(first, questions, contest).into_iter().next();
         self.consider(second);
     }
 
-    fn single(&self, effect: Effect) -> Option<&Explanation> {
+    fn single(&self, effect: Effect) -> Option<&'a Explanation> {
         self.singles.all.iter().find(|s| s.parts[0].effect == effect)
     }
 }
@@ -274,20 +215,4 @@ fn members(pair: &Explanation) -> [Effect; 2] {
 fn is_another(first: Effect, second: Effect) -> bool {
     let is_stopgap = matches!(second, Effect::BorderResolution | Effect::Outliers);
     second != first && !first.twins().contains(&second) && !is_stopgap
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_sum_to_one_and_what_is_had_only_together_is_interaction() {
-        let shared = |both: f64, one: f64, other: f64| Together::shapley(both, [one, other]);
-        // Each brings its own.
-        assert_eq!(shared(100.0, 75.0, 25.0), ([0.75, 0.25], 0.0));
-        // One stands in for the other.
-        assert_eq!(shared(100.0, 100.0, 100.0), ([0.5, 0.5], -1.0));
-        // Neither is worth anything alone.
-        assert_eq!(shared(100.0, 0.0, 0.0), ([0.5, 0.5], 1.0));
-    }
 }

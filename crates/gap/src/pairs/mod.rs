@@ -1,0 +1,110 @@
+//! A second effect beside the first.
+
+mod steps;
+
+use crate::attribution::{Attribution, Contest};
+use crate::diagnosis::Together;
+use crate::effect::Effect;
+use crate::explain::Explanation;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::search::Question;
+use crate::workers::Workers;
+
+/// Two effects together.
+#[derive(Debug, Clone)]
+pub(crate) struct Pair {
+    pub(crate) explanation: Explanation,
+    /// Penalised deviance gained over the best single effect.
+    pub(crate) gain: f64,
+    /// Deviance that causes in general would still gain beside both, and beside the best single effect.
+    pub(crate) left: f64,
+    pub(crate) left_by_single: f64,
+    /// Whether the best single effect rounds so coarsely that the tests are blind to a second one.
+    pub(crate) is_hidden: bool,
+}
+
+/// Single effects to start from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Firsts<'a> {
+    /// Those that may be the cause by themselves, best first.
+    pub(crate) ranked: &'a [Explanation],
+    /// Every one that was fitted.
+    pub(crate) all: &'a [Explanation],
+}
+
+impl Together {
+    /// `gains` are those of the single effects over the nominal model, the best first.
+    pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)]) -> Self {
+        let effects = pair.explanation.effects();
+        let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
+        let both = pair.gain + gains.first().map_or(0.0, |g| g.1);
+        let (shares, interaction) = Self::shapley(both, [alone(&effects[0]), alone(&effects[1])]);
+        Self {
+            effects,
+            gain: pair.gain,
+            left: pair.left,
+            left_by_single: pair.left_by_single,
+            shares: shares.to_vec(),
+            interaction,
+        }
+    }
+
+    /// Shares of two in what both gain, and their interaction, from what each gains alone.
+    fn shapley(both: f64, [one, other]: [f64; 2]) -> ([f64; 2], f64) {
+        let first = (both + one - other) / (2.0 * both);
+        ([first, 1.0 - first], (both - one - other) / both)
+    }
+}
+
+/// Share of the innovations' variance that no rounding makes, below which the tests are blind to whatever else there is.
+const HIDDEN: f64 = 0.5;
+/// Deviance left a sample from which a second effect is looked for.
+const WORTH_A_LOOK: f64 = 0.03;
+
+impl<W: Workers> Attribution<'_, W> {
+    /// The best pair of effects, where the best single one leaves something that a second may explain.
+    pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
+        let best_single = singles.ranked.first()?;
+        let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
+        let is_hidden = tests.unrounded < HIDDEN;
+        let explanation = if tests.excess() <= worth_a_look && tests.tails > worth_a_look {
+            self.with_outliers(best_single)?
+        } else if tests.excess() > worth_a_look || is_hidden {
+            self.searched(singles)?
+        } else {
+            return None;
+        };
+        let gain = best_single.bic() - explanation.bic();
+        let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
+        Some(Pair { explanation, gain, left, left_by_single: tests.excess(), is_hidden })
+    }
+
+    /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.
+    fn with_outliers(&self, first: &Explanation) -> Option<Explanation> {
+        let present = first.parts[0].effect;
+        let outliers = Effect::Outliers;
+        let other = present != outliers && !present.twins().contains(&outliers);
+        (other && self.settings.effects.contains(&outliers))
+            .then(|| {
+                let alone = Contest { finished: 1, to_beat: None };
+                self.on_top_of(first, &[Question::open(outliers)], alone)
+            })
+            .and_then(|pairs| pairs.into_iter().next())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_sum_to_one_and_what_is_had_only_together_is_interaction() {
+        let shared = |both: f64, one: f64, other: f64| Together::shapley(both, [one, other]);
+        // Each brings its own.
+        assert_eq!(shared(100.0, 75.0, 25.0), ([0.75, 0.25], 0.0));
+        // One stands in for the other.
+        assert_eq!(shared(100.0, 100.0, 100.0), ([0.5, 0.5], -1.0));
+        // Neither is worth anything alone.
+        assert_eq!(shared(100.0, 0.0, 0.0), ([0.5, 0.5], 1.0));
+    }
+}
