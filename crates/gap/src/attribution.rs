@@ -5,7 +5,7 @@ use crate::campaign::Campaign;
 use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
 use crate::explain::Explanation;
-use crate::search::{Prospect, Question, advance, finish, look, prospects};
+use crate::search::{Prospect, Question, advance, finish, from_scratch, look, prospects};
 use crate::settings::Settings;
 use crate::starts::Known;
 use crate::workers::Workers;
@@ -64,6 +64,16 @@ impl<W: Workers> Attribution<'_, W> {
             singles = self.knots_placed_anew(singles);
         }
         singles
+    }
+
+    /// Effects of the speed with the dynamics identified anew: friction that rises or falls fast may rule the input.
+    pub(crate) fn speeds_from_scratch(&self) -> Vec<Explanation> {
+        let known = Known::new(self.campaign, self.detailed);
+        let asked = [Effect::RateDependence, Effect::Stribeck];
+        let asked: Vec<Effect> = asked.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
+        let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
+        let placed = |single: Explanation| self.without_details(single.with_knots_refined(self.campaign));
+        found.into_iter().flatten().map(placed).collect()
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.
@@ -208,7 +218,7 @@ impl<W: Workers> Attribution<'_, W> {
     }
 
     /// The explanation on an even grid, where the details that its knots follow are material.
-    fn without_details(&self, single: Explanation) -> Explanation {
+    pub(crate) fn without_details(&self, single: Explanation) -> Explanation {
         match single.on_an_even_grid(self.campaign) {
             Some(even) if even.bic() - single.bic() > detail(self.campaign) => even,
             _ => single,

@@ -8,6 +8,8 @@ use crate::effect::Effect;
 use crate::effects::{Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
+use crate::knots::first_grid;
+use crate::nominal::first_guess;
 use crate::starts::{Known, Score, ScoreTest, padded};
 
 /// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
@@ -211,6 +213,35 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
         handicap,
         held_out: 0.0,
     })
+}
+
+/// Starts of a law that are tried from scratch.
+const SCRATCHED: usize = 3;
+
+/// An effect whose laws add columns to the borders, all dynamics identified anew with it: where a column rules the input,
+/// the nominal `A` and `B` are those of another system, and no step leads from there to the right one.
+pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
+    let (campaign, fit) = (known.campaign, &known.explanation.fit);
+    let scene = Scene { campaign, fit, innovations: &known.innovations };
+    let grid = first_grid(campaign);
+    let tried = |(number, law): (usize, Variant)| {
+        let (apply, count) = (law.apply.clone(), law.starts[0].len());
+        let (search, handicap) = (law.search, law.handicap);
+        let parts = vec![Part { effect, law: number, apply, count, search, handicap }];
+        let build = |values: &[f64]| assembled(&parts, values);
+        let task = Task { ground: Ground { campaign, grid: &grid, known: None }, build: &build, held: 0 };
+        let fits = law.starts.iter().take(SCRATCHED).filter_map(|own| {
+            let assembly = task.assembly(own);
+            let adds = !assembly.border_columns.is_empty();
+            let start = adds.then(|| first_guess(campaign, &grid, fit.linear.a.len(), &assembly).ok())??;
+            task.held(own, &start, LOOK)
+        });
+        let fit = best(fits)?;
+        Some(Explanation { parts, fit, handicap, held_out: 0.0 })
+    };
+    let laws = variants(effect, &scene).into_iter().enumerate();
+    let best = laws.filter_map(tried).min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
+    Some(finish(campaign, 0, &best))
 }
 
 /// One law's search.

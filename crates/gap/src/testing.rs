@@ -3,8 +3,10 @@
 use switchback_estimator::Record;
 use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
+use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
+use crate::design::Design;
 use crate::linear::Linear;
 
 /// A short free record with rests and reversals of many sizes, and a grid with a jump.
@@ -39,4 +41,24 @@ pub(crate) fn small_campaign() -> (Campaign, Grid) {
 pub(crate) fn small_model(grid: &Grid) -> Linear {
     let f = (0..grid.len()).map(|i| (i as f64 * 0.7).sin()).collect();
     Linear { a: vec![-0.6, 0.2], b: vec![0.8, 0.3], f, d: Vec::new() }
+}
+
+/// The same input, the output that of a model without noise.
+pub(crate) fn noise_free(
+    mut campaign: Campaign,
+    grid: &Grid,
+    assembly: &Assembly,
+    truth: &Linear,
+) -> Campaign {
+    let design = Design::new(&campaign, grid, assembly, |t| t.is_fit());
+    let u = design.input(&design.tracks[0], &truth.f);
+    let mut y: Vec<f64> = Vec::with_capacity(u.len());
+    for t in 0..u.len() {
+        let past = |x: &[f64], lag: usize| if t > lag { x[t - 1 - lag] } else { 0.0 };
+        let old: f64 = truth.a.iter().enumerate().map(|(i, a)| a * past(&y, i)).sum();
+        let new: f64 = truth.b.iter().enumerate().map(|(i, b)| b * past(&u, i)).sum();
+        y.push(new - old);
+    }
+    campaign.tracks[0].y = y;
+    campaign
 }

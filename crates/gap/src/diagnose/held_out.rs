@@ -122,13 +122,14 @@ impl Plan {
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
-    /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: noise,
-    /// or what closes a gap there.
+    /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: what
+    /// closes a gap there, unless it moves no simulation or need not hold in other records.
     pub(super) fn shows_in_simulations(&self, explanation: &Explanation) -> bool {
         let beside = |e: &&Effect| **e != Effect::SensorQuantisation;
-        let noise = explanation.effects().iter().filter(beside).all(|e| e.is_noise());
+        let excused = |e: &Effect| e.is_noise() || e.is_of_its_record();
         let gap = self.gap(&explanation.fit, self.settings.resamples);
-        noise || gap.closure.is_some_and(|closure| closure.ci90[0] > MATERIAL)
+        explanation.effects().iter().filter(beside).all(excused)
+            || gap.closure.is_some_and(|closure| closure.ci90[0] > MATERIAL)
     }
 
     /// The gap on the judged records before and after.

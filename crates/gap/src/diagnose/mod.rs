@@ -1,5 +1,6 @@
 //! The diagnosis itself: the nominal model, attribution, verdict, report.
 
+mod evidence;
 mod foreign;
 mod held_out;
 mod judged;
@@ -7,11 +8,12 @@ mod report;
 
 use switchback_estimator::rig::Rig;
 
+use self::evidence::Evidence;
 use self::foreign::Foreign;
 use self::report::Conclusion;
 use crate::attribution::{Attribution, detail};
 use crate::campaign::Campaign;
-use crate::decide::{Leavings, SIGNIFICANT, holds_together, odds, odds_together, verdict};
+use crate::decide::{Leavings, holds_together, odds, odds_together, verdict};
 use crate::diagnosis::{Diagnosis, Status, Together};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
@@ -19,7 +21,6 @@ use crate::explain::Explanation;
 use crate::nominal::identify;
 use crate::omnibus::omnibus;
 use crate::order::choose;
-use crate::pairs::Firsts;
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
 use crate::simulators::weighed_by_closure;
@@ -116,17 +117,7 @@ impl Plan {
             detailed: &self.detailed,
             workers,
         };
-        let mut singles = attribution.singles();
-        self.hear_the_held_out(&mut singles);
-        // What is no cause by itself may still be one of two.
-        let all = singles.clone();
-        let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
-        if significant {
-            self.drop_noise_where_the_gap_is_systematic(&mut singles);
-            self.drop_what_held_out_records_refute(&mut singles);
-        }
-        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
-        let mut tests = omnibus(&self.campaign, &best.fit);
+        let Evidence { singles, significant, best, mut tests, pair, .. } = self.gather(&attribution);
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
@@ -136,12 +127,10 @@ impl Plan {
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
         let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;
-        let more = tests.as_ref().filter(|_| significant && self.settings.max_effects > 1);
-        let pair = more.and_then(|tests| attribution.pair(Firsts { ranked: &singles, all: &all }, tests));
         let gains: Vec<(Effect, f64)> =
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
         let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
-        if let Some(pair) = pair.filter(|pair| holds_together(pair, self.campaign.fit_samples())) {
+        if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
             let together = odds_together(self.nominal.bic(), &pair, &effects);
             let (explanation, pair_left) = (pair.explanation, pair.left);
             let holds = self.better_held_out(&explanation, &best)

@@ -16,7 +16,8 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let scale = typical_speed(scene.campaign);
     let mut out = Vec::new();
     for while_resting in [Resting::Held, Resting::Zero] {
-        let starts = [0.4, 1.2].iter().map(|&p| vec![own("power", "1", p, (0.1, 3.0), 0.02)]).collect();
+        // Viscous friction is the commonest.
+        let starts = [0.4, 1.0].iter().map(|&p| vec![own("power", "1", p, (0.1, 3.0), 0.02)]).collect();
         out.push(Variant::conditional(starts, move |p, assembly| {
             assembly.border_columns.push(BorderColumn::Speed { power: p[0], scale, while_resting });
         }));

@@ -7,7 +7,7 @@ use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::omnibus::{Omnibus, omnibus};
-use crate::search::Question;
+use crate::search::{Question, finish};
 use crate::workers::Workers;
 
 /// Two effects together.
@@ -62,6 +62,11 @@ const HIDDEN: f64 = 0.5;
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
+    /// Whether what the best single effect leaves is worth a second look.
+    pub(crate) fn is_worth_a_look(&self, tests: &Omnibus) -> bool {
+        tests.excess() > WORTH_A_LOOK * self.campaign.fit_samples() as f64
+    }
+
     /// The best pair of effects, where the best single one leaves something that a second may explain.
     pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
         let best_single = singles.ranked.first()?;
@@ -77,6 +82,18 @@ impl<W: Workers> Attribution<'_, W> {
         let gain = best_single.bic() - explanation.bic();
         let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
         Some(Pair { explanation, gain, left, left_by_single: tests.excess(), is_hidden })
+    }
+
+    /// Each effect of a pair on its own, from where it is beside the other.
+    pub(crate) fn members_alone(&self, pair: &Pair) -> Vec<Explanation> {
+        self.workers
+            .map(&[0, 1], |&number| {
+                let alone = pair.explanation.part(number, self.campaign)?;
+                Some(self.without_details(finish(self.campaign, 0, &alone)))
+            })
+            .into_iter()
+            .flatten()
+            .collect()
     }
 
     /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.

@@ -1,0 +1,87 @@
+//! What the fits say before anything is weighed.
+
+use super::Plan;
+use crate::attribution::Attribution;
+use crate::decide::SIGNIFICANT;
+use crate::explain::Explanation;
+use crate::omnibus::{Omnibus, omnibus};
+use crate::pairs::{Firsts, Pair};
+use crate::workers::Workers;
+
+/// Single effects and the best pair of them.
+#[derive(Debug)]
+pub(super) struct Evidence {
+    /// Every effect that was fitted: what is no cause by itself may still be one of two.
+    all: Vec<Explanation>,
+    /// Those that may be the cause, best first.
+    pub(super) singles: Vec<Explanation>,
+    /// Whether the best of them gains what chance does not.
+    pub(super) significant: bool,
+    /// The best of them, or the nominal model.
+    pub(super) best: Explanation,
+    /// What it leaves.
+    pub(super) tests: Option<Omnibus>,
+    pub(super) pair: Option<Pair>,
+}
+
+impl Plan {
+    /// Fits every effect, and where much is left every two; a better optimum that shows on the way starts the rest anew.
+    pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
+        let mut evidence = self.weigh_in(attribution.singles());
+        let asks_more = |e: &Evidence| e.tests().is_some_and(|tests| attribution.is_worth_a_look(tests));
+        if asks_more(&evidence)
+            && let Some(better) = evidence.improved(attribution.speeds_from_scratch())
+        {
+            evidence = self.weigh_in(better);
+        }
+        evidence.pair = self.pair(attribution, &evidence);
+        let members = evidence.pair.as_ref().map(|pair| attribution.members_alone(pair));
+        if let Some(better) = members.and_then(|alone| evidence.improved(alone)) {
+            evidence = self.weigh_in(better);
+            evidence.pair = self.pair(attribution, &evidence);
+        }
+        evidence
+    }
+
+    /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
+    fn weigh_in(&self, mut singles: Vec<Explanation>) -> Evidence {
+        self.hear_the_held_out(&mut singles);
+        let all = singles.clone();
+        let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
+        if significant {
+            self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            self.drop_what_held_out_records_refute(&mut singles);
+        }
+        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
+        let tests = omnibus(&self.campaign, &best.fit);
+        Evidence { all, singles, significant, best, tests, pair: None }
+    }
+
+    fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
+        let tests = evidence.tests().filter(|_| self.settings.max_effects > 1)?;
+        attribution.pair(Firsts { ranked: &evidence.singles, all: &evidence.all }, tests)
+    }
+}
+
+impl Evidence {
+    /// What the best effect leaves, where there is one.
+    fn tests(&self) -> Option<&Omnibus> {
+        self.tests.as_ref().filter(|_| self.significant)
+    }
+
+    /// All single effects, where others are better optima of some of them.
+    fn improved(&self, others: Vec<Explanation>) -> Option<Vec<Explanation>> {
+        let mut all = self.all.clone();
+        let mut improved = false;
+        for other in others {
+            let effect = other.parts[0].effect;
+            let known = all.iter_mut().find(|known| known.parts[0].effect == effect);
+            if let Some(known) = known.filter(|known| other.bic() < known.bic() - SIGNIFICANT) {
+                *known = other;
+                improved = true;
+            }
+        }
+        all.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        improved.then_some(all)
+    }
+}
