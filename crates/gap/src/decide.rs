@@ -57,7 +57,7 @@ mod calibration {
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
-    pub(super) const FOREIGN: f64 = 0.03;
+    pub(super) const FOREIGN: f64 = 0.02;
     /// How often the ranking holds where the best leaves nothing, whatever its margin: a law that is not the cause leaves
     /// something.
     pub(super) const WHOLE: f64 = 0.93;
@@ -78,9 +78,9 @@ mod calibration {
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
     pub(super) const SILENCE: f64 = 0.68;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
-    pub(super) const ALL_FAIL: f64 = 0.35;
+    pub(super) const ALL_FAIL: f64 = 0.42;
     /// The same where the best should close the gap on held-out records and does not.
-    pub(super) const REFUTED: f64 = 0.85;
+    pub(super) const REFUTED: f64 = 0.72;
 }
 
 fn logistic(x: f64) -> f64 {
