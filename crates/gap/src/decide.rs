@@ -52,7 +52,8 @@ mod calibration {
     /// Share of the held-out gap that the best must close for being barely better than its rivals not to matter: stand-ins
     /// follow the records they were fitted to.
     pub(super) const CLOSES: f64 = 0.85;
-    /// Fraction of the gap left from which the best, with a rival of another class behind it, stands in for something else.
+    /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
+    /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
@@ -139,7 +140,9 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let runner_up = effects.iter().filter(|e| !alike(e.0)).map(|e| e.1).fold(nominal_bic, f64::min);
     let margin = (runner_up - best) / gain.max(1.0);
     let second = effects.iter().filter(|e| Some(e.0) != first).min_by(|x, y| x.1.total_cmp(&y.1));
-    let is_stand_in = second.is_some_and(|e| !alike(e.0)) && fraction > calibration::STANDS_IN;
+    let all_but_closes = best_leaves.gap.is_some_and(|gap| gap < calibration::STANDS_IN);
+    let is_stand_in =
+        second.is_some_and(|e| !alike(e.0)) && fraction > calibration::STANDS_IN && !all_but_closes;
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = match (is_stand_in, closes) {
@@ -279,7 +282,7 @@ mod tests {
 
     #[test]
     fn what_leaves_much_with_a_rival_of_another_class_behind_it_stands_in_for_something_else() {
-        let closing = 0.05;
+        let closing = 0.1;
         let rivals =
             |second: Effect| weighed([(Effect::Backlash, -9000.0), (second, -2000.0)], 900.0, closing);
         assert!(rivals(Effect::Creep).unexplained > UNEXPLAINED);

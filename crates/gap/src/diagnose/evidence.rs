@@ -28,15 +28,15 @@ impl Plan {
     /// Fits every effect, and where much is left every two; a better optimum that shows on the way starts the rest anew.
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
         let mut evidence = self.weigh_in(attribution.singles());
-        let asks_more = |e: &Evidence| e.tests().is_some_and(|tests| attribution.is_worth_a_look(tests));
-        if asks_more(&evidence)
+        if evidence.tests().is_some_and(|tests| attribution.is_worth_a_look(tests.excess()))
             && let Some(better) = evidence.improved(attribution.speeds_from_scratch())
         {
             evidence = self.weigh_in(better);
         }
         evidence.pair = self.pair(attribution, &evidence);
-        let members = evidence.pair.as_ref().map(|pair| attribution.members_alone(pair));
-        if let Some(better) = members.and_then(|alone| evidence.improved(alone)) {
+        if let Some(pair) = &evidence.pair
+            && let Some(better) = evidence.improved(attribution.members_alone(pair))
+        {
             evidence = self.weigh_in(better);
             evidence.pair = self.pair(attribution, &evidence);
         }

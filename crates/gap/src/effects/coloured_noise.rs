@@ -1,7 +1,7 @@
 //! The equation error is not white.
 //!
 //! ```text
-//! ξ = w / D(q⁻¹), D of degree 1, 2, 4, 6 or 10;   or ξ = (1 + c q⁻¹) w
+//! ξ = w / D(q⁻¹), D of degree 1, 2, 4, 6, 10 or 20;   or ξ = (1 + c q⁻¹) w
 //! ```
 //!
 //! Parameters: coefficients of `D`, or `c`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
@@ -10,7 +10,7 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let mut out: Vec<Variant> = [1, 2, 4, 6, 10]
+    let mut out: Vec<Variant> = [1, 2, 4, 6, 10, 20]
         .into_iter()
         .map(|degree| {
             // A pole of the noise near one is far from white noise: the nominal A has it.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign;
-//!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave
+//!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave; the latter free a record, too
 //! ```
 //!
 //! Parameters: angular frequencies `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
@@ -33,6 +33,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }
         }
     };
+    let each_record = a_record.clone();
     let mut out = vec![Variant::new(starts.clone(), a_record.clone())];
     if !pairs.is_empty() {
         out.push(Variant::new(pairs, a_record));
@@ -49,6 +50,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }
         })
     }));
+    let wave = move |p: &[f64], assembly: &mut Assembly| {
+        let frequencies: Vec<f64> = HARMONICS[1].iter().map(|harmonic| harmonic * p[0]).collect();
+        each_record(&frequencies, assembly);
+    };
+    out.push(Variant::new(starts.clone(), wave));
     out.push(Variant::new(starts, |p, assembly| {
         for sine in [false, true] {
             assembly.equation_columns.push(EquationColumn::Line { frequency: p[0], track: None, sine });

@@ -62,19 +62,20 @@ const HIDDEN: f64 = 0.5;
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
-    /// Whether what the best single effect leaves is worth a second look.
-    pub(crate) fn is_worth_a_look(&self, tests: &Omnibus) -> bool {
-        tests.excess() > WORTH_A_LOOK * self.campaign.fit_samples() as f64
+    /// Whether a deviance that an explanation leaves is worth a second look.
+    pub(crate) fn is_worth_a_look(&self, left: f64) -> bool {
+        left > WORTH_A_LOOK * self.campaign.fit_samples() as f64
     }
 
     /// The best pair of effects, where the best single one leaves something that a second may explain.
     pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
         let best_single = singles.ranked.first()?;
-        let worth_a_look = WORTH_A_LOOK * self.campaign.fit_samples() as f64;
         let is_hidden = tests.unrounded < HIDDEN;
-        let explanation = if tests.excess() <= worth_a_look && tests.tails > worth_a_look {
+        let explanation = if self.is_worth_a_look(tests.excess()) {
+            self.searched(singles)?
+        } else if self.is_worth_a_look(tests.tails) {
             self.with_outliers(best_single)?
-        } else if tests.excess() > worth_a_look || is_hidden {
+        } else if is_hidden {
             self.searched(singles)?
         } else {
             return None;

@@ -1,6 +1,6 @@
 //! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
 
-use super::{Firsts, WORTH_A_LOOK};
+use super::Firsts;
 use crate::attribution::{Attribution, Contest, detail};
 use crate::effect::Effect;
 use crate::explain::Explanation;
@@ -182,7 +182,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
 
     /// Whether so much is left that another first may find a better pair.
     fn leaves_much(&self) -> bool {
-        self.left() > WORTH_A_LOOK * self.of.campaign.fit_samples() as f64
+        self.of.is_worth_a_look(self.left())
     }
 
     fn ask(&mut self, first: Effect, questions: &[Question]) {
