@@ -204,7 +204,7 @@ impl<W: Workers> Attribution<'_, W> {
             match (is_grid, rival) {
                 (true, _) => single.clone(),
                 (false, true) => self.without_details(single.clone().with_knots_refined(self.campaign)),
-                (false, false) if self.has_details() => single.clone().handicapped(SIGNIFICANT),
+                (false, false) if self.has_details() => single.clone().set_back(SIGNIFICANT),
                 (false, false) => single.clone(),
             }
         });

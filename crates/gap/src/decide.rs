@@ -265,8 +265,10 @@ mod tests {
     #[test]
     fn one_of_many_that_leave_much_is_no_cause_unless_it_closes_the_gap() {
         let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -4500.0)];
-        assert!(weighed(rivals, 200.0, 0.6).unexplained > UNEXPLAINED);
-        assert!(weighed(rivals, 200.0, 0.05).unexplained < UNEXPLAINED);
+        for left in [200.0, 900.0] {
+            assert!(weighed(rivals, left, 0.6).unexplained > UNEXPLAINED);
+            assert!(weighed(rivals, left, 0.04).unexplained < UNEXPLAINED);
+        }
         // A rival of its own class is no other cause.
         let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
         assert!(weighed(twins, 900.0, 0.6).unexplained < UNEXPLAINED);

@@ -54,8 +54,8 @@ impl fmt::Debug for Part {
 pub(crate) struct Explanation {
     pub(crate) parts: Vec<Part>,
     pub(crate) fit: Fit,
-    /// Handicaps of the variants chosen, added to the deviance.
-    pub(crate) handicap: f64,
+    /// Added to the deviance beside the handicaps of the laws: what the knots of another fit are worth.
+    pub(crate) set_back: f64,
     /// Deviance lost on the held-out records against the nominal model.
     pub(crate) held_out: f64,
 }
@@ -63,12 +63,12 @@ pub(crate) struct Explanation {
 impl Explanation {
     /// The nominal model alone.
     pub(crate) fn nominal(fit: Fit) -> Self {
-        Self { parts: Vec::new(), fit, handicap: 0.0, held_out: 0.0 }
+        Self { parts: Vec::new(), fit, set_back: 0.0, held_out: 0.0 }
     }
 
     /// The nominal model on a grid whose knots follow details of the borders.
     pub(crate) fn detailed(fit: Fit) -> Self {
-        Self { parts: vec![Part::details()], fit, handicap: 0.0, held_out: 0.0 }
+        Self { parts: vec![Part::details()], fit, set_back: 0.0, held_out: 0.0 }
     }
 
     /// The same explanation and details of the borders beside it: knots placed anew are a part of their own.
@@ -80,7 +80,8 @@ impl Explanation {
 
     /// Penalised deviance: Bayesian information criterion plus the handicap.
     pub(crate) fn bic(&self) -> f64 {
-        self.fit.deviance + self.handicap + self.fit.parameters * (self.fit.samples as f64).ln()
+        let handicap = self.parts.iter().map(|part| part.handicap).sum::<f64>() + self.set_back;
+        self.fit.deviance + handicap + self.fit.parameters * (self.fit.samples as f64).ln()
     }
 
     /// Penalised deviance and what the held-out records add to it.
@@ -103,9 +104,9 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
-    /// The same explanation, less likely by a handicap.
-    pub(crate) fn handicapped(mut self, by: f64) -> Self {
-        self.handicap += by;
+    /// The same explanation, less likely.
+    pub(crate) fn set_back(mut self, by: f64) -> Self {
+        self.set_back += by;
         self
     }
 
@@ -115,7 +116,6 @@ impl Explanation {
         let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
         let part = self.parts[number].clone();
         let own = &self.fit.own[from..from + part.count];
-        let handicap = part.handicap;
         let parts = vec![part];
         let values: Vec<f64> = own.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
@@ -125,7 +125,7 @@ impl Explanation {
         let start = padded(&linear, self.fit.grid.len(), &assembled(&parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
         let fit = fit(ground, &|values| assembled(&parts, values), own, &start, ALONE)?;
-        Some(Self { parts, fit, handicap, held_out: 0.0 })
+        Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
     }
 
     /// The same explanation with border knots placed anew, where that is better.

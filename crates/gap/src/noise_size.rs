@@ -3,7 +3,7 @@
 use crate::campaign::Campaign;
 use crate::normal::Normal;
 use crate::omnibus::LAGS;
-use crate::spectrum::autocorrelation;
+use crate::spectrum::{autocorrelation, portmanteau};
 
 /// Squares of the counted innovations about their mean, cut at nine variances so that a few outliers do not decide.
 struct Sizes {
@@ -27,19 +27,16 @@ impl Sizes {
         Self { about_mean, count, spread }
     }
 
-    fn autocorrelation(&self) -> Vec<f64> {
-        autocorrelation(&self.about_mean, LAGS)
-    }
-
     /// McLeod–Li statistic over [`LAGS`] lags (McLeod, Li, J. Time Series Analysis 1983): `n·Σ r²`. What comes and goes
     /// leaves large errors in bursts, whatever distribution they have.
     fn mc_leod_li(&self) -> f64 {
-        self.autocorrelation()[1..].iter().map(|r| r * r).sum::<f64>() * self.count
+        portmanteau(&self.about_mean, LAGS, self.count)
     }
 
     /// As many samples tell as much as one: `1 + 2·Σ r`.
     fn correlation_time(&self) -> f64 {
-        1.0 + 2.0 * self.autocorrelation()[1..].iter().map(|r| r.max(0.0)).sum::<f64>()
+        let r = autocorrelation(&self.about_mean, LAGS);
+        1.0 + 2.0 * r[1..].iter().map(|r| r.max(0.0)).sum::<f64>()
     }
 }
 

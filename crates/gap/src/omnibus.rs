@@ -9,6 +9,7 @@ use crate::gains::{Gains, Scored};
 use crate::jacobian::Jacobian;
 use crate::lattice::{is_material, lattice, worth};
 use crate::noise_size::{Evenness, unweighted};
+use crate::spectrum::portmanteau;
 use crate::weights::mixture;
 
 /// What the tests found.
@@ -199,10 +200,9 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let scaled = weights.by_track(&innovations);
     // Samples without weight say nothing.
     let count = scaled.iter().flatten().filter(|w| **w != 0.0).count().max(1);
-    let r = crate::spectrum::autocorrelation(&scaled, LAGS);
     // Errors of a simulation are coloured whatever the noise is.
     let white = f64::from(u8::from(!design.criterion.simulates()));
-    let ljung_box = white * r[1..].iter().map(|r| r * r).sum::<f64>() * count as f64;
+    let ljung_box = white * portmanteau(&scaled, LAGS, count as f64);
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
     let size = match fit.assembly.noise.mixture {
         None => Evenness::of_all(campaign, &scaled),

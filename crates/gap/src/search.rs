@@ -206,11 +206,11 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
             best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
         }
     }?;
-    let handicap = known.handicap + law.handicap;
+    let set_back = known.set_back;
     is_sound(prospect.effect, &fit).then(|| Explanation {
         parts: parts.clone(),
         fit,
-        handicap,
+        set_back,
         held_out: 0.0,
     })
 }
@@ -237,7 +237,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
             task.held(own, &start, LOOK)
         });
         let fit = best(fits)?;
-        Some(Explanation { parts, fit, handicap, held_out: 0.0 })
+        Some(Explanation { parts, fit, set_back: 0.0, held_out: 0.0 })
     };
     let laws = variants(effect, &scene).into_iter().enumerate();
     let best = laws.filter_map(tried).min_by(|x, y| x.bic().total_cmp(&y.bic()))?;

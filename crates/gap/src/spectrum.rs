@@ -90,6 +90,11 @@ pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Portmanteau statistic of a white signal of `count` samples: `count·Σ r²` over the lags 1 to `most`.
+pub(crate) fn portmanteau(tracks: &[Vec<f64>], most: usize, count: f64) -> f64 {
+    autocorrelation(tracks, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
+}
+
 /// Mean square over all tracks.
 pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
