@@ -40,19 +40,26 @@ pub fn artefacts(
     Ok(artefacts)
 }
 
-/// The table of measures, as printed: measure, what must be reached, what was, how many rigs tell.
+/// The table of measures, as printed: measure, what must be reached, what was and its 95 % interval, how many
+/// rigs tell.
 pub fn summary(scores: &Scores) -> String {
-    let mut text = format!("{:50} {:>11} {:>9} {:>6}\n", "measure", "must reach", "reached", "rigs");
+    let mut text = format!(
+        "{:51} {:>11} {:>9} {:>15} {:>6}\n",
+        "measure", "must reach", "reached", "95 % interval", "rigs"
+    );
     for measure in &scores.measures {
         let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| figure(measure, x));
-        let mark = match measure.meets_target() {
-            Some(true) => "",
-            Some(false) => "  short",
-            None => "  not told",
+        let mark = match (measure.reached, measure.meets_target()) {
+            (None, _) => "  not told",
+            (_, Some(false)) => "  short",
+            _ => "",
         };
+        let interval = measure
+            .interval
+            .map_or_else(String::new, |[low, high]| format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high));
         let target = measure.target.map_or_else(String::new, |bound| told(measure, bound));
         let (what, rigs, broken) = (measure.text, measure.rigs, unexpected(measure));
-        let _ = writeln!(text, "{what:50} {target:>11} {reached:>9} {rigs:>6}{mark}{broken}");
+        let _ = writeln!(text, "{what:51} {target:>11} {reached:>9} {interval:>15} {rigs:>6}{mark}{broken}");
     }
     let _ = writeln!(
         text,

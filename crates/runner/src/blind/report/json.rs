@@ -26,7 +26,7 @@ pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &
         "refused": cases.iter().filter(|c| c.reply.status == "failed").map(|c| c.id).collect::<Vec<_>>(),
         "measures": scores.measures.iter().map(|m| json!({
             "key": m.key, "measure": m.text, "must_reach": m.target.map(bound), "expected": m.expected.map(bound),
-            "reached": m.reached, "rigs": m.rigs, "meets": m.meets_target(),
+            "reached": m.reached, "interval": m.interval, "rigs": m.rigs, "meets": m.meets_target(),
         })).collect::<Vec<_>>(),
         "sizes": scores.sizes.iter().map(|r| json!({
             "size": r.wanted, "exact": share(r.exact), "class": share(r.class),

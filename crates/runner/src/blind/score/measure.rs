@@ -59,6 +59,8 @@ pub struct Measure {
     pub expected: Option<Bound>,
     /// What was reached; none where no rig tells.
     pub reached: Option<f64>,
+    /// Its 95 % interval, where it is a share of rigs.
+    pub interval: Option<[f64; 2]>,
     /// Rigs that tell, or cells for *where*.
     pub rigs: usize,
 }
@@ -77,8 +79,8 @@ impl Measure {
 
 /// Takes a measure's bound out of a set of expectations.
 type Bounds = fn(&Expect) -> Option<Bound>;
-/// What was reached, and how many rigs tell.
-type Told = (Option<f64>, usize);
+/// What was reached, its interval, and how many rigs tell.
+type Told = (Option<f64>, Option<[f64; 2]>, usize);
 /// Key, text, bound and figure of one measure.
 type Line = (&'static str, &'static str, Bounds, Told);
 
@@ -95,7 +97,7 @@ pub(super) fn measures(
     let closures = || singles(cases).filter_map(|c| c.closure.as_ref());
     let large_closures = || singles(cases).filter(|c| c.is_large()).filter_map(|c| c.closure.as_ref());
     let place = places.iter().find(|p| p.axis == "all");
-    let share = |s: Share| (s.value(), s.of);
+    let share = |s: Share| (s.value(), s.interval(), s.of);
     let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
     let lines: [Line; 14] = [
         (
@@ -150,13 +152,13 @@ pub(super) fn measures(
             "ece",
             "calibration error of the probability (ECE)",
             |e| e.ece.map(Bound::AtMost),
-            (calibration.ece, calibration.bins.iter().map(|b| b.held.of).sum()),
+            (calibration.ece, None, calibration.bins.iter().map(|b| b.held.of).sum()),
         ),
         (
             "where_f1",
             "where: F1 of the cells flagged (cells counted)",
             |e| e.where_f1.map(Bound::AtLeast),
-            (place.map(|p| p.f1), place.map_or(0, |p| p.cells)),
+            (place.map(|p| p.f1), None, place.map_or(0, |p| p.cells)),
         ),
         (
             "coverage",
@@ -168,7 +170,7 @@ pub(super) fn measures(
             "closure_error",
             "mean error of the closure, ≥ 1 sd",
             |e| e.closure_error.map(Bound::AtMost),
-            (closure::mean(large_closures().map(closure::error)), large_closures().count()),
+            (closure::mean(large_closures().map(closure::error)), None, large_closures().count()),
         ),
         (
             "pairs_exact",
@@ -185,12 +187,13 @@ pub(super) fn measures(
     ];
     lines
         .into_iter()
-        .map(|(key, text, bound, (reached, rigs))| Measure {
+        .map(|(key, text, bound, (reached, interval, rigs))| Measure {
             key,
             text,
             target: bound(&TARGETS),
             expected: bound(expect),
             reached,
+            interval,
             rigs,
         })
         .collect()

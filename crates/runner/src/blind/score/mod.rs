@@ -38,6 +38,16 @@ impl Share {
     pub fn value(self) -> Option<f64> {
         (self.of > 0).then(|| self.count as f64 / self.of as f64)
     }
+
+    /// Its 95 % interval (Wilson, J. Am. Stat. Assoc. 22, 1927): what other rigs drawn alike may say.
+    pub fn interval(self) -> Option<[f64; 2]> {
+        const Z: f64 = 1.96;
+        let (p, n) = (self.value()?, self.of as f64);
+        let centre = p + Z * Z / (2.0 * n);
+        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+        let scale = 1.0 + Z * Z / n;
+        Some([((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0)])
+    }
 }
 
 /// All tables of a blind study.

@@ -117,3 +117,20 @@ fn the_confusion_matrix_holds_every_large_single_and_every_none() {
     let column = confusion.columns.iter().position(|c| *c == "stribeck").unwrap();
     assert_eq!(confusion.counts[row][column], 1);
 }
+
+#[test]
+fn an_interval_solves_the_score_equation_and_none_of_many_is_not_none() {
+    for (count, of) in [(0, 22), (5, 25), (16, 17), (300, 300)] {
+        let share = Share { count, of };
+        let p = share.value().unwrap();
+        let [low, high] = share.interval().unwrap();
+        for end in [low, high].into_iter().filter(|x| *x > 1e-9 && *x < 1.0 - 1e-9) {
+            // The ends are where the observed share is 1.96 standard errors of the end away.
+            let errors = (p - end).abs() / (end * (1.0 - end) / of as f64).sqrt();
+            assert!((errors - 1.96).abs() < 1e-9, "{count} of {of}: {errors}");
+        }
+    }
+    let high = Share { count: 0, of: 22 }.interval().unwrap()[1];
+    assert!((high - 1.96 * 1.96 / (22.0 + 1.96 * 1.96)).abs() < 1e-12);
+    assert_eq!(Share::default().interval(), None);
+}

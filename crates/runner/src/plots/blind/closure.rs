@@ -13,8 +13,8 @@ const LEAST: f64 = -0.5;
 /// [`PlotError`] if the drawing library fails.
 pub fn closure(cases: &[Case]) -> Result<String, PlotError> {
     let frame = Frame {
-        title: "Closure on the hold-out records: stated against real",
-        names: &["surviving gap ≥ 1 sd", "smaller", "× beyond the frame"],
+        title: "Closure on the hold-out records: stated against real (× beyond the frame)",
+        names: &["surviving gap ≥ 1 sd", "smaller"],
         x: ("closure that the stated models have", LEAST..1.05),
         y: ("closure stated", LEAST..1.05),
     };
@@ -32,7 +32,7 @@ pub fn closure(cases: &[Case]) -> Result<String, PlotError> {
                     let (inside, beyond): (Vec<_>, Vec<_>) =
                         dots.partition(|c| c.actual >= LEAST && c.estimate >= LEAST);
                     chart.draw_series(inside.into_iter().map(dot)).map_err(PlotError::new)?;
-                    // Rigs beyond the frame stand at its edge, marked as such.
+                    // Rigs beyond the frame stand at its edge as crosses.
                     let mark = |c: ClosureCheck| {
                         Cross::new((c.actual.max(LEAST), c.estimate.max(LEAST)), 4, colour.stroke_width(1))
                     };

@@ -90,23 +90,12 @@ pub fn abstention(rows: &[AbstentionRow]) -> Result<String, PlotError> {
 }
 
 fn curve(chart: &mut Chart<'_, '_>, colour: RGBColor, points: &[(f64, Share)]) -> Result<(), PlotError> {
-    let told: Vec<_> = points.iter().filter_map(|(x, s)| Some((*x, s.value()?, wilson(*s)))).collect();
+    let told: Vec<_> = points.iter().filter_map(|(x, s)| Some((*x, s.value()?, s.interval()?))).collect();
     let line = LineSeries::new(told.iter().map(|(x, y, _)| (*x, *y)), colour.stroke_width(2));
     chart.draw_series(line).map_err(PlotError::new)?;
     let dots = told.iter().map(|(x, y, _)| Circle::new((*x, *y), 3, colour.filled()));
     chart.draw_series(dots).map_err(PlotError::new)?;
-    let bars = told.iter().map(|(x, _, (low, high))| PathElement::new([(*x, *low), (*x, *high)], colour));
+    let bars = told.iter().map(|(x, _, [low, high])| PathElement::new([(*x, *low), (*x, *high)], colour));
     chart.draw_series(bars).map_err(PlotError::new)?;
     Ok(())
-}
-
-/// Wilson's 95 % interval of a share.
-fn wilson(share: Share) -> (f64, f64) {
-    const Z: f64 = 1.96;
-    let n = share.of as f64;
-    let p = share.count as f64 / n;
-    let centre = p + Z * Z / (2.0 * n);
-    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + Z * Z / n;
-    (((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0))
 }
