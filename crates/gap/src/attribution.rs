@@ -41,6 +41,18 @@ const FINISHED: usize = 4;
 /// Laws of one effect fitted to convergence at most, and the share of its best gain that a further one needs.
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
+/// Effects that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop that closes, a
+/// slow lag before the plant, errors that last, a line; and a delay, of which `B` takes
+/// whole samples.
+const RULERS: [Effect; 7] = [
+    Effect::InputDelay,
+    Effect::RateDependence,
+    Effect::Stribeck,
+    Effect::BorderWear,
+    Effect::ExtraPole,
+    Effect::ColouredNoise,
+    Effect::PeriodicDisturbance,
+];
 /// How far behind the leader, as a share of its gain and in penalised deviance at least, a law goes on to convergence.
 const BEHIND: f64 = 0.3;
 const NEAR: f64 = 100.0;
@@ -48,7 +60,7 @@ const NEAR: f64 = 100.0;
 const STRIDES: f64 = 3.0;
 /// Second effects looked at beside a first, the most promising by the score test.
 const SECONDS: usize = 6;
-/// Candidates whose knots are placed anew at most, and the share of the best gain that they need.
+/// Candidates whose knots are placed anew at most where none follows a detail, and the share of the best gain that they need.
 const REPLACED: usize = 3;
 const RIVAL: f64 = 0.85;
 
@@ -66,11 +78,10 @@ impl<W: Workers> Attribution<'_, W> {
         singles
     }
 
-    /// Effects of the speed with the dynamics identified anew: friction that rises or falls fast may rule the input.
-    pub(crate) fn speeds_from_scratch(&self) -> Vec<Explanation> {
+    /// Effects that may rule the input or the errors, with the dynamics identified anew.
+    pub(crate) fn rulers_from_scratch(&self) -> Vec<Explanation> {
         let known = Known::new(self.campaign, self.detailed);
-        let asked = [Effect::RateDependence, Effect::Stribeck];
-        let asked: Vec<Effect> = asked.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
+        let asked: Vec<Effect> = RULERS.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
         let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
         let placed = |single: Explanation| self.without_details(single.with_knots_refined(self.campaign));
         found.into_iter().flatten().map(placed).collect()
@@ -197,10 +208,12 @@ impl<W: Workers> Attribution<'_, W> {
     /// Where details of the borders matter beside an effect, the effect alone is the one on an even grid.
     fn knots_placed_anew(&self, singles: Vec<Explanation>) -> Vec<Explanation> {
         let most = self.gain(singles.first());
+        // Where knots follow a detail, every effect has what they gain.
+        let replaced = if self.has_details() { singles.len() } else { REPLACED };
         let numbered: Vec<(usize, Explanation)> = singles.into_iter().enumerate().collect();
         let mut out = self.workers.map(&numbered, |(rank, single)| {
             let is_grid = single.parts[0].effect == Effect::BorderResolution;
-            let rival = *rank < REPLACED && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
+            let rival = *rank < replaced && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
             match (is_grid, rival) {
                 (true, _) => single.clone(),
                 (false, true) => self.without_details(single.clone().with_knots_refined(self.campaign)),
@@ -215,6 +228,13 @@ impl<W: Workers> Attribution<'_, W> {
     /// Whether the nominal model lacks details of the borders.
     fn has_details(&self) -> bool {
         self.nominal.fit.grid != self.detailed.fit.grid
+    }
+
+    /// Border knots placed anew, and none that follow details where those are no candidate.
+    pub(crate) fn knots_refined(&self, explanation: Explanation) -> Explanation {
+        let refined = explanation.with_knots_refined(self.campaign);
+        let follows = self.settings.effects.contains(&Effect::BorderResolution);
+        if follows { refined } else { self.without_details(refined) }
     }
 
     /// The explanation on an even grid, where the details that its knots follow are material.

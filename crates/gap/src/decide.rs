@@ -141,8 +141,10 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     let margin = (runner_up - best) / gain.max(1.0);
     let second = effects.iter().filter(|e| Some(e.0) != first).min_by(|x, y| x.1.total_cmp(&y.1));
     let all_but_closes = best_leaves.gap.is_some_and(|gap| gap < calibration::STANDS_IN);
-    let is_stand_in =
-        second.is_some_and(|e| !alike(e.0)) && fraction > calibration::STANDS_IN && !all_but_closes;
+    // A long autoregression follows any spectrum: what it leaves has none.
+    let follows_all = first == Some(Effect::ColouredNoise) && left > IMMATERIAL;
+    let leaves_much = fraction > calibration::STANDS_IN && !all_but_closes;
+    let is_stand_in = second.is_some_and(|e| follows_all || leaves_much && !alike(e.0));
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = match (is_stand_in, closes) {
@@ -289,6 +291,13 @@ mod tests {
             |second: Effect| weighed([(Effect::Backlash, -9000.0), (second, -2000.0)], 900.0, closing);
         assert!(rivals(Effect::Creep).unexplained > UNEXPLAINED);
         assert!(rivals(Effect::GradualTransition).unexplained < UNEXPLAINED);
+    }
+
+    #[test]
+    fn coloured_noise_leaves_nothing_where_it_is_the_cause() {
+        let rivals = [(Effect::ColouredNoise, -9000.0), (Effect::ExtraPole, -7000.0)];
+        assert!(weighed(rivals, 3.0 * IMMATERIAL, 1.0).unexplained > UNEXPLAINED);
+        assert!(weighed(rivals, 0.5 * IMMATERIAL, 1.0).unexplained < UNEXPLAINED);
     }
 
     #[test]

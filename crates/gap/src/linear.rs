@@ -31,6 +31,19 @@ impl Linear {
         out
     }
 
+    /// What innovations of white equation errors make of the output: each track through `1/A`.
+    pub(crate) fn behind_poles(&self, innovations: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let through = |w: &Vec<f64>| {
+            let mut x: Vec<f64> = Vec::with_capacity(w.len());
+            for (t, w) in w.iter().enumerate() {
+                let past = self.a.iter().enumerate().take(t).map(|(i, a)| a * x[t - 1 - i]);
+                x.push(w - past.sum::<f64>());
+            }
+            x
+        };
+        innovations.iter().map(through).collect()
+    }
+
     /// The same system with `Σ b² = 1`: fixes the scale shared by `b` and `f`.
     pub(crate) fn gauged(mut self) -> Self {
         let norm = self.b.iter().map(|b| b * b).sum::<f64>().sqrt();
@@ -39,5 +52,21 @@ impl Linear {
             self.f.iter_mut().for_each(|f| *f *= norm);
         }
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behind_poles_is_the_inverse_of_the_equation() {
+        let model = Linear { a: vec![-1.2, 0.5], ..Linear::default() };
+        let y: Vec<f64> = (0..50).map(|t| (f64::from(t) * 0.4).sin()).collect();
+        let at = |t: usize, lag: usize| if t >= lag { y[t - lag] } else { 0.0 };
+        let errors = (0..50).map(|t| at(t, 0) - 1.2 * at(t, 1) + 0.5 * at(t, 2)).collect();
+        for (found, y) in model.behind_poles(&[errors])[0].iter().zip(&y) {
+            assert!((found - y).abs() < 1e-12);
+        }
     }
 }

@@ -1,11 +1,16 @@
 //! Log predictive scores and residual pictures.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
+use crate::assembly::{Assembly, EquationColumn};
 use crate::campaign::{Campaign, Track};
-use crate::design::Design;
+use crate::design::{Design, Whitener};
 use crate::diagnosis::ResidualPicture;
 use crate::engine::Fit;
+use crate::normal::Normal;
+use crate::starts::padded;
+use crate::sums::energy;
 use crate::weights::weigh;
 
 /// Innovations of a fitted model on the chosen tracks.
@@ -14,15 +19,18 @@ pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track
     design.innovations(&fit.linear, &design.whitener(&fit.assembly.noise, &fit.linear.a))
 }
 
-/// Mean log predictive density a sample on the hold-out records, dimensionless output.
+/// Mean log predictive density a sample on the hold-out records, dimensionless output. What died away when they began is no
+/// fault of the model: it is taken out.
 pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
-    let design = Design::new(campaign, &fit.grid, &fit.assembly, |t| !t.is_fit());
+    let (assembly, starts) = with_starts(campaign, &fit.assembly);
+    let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
     let n = design.samples();
     if n == 0 {
         return None;
     }
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
-    let w = design.innovations(&fit.linear, &whitener);
+    let p = padded(&fit.linear, fit.grid.len(), &assembly);
+    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts);
     let variance = fit.variance;
     if let Some((share, ratio)) = fit.assembly.noise.mixture {
         let wide = variance * ratio * ratio;
@@ -47,6 +55,49 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
         }
     }
     Some((sum + design.log_slope()) / count.max(1.0))
+}
+
+/// The assembly and, where something slow dies away at the start of every fitted record, the same in the held-out ones; the
+/// numbers of the columns added.
+fn with_starts(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
+    let mut out = assembly.clone();
+    let known = &assembly.equation_columns;
+    let Some(track) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
+    for (number, _) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
+        for column in known {
+            if let EquationColumn::Decay { track: own, radius, frequency, sine } = *column
+                && own == track
+            {
+                let start = EquationColumn::Decay { track: number, radius, frequency, sine };
+                out.equation_columns.push(start);
+            }
+        }
+    }
+    let added = known.len()..out.equation_columns.len();
+    (out, added)
+}
+
+/// Innovations without what columns of the equation whose coefficients are unknown take of them, by least squares.
+fn without(
+    mut innovations: Vec<Vec<f64>>,
+    design: &Design,
+    whitener: &Whitener,
+    columns: Range<usize>,
+) -> Vec<Vec<f64>> {
+    let columns: Vec<Vec<Vec<f64>>> = columns.map(|j| design.disturbance(j, whitener)).collect();
+    for (number, w) in innovations.iter_mut().enumerate() {
+        let own: Vec<&Vec<f64>> =
+            columns.iter().map(|column| &column[number]).filter(|column| energy(column) > 0.0).collect();
+        let mut normal = Normal::new(own.len());
+        let row = |t: usize| own.iter().map(|column| column[t]).collect::<Vec<f64>>();
+        (0..w.len()).for_each(|t| normal.add(&row(t), w[t]));
+        let Some(factor) = normal.factor(1e-9).filter(|_| !own.is_empty()) else { continue };
+        let taken = factor.solve(&normal.gradient);
+        for (column, d) in own.iter().zip(taken) {
+            w.iter_mut().zip(*column).for_each(|(w, x)| *w -= d * x);
+        }
+    }
+    innovations
 }
 
 /// Autocorrelation and averaged spectrum of the innovations, physical units.

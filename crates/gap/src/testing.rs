@@ -3,7 +3,7 @@
 use switchback_estimator::Record;
 use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, convolve};
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::design::Design;
@@ -51,13 +51,16 @@ pub(crate) fn noise_free(
     truth: &Linear,
 ) -> Campaign {
     let design = Design::new(&campaign, grid, assembly, |t| t.is_fit());
-    let u = design.input(&design.tracks[0], &truth.f);
+    let part = &design.tracks[0];
+    let u = design.input(part, &truth.f);
+    let (b, d) = (convolve(&truth.b, &design.taps), part.columns.coefficients(&truth.d));
     let mut y: Vec<f64> = Vec::with_capacity(u.len());
     for t in 0..u.len() {
         let past = |x: &[f64], lag: usize| if t > lag { x[t - 1 - lag] } else { 0.0 };
         let old: f64 = truth.a.iter().enumerate().map(|(i, a)| a * past(&y, i)).sum();
-        let new: f64 = truth.b.iter().enumerate().map(|(i, b)| b * past(&u, i)).sum();
-        y.push(new - old);
+        let new: f64 = b.iter().enumerate().map(|(i, b)| b * past(&u, i)).sum();
+        let beside: f64 = d.iter().zip(part.columns.row(t)).map(|(d, psi)| d * psi).sum();
+        y.push(new + beside - old);
     }
     campaign.tracks[0].y = y;
     campaign

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use crate::attribution::Attribution;
-use crate::decide::SIGNIFICANT;
+use crate::decide::{IMMATERIAL, SIGNIFICANT};
 use crate::explain::Explanation;
 use crate::omnibus::{Omnibus, omnibus};
 use crate::pairs::{Firsts, Pair};
@@ -25,11 +25,12 @@ pub(super) struct Evidence {
 }
 
 impl Plan {
-    /// Fits every effect, and where much is left every two; a better optimum that shows on the way starts the rest anew.
+    /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
+    /// counts from then on.
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
         let mut evidence = self.weigh_in(attribution.singles());
-        if evidence.tests().is_some_and(|tests| attribution.is_worth_a_look(tests.excess()))
-            && let Some(better) = evidence.improved(attribution.speeds_from_scratch())
+        if evidence.tests().is_some_and(|tests| tests.excess() > IMMATERIAL)
+            && let Some(better) = evidence.improved(attribution.rulers_from_scratch())
         {
             evidence = self.weigh_in(better);
         }
@@ -37,8 +38,9 @@ impl Plan {
         if let Some(pair) = &evidence.pair
             && let Some(better) = evidence.improved(attribution.members_alone(pair))
         {
+            let found = (pair.explanation.clone(), pair.left);
             evidence = self.weigh_in(better);
-            evidence.pair = self.pair(attribution, &evidence);
+            evidence.pair = evidence.tests().map(|tests| Pair::against(&evidence.best, tests, found));
         }
         evidence
     }

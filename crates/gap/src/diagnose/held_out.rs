@@ -8,6 +8,7 @@ use crate::diagnosis::Gap;
 use crate::effect::Effect;
 use crate::engine::Fit;
 use crate::explain::Explanation;
+use crate::omnibus::omnibus;
 use crate::repeats::Repeating;
 use crate::score::heldout_log_score;
 use crate::simulate::free_run;
@@ -72,6 +73,11 @@ impl Plan {
     /// well it predicts one step ahead.
     pub(super) fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
         let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
+        // Noise that lasts makes simulation errors of any size, and leaves nothing.
+        let lasts = best.parts[0].effect == Effect::ColouredNoise;
+        if lasts && omnibus(&self.campaign, &best.fit).is_some_and(|left| left.excess() < IMMATERIAL) {
+            return;
+        }
         let mut repeating = Repeating::default();
         for (number, track) in self.campaign.tracks.iter().enumerate() {
             let run = free_run(&self.campaign, &best.fit, number, track);

@@ -104,6 +104,9 @@ impl Plan {
         note_what_the_records_lack(&campaign, &mut limitations);
         let detailed = Explanation::nominal(nominal);
         let nominal = coarse(&campaign, &detailed);
+        // Where details of the borders are no candidate, no other may take what knots that follow them gain.
+        let follows = settings.effects.contains(&Effect::BorderResolution);
+        let detailed = if follows { detailed } else { nominal.clone() };
         let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
         Ok(Self { settings, campaign, nominal, detailed, nominal_innovations, foreign, judged, limitations })
     }

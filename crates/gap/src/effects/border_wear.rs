@@ -16,8 +16,12 @@ pub(super) fn variants() -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 2] {
-            let start = (0..degree).map(|_| own("narrowing", "1", 0.0, (-1.5, 1.5), 0.002)).collect();
-            out.push(Variant::new(vec![start], move |p, assembly| {
+            // Where the loop all but closes, the nominal model is that of another system.
+            let starts = [0.0, 0.5, 1.0, -0.5].map(|end| {
+                let value = |k| if k == 0 { end } else { 0.0 };
+                (0..degree).map(|k| own("narrowing", "1", value(k), (-1.5, 1.5), 0.002)).collect()
+            });
+            out.push(Variant::new(starts.into(), move |p, assembly| {
                 assembly.wear = Some(Slow { clock, coefficients: p.to_vec(), wave: None });
             }));
         }

@@ -7,35 +7,61 @@
 //! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
-//! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay). Stage: dynamics. Confused with: input delay, resonance.
+//! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
 use crate::engine::Fit;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    [(1, false, 0), (1, true, 0), (1, false, 1), (2, false, 0)]
-        .into_iter()
-        .map(|(lags, passes, zeros)| {
+/// One way to lag.
+struct Lag {
+    poles: usize,
+    /// Whether the equation error passes it.
+    passes: bool,
+    /// Whether part of its input goes through.
+    feeds_through: bool,
+    /// How far a slow lag was behind when a record began is unknown.
+    slow: bool,
+}
+
+const FAST: Lag = Lag { poles: 1, passes: false, feeds_through: false, slow: false };
+const LAGS: [Lag; 6] = [
+    FAST,
+    Lag { passes: true, ..FAST },
+    Lag { feeds_through: true, slow: true, ..FAST },
+    Lag { poles: 2, ..FAST },
+    Lag { slow: true, ..FAST },
+    Lag { poles: 2, slow: true, ..FAST },
+];
+
+impl Lag {
+    /// Least pole, and poles to start from.
+    fn poles(&self) -> (f64, &'static [f64]) {
+        match (self.slow, self.feeds_through) {
+            (false, _) => (0.004, &[0.03, 0.2, 0.5, 0.8]),
             // What bypasses a lag lets the lag be slow.
-            let (least, starts): (f64, &[f64]) = if zeros > 0 {
-                (0.15, &[0.3, 0.5, 0.7, 0.85, 0.93, 0.97])
-            } else {
-                (0.004, &[0.03, 0.2, 0.5, 0.8])
-            };
-            let starts = starts.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
-            // How far a slow lag was behind when a record began is unknown.
-            let tracks = if zeros > 0 { fitted_tracks(scene.campaign) } else { Vec::new() };
+            (true, true) => (0.15, &[0.3, 0.5, 0.7, 0.85, 0.93, 0.97]),
+            (true, false) => (0.5, &[0.8, 0.93, 0.97]),
+        }
+    }
+}
+
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    LAGS.iter()
+        .map(|lag| {
+            let (least, poles) = lag.poles();
+            let starts = poles.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
+            let tracks = if lag.slow { fitted_tracks(scene.campaign) } else { Vec::new() };
             Variant::conditional(starts, move |p, assembly| {
-                for _ in 0..lags {
+                for _ in 0..lag.poles {
                     assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 }
-                assembly.extra_b += zeros;
+                assembly.extra_b += usize::from(lag.feeds_through);
                 for &track in &tracks {
                     let decay = EquationColumn::Decay { track, radius: p[0], frequency: 0.0, sine: false };
                     assembly.equation_columns.push(decay);
                 }
-                if passes {
+                if lag.passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
                 }
             })

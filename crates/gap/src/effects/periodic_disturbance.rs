@@ -10,19 +10,32 @@
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::{Assembly, EquationColumn};
-use crate::spectrum::strongest_lines;
+use crate::spectrum::{share_of_line, sharpened, strongest_lines};
+
+/// Share of what the errors make of the output from which a line rules it.
+const RULES: f64 = 0.1;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let lines = strongest_lines(scene.innovations, 3);
+    let sharpest = |signals: &[Vec<f64>], count: usize| -> Vec<f64> {
+        strongest_lines(signals, count).into_iter().map(|omega| sharpened(signals, omega)).collect()
+    };
+    let lines = sharpest(scene.innovations, 3);
     let longest = scene.innovations.iter().map(Vec::len).max().unwrap_or(1) as f64;
     // Fewer than eight periods a record are a drift.
     let slowest = 16.0 * std::f64::consts::PI / longest;
     let tracks = fitted_tracks(scene.campaign);
     let start = |omega: f64| own("omega", "radians per sample", omega, (slowest, 3.13), 0.05 / longest);
-    let omegas: Vec<f64> = lines.into_iter().filter(|omega| *omega > slowest).collect();
+    // Lines that rule the output have made pole pairs of `A` their own: the innovations have none of them, the output has.
+    let output = scene.fit.linear.behind_poles(scene.innovations);
+    let mut ruling = sharpest(&output, 2);
+    ruling.retain(|omega| share_of_line(&output, *omega) > RULES);
+    let known = lines.into_iter().chain(ruling.iter().copied());
+    let omegas: Vec<f64> = known.filter(|omega| *omega > slowest).collect();
     let Some((&strongest, others)) = omegas.split_first() else { return Vec::new() };
     let starts: Vec<_> = omegas.iter().map(|&omega| vec![start(omega)]).collect();
-    let pairs: Vec<_> = others.iter().map(|&other| vec![start(strongest), start(other)]).collect();
+    let two = others.iter().map(|&other| [strongest, other]);
+    let pairs = two.chain(ruling.windows(2).map(|w| [w[0], w[1]])).filter(|two| two[1] > slowest);
+    let pairs: Vec<_> = pairs.map(|two| two.map(start).to_vec()).collect();
     let a_record = move |p: &[f64], assembly: &mut Assembly| {
         for &frequency in p {
             for &track in &tracks {

@@ -23,6 +23,18 @@ pub(crate) struct Pair {
     pub(crate) is_hidden: bool,
 }
 
+impl Pair {
+    /// Two effects and what they leave, beside the best single one and what that leaves.
+    pub(crate) fn against(
+        best_single: &Explanation,
+        tests: &Omnibus,
+        (explanation, left): (Explanation, f64),
+    ) -> Self {
+        let gain = best_single.bic() - explanation.bic();
+        Self { explanation, gain, left, left_by_single: tests.excess(), is_hidden: is_hidden(tests) }
+    }
+}
+
 /// Single effects to start from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Firsts<'a> {
@@ -58,31 +70,35 @@ impl Together {
 
 /// Share of the innovations' variance that no rounding makes, below which the tests are blind to whatever else there is.
 const HIDDEN: f64 = 0.5;
+
+/// Whether rounding hides from the tests what else there is.
+fn is_hidden(tests: &Omnibus) -> bool {
+    tests.unrounded < HIDDEN
+}
+
 /// Deviance left a sample from which a second effect is looked for.
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
     /// Whether a deviance that an explanation leaves is worth a second look.
-    pub(crate) fn is_worth_a_look(&self, left: f64) -> bool {
+    fn is_worth_a_look(&self, left: f64) -> bool {
         left > WORTH_A_LOOK * self.campaign.fit_samples() as f64
     }
 
     /// The best pair of effects, where the best single one leaves something that a second may explain.
     pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
         let best_single = singles.ranked.first()?;
-        let is_hidden = tests.unrounded < HIDDEN;
         let explanation = if self.is_worth_a_look(tests.excess()) {
             self.searched(singles)?
         } else if self.is_worth_a_look(tests.tails) {
             self.with_outliers(best_single)?
-        } else if is_hidden {
+        } else if is_hidden(tests) {
             self.searched(singles)?
         } else {
             return None;
         };
-        let gain = best_single.bic() - explanation.bic();
         let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
-        Some(Pair { explanation, gain, left, left_by_single: tests.excess(), is_hidden })
+        Some(Pair::against(best_single, tests, (explanation, left)))
     }
 
     /// Each effect of a pair on its own, from where it is beside the other.

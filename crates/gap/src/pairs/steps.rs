@@ -66,7 +66,7 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         search.every_law();
-        search.found.into_iter().next().map(|best| best.with_knots_refined(self.campaign))
+        search.found.into_iter().next().map(|best| self.knots_refined(best))
     }
 }
 

@@ -18,9 +18,10 @@ pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows
     const HALF: f64 = 0.01;
     let mut moving = Rows::with_capacity(track.v.len());
     let mut resting = Rows::with_capacity(track.v.len());
+    let (mut slope, mut gap) = (Vec::new(), Vec::new());
     for (m, &v) in track.moves.iter().zip(&track.v) {
-        let mut slope = Vec::new();
-        let mut gap = Vec::new();
+        slope.clear();
+        gap.clear();
         let own = side(m.branch);
         let spread = if jitter > 0.0 {
             let p = ascending(m.step, jitter);

@@ -1,5 +1,8 @@
 //! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
 
+mod scratch;
+
+pub(crate) use self::scratch::from_scratch;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
@@ -8,12 +11,12 @@ use crate::effect::Effect;
 use crate::effects::{Scene, Search, Variant, is_sound, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
-use crate::knots::first_grid;
-use crate::nominal::first_guess;
 use crate::starts::{Known, Score, ScoreTest, padded};
 
 /// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
 const LOOK: usize = 2;
+/// Starts of a look that go on after the first round.
+const AHEAD: usize = 2;
 const FINAL: usize = 14;
 const RACE: usize = 4;
 /// Points of a pattern search at most: to see whether a law may still win, and in the end.
@@ -189,8 +192,12 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
     let fit = match law.search {
         // Without own parameters there is one start, and nothing that a look could compare.
         Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
-        Search::Smooth => best(starts.filter_map(|own| task.together(&own, &base, LOOK))),
-        Search::Profile => best(starts.filter_map(|own| task.held(&own, &base, LOOK))),
+        Search::Smooth => ahead(starts.filter_map(|own| task.together(&own, &base, 1)), |fit| {
+            task.from(fit).together(&fit.own, &fit.linear, LOOK - 1)
+        }),
+        Search::Profile => ahead(starts.filter_map(|own| task.held(&own, &base, 1)), |fit| {
+            task.from(fit).held(&fit.own, &fit.linear, LOOK - 1)
+        }),
         Search::Weights => best(starts.filter_map(|own| task.held(&own, &base, 0)))
             .and_then(|best| task.held(&best.own, &best.linear, LOOK)),
         Search::Conditional => {
@@ -215,35 +222,6 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
     })
 }
 
-/// Starts of a law that are tried from scratch.
-const SCRATCHED: usize = 3;
-
-/// An effect whose laws add columns to the borders, all dynamics identified anew with it: where a column rules the input,
-/// the nominal `A` and `B` are those of another system, and no step leads from there to the right one.
-pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
-    let (campaign, fit) = (known.campaign, &known.explanation.fit);
-    let scene = Scene { campaign, fit, innovations: &known.innovations };
-    let grid = first_grid(campaign);
-    let tried = |(number, law): (usize, Variant)| {
-        let (apply, count) = (law.apply.clone(), law.starts[0].len());
-        let (search, handicap) = (law.search, law.handicap);
-        let parts = vec![Part { effect, law: number, apply, count, search, handicap }];
-        let build = |values: &[f64]| assembled(&parts, values);
-        let task = Task { ground: Ground { campaign, grid: &grid, known: None }, build: &build, held: 0 };
-        let fits = law.starts.iter().take(SCRATCHED).filter_map(|own| {
-            let assembly = task.assembly(own);
-            let adds = !assembly.border_columns.is_empty();
-            let start = adds.then(|| first_guess(campaign, &grid, fit.linear.a.len(), &assembly).ok())??;
-            task.held(own, &start, LOOK)
-        });
-        let fit = best(fits)?;
-        Some(Explanation { parts, fit, set_back: 0.0, held_out: 0.0 })
-    };
-    let laws = variants(effect, &scene).into_iter().enumerate();
-    let best = laws.filter_map(tried).min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
-    Some(finish(campaign, 0, &best))
-}
-
 /// One law's search.
 struct Task<'a> {
     ground: Ground<'a>,
@@ -253,6 +231,12 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// The search from where a fit ended: what that built serves on.
+    fn from<'b>(&'b self, fit: &'b Fit) -> Task<'b> {
+        let ground = Ground { known: Some(&fit.design), ..self.ground };
+        Task { ground, build: self.build, held: self.held }
+    }
+
     fn assembly(&self, own: &[Own]) -> Assembly {
         (self.build)(&own.iter().map(|o| o.value).collect::<Vec<_>>())
     }
@@ -291,10 +275,10 @@ impl Task<'_> {
     fn settled(&self, sketch: Fit) -> Fit {
         let Some(mut top) = self.together(&sketch.own, &sketch.linear, FINAL) else { return sketch };
         for _ in 0..3 {
-            let next = self
+            let next = (self.from(&top))
                 .held(&top.own, &top.linear, 4)
                 .filter(|held| held.deviance < top.deviance - 1.0)
-                .and_then(|held| self.together(&held.own, &held.linear, FINAL));
+                .and_then(|held| self.from(&held).together(&held.own, &held.linear, FINAL));
             match next {
                 Some(next) if next.deviance < top.deviance - 1.0 => top = next,
                 _ => break,
@@ -337,6 +321,13 @@ impl Task<'_> {
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
         padded(start, self.ground.grid.len(), assembly)
     }
+}
+
+/// The best of several fits after some rounds more for those that lead.
+fn ahead(fits: impl Iterator<Item = Fit>, further: impl Fn(&Fit) -> Option<Fit>) -> Option<Fit> {
+    let mut field: Vec<Fit> = fits.collect();
+    field.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
+    best(field.iter().take(AHEAD).filter_map(further))
 }
 
 fn best(fits: impl Iterator<Item = Fit>) -> Option<Fit> {
