@@ -185,9 +185,13 @@ impl Design {
 
     /// Equation errors `e(t)` of one track from sample `from − LEAD`.
     pub(crate) fn errors(&self, track: &DesignTrack, p: &Linear) -> Vec<f64> {
+        self.errors_from(track, p, track.from.saturating_sub(LEAD))
+    }
+
+    /// Equation errors `e(t)` of one track from a sample that has a past.
+    pub(crate) fn errors_from(&self, track: &DesignTrack, p: &Linear, first: usize) -> Vec<f64> {
         let u = self.input(track, &p.f);
         let b = convolve(&p.b, &self.taps);
-        let first = track.from.saturating_sub(LEAD);
         let mut e = track.x[first..].to_vec();
         for (i, a) in p.a.iter().enumerate() {
             add_lagged(&mut e, &track.x, first, (i + 1, *a));

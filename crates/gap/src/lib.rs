@@ -3,6 +3,7 @@
 mod acting;
 mod assembly;
 mod attribution;
+mod beginnings;
 mod borders;
 mod campaign;
 mod closure;

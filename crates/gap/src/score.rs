@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use crate::assembly::{Assembly, EquationColumn};
+use crate::beginnings::with_beginnings;
 use crate::campaign::{Campaign, Track};
 use crate::design::{Design, Whitener};
 use crate::diagnosis::ResidualPicture;
@@ -22,7 +22,7 @@ pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track
 /// Mean log predictive density a sample on the hold-out records, dimensionless output. What died away when they began is no
 /// fault of the model: it is taken out.
 pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
-    let (assembly, starts) = with_starts(campaign, &fit.assembly);
+    let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
     let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
     let n = design.samples();
     if n == 0 {
@@ -55,26 +55,6 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
         }
     }
     Some((sum + design.log_slope()) / count.max(1.0))
-}
-
-/// The assembly and, where something slow dies away at the start of every fitted record, the same in the held-out ones; the
-/// numbers of the columns added.
-fn with_starts(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
-    let mut out = assembly.clone();
-    let known = &assembly.equation_columns;
-    let Some(track) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
-    for (number, _) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
-        for column in known {
-            if let EquationColumn::Decay { track: own, radius, frequency, sine } = *column
-                && own == track
-            {
-                let start = EquationColumn::Decay { track: number, radius, frequency, sine };
-                out.equation_columns.push(start);
-            }
-        }
-    }
-    let added = known.len()..out.equation_columns.len();
-    (out, added)
 }
 
 /// Innovations without what columns of the equation whose coefficients are unknown take of them, by least squares.

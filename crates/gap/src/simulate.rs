@@ -1,22 +1,27 @@
 //! Free-run simulation of a fitted model over a record.
 
 use crate::assembly::{Assembly, BorderColumn, convolve};
+use crate::beginnings::{set_by_first_samples, with_beginnings};
 use crate::campaign::{Campaign, Track};
 use crate::design::Design;
 use crate::engine::Fit;
+use crate::starts::padded;
 
 /// The output that the model predicts from the input alone; the samples before the first counted one are the measured ones
 /// and set the initial state. Dimensionless units.
 pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Track) -> Vec<f64> {
-    let assembly = started(&fit.assembly, number);
+    let begun = started(&fit.assembly, number);
+    let (assembly, added) = with_beginnings(campaign, &begun);
     let design = Design::of(campaign, &fit.grid, &assembly, &[(number, track)]);
     let part = &design.tracks[0];
     let mut u = design.input(part, &fit.linear.f);
-    if assembly != fit.assembly {
+    if begun != fit.assembly {
         start(&mut u, &design, fit);
     }
     let b = convolve(&fit.linear.b, &design.taps);
-    let d = part.columns.coefficients(&fit.linear.d);
+    let mut p = padded(&fit.linear, fit.grid.len(), &assembly);
+    set_by_first_samples(&mut p, &design, part, (added, fit.variance));
+    let d = part.columns.coefficients(&p.d);
     let mut x = part.x[..part.from].to_vec();
     let limit = 1e6;
     for t in part.from..track.v.len() {

@@ -34,6 +34,10 @@ const LAGS: [Lag; 6] = [
     Lag { poles: 2, slow: true, ..FAST },
 ];
 
+/// Frequency and kind of what a pole, and a second one at the same place, leave of what a record began with: `pᵗ` and `t·pᵗ`, which
+/// is the limit of `pᵗ sin(ωt)/ω`.
+const MODES: [(f64, bool); 2] = [(0.0, false), (1e-3, true)];
+
 impl Lag {
     /// Least pole, and poles to start from.
     fn poles(&self) -> (f64, &'static [f64]) {
@@ -57,9 +61,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                     assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 }
                 assembly.extra_b += usize::from(lag.feeds_through);
+                let modes = &MODES[..lag.poles];
                 for &track in &tracks {
-                    let decay = EquationColumn::Decay { track, radius: p[0], frequency: 0.0, sine: false };
-                    assembly.equation_columns.push(decay);
+                    let decay =
+                        |&(frequency, sine)| EquationColumn::Decay { track, radius: p[0], frequency, sine };
+                    assembly.equation_columns.extend(modes.iter().map(decay));
                 }
                 if lag.passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);

@@ -3,7 +3,7 @@
 //! Where an effect rules the input, or the errors, the nominal `A` and `B` are those of another system: a pole of `A` stands for a lag
 //! before the plant, or for errors that last; and no step leads from there to the right one.
 
-use super::{LOOK, Task, ahead, finish};
+use super::{RACE, Task, ahead, finish};
 use crate::assembly::{Assembly, EquationColumn};
 use crate::effect::Effect;
 use crate::effects::{Scene, Variant, variants};
@@ -33,7 +33,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
                     rules.then(|| first_guess(campaign, grid, fit.linear.a.len(), &assembly).ok())??;
                 task.held(own, &start, 1)
             });
-            ahead(guessed, |fit| task.from(fit).held(&fit.own, &fit.linear, LOOK))
+            ahead(guessed, |fit| task.from(fit).together(&fit.own, &fit.linear, RACE))
         });
         let explained =
             fits.map(|fit| Explanation { parts: parts.clone(), fit, set_back: 0.0, held_out: 0.0 });

@@ -1,0 +1,72 @@
+//! What dies away at the beginning of a record: the state of something slow, which nobody knows.
+//!
+//! Fitted records have a coefficient each. In held-out records it is estimated too: it says nothing about the model.
+
+use std::ops::Range;
+
+use crate::assembly::{Assembly, EquationColumn};
+use crate::campaign::{Campaign, Track};
+use crate::design::{Design, DesignTrack};
+use crate::linear::Linear;
+use crate::normal::Normal;
+
+/// Share of a record that is its beginning, and what is left there of something that has died away.
+const BEGINNING: f64 = 0.1;
+const GONE: f64 = 0.05;
+/// Squared standard errors a coefficient from which a beginning shows.
+const SHOWS: f64 = 25.0;
+
+/// The assembly and, where something dies away at the beginning of every fitted record, the same in the held-out ones; the numbers
+/// of the columns added.
+pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
+    let mut out = assembly.clone();
+    let known = &assembly.equation_columns;
+    let Some(track) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
+    for (number, held_out) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
+        // What dies away more slowly is a drift of its record, which the model ought to know.
+        let dies = |radius: f64| radius.powf(BEGINNING * held_out.v.len() as f64) < GONE;
+        for column in known {
+            if let EquationColumn::Decay { track: own, radius, frequency, sine } = *column
+                && own == track
+                && dies(radius)
+            {
+                let start = EquationColumn::Decay { track: number, radius, frequency, sine };
+                out.equation_columns.push(start);
+            }
+        }
+    }
+    let added = known.len()..out.equation_columns.len();
+    (out, added)
+}
+
+/// Sets the coefficients of added columns by the equation errors before the first counted sample, the only ones a simulation may look
+/// at, where these show a beginning above noise of the given variance.
+pub(crate) fn set_by_first_samples(
+    p: &mut Linear,
+    design: &Design,
+    track: &DesignTrack,
+    (added, variance): (Range<usize>, f64),
+) {
+    let own: Vec<usize> =
+        (0..track.columns.numbers.len()).filter(|&k| added.contains(&track.columns.numbers[k])).collect();
+    if own.is_empty() {
+        return;
+    }
+    let first = p.a.len().max(p.b.len() + design.taps.len());
+    let errors = design.errors_from(track, p, first);
+    let mut normal = Normal::new(own.len());
+    let mut row = vec![0.0; own.len()];
+    for (t, e) in (first..track.from).zip(errors) {
+        let psi = track.columns.row(t);
+        row.iter_mut().zip(&own).for_each(|(x, &k)| *x = psi[k]);
+        normal.add(&row, e);
+    }
+    let Some(factor) = normal.factor(1e-9) else { return };
+    let found = factor.solve(&normal.gradient);
+    let gain: f64 = found.iter().zip(&normal.gradient).map(|(d, g)| d * g).sum();
+    if gain > SHOWS * own.len() as f64 * variance {
+        for (&k, d) in own.iter().zip(found) {
+            p.d[track.columns.numbers[k]] = d;
+        }
+    }
+}
