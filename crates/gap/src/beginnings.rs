@@ -70,3 +70,41 @@ pub(crate) fn set_by_first_samples(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{noise_free, small_campaign, small_model};
+
+    /// The oracle: the coefficient that the record was made with.
+    #[test]
+    fn a_beginning_is_set_where_it_shows_above_the_noise() {
+        let (campaign, grid) = small_campaign();
+        let radius = 0.9;
+        let column = EquationColumn::Decay { track: 0, radius, frequency: 0.0, sine: false };
+        let assembly = Assembly { equation_columns: vec![column], ..Assembly::default() };
+        let truth = Linear { d: vec![0.7], ..small_model(&grid) };
+        let campaign = noise_free(campaign, &grid, &assembly, &truth);
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let found = |variance: f64| {
+            let mut p = Linear { d: vec![0.0], ..truth.clone() };
+            set_by_first_samples(&mut p, &design, &design.tracks[0], (0..1, variance));
+            p.d[0]
+        };
+        assert!((found(1e-6) - 0.7).abs() < 1e-6, "{}", found(1e-6));
+        assert_eq!(found(1.0), 0.0);
+    }
+
+    #[test]
+    fn held_out_records_begin_with_what_dies_soon() {
+        let (mut campaign, _) = small_campaign();
+        let mut held_out = campaign.tracks[0].clone();
+        held_out.usage = switchback_estimator::rig::Usage::Holdout;
+        campaign.tracks.push(held_out);
+        let decay = |radius| EquationColumn::Decay { track: 0, radius, frequency: 0.0, sine: false };
+        let assembly = Assembly { equation_columns: vec![decay(0.5), decay(0.999)], ..Assembly::default() };
+        let (with, added) = with_beginnings(&campaign, &assembly);
+        assert_eq!(added, 2..3);
+        assert!(matches!(with.equation_columns[2], EquationColumn::Decay { track: 1, radius: 0.5, .. }));
+    }
+}

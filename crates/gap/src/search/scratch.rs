@@ -44,8 +44,8 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     Some(finish(campaign, 0, &best))
 }
 
-/// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a slow lag, a delay, errors
-/// that last, a line.
+/// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a slow lag, a
+/// delay, errors that last, a line.
 fn may_rule(assembly: &Assembly) -> bool {
     /// A polynomial's value at one, below which its slowest root is slow.
     const SLOW: f64 = 0.25;
