@@ -42,8 +42,7 @@ const FINISHED: usize = 4;
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
 /// Effects that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop that closes, a
-/// slow lag before the plant, errors that last, a line; and a delay, of which `B` takes
-/// whole samples.
+/// slow lag before the plant, errors that last, a line; and a delay, of which `B` takes whole samples.
 const RULERS: [Effect; 7] = [
     Effect::InputDelay,
     Effect::RateDependence,
@@ -83,8 +82,7 @@ impl<W: Workers> Attribution<'_, W> {
         let known = Known::new(self.campaign, self.detailed);
         let asked: Vec<Effect> = RULERS.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
         let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
-        let placed = |single: Explanation| self.without_details(single.with_knots_refined(self.campaign));
-        found.into_iter().flatten().map(placed).collect()
+        found.into_iter().flatten().map(|single| self.placed_anew(single)).collect()
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.
@@ -216,7 +214,7 @@ impl<W: Workers> Attribution<'_, W> {
             let rival = *rank < replaced && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
             match (is_grid, rival) {
                 (true, _) => single.clone(),
-                (false, true) => self.without_details(single.clone().with_knots_refined(self.campaign)),
+                (false, true) => self.placed_anew(single.clone()),
                 (false, false) if self.has_details() => single.clone().set_back(SIGNIFICANT),
                 (false, false) => single.clone(),
             }
@@ -230,11 +228,17 @@ impl<W: Workers> Attribution<'_, W> {
         self.nominal.fit.grid != self.detailed.fit.grid
     }
 
+    /// An effect alone, border knots placed anew: none follow details, which are an effect of their own.
+    fn placed_anew(&self, single: Explanation) -> Explanation {
+        self.without_details(single.with_knots_refined(self.campaign))
+    }
+
     /// Border knots placed anew, and none that follow details where those are no candidate.
     pub(crate) fn knots_refined(&self, explanation: Explanation) -> Explanation {
-        let refined = explanation.with_knots_refined(self.campaign);
-        let follows = self.settings.effects.contains(&Effect::BorderResolution);
-        if follows { refined } else { self.without_details(refined) }
+        match self.settings.effects.contains(&Effect::BorderResolution) {
+            true => explanation.with_knots_refined(self.campaign),
+            false => self.placed_anew(explanation),
+        }
     }
 
     /// The explanation on an even grid, where the details that its knots follow are material.

@@ -2,7 +2,7 @@
 
 mod bench;
 
-use bench::{input, record, rig};
+use bench::{input, record, rig, white};
 use switchback_estimator::rig::{Rig, Usage};
 use switchback_gap::{Effect, Model, Settings, Status, diagnose};
 
@@ -26,21 +26,13 @@ fn operator(v: &[f64], width: impl Fn(usize) -> f64) -> Vec<f64> {
     u
 }
 
-/// White, of standard deviation 0.005.
-fn noise(samples: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed;
-    let mut uniform = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..samples).map(|_| 0.005 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)).collect()
-}
-
 /// A rig whose records are made by `output` from the input, white errors and the time at which the record begins.
 fn made(output: impl Fn(&[f64], Vec<f64>, usize) -> Vec<f64>) -> Rig {
     let one = |name: &str, usage: Usage, samples: usize, phase: f64, clock: usize| {
         let v = input(samples, phase);
-        let y = output(&v, noise(samples, clock as u64 + 1), clock);
+        let mut white = white(clock as u64 + 1);
+        let errors = (0..samples).map(|_| 0.005 * white()).collect();
+        let y = output(&v, errors, clock);
         record(name, usage, v, y)
     };
     let records = vec![

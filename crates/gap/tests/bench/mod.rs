@@ -19,20 +19,22 @@ pub(crate) fn input(samples: usize, phase: f64) -> Vec<f64> {
         .collect()
 }
 
+/// White noise of unit standard deviation, a sum of twelve uniform numbers each.
+pub(crate) fn white(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    move || (0..12).map(|_| uniform()).sum::<f64>() - 6.0
+}
+
 /// A first-order rig with two straight borders a jump of one apart, and a little noise.
 pub(crate) fn output(v: &[f64]) -> Vec<f64> {
-    let (mut u, mut y, mut state) = (-1.0, 0.0, 12_345_u64);
+    let (mut u, mut y, mut white) = (-1.0, 0.0, white(12_345));
     (0..v.len())
         .map(|t| {
-            let white = (0..12)
-                .map(|_| {
-                    state =
-                        state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                    (state >> 11) as f64 / (1_u64 << 53) as f64
-                })
-                .sum::<f64>()
-                - 6.0;
-            y = 0.6 * y + 0.4 * u + 0.01 * white;
+            y = 0.6 * y + 0.4 * u + 0.01 * white();
             if t > 0 && v[t] != v[t - 1] {
                 u = v[t] + 0.5 * (v[t] - v[t - 1]).signum();
             }
