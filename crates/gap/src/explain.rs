@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::effects::{Apply, Search};
+use crate::effects::{Apply, Search, Variant};
 use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
 use crate::starts::padded;
@@ -29,6 +29,18 @@ pub(crate) struct Part {
 const ALONE: usize = 8;
 
 impl Part {
+    /// A law of an effect, given with its number.
+    pub(crate) fn of(effect: Effect, (law, variant): (usize, &Variant)) -> Self {
+        Self {
+            effect,
+            law,
+            apply: variant.apply.clone(),
+            count: variant.starts[0].len(),
+            search: variant.search,
+            handicap: variant.handicap,
+        }
+    }
+
     /// Details of the borders: they are in the grid.
     fn details() -> Self {
         let apply: Apply = Arc::new(|_, _| {});

@@ -28,13 +28,13 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // Lines that rule the output have made pole pairs of `A` their own: the innovations have none of them, the output has.
     let output = scene.fit.linear.behind_poles(scene.innovations);
     let mut ruling = sharpest(&output, 2);
-    ruling.retain(|omega| share_of_line(&output, *omega) > RULES);
-    let known = lines.into_iter().chain(ruling.iter().copied());
-    let omegas: Vec<f64> = known.filter(|omega| *omega > slowest).collect();
+    ruling.retain(|omega| *omega > slowest && share_of_line(&output, *omega) > RULES);
+    let lines = lines.into_iter().filter(|omega| *omega > slowest);
+    let omegas: Vec<f64> = lines.chain(ruling.iter().copied()).collect();
     let Some((&strongest, others)) = omegas.split_first() else { return Vec::new() };
     let starts: Vec<_> = omegas.iter().map(|&omega| vec![start(omega)]).collect();
     let two = others.iter().map(|&other| [strongest, other]);
-    let pairs = two.chain(ruling.windows(2).map(|w| [w[0], w[1]])).filter(|two| two[1] > slowest);
+    let pairs = two.chain(ruling.windows(2).map(|w| [w[0], w[1]]));
     let pairs: Vec<_> = pairs.map(|two| two.map(start).to_vec()).collect();
     let a_record = move |p: &[f64], assembly: &mut Assembly| {
         for &frequency in p {

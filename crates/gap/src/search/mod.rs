@@ -89,9 +89,7 @@ pub(crate) fn prospects(
         .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
         .map(|(number, law)| {
             let mut parts = known.explanation.parts.clone();
-            let (apply, count) = (law.apply.clone(), law.starts[0].len());
-            let (search, handicap) = (law.search, law.handicap);
-            parts.push(Part { effect, law: number, apply, count, search, handicap });
+            parts.push(Part::of(effect, (number, &law)));
             Prospect { effect, law, parts, score: None }
         })
         .collect();

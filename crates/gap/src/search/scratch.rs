@@ -20,9 +20,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let scene = Scene { campaign, fit, innovations: &known.innovations };
     let grids = [first_grid(campaign), fit.grid.clone()];
     let tried = |(number, law): (usize, Variant)| {
-        let (apply, count) = (law.apply.clone(), law.starts[0].len());
-        let (search, handicap) = (law.search, law.handicap);
-        let parts = vec![Part { effect, law: number, apply, count, search, handicap }];
+        let parts = vec![Part::of(effect, (number, &law))];
         let build = |values: &[f64]| assembled(&parts, values);
         let fits = grids.iter().filter_map(|grid| {
             let task = Task { ground: Ground { campaign, grid, known: None }, build: &build, held: 0 };
