@@ -5,6 +5,7 @@ mod improve;
 mod jumps;
 mod passages;
 mod prune;
+mod rough;
 
 pub(crate) use self::first::first_grid;
 use self::first::{FEWEST, visited};
@@ -12,6 +13,8 @@ use self::improve::{KNOT_GAIN, improved_grid};
 use self::jumps::{collapsed, polished};
 use self::passages::Passages;
 use self::prune::pruned;
+use self::rough::roughness;
+use crate::attribution::detail;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::engine::{Build, Fit, Ground, fit};
@@ -49,11 +52,17 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
     halved(campaign, placed, build)
 }
 
+/// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
+const ROUGH: f64 = 0.4;
+
 /// The model on an even grid through the levels of the experiments, as fine as smooth borders ask for: no knot is placed to
 /// follow a detail.
 pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    let fit = refitted(campaign, fitted, &first_grid(campaign), build)?;
-    Some(halved(campaign, fit, build))
+    let first = refitted(campaign, fitted, &first_grid(campaign), build)?;
+    let fine = halved(campaign, first.clone(), build);
+    let unforetold = roughness(&first.grid, &fine.grid, &fine.linear.f);
+    let is_detail = unforetold * (first.deviance - fine.deviance) > detail(campaign);
+    Some(if unforetold > ROUGH && is_detail { first } else { fine })
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
