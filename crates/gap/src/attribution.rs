@@ -77,12 +77,16 @@ impl<W: Workers> Attribution<'_, W> {
         singles
     }
 
-    /// Effects that may rule the input or the errors, with the dynamics identified anew.
-    pub(crate) fn rulers_from_scratch(&self) -> Vec<Explanation> {
+    /// Effects that may rule the input or the errors, with the dynamics identified anew: those that come near the best of the
+    /// singles.
+    pub(crate) fn rulers_from_scratch(&self, singles: &[Explanation]) -> Vec<Explanation> {
         let known = Known::new(self.campaign, self.detailed);
         let asked: Vec<Effect> = RULERS.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
         let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
-        found.into_iter().flatten().map(|single| self.placed_anew(single)).collect()
+        let found: Vec<Explanation> = found.into_iter().flatten().collect();
+        let most = found.iter().chain(singles).map(|s| self.gain(Some(s))).fold(0.0, f64::max);
+        let rivals = found.into_iter().filter(|s| self.gain(Some(s)) > RIVAL * most).collect::<Vec<_>>();
+        self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::effects::{Apply, Search, Variant};
+use crate::effects::{Apply, Search, Variant, is_coloured_noise};
 use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
 use crate::starts::padded;
@@ -114,6 +114,11 @@ impl Explanation {
     /// The effects, in the order they were added.
     pub(crate) fn effects(&self) -> Vec<Effect> {
         self.parts.iter().map(|p| p.effect).collect()
+    }
+
+    /// Whether an effect of it is but the colour of the noise under another name.
+    pub(crate) fn disguises_noise(&self) -> bool {
+        self.parts.iter().any(|part| is_coloured_noise(part.effect, &self.fit))
     }
 
     /// The same explanation, less likely.

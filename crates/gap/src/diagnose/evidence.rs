@@ -30,7 +30,7 @@ impl Plan {
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
         let mut evidence = self.weigh_in(attribution.singles());
         if evidence.tests().is_some_and(|tests| tests.excess() > IMMATERIAL)
-            && let Some(better) = evidence.improved(attribution.rulers_from_scratch())
+            && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
         {
             evidence = self.weigh_in(better);
         }
@@ -47,6 +47,7 @@ impl Plan {
 
     /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
     fn weigh_in(&self, mut singles: Vec<Explanation>) -> Evidence {
+        singles.retain(|single| !single.disguises_noise());
         self.hear_the_held_out(&mut singles);
         let all = singles.clone();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);

@@ -141,6 +141,11 @@ pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {
     }
 }
 
+/// Whether a fitted effect is but the colour of the noise under another name.
+pub(crate) fn is_coloured_noise(effect: Effect, fit: &Fit) -> bool {
+    effect == Effect::Resonance && resonance::is_coloured_noise(fit)
+}
+
 /// Typical speed of the free records, strokes per sample: the median of the moves.
 fn typical_speed(campaign: &Campaign) -> f64 {
     let mut speeds: Vec<f64> = campaign

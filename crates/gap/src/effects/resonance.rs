@@ -7,9 +7,12 @@
 //! Parameters: angular frequency `omega` of the ringing (radians per sample), damping ratio `zeta` (0.003…0.6: beyond that
 //! nothing rings, and two real poles are an extra lag). Stage: dynamics. Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not; or two modes ring.
 
+use nalgebra::{Complex, DMatrix};
+
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
-use crate::engine::Own;
+use crate::engine::{Fit, Own};
+use crate::linear::Linear;
 use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -90,9 +93,52 @@ fn damping(rho: f64, omega: f64) -> f64 {
     -rho.ln() / rho.ln().hypot(omega)
 }
 
+/// Whether a mode that the equation error passes is no mode but the plant's own, and the colour of its noise in the place of the
+/// plant's dynamics: `A` then has a pole that `B⁺` undoes.
+///
+/// ```text
+/// A y = B u + ξ/D   ⟺   D·A y = D·B u + ξ
+/// ```
+pub(super) fn is_coloured_noise(fit: &Fit) -> bool {
+    let Linear { a, b, .. } = &fit.linear;
+    let passes = !fit.assembly.noise.ar.is_empty();
+    passes && roots(a).into_iter().any(|pole| pole.norm() > LASTING && undone(b, pole) < UNDONE)
+}
+
+/// Least magnitude of a pole that colours noise much, and how near a zero must be.
+const LASTING: f64 = 0.15;
+const UNDONE: f64 = 0.02;
+
+/// `|Σ bⱼ z⁻ʲ|` over its largest possible value.
+fn undone(b: &[f64], pole: Complex<f64>) -> f64 {
+    let terms = || (0..b.len()).map(|j| pole.powi(-(j as i32)) * b[j]);
+    let most: f64 = terms().map(|term| term.norm()).sum();
+    terms().sum::<Complex<f64>>().norm() / most.max(f64::MIN_POSITIVE)
+}
+
+/// Roots of `1 + Σ aᵢ z⁻ⁱ`.
+fn roots(a: &[f64]) -> Vec<Complex<f64>> {
+    let n = a.len();
+    let companion = DMatrix::from_fn(n, n, |i, j| match i {
+        0 => -a[j],
+        _ => f64::from(u8::from(i == j + 1)),
+    });
+    companion.complex_eigenvalues().iter().copied().collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_pole_that_the_numerator_undoes_is_found() {
+        // (1 − 0.7 q⁻¹)(1 − 0.2 q⁻¹), and a numerator with and without the first factor.
+        let poles = roots(&[-0.9, 0.14]);
+        assert_eq!(poles.len(), 2);
+        let least = |b: &[f64]| poles.iter().map(|z| undone(b, *z)).fold(1.0, f64::min);
+        assert!(least(&[1.0, -0.4, -0.21]) < 1e-9);
+        assert!(least(&[1.0, 0.5, 0.3]) > 0.1);
+    }
 
     #[test]
     fn damping_and_radius_undo_each_other() {

@@ -19,6 +19,8 @@ const TWINS: usize = 2;
 const DETAILED: usize = 6;
 /// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
 const HOPELESS: f64 = 0.3;
+/// The same after the restarts: another law of its members seldom takes what is left.
+const FAR: f64 = 0.12;
 /// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
 const NEAR: f64 = 0.95;
 const NEARBY: usize = 3;
@@ -65,7 +67,9 @@ impl<W: Workers> Attribution<'_, W> {
             }
         }
         search.restart();
-        search.every_law();
+        if search.left_of_gap() < FAR {
+            search.every_law();
+        }
         search.found.into_iter().next().map(|best| self.knots_refined(best))
     }
 }
@@ -112,7 +116,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
 
     /// Adds to the pairs found.
     fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
-        self.found.extend(pairs);
+        self.found.extend(pairs.into_iter().filter(|pair| !pair.disguises_noise()));
         self.found.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         let mut seen: Vec<[Effect; 2]> = Vec::new();
         self.found.retain(|pair| {
@@ -175,9 +179,14 @@ impl<'a, W: Workers> Search<'a, '_, W> {
 
     /// Whether the best pair is so far from the whole that none will be.
     fn is_hopeless(&self) -> bool {
-        let Some(best) = self.best() else { return true };
+        self.left_of_gap() > HOPELESS
+    }
+
+    /// Share of the gap that the best pair leaves.
+    fn left_of_gap(&self) -> f64 {
+        let Some(best) = self.best() else { return 1.0 };
         let left = self.left();
-        left > HOPELESS * (left + self.of.nominal.bic() - best.bic())
+        left / (left + self.of.nominal.bic() - best.bic())
     }
 
     /// Whether so much is left that another first may find a better pair.

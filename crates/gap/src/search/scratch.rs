@@ -3,15 +3,19 @@
 //! Where an effect rules the input, or the errors, the nominal `A` and `B` are those of another system: a pole of `A` stands for a lag
 //! before the plant, or for errors that last; and no step leads from there to the right one.
 
-use super::{RACE, Task, ahead, finish};
+use super::{Task, advance, finish};
 use crate::assembly::{Assembly, EquationColumn};
+use crate::borders::Grid;
 use crate::effect::Effect;
-use crate::effects::{Scene, Variant, variants};
-use crate::engine::Ground;
+use crate::effects::{Scene, variants};
+use crate::engine::{Ground, Own};
 use crate::explain::{Explanation, Part, assembled};
 use crate::knots::first_grid;
 use crate::nominal::first_guess;
 use crate::starts::Known;
+
+/// Starts, over all laws and both grids, that go on after the first round.
+const RACED: usize = 4;
 
 /// An effect that may rule what the dynamics are identified from, everything identified anew with it. The knots of what is known
 /// may follow the effect's trace, or a jump that is there: an even grid is tried beside them.
@@ -19,27 +23,29 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let (campaign, fit) = (known.campaign, &known.explanation.fit);
     let scene = Scene { campaign, fit, innovations: &known.innovations };
     let grids = [first_grid(campaign), fit.grid.clone()];
-    let tried = |(number, law): (usize, Variant)| {
-        let parts = vec![Part::of(effect, (number, &law))];
-        let build = |values: &[f64]| assembled(&parts, values);
-        let fits = grids.iter().filter_map(|grid| {
-            let task = Task { ground: Ground { campaign, grid, known: None }, build: &build, held: 0 };
-            let guessed = law.starts.iter().filter_map(|own| {
-                let assembly = task.assembly(own);
-                let rules = may_rule(&assembly);
-                let start =
-                    rules.then(|| first_guess(campaign, grid, fit.linear.a.len(), &assembly).ok())??;
-                task.held(own, &start, 1)
-            });
-            ahead(guessed, |fit| task.from(fit).together(&fit.own, &fit.linear, RACE))
-        });
-        let explained =
-            fits.map(|fit| Explanation { parts: parts.clone(), fit, set_back: 0.0, held_out: 0.0 });
-        explained.min_by(|x, y| x.bic().total_cmp(&y.bic()))
-    };
-    let laws = variants(effect, &scene).into_iter().enumerate();
-    let best = laws.filter_map(tried).min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
+    let laws = variants(effect, &scene);
+    let asked = laws.iter().enumerate().flat_map(|law| grids.iter().map(move |grid| (law, grid)));
+    let guessed = asked.flat_map(|((number, law), grid)| {
+        let parts = vec![Part::of(effect, (number, law))];
+        law.starts.iter().filter_map(move |own| guessed(known, &parts, grid, own))
+    });
+    let mut field: Vec<Explanation> = guessed.collect();
+    field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    let raced = field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch));
+    let best = raced.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
     Some(finish(campaign, 0, &best))
+}
+
+/// What a law explains at a start of its own parameters, the rest identified anew: none where it rules nothing there.
+fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Option<Explanation> {
+    let campaign = known.campaign;
+    let build = |values: &[f64]| assembled(parts, values);
+    let task = Task { ground: Ground { campaign, grid, known: None }, build: &build, held: 0 };
+    let assembly = task.assembly(own);
+    let order = known.explanation.fit.linear.a.len();
+    let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
+    let fit = task.held(own, &start, 1)?;
+    Some(Explanation { parts: parts.to_vec(), fit, set_back: 0.0, held_out: 0.0 })
 }
 
 /// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a slow lag, a
