@@ -11,7 +11,7 @@ use crate::linear::Linear;
 use crate::normal::Normal;
 
 /// Share of a record that is its beginning, and what is left there of something that has died away.
-const BEGINNING: f64 = 0.1;
+const BEGINNING: f64 = 0.25;
 const GONE: f64 = 0.05;
 /// Squared standard errors a coefficient from which a beginning shows.
 const SHOWS: f64 = 25.0;

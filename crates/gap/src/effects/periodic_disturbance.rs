@@ -8,10 +8,14 @@
 //! Parameters: angular frequencies `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
 //! with: resonance where the drive excites it, drift where it is slow.
 
+use std::f64::consts::TAU;
+
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::{Assembly, EquationColumn};
 use crate::spectrum::{share_of_line, sharpened, strongest_lines};
 
+/// Highest frequency of a line, radians per sample.
+const FASTEST: f64 = 3.13;
 /// Share of what the errors make of the output from which a line rules it.
 const RULES: f64 = 0.1;
 
@@ -20,30 +24,30 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         strongest_lines(signals, count).into_iter().map(|omega| sharpened(signals, omega)).collect()
     };
     let lines = sharpest(scene.innovations, 3);
-    let longest = scene.innovations.iter().map(Vec::len).max().unwrap_or(1) as f64;
-    // Fewer than eight periods a record are a drift.
-    let slowest = 16.0 * std::f64::consts::PI / longest;
+    let lengths = || scene.innovations.iter().map(|w| w.len() as f64);
+    let (longest, shortest) = (lengths().fold(1.0, f64::max), lengths().fold(f64::INFINITY, f64::min));
+    // Few periods are a drift.
+    let slowest = (8.0 * TAU / longest).max(2.0 * TAU / shortest);
+    let is_line = |omega: &f64| *omega > slowest && *omega < FASTEST;
     let tracks = fitted_tracks(scene.campaign);
-    let start = |omega: f64| own("omega", "radians per sample", omega, (slowest, 3.13), 0.05 / longest);
+    let start = |omega: f64| own("omega", "radians per sample", omega, (slowest, FASTEST), 0.05 / longest);
     // Lines that rule the output have made pole pairs of `A` their own: the innovations have none of them, the output has.
     let output = scene.fit.linear.behind_poles(scene.innovations);
     let mut ruling = sharpest(&output, 2);
-    ruling.retain(|omega| *omega > slowest && share_of_line(&output, *omega) > RULES);
-    let lines = lines.into_iter().filter(|omega| *omega > slowest);
+    ruling.retain(|omega| is_line(omega) && share_of_line(&output, *omega) > RULES);
+    let lines = lines.into_iter().filter(is_line);
     let omegas: Vec<f64> = lines.chain(ruling.iter().copied()).collect();
     let Some((&strongest, others)) = omegas.split_first() else { return Vec::new() };
     let starts: Vec<_> = omegas.iter().map(|&omega| vec![start(omega)]).collect();
     let two = others.iter().map(|&other| [strongest, other]);
     let pairs = two.chain(ruling.windows(2).map(|w| [w[0], w[1]]));
     let pairs: Vec<_> = pairs.map(|two| two.map(start).to_vec()).collect();
+    // Slower than any line, once it is folded: a drift, which no harmonic is.
+    let audible = move |frequency: f64| folded(frequency) > slowest;
     let a_record = move |p: &[f64], assembly: &mut Assembly| {
         for &frequency in p {
-            for &track in &tracks {
-                let track = Some(track);
-                for sine in [false, true] {
-                    assembly.equation_columns.push(EquationColumn::Line { frequency, track, sine });
-                }
-            }
+            let columns = tracks.iter().flat_map(|&track| wave(frequency, audible, Some(track)));
+            assembly.equation_columns.extend(columns);
         }
     };
     let each_record = a_record.clone();
@@ -55,23 +59,56 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     const HARMONICS: [&[f64]; 2] = [&[1.0, 2.0, 3.0, 5.0], &[1.0, 3.0, 5.0, 7.0, 9.0, 11.0]];
     out.extend(HARMONICS.map(|harmonics| {
         Variant::new(starts.clone(), move |p, assembly| {
-            for harmonic in harmonics {
-                for sine in [false, true] {
-                    let frequency = harmonic * p[0];
-                    assembly.equation_columns.push(EquationColumn::Line { frequency, track: None, sine });
-                }
-            }
+            let columns = harmonics.iter().flat_map(|harmonic| wave(harmonic * p[0], audible, None));
+            assembly.equation_columns.extend(columns);
         })
     }));
-    let wave = move |p: &[f64], assembly: &mut Assembly| {
+    let square = move |p: &[f64], assembly: &mut Assembly| {
         let frequencies: Vec<f64> = HARMONICS[1].iter().map(|harmonic| harmonic * p[0]).collect();
         each_record(&frequencies, assembly);
     };
-    out.push(Variant::new(starts.clone(), wave));
-    out.push(Variant::new(starts, |p, assembly| {
-        for sine in [false, true] {
-            assembly.equation_columns.push(EquationColumn::Line { frequency: p[0], track: None, sine });
-        }
+    out.push(Variant::new(starts.clone(), square));
+    out.push(Variant::new(starts, move |p, assembly| {
+        assembly.equation_columns.extend(wave(p[0], audible, None));
     }));
     out
+}
+
+/// Both phases of a wave; two columns of zeros where it cannot be heard.
+fn wave(
+    frequency: f64,
+    audible: impl Fn(f64) -> bool,
+    track: Option<usize>,
+) -> impl Iterator<Item = EquationColumn> {
+    let heard = audible(frequency);
+    let frequency = if heard { frequency } else { 0.0 };
+    [false, true].into_iter().map(move |sine| EquationColumn::Line { frequency, track, sine: sine || !heard })
+}
+
+/// Where sampling puts a frequency, between 0 and π.
+fn folded(omega: f64) -> f64 {
+    let turn = omega.rem_euclid(TAU);
+    turn.min(TAU - turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sampling_folds_frequencies_between_zero_and_half_its_own() {
+        for (omega, at) in [(0.3, 0.3), (TAU - 0.3, 0.3), (TAU + 0.3, 0.3), (4.0, TAU - 4.0)] {
+            assert!((folded(omega) - at).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_harmonic_that_sampling_makes_a_drift_is_not_heard() {
+        // The second harmonic of a line at half the sampling frequency, but for a little.
+        let omega = 0.5 * TAU - 1e-4;
+        let heard = |frequency: f64| wave(frequency, |f| folded(f) > 0.01, None).collect::<Vec<_>>();
+        let line = |frequency, sine| EquationColumn::Line { frequency, track: None, sine };
+        assert_eq!(heard(omega), [line(omega, false), line(omega, true)]);
+        assert_eq!(heard(2.0 * omega), [line(0.0, true), line(0.0, true)]);
+    }
 }
