@@ -55,6 +55,10 @@ mod calibration {
     /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
     /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
+    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, and of outliers.
+    pub(super) const MOST_LEFT: f64 = 0.45;
+    pub(super) const MOST_LEFT_WITH_THE_GAP: f64 = 0.1;
+    pub(super) const MOST_LEFT_BY_OUTLIERS: f64 = 0.02;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
@@ -93,6 +97,18 @@ fn wholeness(best: Effect, fraction: f64) -> f64 {
     let (nothing, scale) =
         if best.is_supple() { calibration::NOTHING_BY_SUPPLE } else { calibration::NOTHING };
     logistic((nothing - fraction) / scale)
+}
+
+/// Fraction of the gap that an effect leaves at most where it is the cause, whatever rivals are behind it; `misses` tells that it
+/// does not close the gap on the held-out records.
+fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
+    let moves_simulation = !effect.is_noise() && !effect.is_of_its_record();
+    match effect {
+        // They come whatever the machine does: nothing of them hangs on its state.
+        Effect::Outliers => calibration::MOST_LEFT_BY_OUTLIERS,
+        _ if moves_simulation && misses => calibration::MOST_LEFT_WITH_THE_GAP,
+        _ => calibration::MOST_LEFT,
+    }
 }
 
 /// What the best explanation leaves.
@@ -144,7 +160,10 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     // A long autoregression follows any spectrum: what it leaves has none.
     let follows_all = first == Some(Effect::ColouredNoise) && left > IMMATERIAL;
     let leaves_much = fraction > calibration::STANDS_IN && !all_but_closes;
-    let is_stand_in = second.is_some_and(|e| follows_all || leaves_much && !alike(e.0));
+    let misses = best_leaves.gap.is_none_or(|gap| gap.abs() > 1.0 - calibration::CLOSES);
+    let is_stand_in = follows_all && second.is_some()
+        || leaves_much && second.is_some_and(|e| !alike(e.0))
+        || first.is_some_and(|e| left > IMMATERIAL && fraction > most_left_by_a_cause(e, misses));
     let one_of_many = margin < calibration::MANY && !closes && first.is_some_and(|e| !e.is_supple());
     let (middle, scale) = if one_of_many { calibration::LEFT_BY_MANY } else { calibration::LEFT };
     let foreign = match (is_stand_in, closes) {
@@ -273,7 +292,7 @@ mod tests {
         }
         // A rival of its own class is no other cause.
         let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
-        assert!(weighed(twins, 900.0, 0.6).unexplained < UNEXPLAINED);
+        assert!(weighed(twins, 400.0, 0.6).unexplained < UNEXPLAINED);
     }
 
     #[test]
@@ -298,6 +317,22 @@ mod tests {
         let rivals = [(Effect::ColouredNoise, -9000.0), (Effect::ExtraPole, -7000.0)];
         assert!(weighed(rivals, 3.0 * IMMATERIAL, 1.0).unexplained > UNEXPLAINED);
         assert!(weighed(rivals, 0.5 * IMMATERIAL, 1.0).unexplained < UNEXPLAINED);
+    }
+
+    #[test]
+    fn what_leaves_more_than_a_cause_does_stands_in_for_something_else() {
+        let leaving = |effect: Effect, deviance: f64, gap: f64| {
+            let twin = effect.twins()[0];
+            weighed([(effect, -9000.0), (twin, -2000.0)], deviance, gap).unexplained > UNEXPLAINED
+        };
+        // A fifth, with and without the held-out gap.
+        assert!(leaving(Effect::Backlash, 2250.0, 0.4));
+        assert!(!leaving(Effect::Backlash, 2250.0, 0.1));
+        // Half.
+        assert!(leaving(Effect::Backlash, 9000.0, 0.1));
+        // A thirtieth and a hundredth.
+        assert!(leaving(Effect::Outliers, 300.0, 1.0));
+        assert!(!leaving(Effect::Outliers, 90.0, 1.0));
     }
 
     #[test]
