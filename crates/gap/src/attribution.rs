@@ -62,6 +62,8 @@ const SECONDS: usize = 6;
 /// Candidates whose knots are placed anew at most where none follows a detail, and the share of the best gain that they need.
 const REPLACED: usize = 3;
 const RIVAL: f64 = 0.85;
+/// Share of an effect's gain that details of the borders gain without it, from which it rides on them.
+const RIDES: f64 = 0.9;
 
 impl<W: Workers> Attribution<'_, W> {
     /// Every effect on its own, best first.
@@ -247,9 +249,20 @@ impl<W: Workers> Attribution<'_, W> {
 
     /// The explanation on an even grid, where the details that its knots follow are material.
     pub(crate) fn without_details(&self, single: Explanation) -> Explanation {
-        match single.on_an_even_grid(self.campaign) {
+        match self.evenly(&single) {
             Some(even) if even.bic() - single.bic() > detail(self.campaign) => even,
             _ => single,
+        }
+    }
+
+    /// The explanation on an even grid: a smooth one where the effect gains little that details of the borders do not. Elsewhere
+    /// smooth borders may seem rough because the own parameters are a little off.
+    fn evenly(&self, single: &Explanation) -> Option<Explanation> {
+        let even = single.on_an_even_grid(self.campaign)?;
+        let gained_by_details = self.gain(Some(self.detailed));
+        match gained_by_details > RIDES * self.gain(Some(&even)) {
+            true => single.on_a_smooth_grid(self.campaign),
+            false => Some(even),
         }
     }
 }

@@ -155,9 +155,14 @@ impl Explanation {
         }
     }
 
-    /// The same explanation without the knots that follow details of the borders.
+    /// The same explanation without the knots that follow details of the borders here and there.
     pub(crate) fn on_an_even_grid(&self, campaign: &Campaign) -> Option<Self> {
         self.on_knots(campaign, |free, build| crate::knots::evenly(campaign, free, build))
+    }
+
+    /// The same, on a grid that follows no detail all along the borders either.
+    pub(crate) fn on_a_smooth_grid(&self, campaign: &Campaign) -> Option<Self> {
+        self.on_knots(campaign, |free, build| crate::knots::smoothly(campaign, free, build))
     }
 
     /// The same explanation on other knots: the own parameters stay while the knots move, then everything is fitted together.

@@ -163,7 +163,7 @@ impl Plan {
 
 /// The model without the knots that follow details, where these matter; else the model itself.
 fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
-    match detailed.on_an_even_grid(campaign) {
+    match detailed.on_a_smooth_grid(campaign) {
         Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
         _ => detailed.clone(),
     }

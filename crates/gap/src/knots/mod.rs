@@ -52,17 +52,25 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
     halved(campaign, placed, build)
 }
 
+/// The model on an even grid through the levels of the experiments, as fine as pays: no knot is placed to follow a detail.
+pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    Some(halved(campaign, on_first_grid(campaign, fitted, build)?, build))
+}
+
 /// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
 const ROUGH: f64 = 0.4;
 
-/// The model on an even grid through the levels of the experiments, as fine as smooth borders ask for: no knot is placed to
-/// follow a detail.
-pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    let first = refitted(campaign, fitted, &first_grid(campaign), build)?;
+/// The same, as fine as smooth borders ask for: a finer grid may follow a detail all along the borders.
+pub(crate) fn smoothly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let first = on_first_grid(campaign, fitted, build)?;
     let fine = halved(campaign, first.clone(), build);
     let unforetold = roughness(&first.grid, &fine.grid, &fine.linear.f);
     let is_detail = unforetold * (first.deviance - fine.deviance) > detail(campaign);
     Some(if unforetold > ROUGH && is_detail { first } else { fine })
+}
+
+fn on_first_grid(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    refitted(campaign, fitted, &first_grid(campaign), build)
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
