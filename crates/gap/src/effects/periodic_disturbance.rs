@@ -5,7 +5,8 @@
 //!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave; the latter free a record, too
 //! ```
 //!
-//! Parameters: angular frequencies `omega`, radians per sample. Stage: disturbance. One line in the residual spectrum of every record. Confused
+//! Parameters: angular frequencies `omega`, radians per sample: eight periods or more in the longest record, two in the shortest, and harmonics that
+//! sampling folds below that left out. Stage: disturbance. One line in the residual spectrum of every record. Confused
 //! with: resonance where the drive excites it, drift where it is slow.
 
 use std::f64::consts::TAU;
