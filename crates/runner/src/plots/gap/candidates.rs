@@ -21,7 +21,7 @@ pub(super) fn figure(report: &Report) -> String {
     let sheet = Sheet {
         title: format!("{}: what explains the gap", report.rig.name),
         notes: vec![
-            "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale; closure is on the records judged. The probability weighs those, too: noise, which moves no simulation, has none beside what closes the gap.".to_owned(),
+            "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale; closure is on the records judged.".to_owned(),
         ],
         legend: vec![
             Entry::new(Sample::Line(Pen::new(CHOSEN, 10.0)), match diagnosis.verdict.status {
