@@ -5,6 +5,7 @@ use crate::campaign::Campaign;
 use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
 use crate::explain::Explanation;
+use crate::knots::detail;
 use crate::search::{Prospect, Question, advance, finish, from_scratch, look, prospects};
 use crate::settings::Settings;
 use crate::starts::Known;
@@ -289,10 +290,4 @@ fn keep_promising(prospects: &mut Vec<Prospect>) {
     let blind = effects.iter().filter(|e| e.1 == f64::INFINITY).count();
     effects.truncate(blind + SECONDS);
     prospects.retain(|p| effects.iter().any(|e| e.0 == p.effect));
-}
-
-/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's
-/// hundredth, which is a tenth of the noise's standard deviation.
-pub(crate) fn detail(campaign: &Campaign) -> f64 {
-    0.01 * campaign.fit_samples() as f64
 }

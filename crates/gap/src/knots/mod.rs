@@ -14,7 +14,6 @@ use self::jumps::{collapsed, polished};
 use self::passages::Passages;
 use self::prune::pruned;
 use self::rough::roughness;
-use crate::attribution::detail;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::engine::{Build, Fit, Ground, fit};
@@ -55,6 +54,12 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
 /// The model on an even grid through the levels of the experiments, as fine as pays: no knot is placed to follow a detail.
 pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
     Some(halved(campaign, on_first_grid(campaign, fitted, build)?, build))
+}
+
+/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's
+/// hundredth, which is a tenth of the noise's standard deviation.
+pub(crate) fn detail(campaign: &Campaign) -> f64 {
+    0.01 * campaign.fit_samples() as f64
 }
 
 /// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.

@@ -1,9 +1,10 @@
 //! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
 
 use super::Firsts;
-use crate::attribution::{Attribution, Contest, detail};
+use crate::attribution::{Attribution, Contest};
 use crate::effect::Effect;
 use crate::explain::Explanation;
+use crate::knots::detail;
 use crate::omnibus::omnibus;
 use crate::search::Question;
 use crate::workers::Workers;
