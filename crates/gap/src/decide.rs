@@ -2,9 +2,8 @@
 
 use crate::diagnosis::{Status, Verdict};
 use crate::effect::{Effect, Stage};
-use crate::explain::Explanation;
 use crate::omnibus::Omnibus;
-use crate::pairs::Pair;
+use crate::pairs::{Causes, Pair};
 use crate::settings::Settings;
 
 /// Penalised deviance that an effect must gain before anything is missing at all: covers the search over twenty effects,
@@ -199,26 +198,32 @@ pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
     pair.gain > calibration::SECOND * samples as f64 && pair.left < calibration::AFTER * total
 }
 
-/// Weighs two effects named together; the singles are no rivals of a pair that holds one of them.
-pub(crate) fn odds_together(nominal_bic: f64, pair: &Pair, singles: &[(Effect, f64)]) -> Odds {
+/// Weighs what a pair names, `causes`; the singles are no rivals of a pair that holds one of them.
+pub(crate) fn odds_together(
+    nominal_bic: f64,
+    pair: &Pair,
+    causes: &Causes,
+    singles: &[(Effect, f64)],
+) -> Odds {
     let members = pair.explanation.effects();
     let leaves = Leavings { deviance: pair.left, gap: None, refuted: false };
     let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], leaves);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
-    together.effects = singles.iter().map(|(e, _)| if members.contains(e) { p } else { 0.0 }).collect();
+    together.effects =
+        singles.iter().map(|(e, _)| if causes.effects.contains(e) { p } else { 0.0 }).collect();
     together
 }
 
 fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
-    Verdict { status, effects: Vec::new(), class: Vec::new(), stage, probability }
+    Verdict { status, effects: Vec::new(), class: Vec::new(), stage, probability, corrected_by: None }
 }
 
-/// The verdict on one or several effects.
+/// The verdict on one or several effects; `together` are those that a pair names.
 pub(crate) fn verdict(
     ranked: &[(Effect, f64)],
     odds: &Odds,
-    joint: Option<&Explanation>,
+    together: Option<&Causes>,
     left: Option<&Omnibus>,
     settings: &Settings,
 ) -> Verdict {
@@ -234,13 +239,14 @@ pub(crate) fn verdict(
         return naming_nothing(Status::Unexplained, points_at, odds.unexplained);
     };
     if p >= settings.name_at {
-        let effects = joint.map_or_else(|| vec![first], Explanation::effects);
+        let effects = together.map_or_else(|| vec![first], |t| t.effects.clone());
         return Verdict {
             status: Status::Named,
             effects,
             class: Vec::new(),
             stage: Some(first.stage()),
             probability: p,
+            corrected_by: together.and_then(|t| t.correction),
         };
     }
     let mut class = vec![first];
@@ -261,7 +267,8 @@ pub(crate) fn verdict(
         && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
     let status = if twins { Status::Class } else { Status::Ambiguous };
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
-    Verdict { status, effects: Vec::new(), class, stage: stage.or(Some(first.stage())), probability: sum }
+    let stage = stage.or(Some(first.stage()));
+    Verdict { status, effects: Vec::new(), class, stage, probability: sum, corrected_by: None }
 }
 
 #[cfg(test)]

@@ -43,6 +43,8 @@ pub struct Verdict {
     pub stage: Option<Stage>,
     /// Probability that the verdict holds (for `class`: that one of its members is the cause).
     pub probability: f64,
+    /// An effect in the augmented model that is no cause of its own: it takes the little that the law of the one named leaves.
+    pub corrected_by: Option<Effect>,
 }
 
 /// A figure with its 90 % interval.

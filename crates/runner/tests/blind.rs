@@ -26,7 +26,14 @@ fn study() -> Study {
 fn silent(status: Status) -> Diagnosis {
     let nothing = Figure { estimate: 0.0, ci90: [0.0, 0.0] };
     Diagnosis {
-        verdict: Verdict { status, effects: vec![], class: vec![], stage: None, probability: 0.9 },
+        verdict: Verdict {
+            status,
+            effects: vec![],
+            class: vec![],
+            stage: None,
+            probability: 0.9,
+            corrected_by: None,
+        },
         gap: Gap {
             before: nothing,
             after: nothing,

@@ -135,17 +135,18 @@ impl Plan {
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
         let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
-            let together = odds_together(self.nominal.bic(), &pair, &effects);
+            let causes = pair.causes(&gains, samples);
+            let together = odds_together(self.nominal.bic(), &pair, &causes, &effects);
             let (explanation, pair_left) = (pair.explanation, pair.left);
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
-                (left, odds, joint) = (pair_left, together, Some(explanation));
+                (left, odds, joint) = (pair_left, together, Some((explanation, causes)));
             }
         }
-        let told = joint.as_ref().unwrap_or(&best);
+        let told = joint.as_ref().map_or(&best, |(explanation, _)| explanation);
         let odds = match self.held_out_closure(&told.fit) {
             Some(closure) if significant => weighed_by_closure(odds, closure),
             _ => odds,
@@ -153,10 +154,11 @@ impl Plan {
         let mut ranked: Vec<(Effect, f64)> =
             singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
         ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
-        let verdict = verdict(&ranked, &odds, joint.as_ref(), tests.as_ref(), &self.settings);
+        let causes = joint.as_ref().map(|(_, causes)| causes);
+        let verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
         let augmented = match verdict.status {
             Status::None => self.nominal.clone(),
-            _ => joint.clone().unwrap_or(best),
+            _ => joint.map_or(best, |(explanation, _)| explanation),
         };
         self.report(Conclusion { singles, odds, verdict, augmented, left, together: found })
     }

@@ -1,6 +1,9 @@
 //! A second effect beside the first.
 
+mod causes;
 mod steps;
+
+pub(crate) use self::causes::Causes;
 
 use crate::attribution::{Attribution, Contest};
 use crate::diagnosis::Together;

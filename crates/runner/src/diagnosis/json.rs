@@ -30,6 +30,7 @@ struct Verdict {
     class: Vec<&'static str>,
     stage: Option<&'static str>,
     probability: f64,
+    corrected_by: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -109,7 +110,8 @@ struct Next<'a> {
 /// output units, `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
 /// `bic` relative to the nominal model. `together` is the best pair of effects, `gain` in penalised deviance over the best
 /// single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
-/// `left` is the deviance that causes in general would still gain, which grows with `samples`.
+/// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
+/// the augmented model that is no cause of its own.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -146,6 +148,7 @@ fn verdict(diagnosis: &Diagnosis) -> Verdict {
         class: names(&verdict.class),
         stage: verdict.stage.map(|stage| stage.name()),
         probability: verdict.probability,
+        corrected_by: verdict.corrected_by.map(|effect| effect.name()),
     }
 }
 

@@ -87,7 +87,13 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
         }
         Status::Named => {
             let effect = verdict.effects.first().map(|effect| described(*effect, diagnosis, units));
-            format!("Cause: {}, probability {p}{}.", effect.unwrap_or_default(), next_best(diagnosis))
+            let correction = verdict.corrected_by.map_or_else(String::new, |second| {
+                format!(
+                    " Its law misses a little, which {second} takes beside it: too little to be a cause of its own."
+                )
+            });
+            let next = next_best(diagnosis);
+            format!("Cause: {}, probability {p}{next}.{correction}", effect.unwrap_or_default())
         }
         Status::Class | Status::Ambiguous if verdict.class.len() == 1 => format!(
             "Cause: probably {}; that is not certain enough to name it{}.",
@@ -171,6 +177,7 @@ fn closure(report: &Report) -> Vec<String> {
     let gap = &diagnosis.gap;
     let adding = match (diagnosis.verdict.status, diagnosis.verdict.effects.len()) {
         (Status::Named, 2..) => "Adding them",
+        (Status::Named, _) if diagnosis.verdict.corrected_by.is_some() => "Adding both",
         (Status::Named, _) => "Adding it",
         _ => "Adding the best explanation",
     };
