@@ -183,6 +183,19 @@ pub(crate) struct NoiseLaw {
     pub(crate) mixture: Option<(f64, f64)>,
 }
 
+/// A variance of innovations below which there is nothing.
+pub(crate) const LEAST_VARIANCE: f64 = 1e-300;
+/// Share of the variance `q²/12` of rounding to steps of `q` that innovations keep at least: rounded at rest they repeat, and a
+/// narrow normal distribution over repeated values would be worth any deviance.
+const ROUNDED: f64 = 1.0;
+
+impl NoiseLaw {
+    /// Least variance of one component of the innovations.
+    pub(crate) fn least_variance(&self) -> f64 {
+        self.lattice.map_or(LEAST_VARIANCE, |step| ROUNDED * step * step / 12.0)
+    }
+}
+
 /// A composition of effects.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Assembly {

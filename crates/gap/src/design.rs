@@ -10,9 +10,10 @@
 
 use std::sync::Arc;
 
-use crate::assembly::{Assembly, NoiseLaw, Saturation, convolve};
+use crate::assembly::{Assembly, NoiseLaw, convolve};
 use crate::borders::Grid;
 use crate::campaign::{Campaign, Criterion, Track, WARM_UP};
+use crate::mask::masked;
 use crate::motion::{Motion, motions};
 use crate::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
 
@@ -36,8 +37,8 @@ pub(crate) struct DesignTrack {
     pub(crate) from: usize,
     /// Change of `u` per change of `v` while moving and while resting, where input noise is modelled.
     pub(crate) sensitivity: Option<Arc<[Rows; 2]>>,
-    /// Samples whose output, or a lag of it, sits at a limit of the sensor; they are not counted.
-    pub(crate) clipped: Option<Arc<[bool]>>,
+    /// Samples that have no say.
+    pub(crate) masked: Option<Arc<[bool]>>,
 }
 
 /// The chosen tracks under an assembly.
@@ -111,6 +112,10 @@ impl Design {
                     None => motions(&track.v, assembly.play, campaign.rule).into(),
                 };
                 let sensitive = assembly.noise.input.is_some();
+                let masked = match same(|c| c.masked) {
+                    Some(t) => t.masked.clone(),
+                    None => masked(track, assembly, campaign.rule),
+                };
                 DesignTrack {
                     rows: same(|c| c.rows).map_or_else(
                         || rows((campaign, number, track), &moves, grid, assembly).into(),
@@ -129,11 +134,7 @@ impl Design {
                             .and_then(|t| t.sensitivity.clone())
                             .unwrap_or_else(|| sensitivity_rows(track, grid, assembly.jitter).into())
                     }),
-                    clipped: assembly.saturation.map(|limits| {
-                        same(|c| c.clipped)
-                            .and_then(|t| t.clipped.clone())
-                            .unwrap_or_else(|| clipped(track, limits, assembly.noise.reach()).into())
-                    }),
+                    masked,
                 }
             })
             .collect();
@@ -228,6 +229,16 @@ impl Design {
         self.whitened(self.all_errors(p), whitener)
     }
 
+    /// The same, nothing where a sample has no say.
+    pub(crate) fn counted_innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let mut all = self.innovations(p, whitener);
+        for (track, w) in self.tracks.iter().zip(&mut all) {
+            let masked = track.masked.iter().flat_map(|masked| masked.iter());
+            w.iter_mut().zip(masked).filter(|(_, masked)| **masked).for_each(|(w, _)| *w = 0.0);
+        }
+        all
+    }
+
     /// Equation errors of every track.
     pub(crate) fn all_errors(&self, p: &Linear) -> Vec<Vec<f64>> {
         self.tracks.iter().map(|track| self.errors(track, p)).collect()
@@ -246,15 +257,6 @@ impl Design {
 }
 
 const _: () = assert!(LEAD < WARM_UP);
-
-/// Which counted samples have an output at a limit among those the equation needs.
-///
-/// The equation reaches back by its order, its errors by what whitens them.
-fn clipped(track: &Track, limits: Saturation, whitener: usize) -> Vec<bool> {
-    let reach = limits.order.saturating_add(whitener).min(LEAD);
-    let at: Vec<bool> = track.y.iter().map(|y| *y <= limits.low || *y >= limits.high).collect();
-    (track.from..track.y.len()).map(|t| at[t - reach..=t].iter().any(|c| *c)).collect()
-}
 
 /// `x` of one track and its summed log slope.
 fn undo_sensor(track: &Track, assembly: &Assembly) -> (Arc<[f64]>, f64) {
@@ -287,7 +289,7 @@ struct Common {
     columns: bool,
     output: bool,
     sensitivity: bool,
-    clipped: bool,
+    masked: bool,
 }
 
 impl Common {
@@ -309,7 +311,9 @@ impl Common {
             columns: had.equation_columns == assembly.equation_columns,
             output: had.curve == assembly.curve,
             sensitivity: moves && same_grid && jitter,
-            clipped: had.saturation == assembly.saturation && had.noise.reach() == assembly.noise.reach(),
+            masked: moves
+                && had.saturation == assembly.saturation
+                && (had.saturation.is_none() || had.noise.reach() == assembly.noise.reach()),
         }
     }
 }

@@ -27,6 +27,7 @@ mod knots;
 mod lattice;
 mod linear;
 mod localise;
+mod mask;
 mod motion;
 mod noise_response;
 mod noise_size;

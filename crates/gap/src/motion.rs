@@ -73,8 +73,33 @@ impl Play {
 /// last moved. On each branch `p = v ∓ play/2`, a shift that the border tables absorb: the border coordinate stays the
 /// recorded `v`. What the play leaves is the rest after each reversal.
 pub(crate) fn motions(v: &[f64], play: Play, rule: ReversalRule) -> Vec<Motion> {
+    v.first().map_or_else(Vec::new, |&first| followed(v, first, play, rule))
+}
+
+/// The first sample from which the motion is the same wherever in its play the operator stood when the record began.
+pub(crate) fn settled(v: &[f64], play: Play, rule: ReversalRule) -> usize {
+    let Some(&first) = v.first() else { return 0 };
+    let half = play.half(first);
+    let ends = [first - half, first + half].map(|p| followed(v, p, play, rule));
+    let [mut low, mut high] = [(0.0, first); 2];
+    let mut settled = 0;
+    for t in 0..v.len() {
+        // While the operator rests, u stays where the last move put it.
+        for (known, end) in [&mut low, &mut high].into_iter().zip(&ends) {
+            if end[t].moves {
+                *known = (end[t].branch, v[t]);
+            }
+        }
+        if low != high {
+            settled = t + 1;
+        }
+    }
+    settled
+}
+
+/// The motion where the play's output begins at a given place within the play of the input.
+fn followed(v: &[f64], first: f64, play: Play, rule: ReversalRule) -> Vec<Motion> {
     let mut out = Vec::with_capacity(v.len());
-    let Some(&first) = v.first() else { return out };
     let mut m = Motion {
         branch: 0.0,
         moves: false,
@@ -167,6 +192,18 @@ mod tests {
         let play = Play { width: 0.14, taper: 0.5 };
         let moves: Vec<bool> = motions(&v, play, ReversalRule::default()).iter().map(|m| m.moves).collect();
         assert_eq!(moves, [false, true, true, true, true, false]);
+    }
+
+    #[test]
+    fn where_a_play_stood_is_known_once_all_of_it_was_crossed() {
+        let play = Play { width: 0.2, taper: 0.0 };
+        let known = |v: &[f64]| settled(v, play, ReversalRule::default());
+        // Rising by less than the play, then by more: what stood below was taken along from the first move on.
+        assert_eq!(known(&[0.5, 0.55, 0.65, 0.75, 0.8]), 3);
+        // Turning within the play tells nothing new.
+        assert_eq!(known(&[0.5, 0.55, 0.5, 0.45, 0.5]), 5);
+        assert_eq!(settled(&[0.5, 0.55, 0.5], Play::default(), ReversalRule::default()), 0);
+        assert_eq!(known(&[]), 0);
     }
 
     #[test]

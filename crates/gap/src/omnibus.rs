@@ -245,7 +245,8 @@ fn tails(fit: &Fit, innovations: &[Vec<f64>]) -> f64 {
     let counted: Vec<f64> = innovations.iter().flatten().copied().filter(|w| *w != 0.0).collect();
     let n = counted.len().max(1) as f64;
     let normal = n * (counted.iter().map(|w| w * w).sum::<f64>() / n).ln();
-    let mixed = mixture((0.01, 8.0), &[counted]).deviance.unwrap_or(normal);
+    let mixed =
+        mixture((0.01, 8.0), fit.assembly.noise.least_variance(), &[counted]).deviance.unwrap_or(normal);
     (normal - mixed).max(0.0)
 }
 

@@ -59,7 +59,7 @@ impl Weights {
     }
 }
 
-/// Weighs the innovations by the law; samples at a limit of the sensor are left out of it.
+/// Weighs the innovations by the law; masked samples are left out of it.
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
     if let Some(noise) = law.input {
         let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
@@ -71,19 +71,19 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let (scale, predictors) = (Some(scale), Some(predictors));
         return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
     }
-    let clipped: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.clipped.is_some())).then(|| {
+    let masked: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.masked.is_some())).then(|| {
         let mask = |t: &DesignTrack| {
-            t.clipped.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+            t.masked.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
         };
         design.tracks.iter().map(mask).collect()
     });
-    match (law.mixture, clipped) {
-        (Some(start), None) => mixture(start, w),
-        (Some(start), Some(clipped)) => mixture_of_the_rest(start, w, &clipped),
+    match (law.mixture, masked) {
+        (Some(start), None) => mixture(start, law.least_variance(), w),
+        (Some(start), Some(masked)) => mixture_of_the_rest(start, law.least_variance(), w, &masked),
         (None, None) => Weights::default(),
-        (None, Some(clipped)) => {
+        (None, Some(masked)) => {
             let mut scale: Vec<Vec<f64>> = w.iter().map(|w| vec![1.0; w.len()]).collect();
-            let left_out = leave_out(&mut scale, &clipped);
+            let left_out = leave_out(&mut scale, &masked);
             Weights { scale: Some(scale), left_out, ..Weights::default() }
         }
     }
@@ -114,26 +114,26 @@ fn stretch(scale: &[Vec<f64>], left_out: usize) -> f64 {
     all as f64 / all.saturating_sub(left_out).max(1) as f64
 }
 
-/// Takes the weight from clipped samples; their number.
-fn leave_out(scale: &mut [Vec<f64>], clipped: &[Vec<bool>]) -> usize {
+/// Takes the weight from masked samples; their number.
+fn leave_out(scale: &mut [Vec<f64>], masked: &[Vec<bool>]) -> usize {
     let mut left_out = 0;
-    for (scale, _) in (scale.iter_mut().flatten().zip(clipped.iter().flatten())).filter(|(_, c)| **c) {
+    for (scale, _) in (scale.iter_mut().flatten().zip(masked.iter().flatten())).filter(|(_, c)| **c) {
         *scale = 0.0;
         left_out += 1;
     }
     left_out
 }
 
-/// The mixture of the samples that are not clipped.
-fn mixture_of_the_rest(start: (f64, f64), w: &[Vec<f64>], clipped: &[Vec<bool>]) -> Weights {
-    let counted = |(w, clipped): (&Vec<f64>, &Vec<bool>)| {
-        w.iter().zip(clipped).filter(|(_, c)| !**c).map(|(w, _)| *w).collect::<Vec<f64>>()
+/// The mixture of the samples that are not masked.
+fn mixture_of_the_rest(start: (f64, f64), least: f64, w: &[Vec<f64>], masked: &[Vec<bool>]) -> Weights {
+    let counted = |(w, masked): (&Vec<f64>, &Vec<bool>)| {
+        w.iter().zip(masked).filter(|(_, c)| !**c).map(|(w, _)| *w).collect::<Vec<f64>>()
     };
-    let rest: Vec<Vec<f64>> = w.iter().zip(clipped).map(counted).collect();
-    let mut weights = mixture(start, &rest);
+    let rest: Vec<Vec<f64>> = w.iter().zip(masked).map(counted).collect();
+    let mut weights = mixture(start, least, &rest);
     let mut found = weights.scale.iter().flatten().flatten().copied();
     let mut left_out = 0;
-    let scale = clipped.iter().map(|track| {
+    let scale = masked.iter().map(|track| {
         let one = |c: &bool| if *c { 0.0 } else { found.next().unwrap_or(1.0) };
         left_out += track.iter().filter(|c| **c).count();
         track.iter().map(one).collect()
@@ -169,14 +169,14 @@ pub(crate) fn impulse_response(b: &[f64], poles: &[f64]) -> Vec<f64> {
 /// The exponential of this is less than any density that counts.
 const LEAST_EXPONENT: f64 = -700.0;
 
-/// `w ~ (1−ε)·N(0,σ²) + ε·N(0,κ²σ²)`, fitted by expectation–maximisation.
-pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Weights {
+/// `w ~ (1−ε)·N(0,σ²) + ε·N(0,κ²σ²)` with `σ²` of `least` or more, fitted by expectation–maximisation.
+pub(crate) fn mixture((mut share, mut ratio): (f64, f64), least: f64, w: &[Vec<f64>]) -> Weights {
     let all: Vec<f64> = w.iter().flatten().copied().collect();
     let n = all.len() as f64;
     let mut magnitudes: Vec<f64> = all.iter().map(|x| x.abs()).collect();
     let middle = magnitudes.len() / 2;
     let (_, median, _) = magnitudes.select_nth_unstable_by(middle, f64::total_cmp);
-    let mut variance = (*median / 0.6745).powi(2).max(1e-300);
+    let mut variance = (*median / 0.6745).powi(2).max(least);
     let squares: Vec<f64> = all.iter().map(|x| x * x).collect();
     let mut wide = vec![0.0; all.len()];
     let mut deviance = 0.0;
@@ -199,7 +199,7 @@ pub(crate) fn mixture((mut share, mut ratio): (f64, f64), w: &[Vec<f64>]) -> Wei
         });
         deviance = -2.0 * sum_of_logarithms(densities);
         share = (count / n).clamp(1e-5, 0.3);
-        variance = (narrow_sum / (n - count).max(1.0)).max(1e-300);
+        variance = (narrow_sum / (n - count).max(1.0)).max(least);
         ratio = (wide_sum / count.max(1e-9) / variance).sqrt().clamp(2.5, 1e3);
         if (deviance - before).abs() < 1e-3 {
             break;
@@ -226,6 +226,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::assembly::LEAST_VARIANCE;
 
     proptest! {
         #[test]
@@ -246,18 +247,28 @@ mod tests {
     }
 
     #[test]
-    fn clipped_samples_have_no_say_in_a_mixture() {
+    fn values_that_repeat_are_worth_no_more_than_the_least_variance_allows() {
+        // A sensor at rest: nothing but zeros, and a step now and then.
+        let w = vec![(0..1000).map(|k| f64::from(u8::from(k % 100 == 0))).collect::<Vec<f64>>()];
+        let deviance = |least: f64| mixture((0.01, 8.0), least, &w).deviance.expect("a mixture");
+        assert!(deviance(LEAST_VARIANCE) < -10_000.0);
+        let normal = 1000.0 * 0.01_f64.ln();
+        assert!(deviance(1.0 / 12.0) > normal, "{} {normal}", deviance(1.0 / 12.0));
+    }
+
+    #[test]
+    fn masked_samples_have_no_say_in_a_mixture() {
         let w = vec![
             (0..400)
                 .map(|k| f64::from(k % 7) - 3.0 + if k % 50 == 0 { 40.0 } else { 0.0 })
                 .collect::<Vec<f64>>(),
         ];
-        let alone = mixture((0.01, 8.0), &w);
+        let alone = mixture((0.01, 8.0), LEAST_VARIANCE, &w);
         let mut longer = w.clone();
-        let mut clipped = vec![vec![false; 400]];
+        let mut masked = vec![vec![false; 400]];
         longer[0].insert(17, 1e6);
-        clipped[0].insert(17, true);
-        let rest = mixture_of_the_rest((0.01, 8.0), &longer, &clipped);
+        masked[0].insert(17, true);
+        let rest = mixture_of_the_rest((0.01, 8.0), LEAST_VARIANCE, &longer, &masked);
         let stretched = alone.deviance.map(|d| d * (401.0 / 400.0));
         assert_eq!((rest.deviance, rest.mixture, rest.left_out), (stretched, alone.mixture, 1));
         let scale = &rest.scale.as_ref().expect("weights")[0];

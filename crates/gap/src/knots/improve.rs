@@ -29,7 +29,7 @@ struct Place {
 pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
     let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
-    let innovations = design.innovations(&best.linear, &whitener);
+    let innovations = design.counted_innovations(&best.linear, &whitener);
     let mut places = suspicious(campaign, best, &design, &innovations);
     places.sort_by(|x, y| y.strength.total_cmp(&x.strength));
     places.truncate(CELLS);

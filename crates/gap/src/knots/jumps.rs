@@ -111,7 +111,7 @@ fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
     }
     let design = Design::like(Some(&best.design), model.campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
-    let innovations = design.innovations(&best.linear, &whitener).concat();
+    let innovations = design.counted_innovations(&best.linear, &whitener).concat();
     let jacobian = Jacobian::new(&design, &best.linear, &whitener, &Weights::default());
     let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;
     let mut steps = Steps::new(&gains, &design, best);

@@ -15,7 +15,7 @@ pub(super) fn pruned(model: &Model<'_>, best: Fit) -> Fit {
     let first = first_grid(campaign);
     let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
-    let innovations = design.innovations(&best.linear, &whitener);
+    let innovations = design.counted_innovations(&best.linear, &whitener);
     let mut normal =
         normal_equations(&design, &best.linear, &whitener, &Weights::default(), (&innovations.concat(), &[]));
     // Without the gauge no border value would be determined.
