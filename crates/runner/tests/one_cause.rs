@@ -1,0 +1,36 @@
+//! One cause is named alone: whatever looks like a second one beside it is no cause of its own.
+
+mod common;
+
+use common::Folder;
+use serde_json::{Value, json};
+
+/// The verdict on a made rig with one effect.
+fn verdict(effect: &str, law: &str, size: &str, (seed, order): (&str, &str)) -> Value {
+    let folder = Folder::with_good_rig();
+    let what = ["--effect", effect, "--law", law, "--size", size, "--seed", seed, "--order", order];
+    let made = folder.switchback(&[&["rig", "--out", "made"][..], &what].concat()).output().expect("it runs");
+    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    let told = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
+    let page: Value = serde_json::from_slice(&told.stdout).expect("one JSON object on stdout");
+    page["verdict"].clone()
+}
+
+#[test]
+fn where_a_play_stood_before_the_record_is_no_second_cause() {
+    let verdict = verdict("backlash", "0", "4", ("218432656797407362", "2"));
+    assert_eq!(verdict["effects"], json!(["backlash"]), "{verdict:#}");
+}
+
+#[test]
+fn readings_that_repeat_because_they_are_rounded_leave_no_outliers() {
+    let verdict = verdict("sensor_quantisation", "0", "2", ("13802676115951568624", "2"));
+    assert_eq!(verdict["effects"], json!(["sensor_quantisation"]), "{verdict:#}");
+}
+
+#[test]
+fn what_an_inexact_law_leaves_is_a_correction() {
+    let verdict = verdict("sensor_saturation", "2", "2", ("13097605359539705777", "3"));
+    assert_eq!(verdict["effects"], json!(["sensor_saturation"]), "{verdict:#}");
+    assert!(verdict["corrected_by"].is_string(), "{verdict:#}");
+}
