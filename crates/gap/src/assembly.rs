@@ -185,14 +185,12 @@ pub(crate) struct NoiseLaw {
 
 /// A variance of innovations below which there is nothing.
 pub(crate) const LEAST_VARIANCE: f64 = 1e-300;
-/// Share of the variance `q²/12` of rounding to steps of `q` that innovations keep at least: rounded at rest they repeat, and a
-/// narrow normal distribution over repeated values would be worth any deviance.
-const ROUNDED: f64 = 1.0;
 
 impl NoiseLaw {
-    /// Least variance of one component of the innovations.
+    /// Least variance of one component of a mixture: that of rounding to steps of `q`, `q²/12`, where the sensor does. At rest
+    /// rounded readings repeat, and a narrow normal distribution over repeated values would be worth any deviance.
     pub(crate) fn least_variance(&self) -> f64 {
-        self.lattice.map_or(LEAST_VARIANCE, |step| ROUNDED * step * step / 12.0)
+        self.lattice.map_or(LEAST_VARIANCE, |step| step * step / 12.0)
     }
 }
 
