@@ -1,7 +1,7 @@
 //! The blind study, with examiners that are easy to foresee in place of the diagnosis.
 
 use std::collections::BTreeMap;
-use switchback::blind::{self, Expect, Kind, Study};
+use switchback::blind::{self, Expect, Journal, Kind, Study};
 use switchback_estimator::rig::Rig;
 use switchback_gap::{DiagnoseError, Diagnosis, Figure, Gap, ResidualPicture, Settings, Status, Verdict};
 use switchback_maker::Plan;
@@ -131,6 +131,47 @@ fn a_refused_rig_counts_as_failed() {
     let refuse = |_: &Rig, _: &Settings| Err(DiagnoseError::ConstantInput);
     let cases = blind::examine(&sealed, &refuse, &|| ()).unwrap();
     assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
+}
+
+#[test]
+fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut study = study();
+    study.slice = Some(4);
+    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
+    let mut journal = Journal::open(folder.path(), "one").unwrap();
+    assert!(sealed.iter().all(|rig| journal.recall(rig).is_none()));
+    journal.keep(&sealed[..2], &cases[..2]).unwrap();
+    drop(journal);
+
+    // Interrupted within a line, and taken up.
+    let path = folder.path().join("unfinished.jsonl");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, &text[..text.len() - 9]).unwrap();
+    let mut journal = Journal::open(folder.path(), "one").unwrap();
+    let known: Vec<_> = sealed.iter().map(|rig| journal.recall(rig)).collect();
+    assert_eq!(known, [Some(&cases[0]), None, None, None]);
+    journal.keep(&sealed[1..3], &cases[1..3]).unwrap();
+    drop(journal);
+
+    let known = |program: &str| {
+        let journal = Journal::open(folder.path(), program).unwrap();
+        sealed.iter().filter(|rig| journal.recall(rig).is_some()).count()
+    };
+    assert_eq!([known("one"), known("another")], [3, 0]);
+    Journal::open(folder.path(), "one").unwrap().close().unwrap();
+    assert_eq!(known("one"), 0);
+}
+
+#[test]
+fn a_sample_is_the_beginning_of_a_larger_one() {
+    let ids = |slice: usize| {
+        let study = Study { slice: Some(slice), ..study() };
+        blind::design(&study).unwrap().iter().map(|t| t.id).collect::<Vec<_>>()
+    };
+    assert_eq!(ids(9), ids(20)[..9]);
+    assert!(!ids(20).is_sorted());
 }
 
 #[test]

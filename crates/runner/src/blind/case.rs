@@ -3,11 +3,12 @@
 use super::design::{Kind, Ticket};
 use super::place::{PlaceCheck, check};
 use super::twins::same_class;
+use serde::{Deserialize, Serialize};
 use switchback_gap::{Diagnosis, Status, Together};
 use switchback_maker::{MadeRig, Nature};
 
 /// What a diagnosis said, in the words of its JSON.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reply {
     /// `none`, `named`, `class`, `ambiguous`, `unexplained`, or `failed` where the rig was refused.
     pub status: &'static str,
@@ -24,7 +25,7 @@ pub struct Reply {
 }
 
 /// What simpler rules would have named from the same fits; none where they see no gap.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Baseline {
     /// The candidate that leaves the least simulation error on the hold-out records.
     pub lowest_rmse: Option<&'static str>,
@@ -35,7 +36,8 @@ pub struct Baseline {
 }
 
 /// What the fits left and gained.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
 pub struct Evidence {
     /// Deviance that causes in general would still gain.
     pub left: f64,
@@ -44,7 +46,32 @@ pub struct Evidence {
     /// Samples fitted.
     pub samples: usize,
     /// The best pair of effects, where one was looked for.
-    pub together: Option<Together>,
+    pub together: Option<PairEvidence>,
+}
+
+/// What the best pair of effects gained and left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
+pub struct PairEvidence {
+    /// Both effects.
+    pub effects: Vec<&'static str>,
+    /// Penalised deviance gained over the best single effect.
+    pub gain: f64,
+    /// Deviance that causes in general would still gain beside the pair.
+    pub left: f64,
+    /// The same beside the best single effect.
+    pub left_by_single: f64,
+}
+
+impl PairEvidence {
+    fn of(pair: &Together) -> Self {
+        Self {
+            effects: pair.effects.iter().map(|e| e.name()).collect(),
+            gain: pair.gain,
+            left: pair.left,
+            left_by_single: pair.left_by_single,
+        }
+    }
 }
 
 impl Evidence {
@@ -56,12 +83,17 @@ impl Evidence {
             d.candidates.iter().map(|c| (c.effect.name(), -c.bic, c.heldout_log_score, c.closure)).collect();
         candidates.sort_by(|x, y| y.1.total_cmp(&x.1));
         candidates.truncate(Self::KEPT);
-        Self { left: d.left, candidates, samples: d.samples, together: d.together.clone() }
+        Self {
+            left: d.left,
+            candidates,
+            samples: d.samples,
+            together: d.together.as_ref().map(PairEvidence::of),
+        }
     }
 }
 
 /// The closure stated against the closure that the stated models really have.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ClosureCheck {
     /// Stated.
     pub estimate: f64,
@@ -72,7 +104,9 @@ pub struct ClosureCheck {
 }
 
 /// One rig, judged.
-#[derive(Debug, Clone)]
+///
+/// Read back only from a text that is never let go: its names are slices of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Case {
     /// Position in the design.
     pub id: usize,

@@ -2,10 +2,11 @@
 
 use super::scenario::Study;
 use super::twins::same_class;
+use serde::{Deserialize, Serialize};
 use switchback_maker::{EFFECTS, FOREIGN, Family, Ingredient, MakeError, MakeRig, laws_of};
 
 /// What a rig is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Kind {
     /// One effect of the library.
     Single,
@@ -44,7 +45,8 @@ pub struct Ticket {
     pub recipe: MakeRig,
 }
 
-/// The tickets of a study, or of its slice, in the order of their ids.
+/// The tickets of a study, or of its slice, in random order: as many of the first as one likes are a sample of all, and what is
+/// left takes as long a rig as what is done.
 ///
 /// Single effects run over every effect × size × system × seed; every other seed takes the plain law, the rest go
 /// round the effect's other laws. Outsiders are foreign and withheld in turn, at sizes of at least 1. Pairs are drawn
@@ -95,13 +97,10 @@ pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
     Ok(sliced(tickets, study))
 }
 
-/// A random part of the tickets, the same for every run of the study.
+/// The tickets shuffled, or the first of them, the same for every run of the study.
 fn sliced(mut tickets: Vec<Ticket>, study: &Study) -> Vec<Ticket> {
-    if let Some(count) = study.slice {
-        tickets.sort_by_key(|t| scramble(!study.seed, t.id as u64));
-        tickets.truncate(count);
-        tickets.sort_by_key(|t| t.id);
-    }
+    tickets.sort_by_key(|t| scramble(!study.seed, t.id as u64));
+    tickets.truncate(study.slice.unwrap_or(usize::MAX));
     tickets
 }
 

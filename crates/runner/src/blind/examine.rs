@@ -10,41 +10,32 @@ use switchback_maker::MakeError;
 /// Who diagnoses: a function of what a user's folder holds and of the effects to consider.
 pub type Examiner<'a> = &'a (dyn Fn(&Rig, &Settings) -> Result<Diagnosis, DiagnoseError> + Sync);
 
-/// Rigs diagnosed before their keys are opened; bounds memory, changes no result. At the end of a batch threads wait for the
-/// last rig.
-const BATCH: usize = 128;
-
-/// Diagnoses batch after batch in parallel; the keys of a batch stay closed until all of it is diagnosed.
+/// Diagnoses rigs in parallel, and opens the keys when all of them are diagnosed.
 ///
-/// Results come in the order of `sealed`, whatever the threads do. `done` hears of each rig.
+/// Results come in the order of `batch`, whatever the threads do. `done` hears of each rig.
 ///
 /// # Errors
 /// [`MakeError`] never in practice: every recipe was made before.
 pub fn examine(
-    sealed: &[Sealed],
+    batch: &[Sealed],
     examiner: Examiner<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Case>, MakeError> {
-    let mut cases = Vec::with_capacity(sealed.len());
-    for batch in sealed.chunks(BATCH) {
-        let diagnosed: Vec<Option<Diagnosis>> = batch
-            .par_iter()
-            // One rig may take as long as twenty others: each is a task of its own.
-            .with_max_len(1)
-            .map(|one| {
-                let diagnosis = examiner(&one.rig()?, &settings(one)).ok();
-                done();
-                Ok(diagnosis)
-            })
-            .collect::<Result<_, MakeError>>()?;
-        let judged: Vec<Case> = batch
-            .par_iter()
-            .zip(diagnosed)
-            .map(|(one, diagnosis)| Ok(Case::judge(one.ticket(), diagnosis.as_ref(), &one.open()?)))
-            .collect::<Result<_, MakeError>>()?;
-        cases.extend(judged);
-    }
-    Ok(cases)
+    let diagnosed: Vec<Option<Diagnosis>> = batch
+        .par_iter()
+        // One rig may take as long as twenty others: each is a task of its own.
+        .with_max_len(1)
+        .map(|one| {
+            let diagnosis = examiner(&one.rig()?, &settings(one)).ok();
+            done();
+            Ok(diagnosis)
+        })
+        .collect::<Result<_, MakeError>>()?;
+    batch
+        .par_iter()
+        .zip(diagnosed)
+        .map(|(one, diagnosis)| Ok(Case::judge(one.ticket(), diagnosis.as_ref(), &one.open()?)))
+        .collect()
 }
 
 /// The defaults, less the effect that is taken out of the library for this rig.

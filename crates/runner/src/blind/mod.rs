@@ -11,6 +11,7 @@
 mod case;
 mod design;
 mod examine;
+mod journal;
 mod place;
 mod report;
 mod scenario;
@@ -21,6 +22,7 @@ mod twins;
 pub use case::{Baseline, Case, ClosureCheck, Reply};
 pub use design::{Kind, Ticket, design};
 pub use examine::{Examiner, examine};
+pub use journal::{Journal, JournalError};
 pub use place::PlaceCheck;
 pub use report::{artefacts, summary};
 pub use scenario::{BlindError, Expect, Study, is_blind, read};

@@ -3,12 +3,13 @@
 //! A cell is understood from its axis and its label alone, as a reader of `gap.json` would; its samples are found in the
 //! rig here, without the diagnosis' own code.
 
+use serde::{Deserialize, Serialize};
 use switchback_estimator::rig::Rig;
 use switchback_gap::Cell;
 use switchback_maker::Truth;
 
 /// Cells of one axis, flagged and true.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlaceCheck {
     /// The axis.
     pub axis: &'static str,

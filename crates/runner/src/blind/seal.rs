@@ -75,11 +75,11 @@ struct WrittenEffect<'a> {
     size: f64,
 }
 
-/// The key file: one JSON object a line and a rig.
-pub fn key_file(sealed: &[Sealed]) -> String {
-    let mut text = String::new();
-    for Sealed { ticket, key } in sealed {
-        let line = WrittenKey {
+impl Sealed {
+    /// The rig's line in the key file: whatever makes one rig another.
+    pub fn key_line(&self) -> String {
+        let Self { ticket, key } = self;
+        let written = WrittenKey {
             id: ticket.id,
             kind: ticket.kind.name(),
             withheld: ticket.withheld,
@@ -100,15 +100,20 @@ pub fn key_file(sealed: &[Sealed]) -> String {
                 })
                 .collect(),
         };
-        text.push_str(&serde_json::to_string(&line).expect("numbers and strings are JSON"));
-        text.push('\n');
+        serde_json::to_string(&written).expect("numbers and strings are JSON")
     }
-    text
 }
 
-/// SHA-256 of a text, in hexadecimal as `sha256sum` prints it.
-pub fn sha256(text: &str) -> String {
-    let digest = Sha256::digest(text.as_bytes());
+/// The key file: one JSON object a line and a rig, in the order of the design.
+pub fn key_file(sealed: &[Sealed]) -> String {
+    let mut all: Vec<&Sealed> = sealed.iter().collect();
+    all.sort_by_key(|one| one.ticket.id);
+    all.into_iter().fold(String::new(), |text, one| text + &one.key_line() + "\n")
+}
+
+/// SHA-256 of a text or of bytes, in hexadecimal as `sha256sum` prints it.
+pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
+    let digest = Sha256::digest(bytes);
     digest.iter().fold(String::new(), |mut hex, byte| {
         let _ = write!(hex, "{byte:02x}");
         hex

@@ -1,6 +1,6 @@
 //! `switchback SCENARIO.toml` with `study = "blind"`.
 
-use crate::blind::{self, Examiner, Study};
+use crate::blind::{self, Case, Examiner, Journal, Sealed, Study};
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::progress::Meter;
@@ -19,6 +19,8 @@ use thiserror::Error;
 pub struct StudyError(#[from] MakeError);
 
 /// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report into `out`, prints the summary.
+///
+/// Interrupted, it is taken up where it stood by starting it again: what is judged is kept in `out` until the report is written.
 ///
 /// Runs on the rayon pool that it is called from. Only the printed time depends on it.
 ///
@@ -44,18 +46,46 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join("key.jsonl").display()))?;
     page.say(&format!("SHA-256 {hash}"))?;
 
-    let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
-    let meter = Meter::counting("rigs diagnosed", quiet);
-    meter.planned(sealed.len() as u64);
-    let start = Instant::now();
-    let cases = blind::examine(&sealed, examiner, &|| meter.advanced(1)).map_err(StudyError)?;
-    meter.finish();
-    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
-
-    conclude(&study, &hash, &cases, out, page)
+    let mut journal = Journal::open(out, &this_program())?;
+    let cases = examine(sealed, &mut journal, page)?;
+    let outcome = conclude(&study, &hash, &cases, out, page)?;
+    journal.close()?;
+    Ok(outcome)
 }
 
-fn conclude(study: &Study, hash: &str, cases: &[blind::Case], out: &Path, page: Page) -> CommandResult {
+/// Rigs diagnosed before their keys are opened and they are kept; bounds memory and what an interruption costs, changes no result.
+/// At the end of a batch threads wait for the last rig.
+const BATCH: usize = 64;
+
+/// Judges what the journal does not know, batch after batch. Cases come by their number in the design.
+fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Result<Vec<Case>> {
+    let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
+    let mut cases: Vec<Case> = sealed.iter().filter_map(|rig| journal.recall(rig).cloned()).collect();
+    let new: Vec<Sealed> = sealed.into_iter().filter(|rig| journal.recall(rig).is_none()).collect();
+    if !cases.is_empty() {
+        page.say(&format!("{} of them are judged already: taken up where it was interrupted", cases.len()))?;
+    }
+    let meter = Meter::counting("rigs diagnosed", page.quiet);
+    meter.planned(new.len() as u64);
+    let start = Instant::now();
+    for batch in new.chunks(BATCH) {
+        let judged = blind::examine(batch, examiner, &|| meter.advanced(1)).map_err(StudyError)?;
+        journal.keep(batch, &judged)?;
+        cases.extend(judged);
+    }
+    meter.finish();
+    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
+    cases.sort_by_key(|case| case.id);
+    Ok(cases)
+}
+
+/// What tells this executable from others; one that cannot be read is like no other, and takes nothing up.
+fn this_program() -> String {
+    let unique = |_| std::process::id().to_string().into_bytes();
+    blind::sha256(std::env::current_exe().and_then(std::fs::read).unwrap_or_else(unique))
+}
+
+fn conclude(study: &Study, hash: &str, cases: &[Case], out: &Path, page: Page) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
     OutputFolder::claim(out)?.commit(&blind::artefacts(study, hash, cases, &scores)?)?;
     page.say(&format!("{}\nwritten to {}", blind::summary(&scores), out.display()))?;

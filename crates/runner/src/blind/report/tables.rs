@@ -82,8 +82,7 @@ fn gains(case: &Case) -> String {
 /// `effects:gain over the best single one:left by both:left by the single one` of the best pair.
 fn together(case: &Case) -> String {
     let Some(pair) = &case.evidence.together else { return String::new() };
-    let names: Vec<&str> = pair.effects.iter().map(|e| e.name()).collect();
-    format!("{}:{:.0}:{:.0}:{:.0}", names.join("+"), pair.gain, pair.left, pair.left_by_single)
+    format!("{}:{:.0}:{:.0}:{:.0}", pair.effects.join("+"), pair.gain, pair.left, pair.left_by_single)
 }
 
 pub(super) fn confusion(table: &Confusion) -> String {

@@ -1,0 +1,100 @@
+//! What is judged already, on disk while an examination runs: one that was interrupted is taken up where it stood.
+//!
+//! A line a rig: `{"program": …, "rig": …, "case": {…}}`, the first two the SHA-256 of the executable that judged and of the
+//! rig's line in the key file. Only the same executable's judgement of the same rig counts.
+
+use super::case::Case;
+use super::seal::{Sealed, sha256};
+use miette::Diagnostic;
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Judged rigs, in memory and on disk.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    program: String,
+    known: HashMap<String, Case>,
+}
+
+/// The journal could not be read or written.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{path}: cannot keep what is judged there: {source}")]
+#[diagnostic(help("give a folder that you may write to, on a disk with space left; what it holds is kept"))]
+pub struct JournalError {
+    path: String,
+    source: io::Error,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
+struct Line<'a> {
+    program: &'a str,
+    rig: String,
+    case: Case,
+}
+
+impl Journal {
+    /// Opens the journal of a report folder, an empty one if there is none; `program` tells executables apart.
+    ///
+    /// # Errors
+    /// [`JournalError`] if the system refuses.
+    pub fn open(folder: &Path, program: &str) -> Result<Self, JournalError> {
+        let path = folder.join("unfinished.jsonl");
+        let fails = |source| JournalError { path: path.display().to_string(), source };
+        let text = match fs::read(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            other => other.map_err(fails)?,
+        };
+        let mut file = OpenOptions::new().create(true).append(true).open(&path).map_err(fails)?;
+        if text.last().is_some_and(|last| *last != b'\n') {
+            // Interrupted within a line.
+            file.write_all(b"\n").map_err(fails)?;
+        }
+        // Cases hold names, which live as long as the program: so does the text, which is read once.
+        let text: &'static str = String::from_utf8_lossy(&text).into_owned().leak();
+        let known = text
+            .lines()
+            .filter_map(|line| serde_json::from_str::<Line<'_>>(line).ok())
+            .filter(|line| line.program == program)
+            .map(|line| (line.rig, line.case))
+            .collect();
+        Ok(Self { path, file, program: program.to_owned(), known })
+    }
+
+    /// What was judged of a rig before.
+    pub fn recall(&self, rig: &Sealed) -> Option<&Case> {
+        self.known.get(&sha256(rig.key_line()))
+    }
+
+    /// Keeps judged rigs.
+    ///
+    /// # Errors
+    /// [`JournalError`] if the system refuses.
+    pub fn keep(&mut self, rigs: &[Sealed], cases: &[Case]) -> Result<(), JournalError> {
+        let lines: String = rigs.iter().zip(cases).map(|(rig, case)| self.line(rig, case)).collect();
+        self.file.write_all(lines.as_bytes()).map_err(|source| self.error(source))
+    }
+
+    fn line(&self, rig: &Sealed, case: &Case) -> String {
+        let line = Line { program: &self.program, rig: sha256(rig.key_line()), case: case.clone() };
+        serde_json::to_string(&line).expect("names and numbers are JSON") + "\n"
+    }
+
+    /// Removes it: the report tells all.
+    ///
+    /// # Errors
+    /// [`JournalError`] if the system refuses.
+    pub fn close(self) -> Result<(), JournalError> {
+        fs::remove_file(&self.path).map_err(|source| self.error(source))
+    }
+
+    fn error(&self, source: io::Error) -> JournalError {
+        JournalError { path: self.path.display().to_string(), source }
+    }
+}
