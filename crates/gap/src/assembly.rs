@@ -32,8 +32,10 @@ pub(crate) enum TransitionLaw {
 /// A clock that slow changes follow, from 0 to about 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Clock {
-    /// Samples of the whole campaign.
+    /// Share of the samples of the whole campaign.
     Campaign,
+    /// Samples of the whole campaign, not scaled.
+    Samples,
     /// Samples of each record anew.
     Record,
     /// Travel of the whole campaign.
@@ -48,6 +50,8 @@ pub(crate) struct Slow {
     pub(crate) coefficients: Vec<f64>,
     /// Angular rate over the clock and phase of an added sinusoid, `(rate, sine, cosine)`.
     pub(crate) wave: Option<(f64, f64, f64)>,
+    /// Clock and change where a course that is straight in between bends, clock increasing; beyond the ends it stays.
+    pub(crate) bends: Vec<(f64, f64)>,
 }
 
 impl NoiseLaw {
@@ -61,6 +65,17 @@ impl NoiseLaw {
 }
 
 impl Slow {
+    /// No change, following a clock.
+    pub(crate) fn on(clock: Clock) -> Self {
+        Self { clock, coefficients: Vec::new(), wave: None, bends: Vec::new() }
+    }
+
+    /// Whether it is more than nothing.
+    pub(crate) fn changes(&self) -> bool {
+        let waves = self.wave.is_some_and(|(_, sine, cosine)| sine != 0.0 || cosine != 0.0);
+        waves || self.coefficients.iter().any(|c| *c != 0.0) || self.bends.iter().any(|b| b.1 != 0.0)
+    }
+
     /// The change at clock `s`.
     pub(crate) fn at(&self, s: f64) -> f64 {
         let x = 2.0 * s - 1.0;
@@ -69,7 +84,16 @@ impl Slow {
         if let Some((rate, sine, cosine)) = self.wave {
             sum += sine * (rate * s).sin() + cosine * ((rate * s).cos() - 1.0);
         }
-        sum
+        sum + self.course(s)
+    }
+
+    fn course(&self, s: f64) -> f64 {
+        let after = self.bends.partition_point(|bend| bend.0 <= s);
+        match (after.checked_sub(1).map(|last| self.bends[last]), self.bends.get(after)) {
+            (Some((from, start)), Some((to, end))) => start + (end - start) * (s - from) / (to - from),
+            (Some((_, value)), None) | (None, Some(&(_, value))) => value,
+            (None, None) => 0.0,
+        }
     }
 }
 
@@ -127,6 +151,8 @@ pub(crate) enum EquationColumn {
     Line { frequency: f64, track: Option<usize>, sine: bool },
     /// A polynomial of a clock, of the given degree.
     Trend { clock: Clock, degree: usize },
+    /// The change of the gain itself: what it does to a part of `u` that the borders do not show, because the output's zero is unknown.
+    Gain,
     /// `radiusᵗ cos(frequency·t)` (or sine) on one track: the unknown initial state of a slow filter.
     Decay { track: usize, radius: f64, frequency: f64, sine: bool },
     /// A bump function of a track: linear interpolation between `pieces` equal pieces.
@@ -140,7 +166,7 @@ impl EquationColumn {
             Self::Line { track: Some(only), .. }
             | Self::Decay { track: only, .. }
             | Self::Local { track: only, .. } => *only == number,
-            Self::Line { track: None, .. } | Self::Trend { .. } => true,
+            Self::Line { track: None, .. } | Self::Trend { .. } | Self::Gain => true,
         }
     }
 }
@@ -272,4 +298,17 @@ pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
 pub(crate) fn times_monic(a: &[f64], b: &[f64]) -> Vec<f64> {
     let monic = |x: &[f64]| std::iter::once(1.0).chain(x.iter().copied()).collect::<Vec<f64>>();
     convolve(&monic(a), &monic(b)).split_off(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_course_is_straight_between_its_bends_and_stays_beyond() {
+        let course = Slow { bends: vec![(10.0, 0.0), (20.0, 1.0), (21.0, -1.0)], ..Slow::on(Clock::Samples) };
+        let at = [0.0, 10.0, 15.0, 20.0, 20.5, 21.0, 99.0].map(|s| course.at(s));
+        assert_eq!(at, [0.0, 0.0, 0.5, 1.0, 0.0, -1.0, -1.0]);
+        assert!(course.changes() && !Slow::on(Clock::Samples).changes());
+    }
 }

@@ -54,10 +54,11 @@ mod calibration {
     /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
     /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
-    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, and of outliers.
+    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, of outliers, and of a resonance.
     pub(super) const MOST_LEFT: f64 = 0.45;
     pub(super) const MOST_LEFT_WITH_THE_GAP: f64 = 0.1;
     pub(super) const MOST_LEFT_BY_OUTLIERS: f64 = 0.02;
+    pub(super) const MOST_LEFT_BY_RESONANCE: f64 = 0.21;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
@@ -106,6 +107,8 @@ fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
         // They come whatever the machine does: nothing of them hangs on its state.
         Effect::Outliers => calibration::MOST_LEFT_BY_OUTLIERS,
         _ if moves_simulation && misses => calibration::MOST_LEFT_WITH_THE_GAP,
+        // Two poles and a zero that are free follow the lines, lags and frictions of others a good part of the way.
+        Effect::Resonance => calibration::MOST_LEFT_BY_RESONANCE,
         _ => calibration::MOST_LEFT,
     }
 }
@@ -335,8 +338,10 @@ mod tests {
         // A fifth, with and without the held-out gap.
         assert!(leaving(Effect::Backlash, 2250.0, 0.4));
         assert!(!leaving(Effect::Backlash, 2250.0, 0.1));
-        // Half.
+        // Half, and what a resonance leaves.
         assert!(leaving(Effect::Backlash, 9000.0, 0.1));
+        assert!(leaving(Effect::Resonance, 2700.0, 0.1));
+        assert!(!leaving(Effect::Resonance, 2250.0, 0.1));
         // A thirtieth and a hundredth.
         assert!(leaving(Effect::Outliers, 300.0, 1.0));
         assert!(!leaving(Effect::Outliers, 90.0, 1.0));

@@ -10,7 +10,7 @@
 
 use std::sync::Arc;
 
-use crate::assembly::{Assembly, NoiseLaw, convolve};
+use crate::assembly::{Assembly, EquationColumn, NoiseLaw, convolve};
 use crate::borders::Grid;
 use crate::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::mask::masked;
@@ -308,7 +308,8 @@ impl Common {
                 && had.widening == assembly.widening
                 && had.gain == assembly.gain
                 && had.border_columns == assembly.border_columns,
-            columns: had.equation_columns == assembly.equation_columns,
+            columns: had.equation_columns == assembly.equation_columns
+                && (had.gain == assembly.gain || !had.equation_columns.contains(&EquationColumn::Gain)),
             output: had.curve == assembly.curve,
             sensitivity: moves && same_grid && jitter,
             masked: moves

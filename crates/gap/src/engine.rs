@@ -10,7 +10,7 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, EquationColumn};
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
@@ -306,7 +306,10 @@ pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &As
         }
         offset += knots.len();
     }
-    for j in 0..assembly.border_columns.len() {
-        normal.add_prior(&[(offset + j, 1.0)], 1e-6, &present);
+    let columns = assembly.equation_columns.iter().enumerate();
+    // A gain that does not change yet tells nothing of the output's zero.
+    let idle = columns.filter(|(_, c)| **c == EquationColumn::Gain).map(|(j, _)| base + p.f.len() + j);
+    for i in (0..assembly.border_columns.len()).map(|j| offset + j).chain(idle) {
+        normal.add_prior(&[(i, 1.0)], 1e-6, &present);
     }
 }

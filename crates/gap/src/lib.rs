@@ -7,6 +7,7 @@ mod beginnings;
 mod borders;
 mod campaign;
 mod closure;
+mod clustering;
 mod decide;
 mod dense_sums;
 mod design;

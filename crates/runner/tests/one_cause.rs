@@ -34,3 +34,15 @@ fn what_an_inexact_law_leaves_is_a_correction() {
     assert_eq!(verdict["effects"], json!(["sensor_saturation"]), "{verdict:#}");
     assert!(verdict["corrected_by"].is_string(), "{verdict:#}");
 }
+
+#[test]
+fn a_slow_pole_is_no_second_cause_beside_a_gain_that_drifts() {
+    let verdict = verdict("gain_drift", "0", "4", ("6618236462401797109", "3"));
+    assert_eq!(verdict["effects"], json!(["gain_drift"]), "{verdict:#}");
+}
+
+#[test]
+fn the_unknown_zero_of_the_output_is_no_second_cause_beside_a_gain_that_wanders() {
+    let verdict = verdict("gain_drift", "2", "4", ("17263246882115084920", "2"));
+    assert_eq!(verdict["effects"], json!(["gain_drift"]), "{verdict:#}");
+}

@@ -29,8 +29,16 @@ impl Plan {
     /// counts from then on.
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
         let mut evidence = self.weigh_in(attribution.singles());
-        if evidence.tests().is_some_and(|tests| tests.excess() > IMMATERIAL)
+        if evidence.leaves_something()
             && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
+        {
+            evidence = self.weigh_in(better);
+        }
+        if evidence.leaves_something()
+            && let Some((known, freed)) = attribution.gain_on_a_free_course(&evidence.all)
+            // What a free course is after the last record fitted nobody knows.
+            && self.simulation_error(&freed.fit) < self.simulation_error(&known.fit)
+            && let Some(better) = evidence.improved(vec![freed])
         {
             evidence = self.weigh_in(better);
         }
@@ -70,6 +78,10 @@ impl Evidence {
     /// What the best effect leaves, where there is one.
     fn tests(&self) -> Option<&Omnibus> {
         self.tests.as_ref().filter(|_| self.significant)
+    }
+
+    fn leaves_something(&self) -> bool {
+        self.tests().is_some_and(|tests| tests.excess() > IMMATERIAL)
     }
 
     /// All single effects, where others are better optima of some of them.

@@ -3,6 +3,7 @@
 use super::Plan;
 use crate::campaign::Criterion;
 use crate::closure::measure;
+use crate::clustering::come_where_the_input_is;
 use crate::decide::IMMATERIAL;
 use crate::diagnosis::Gap;
 use crate::effect::Effect;
@@ -126,6 +127,12 @@ impl Plan {
         }
         let gap = self.gap(&explanation.fit, self.settings.resamples);
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
+    }
+
+    /// Whether the outliers that explain the gap come where the input is: something is missed there.
+    pub(super) fn misses_at_places(&self, explanation: &Explanation) -> bool {
+        explanation.effects() == [Effect::Outliers]
+            && come_where_the_input_is(&self.campaign, &explanation.fit)
     }
 
     /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: what

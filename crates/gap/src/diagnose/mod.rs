@@ -127,7 +127,7 @@ impl Plan {
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         // The tests of one-step predictions say nothing about simulators.
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
-        let refuted = significant && self.hardly_closes(&best, left);
+        let refuted = significant && (self.hardly_closes(&best, left) || self.misses_at_places(&best));
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
         let mut odds = odds(self.nominal.bic(), &effects, leaves);
         let mut joint = None;

@@ -22,7 +22,7 @@ pub(super) fn variants() -> Vec<Variant> {
                 (0..degree).map(|k| own("narrowing", "1", value(k), (-1.5, 1.5), 0.002)).collect()
             });
             out.push(Variant::new(starts.into(), move |p, assembly| {
-                assembly.wear = Some(Slow { clock, coefficients: p.to_vec(), wave: None });
+                assembly.wear = Some(Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
             }));
         }
         out.push(Variant::new(vec![Vec::new()], move |_, assembly| {

@@ -5,47 +5,92 @@
 //! ```
 //!
 //! The output that a zero of `u` stands for is unknown, and borders are known up to a level only: `g` moves the output as a drift
-//! does, by a share `u₀` that is estimated with it (polynomials) or taken as zero.
+//! does, by a share `u₀` that is estimated with it.
 //!
 //! A zero of the output more than [`FARTHEST`] ranges of `u` away makes the law a drift of the sensor, and is no gain drift.
+//!
+//! Nobody records how long the pauses between records are, and a gain may wander: where a law with a clock leaves something, the
+//! gain is straight between knots in each record, from where that law ended.
 //!
 //! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the campaign or of the record. Stage: dynamics. Outputs scale with time,
 //! mid-line and loop alike. Confused with: border wear (the mid-line tells), sensor drift.
 
 use super::{Variant, own};
-use crate::assembly::{Clock, EquationColumn, Slow};
+use crate::assembly::{Assembly, Clock, EquationColumn, Slow};
+use crate::campaign::Campaign;
 use crate::engine::Fit;
+use crate::rows::clock;
+
+/// Rates of a wave, radians over the clock.
+const RATES: [f64; 3] = [4.0, 9.0, 18.0];
+/// Changes of the gain, and phases of a wave, from which everything is identified anew: a slow pole may pass for a drift.
+const AFRESH: [f64; 2] = [-0.2, 0.2];
+const PHASES: [(f64, f64); 4] = [(0.2, 0.0), (0.0, 0.2), (-0.2, 0.0), (0.0, -0.2)];
 
 pub(super) fn variants() -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 3] {
-            let start: Vec<_> =
-                (0..degree).map(|_| own("gain_change", "1", 0.0, (-1.0, 1.0), 0.001)).collect();
-            for level in [false, true] {
-                out.push(Variant::new(vec![start.clone()], move |p, assembly| {
-                    assembly.gain = Some(Slow { clock, coefficients: p.to_vec(), wave: None });
-                    for degree in (1..=degree).filter(|_| level) {
-                        assembly.equation_columns.push(EquationColumn::Trend { clock, degree });
-                    }
-                }));
-            }
+            let start = |slope: f64| -> Vec<_> {
+                let value = |k: usize| if k == 0 { slope } else { 0.0 };
+                (0..degree).map(|k| own("gain_change", "1", value(k), (-1.0, 1.0), 0.001)).collect()
+            };
+            let law = Variant::new(vec![start(0.0)], move |p, assembly| {
+                drift(assembly, Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
+            });
+            let afresh = if degree == 1 { AFRESH.map(start).into() } else { Vec::new() };
+            out.push(Variant { afresh, ..law });
         }
-        let starts = [4.0, 9.0, 18.0]
-            .iter()
-            .map(|&rate| {
-                vec![
-                    own("sine", "1", 0.0, (-0.8, 0.8), 0.001),
-                    own("cosine", "1", 0.0, (-0.8, 0.8), 0.001),
-                    own("rate", "radians per clock", rate, (1.0, 60.0), 0.02),
-                ]
-            })
-            .collect();
-        out.push(Variant::new(starts, move |p, assembly| {
-            assembly.gain = Some(Slow { clock, coefficients: Vec::new(), wave: Some((p[2], p[0], p[1])) });
-        }));
+        let start = |rate: f64, (sine, cosine): (f64, f64)| {
+            vec![
+                own("sine", "1", sine, (-0.8, 0.8), 0.001),
+                own("cosine", "1", cosine, (-0.8, 0.8), 0.001),
+                own("rate", "radians per clock", rate, (1.0, 60.0), 0.02),
+            ]
+        };
+        let law = Variant::new(RATES.map(|rate| start(rate, (0.0, 0.0))).into(), move |p, assembly| {
+            drift(assembly, Slow { wave: Some((p[2], p[0], p[1])), ..Slow::on(clock) });
+        });
+        let afresh = RATES.iter().filter(|_| clock == Clock::Campaign);
+        let afresh = afresh.flat_map(|&rate| PHASES.map(|phase| start(rate, phase))).collect();
+        out.push(Variant { afresh, ..law });
     }
     out
+}
+
+/// The gain changes about a zero of the output that is estimated.
+fn drift(assembly: &mut Assembly, gain: Slow) {
+    assembly.gain = Some(gain);
+    assembly.equation_columns.push(EquationColumn::Gain);
+}
+
+/// Samples between knots of a free course, and pieces of a record at most.
+const PIECE: usize = 1000;
+const PIECES: usize = 4;
+
+/// A law of the gain that is straight between knots, from where the gain of a fit ended; none where that does not change.
+pub(crate) fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
+    let gain = fit.assembly.gain.as_ref().filter(|gain| gain.changes())?;
+    let known = campaign.fit().flat_map(|track| {
+        let pieces = (track.v.len() / PIECE).clamp(1, PIECES);
+        let last = track.v.len() - 1;
+        (0..=pieces).map(move |k| {
+            let t = last * k / pieces;
+            let value = gain.at(clock(gain.clock, campaign, track, t, track.moves[t].path));
+            ((track.clock + t) as f64, value)
+        })
+    });
+    let known: Vec<(f64, f64)> = known.collect();
+    // The scale of the gain is that of B: it is one in the beginning.
+    let (first, rest) = known.split_first()?;
+    let change = |value: f64| (1.0 + value) / (1.0 + first.1) - 1.0;
+    let start = rest.iter().map(|k| own("gain_change", "1", change(k.1), (-1.0, 2.0), 0.001)).collect();
+    let clocks: Vec<f64> = known.iter().map(|k| k.0).collect();
+    Some(Variant::new(vec![start], move |p, assembly| {
+        let values = std::iter::once(0.0).chain(p.iter().copied());
+        let bends = clocks.iter().copied().zip(values).collect();
+        drift(assembly, Slow { bends, ..Slow::on(Clock::Samples) });
+    }))
 }
 
 /// Distance of the output's zero from the middle of the borders, in their range, at which a gain that changes is not told from a drift.
@@ -53,21 +98,17 @@ const FARTHEST: f64 = 3.0;
 
 /// Whether the zero that the gain turns about is one that an output may have.
 pub(super) fn is_sound(fit: &Fit) -> bool {
-    let Some(Slow { coefficients, .. }) = &fit.assembly.gain else { return true };
-    let trends = fit.assembly.equation_columns.iter().zip(&fit.linear.d);
-    let trends: Vec<f64> =
-        trends.filter(|(c, _)| matches!(c, EquationColumn::Trend { .. })).map(|(_, d)| *d).collect();
-    if coefficients.is_empty() || trends.len() != coefficients.len() {
-        return true;
-    }
-    // The change in powers of the clock, as the trends are: its basis is x + 1, x² − 1, x³ − x.
-    let mut change = coefficients.clone();
-    change[0] -= coefficients.get(2).copied().unwrap_or(0.0);
-    let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
     let static_gain = fit.linear.b.iter().sum::<f64>();
-    let zero = product(&change, &trends) / (product(&change, &change) * static_gain);
+    let Some(zero) = share_of_the_change(fit).map(|share| share / static_gain) else { return true };
     let borders = &fit.linear.f[..fit.grid.len()];
     let low = borders.iter().copied().fold(f64::INFINITY, f64::min);
     let high = borders.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     (zero + 0.5 * (low + high)).abs() <= FARTHEST * (high - low)
+}
+
+/// The drift of the equation as a share of the gain's change, where that changes.
+fn share_of_the_change(fit: &Fit) -> Option<f64> {
+    fit.assembly.gain.as_ref().filter(|gain| gain.changes())?;
+    let mut columns = fit.assembly.equation_columns.iter().zip(&fit.linear.d);
+    columns.find(|(column, _)| **column == EquationColumn::Gain).map(|(_, share)| *share)
 }

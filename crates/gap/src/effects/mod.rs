@@ -54,6 +54,8 @@ pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
 pub(crate) struct Variant {
     /// Points the search starts from; all hold the same parameters.
     pub(crate) starts: Vec<Vec<Own>>,
+    /// Further points where everything is identified anew: at a start where the law changes nothing that identifies what is known.
+    pub(crate) afresh: Vec<Vec<Own>>,
     pub(crate) search: Search,
     /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
     pub(crate) climbs: usize,
@@ -80,6 +82,7 @@ impl Variant {
     fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
         Self {
             starts,
+            afresh: Vec::new(),
             search: Search::Smooth,
             climbs: CLIMBS,
             valley: None,
@@ -131,6 +134,8 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::BorderResolution => border_resolution::variants(scene),
     }
 }
+
+pub(crate) use gain_drift::free_course;
 
 /// Whether a fitted law is still a law of its effect, not the limit at which it is another one.
 pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {

@@ -51,6 +51,12 @@ pub(crate) fn equation_columns(
                 let at = clock(c, campaign, track, t, track.moves[t].path);
                 *cell = (2.0 * at - 1.0).powi(degree as i32);
             }),
+            EquationColumn::Gain => {
+                let Some(gain) = &assembly.gain else { continue };
+                cells.enumerate().for_each(|(t, cell)| {
+                    *cell = gain.at(clock(gain.clock, campaign, track, t, track.moves[t].path));
+                });
+            }
             EquationColumn::Decay { radius, frequency, sine, .. } => {
                 let mut wave = Wave::starting(frequency, 0.0);
                 let mut size = 1.0;

@@ -68,6 +68,7 @@ impl Rows {
 pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, path: f64) -> f64 {
     match clock {
         Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
+        Clock::Samples => (track.clock + t) as f64,
         Clock::Record => t as f64 / track.v.len() as f64,
         Clock::Travel => (track.travelled + path) / campaign.travel,
     }

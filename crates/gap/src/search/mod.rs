@@ -1,7 +1,9 @@
 //! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
 
+mod course;
 mod scratch;
 
+pub(crate) use self::course::on_a_free_course;
 pub(crate) use self::scratch::from_scratch;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;

@@ -4,10 +4,10 @@
 //! before the plant, or for errors that last; and no step leads from there to the right one.
 
 use super::{Task, advance, finish};
-use crate::assembly::{Assembly, EquationColumn};
+use crate::assembly::{Assembly, EquationColumn, Slow};
 use crate::borders::Grid;
 use crate::effect::Effect;
-use crate::effects::{Scene, variants};
+use crate::effects::{Scene, is_sound, variants};
 use crate::engine::{Ground, Own};
 use crate::explain::{Explanation, Part, assembled};
 use crate::knots::first_grid;
@@ -27,13 +27,48 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let asked = laws.iter().enumerate().flat_map(|law| grids.iter().map(move |grid| (law, grid)));
     let guessed = asked.flat_map(|((number, law), grid)| {
         let parts = vec![Part::of(effect, (number, law))];
-        law.starts.iter().filter_map(move |own| guessed(known, &parts, grid, own))
+        law.starts.iter().chain(&law.afresh).filter_map(move |own| guessed(known, &parts, grid, own))
     });
     let mut field: Vec<Explanation> = guessed.collect();
+    field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    let mut laws_seen = Vec::new();
+    let firsts = field.iter().filter(|sketch| {
+        let number = sketch.parts[0].law;
+        let first = !laws[number].afresh.is_empty() && !laws_seen.contains(&number);
+        laws_seen.push(number);
+        first
+    });
+    let refined: Vec<Explanation> = firsts.take(REFINED).map(|sketch| refined(known, sketch)).collect();
+    field.extend(refined);
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     let raced = field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch));
     let best = raced.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
     Some(finish(campaign, 0, &best))
+}
+
+/// Laws of which the likeliest sketch is refined, and by how many of its small steps a parameter is moved.
+const REFINED: usize = 3;
+const STEPS: [f64; 3] = [100.0, 50.0, 25.0];
+
+/// Own parameters moved one at a time, everything else identified anew each time: where `A` takes a drift for a slow pole unless
+/// nearly all of it is told, no joint step leads to the right one.
+fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
+    let mut best = sketch.clone();
+    for steps in STEPS {
+        for j in 0..best.fit.own.len() {
+            for direction in [-1.0, 1.0] {
+                let mut own = best.fit.own.clone();
+                let o = &mut own[j];
+                o.value = (o.value + direction * steps * o.step).clamp(o.low, o.high);
+                let moved = guessed(known, &sketch.parts, &sketch.fit.grid, &own);
+                if let Some(better) = moved.filter(|moved| moved.bic() < best.bic()) {
+                    best = better;
+                    break;
+                }
+            }
+        }
+    }
+    best
 }
 
 /// What a law explains at a start of its own parameters, the rest identified anew: none where it rules nothing there.
@@ -44,20 +79,21 @@ fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Optio
     let assembly = task.assembly(own);
     let order = known.explanation.fit.linear.a.len();
     let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
-    let fit = task.held(own, &start, 1)?;
+    let fit = task.held(own, &start, 1).filter(|fit| is_sound(parts[0].effect, fit))?;
     Some(Explanation { parts: parts.to_vec(), fit, set_back: 0.0, held_out: 0.0 })
 }
 
-/// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a slow lag, a
-/// delay, errors that last, a line.
+/// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a gain that
+/// changes, a slow lag, a delay, errors that last, a line.
 fn may_rule(assembly: &Assembly) -> bool {
     /// A polynomial's value at one, below which its slowest root is slow.
     const SLOW: f64 = 0.25;
-    let closes = assembly.wear.as_ref().is_some_and(|wear| wear.coefficients.iter().any(|c| *c != 0.0));
+    let closes = assembly.wear.as_ref().is_some_and(Slow::changes);
+    let changes = assembly.gain.as_ref().is_some_and(Slow::changes);
     let lag: f64 = assembly.denominator.iter().sum();
     let lags = assembly.denominator.len() > 1 && lag < SLOW;
     let lasts = 1.0 + assembly.noise.ar.iter().sum::<f64>() < SLOW;
     let rings = assembly.equation_columns.iter().any(|c| matches!(c, EquationColumn::Line { .. }));
     let delays = assembly.delay > 0.0;
-    !assembly.border_columns.is_empty() || closes || lags || delays || lasts || rings
+    !assembly.border_columns.is_empty() || closes || changes || lags || delays || lasts || rings
 }
