@@ -6,7 +6,7 @@ use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::knots::detail;
-use crate::search::{Prospect, Question, advance, finish, from_scratch, look, on_a_free_course, prospects};
+use crate::search::{Prospect, Question, advance, finish, from_scratch, look, prospects};
 use crate::settings::Settings;
 use crate::starts::Known;
 use crate::workers::Workers;
@@ -64,8 +64,6 @@ const SECONDS: usize = 6;
 /// Candidates whose knots are placed anew at most where none follows a detail, and the share of the best gain that they need.
 const REPLACED: usize = 3;
 const RIVAL: f64 = 0.85;
-/// Share of the best gain from which a gain drift may win on a free course.
-const NEARLY: f64 = 0.5;
 /// Share of an effect's gain that details of the borders gain without it, from which it rides on them.
 const RIDES: f64 = 0.9;
 
@@ -93,17 +91,6 @@ impl<W: Workers> Attribution<'_, W> {
         let most = found.iter().chain(singles).map(|s| self.gain(Some(s))).fold(0.0, f64::max);
         let rivals = found.into_iter().filter(|s| self.gain(Some(s)) > RIVAL * most).collect::<Vec<_>>();
         self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
-    }
-
-    /// The gain drift among the singles, where it comes near the best, and the same on a free course.
-    pub(crate) fn gain_on_a_free_course<'s>(
-        &self,
-        singles: &'s [Explanation],
-    ) -> Option<(&'s Explanation, Explanation)> {
-        let known = singles.iter().find(|s| s.parts[0].effect == Effect::GainDrift)?;
-        let near = self.gain(Some(known)) > NEARLY * self.gain(singles.first());
-        let freed = near.then(|| on_a_free_course(self.campaign, known)).flatten()?;
-        Some((known, freed))
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.

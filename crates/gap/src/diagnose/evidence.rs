@@ -6,6 +6,7 @@ use crate::decide::{IMMATERIAL, SIGNIFICANT};
 use crate::explain::Explanation;
 use crate::omnibus::{Omnibus, omnibus};
 use crate::pairs::{Firsts, Pair};
+use crate::search::on_a_free_course;
 use crate::workers::Workers;
 
 /// Single effects and the best pair of them.
@@ -35,9 +36,10 @@ impl Plan {
             evidence = self.weigh_in(better);
         }
         if evidence.leaves_something()
-            && let Some((known, freed)) = attribution.gain_on_a_free_course(&evidence.all)
+            // Only the best: a free course follows in time whatever else changes while it passes.
+            && let Some(freed) = on_a_free_course(&self.campaign, &evidence.best)
             // What a free course is after the last record fitted nobody knows.
-            && self.simulation_error(&freed.fit) < self.simulation_error(&known.fit)
+            && self.simulation_error(&freed.fit) < self.simulation_error(&evidence.best.fit)
             && let Some(better) = evidence.improved(vec![freed])
         {
             evidence = self.weigh_in(better);
