@@ -29,7 +29,7 @@ pub(crate) enum TransitionLaw {
     Crossing,
 }
 
-/// A clock that slow changes follow, from 0 to about 1.
+/// A clock that slow changes follow, from 0 to about 1 unless told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Clock {
     /// Share of the samples of the whole campaign.

@@ -1,7 +1,7 @@
 //! The gain of the linear part changes with time.
 //!
 //! ```text
-//! A y = (1 + g(t))·B (u + u₀),   g = Σ cₖ sₖ(clock), polynomial or sinusoid
+//! A y = (1 + g(t))·B (u + u₀),   g = Σ cₖ sₖ(clock), polynomial or sinusoid, or straight between knots
 //! ```
 //!
 //! The output that a zero of `u` stands for is unknown, and borders are known up to a level only: `g` moves the output as a drift
