@@ -17,7 +17,7 @@ fn diagnosis(c: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 let subject = Subject::choose(rig.clone(), None).expect("a rig without model");
-                black_box(examine(subject).expect("shipped rigs can be judged"))
+                black_box(examine(subject, &[]).expect("shipped rigs can be judged"))
             });
         });
     }

@@ -44,7 +44,7 @@ fn main() -> miette::Result<()> {
                 }
             }
         }
-        let report = diagnosis::examine(Subject::choose(rig, None)?).map_err(|e| e.in_file(&path))?;
+        let report = diagnosis::examine(Subject::choose(rig, None)?, &[]).map_err(|e| e.in_file(&path))?;
         let words = diagnosis::words(&report, None);
         println!("{words}");
         artefacts.add(format!("gap-{name}.txt"), words);

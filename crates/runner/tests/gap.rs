@@ -5,6 +5,7 @@ mod common;
 use common::{Folder, listing};
 use serde_json::Value;
 use std::fs;
+use switchback_gap::Effect;
 
 fn diagnosed(folder: &Folder, more: &[&str]) -> Value {
     let arguments = [&["gap", "rig.toml", "--json"], more].concat();
@@ -81,6 +82,27 @@ fn a_rig_without_a_gap_has_none() {
     for field in ["effect", "stage", "probability", "parameters", "bic", "heldout_log_score", "closure"] {
         assert!(candidate.get(field).is_some(), "{field}");
     }
+}
+
+#[test]
+fn what_the_rig_is_known_not_to_have_is_no_candidate() {
+    let folder = Folder::with_good_rig();
+    let page = diagnosed(&folder, &["--without", "creep", "--without", "backlash"]);
+    let names: Vec<&Value> =
+        page["candidates"].as_array().expect("a list").iter().map(|c| &c["effect"]).collect();
+    assert!(names.len() > 5 && names.iter().all(|name| *name != "creep" && *name != "backlash"), "{names:?}");
+    assert!(limitations(&page).contains("left out of the candidates, as asked: backlash, creep"), "{page:#}");
+    let unknown = folder.switchback(&["gap", "rig.toml", "--without", "friction"]).output().expect("it runs");
+    let told = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    assert_eq!(unknown.status.code(), Some(2), "{told}");
+    assert!(["friction", "--without", "stribeck"].iter().all(|word| told.contains(word)), "{told}");
+}
+
+#[test]
+fn a_rig_is_judged_without_any_candidate() {
+    let folder = Folder::with_good_rig();
+    let all: Vec<&str> = Effect::ALL.iter().flat_map(|e| ["--without", e.name()]).collect();
+    assert_eq!(diagnosed(&folder, &all)["verdict"]["status"], "none");
 }
 
 #[test]

@@ -5,7 +5,9 @@ use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::rig;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
+use switchback_gap::Effect;
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
@@ -17,6 +19,10 @@ pub struct Args {
     /// them, else the model identified from the fit records]
     #[arg(long, value_name = "MODEL.json")]
     model: Option<PathBuf>,
+
+    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    without: Vec<Effect>,
 
     /// Print one JSON object instead of words.
     #[arg(long)]
@@ -35,7 +41,7 @@ pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let subject = Subject::choose(rig, args.model.as_deref())?;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
-    let report = diagnosis::examine(subject).map_err(|error| error.in_file(&args.rig))?;
+    let report = diagnosis::examine(subject, &args.without).map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }
@@ -45,6 +51,11 @@ pub fn run(args: &Args) -> CommandResult {
         diagnosis::words(&report, args.out.as_deref())
     })?;
     Ok(Outcome::Done)
+}
+
+fn effect() -> impl TypedValueParser<Value = Effect> {
+    PossibleValuesParser::new(Effect::ALL.map(Effect::name))
+        .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
 }
 
 fn artefacts(report: &Report) -> Artefacts {

@@ -3,7 +3,7 @@
 use super::{DiagnosisError, Source, Subject};
 use rayon::prelude::*;
 use switchback_estimator::rig::Rig;
-use switchback_gap::{Diagnosis, Settings, Workers, diagnose_with};
+use switchback_gap::{Diagnosis, Effect, Settings, Workers, diagnose_with};
 
 /// A diagnosis with the rig it is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,14 +26,25 @@ impl Workers for Pool {
     }
 }
 
-/// Diagnoses with the default settings on all cores; the result does not depend on how many there are.
+/// Diagnoses with the default settings on all cores, some effects left out; the result does not depend on how many cores there
+/// are.
 ///
 /// # Errors
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
-pub fn examine(subject: Subject) -> Result<Report, DiagnosisError> {
+pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
-    let mut diagnosis = diagnose_with(&Pool, &rig, model, &Settings::default())
+    let mut settings = Settings::default();
+    settings.effects.retain(|effect| !without.contains(effect));
+    let mut diagnosis = diagnose_with(&Pool, &rig, model, &settings)
         .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
     diagnosis.limitations.extend(notes);
+    diagnosis.limitations.extend(left_out(without));
     Ok(Report { rig, source, diagnosis })
+}
+
+/// What a reader must know where candidates were left out.
+fn left_out(without: &[Effect]) -> Option<String> {
+    let names: Vec<&str> =
+        Effect::ALL.into_iter().filter(|e| without.contains(e)).map(Effect::name).collect();
+    (!names.is_empty()).then(|| format!("left out of the candidates, as asked: {}", names.join(", ")))
 }
