@@ -79,13 +79,13 @@ mod calibration {
     /// Share of what the second gains that both may leave.
     pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.
-    pub(super) const TOGETHER: f64 = 0.94;
+    pub(super) const TOGETHER: f64 = 0.89;
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
-    pub(super) const SILENCE: f64 = 0.68;
+    pub(super) const SILENCE: f64 = 0.89;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
     pub(super) const ALL_FAIL: f64 = 0.42;
     /// The same where the best should close the gap on held-out records and does not.
-    pub(super) const REFUTED: f64 = 0.72;
+    pub(super) const REFUTED: f64 = 0.62;
 }
 
 fn logistic(x: f64) -> f64 {

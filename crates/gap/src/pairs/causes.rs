@@ -6,8 +6,11 @@ use crate::effect::Effect;
 /// Share of what the best single effect gains, up to which a second one corrects the law of the first. Found on made rigs:
 /// laws that miss a little leave a fifteenth, two causes of one size each take a tenth at least.
 const CORRECTION: f64 = 0.085;
-/// Deviance a sample up to which outliers correct a law: where it misses now and then, tails grow heavy.
-const CORRECTION_BY_OUTLIERS: f64 = 0.25;
+/// The same where the second gains little a sample as well.
+const SMALL_CORRECTION: f64 = 0.3;
+/// Deviance a sample up to which a second effect gains little, and up to which outliers correct a law whatever their share: where
+/// it misses now and then, tails grow heavy.
+const SMALL: f64 = 0.25;
 
 /// The members of a pair by what they are.
 #[derive(Debug, Clone)]
@@ -37,8 +40,8 @@ impl Pair {
 
 /// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law.
 fn is_correction(second: Effect, gain: f64, best: f64, samples: usize) -> bool {
-    let by_outliers = second == Effect::Outliers && gain < CORRECTION_BY_OUTLIERS * samples as f64;
-    gain < CORRECTION * best || by_outliers
+    let is_small = gain < SMALL * samples as f64;
+    gain < CORRECTION * best || is_small && (gain < SMALL_CORRECTION * best || second == Effect::Outliers)
 }
 
 #[cfg(test)]
@@ -47,9 +50,17 @@ mod tests {
 
     #[test]
     fn a_little_beside_much_is_a_correction() {
-        let beside = |second, gain| is_correction(second, gain, 30_000.0, 10_000);
-        assert!(beside(Effect::ColouredNoise, 2000.0));
-        assert!(!beside(Effect::ColouredNoise, 4000.0));
+        let beside = |second, gain| is_correction(second, gain, 30_000.0, 1000);
+        assert!(beside(Effect::ColouredNoise, 2400.0));
+        assert!(!beside(Effect::ColouredNoise, 2600.0));
+    }
+
+    #[test]
+    fn what_is_small_in_itself_corrects_a_larger_share() {
+        let beside = |gain, best| is_correction(Effect::ColouredNoise, gain, best, 10_000);
+        assert!(beside(2400.0, 10_000.0));
+        assert!(!beside(2400.0, 6000.0));
+        assert!(!beside(2600.0, 10_000.0));
     }
 
     #[test]
