@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::effects::{Apply, Search, Variant, is_coloured_noise};
+use crate::effects::{Apply, Search, Variant, is_coloured_noise, is_sound};
 use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
 use crate::starts::padded;
@@ -119,6 +119,11 @@ impl Explanation {
     /// Whether an effect of it is but the colour of the noise under another name.
     pub(crate) fn disguises_noise(&self) -> bool {
         self.parts.iter().any(|part| is_coloured_noise(part.effect, &self.fit))
+    }
+
+    /// Whether every law of it is still one of its effect, not the limit at which it is another one.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.parts.iter().all(|part| is_sound(part.effect, &self.fit))
     }
 
     /// The same explanation, less likely.

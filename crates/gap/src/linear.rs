@@ -1,5 +1,7 @@
 //! The parameters that are linear or bilinear given the effects' own.
 
+use nalgebra::{Complex, DMatrix};
+
 /// `a`, `b`, border values and disturbance coefficients.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Linear {
@@ -42,6 +44,16 @@ impl Linear {
             x
         };
         innovations.iter().map(through).collect()
+    }
+
+    /// Roots of `1 + Σ aᵢ z⁻ⁱ`.
+    pub(crate) fn poles(&self) -> Vec<Complex<f64>> {
+        let n = self.a.len();
+        let companion = DMatrix::from_fn(n, n, |i, j| match i {
+            0 => -self.a[j],
+            _ => f64::from(u8::from(i == j + 1)),
+        });
+        companion.complex_eigenvalues().iter().copied().collect()
     }
 
     /// The same system with `Σ b² = 1`: fixes the scale shared by `b` and `f`.

@@ -1,15 +1,29 @@
 //! What stands in for a cause that the library lacks is not named.
 
-use switchback_gap::{Effect, Model, Settings, Status, diagnose};
+use switchback_gap::{Effect, Model, Settings, Status, Verdict, diagnose};
 use switchback_maker::{Family, Ingredient, MakeRig};
+
+/// The verdict on a rig by a library that lacks its cause.
+fn verdict_without(effect: Effect, seed: u64, order: usize) -> Verdict {
+    let cause = Ingredient::plain(effect.name(), 2.0).unwrap();
+    let family = Family { order: Some(order), shape: None };
+    let rig = MakeRig::new(seed).family(family).with(cause).make().unwrap().rig;
+    let mut settings = Settings::default();
+    settings.effects.retain(|known| *known != effect);
+    diagnose(&rig, Model::Identify, &settings).unwrap().verdict
+}
 
 #[test]
 fn a_jump_of_the_borders_at_one_place_is_no_outliers() {
-    let jump = Ingredient::plain("border_resolution", 2.0).unwrap();
-    let family = Family { order: Some(3), shape: None };
-    let rig = MakeRig::new(17070360193571593099).family(family).with(jump).make().unwrap().rig;
-    let mut settings = Settings::default();
-    settings.effects.retain(|effect| *effect != Effect::BorderResolution);
-    let diagnosis = diagnose(&rig, Model::Identify, &settings).unwrap();
-    assert_eq!(diagnosis.verdict.status, Status::Unexplained, "{:?}", diagnosis.verdict);
+    let verdict = verdict_without(Effect::BorderResolution, 17070360193571593099, 3);
+    assert_eq!(verdict.status, Status::Unexplained, "{verdict:?}");
+}
+
+/// It passes for a gain that turns about a zero far away, a creep that begins at will, a lag beside a pole that has become an integrator.
+#[test]
+fn a_drift_of_the_sensor_is_no_other_effect() {
+    for (seed, order) in [(34, 1), (33, 3), (34, 3)] {
+        let verdict = verdict_without(Effect::SensorDrift, seed, order);
+        assert_eq!(verdict.status, Status::Unexplained, "{seed} {order}: {verdict:?}");
+    }
 }

@@ -57,7 +57,7 @@ impl Plan {
 
     /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
     fn weigh_in(&self, mut singles: Vec<Explanation>) -> Evidence {
-        singles.retain(|single| !single.disguises_noise());
+        singles.retain(|single| single.is_sound() && !single.disguises_noise());
         self.hear_the_held_out(&mut singles);
         let all = singles.clone();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);

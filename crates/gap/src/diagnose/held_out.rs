@@ -129,6 +129,13 @@ impl Plan {
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
+    /// Whether an explanation that is not all noise makes the simulation of the held-out records worse beyond chance.
+    pub(super) fn worsens(&self, explanation: &Explanation) -> bool {
+        let moves = explanation.effects().iter().any(|e| !e.is_noise());
+        let closure = || self.gap(&explanation.fit, self.settings.resamples).closure;
+        moves && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
+    }
+
     /// Whether the outliers that explain the gap come where the input is: something is missed there.
     pub(super) fn misses_at_places(&self, explanation: &Explanation) -> bool {
         explanation.effects() == [Effect::Outliers]

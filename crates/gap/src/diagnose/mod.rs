@@ -140,6 +140,7 @@ impl Plan {
             let (explanation, pair_left) = (pair.explanation, pair.left);
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
+                && !self.worsens(&explanation)
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);

@@ -29,6 +29,7 @@ mod stribeck;
 use std::sync::Arc;
 
 use crate::assembly::Assembly;
+use crate::beginnings::begins_as_a_filter;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
@@ -141,9 +142,19 @@ pub(crate) use gain_drift::free_course;
 pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {
     match effect {
         Effect::GainDrift => gain_drift::is_sound(fit),
-        Effect::ExtraPole => extra_pole::is_sound(fit),
+        Effect::ExtraPole => {
+            extra_pole::is_sound(fit) && begins_as_a_filter(fit) && !outlasts_the_records(fit)
+        }
+        Effect::InputDelay | Effect::Resonance => !outlasts_the_records(fit),
+        Effect::Creep => begins_as_a_filter(fit),
         _ => true,
     }
+}
+
+/// Whether a pole of `A` dies away in no record: it follows a drift, and a lag has taken its place.
+fn outlasts_the_records(fit: &Fit) -> bool {
+    let longest = fit.design.tracks.iter().map(|track| track.x.len()).max().unwrap_or(0) as f64;
+    fit.linear.poles().into_iter().any(|pole| pole.norm() > (-1.0 / longest.max(1.0)).exp())
 }
 
 /// Whether a fitted effect is but the colour of the noise under another name.

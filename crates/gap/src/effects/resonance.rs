@@ -7,12 +7,11 @@
 //! Parameters: angular frequency `omega` of the ringing (radians per sample), damping ratio `zeta` (0.003…0.6: beyond that
 //! nothing rings, and two real poles are an extra lag). Stage: dynamics. Ringing after every move. Confused with: extra pole, input delay. The equation error passes the mode or does not; or two modes ring.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::Complex;
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
 use crate::engine::{Fit, Own};
-use crate::linear::Linear;
 use crate::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -100,9 +99,9 @@ fn damping(rho: f64, omega: f64) -> f64 {
 /// A y = B u + ξ/D   ⟺   D·A y = D·B u + ξ
 /// ```
 pub(super) fn is_coloured_noise(fit: &Fit) -> bool {
-    let Linear { a, b, .. } = &fit.linear;
     let passes = !fit.assembly.noise.ar.is_empty();
-    passes && roots(a).into_iter().any(|pole| pole.norm() > LASTING && undone(b, pole) < UNDONE)
+    let b = &fit.linear.b;
+    passes && fit.linear.poles().into_iter().any(|pole| pole.norm() > LASTING && undone(b, pole) < UNDONE)
 }
 
 /// Least magnitude of a pole that colours noise much, and how near a zero must be.
@@ -116,24 +115,15 @@ fn undone(b: &[f64], pole: Complex<f64>) -> f64 {
     terms().sum::<Complex<f64>>().norm() / most.max(f64::MIN_POSITIVE)
 }
 
-/// Roots of `1 + Σ aᵢ z⁻ⁱ`.
-fn roots(a: &[f64]) -> Vec<Complex<f64>> {
-    let n = a.len();
-    let companion = DMatrix::from_fn(n, n, |i, j| match i {
-        0 => -a[j],
-        _ => f64::from(u8::from(i == j + 1)),
-    });
-    companion.complex_eigenvalues().iter().copied().collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::Linear;
 
     #[test]
     fn a_pole_that_the_numerator_undoes_is_found() {
         // (1 − 0.7 q⁻¹)(1 − 0.2 q⁻¹), and a numerator with and without the first factor.
-        let poles = roots(&[-0.9, 0.14]);
+        let poles = Linear { a: vec![-0.9, 0.14], ..Linear::default() }.poles();
         assert_eq!(poles.len(), 2);
         let least = |b: &[f64]| poles.iter().map(|z| undone(b, *z)).fold(1.0, f64::min);
         assert!(least(&[1.0, -0.4, -0.21]) < 1e-9);

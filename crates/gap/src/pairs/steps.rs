@@ -117,7 +117,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
 
     /// Adds to the pairs found.
     fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
-        self.found.extend(pairs.into_iter().filter(|pair| !pair.disguises_noise()));
+        self.found.extend(pairs.into_iter().filter(|pair| pair.is_sound() && !pair.disguises_noise()));
         self.found.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         let mut seen: Vec<[Effect; 2]> = Vec::new();
         self.found.retain(|pair| {

@@ -140,13 +140,15 @@ impl Prospect {
 
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+    let advanced = improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
         false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
-    })
+    });
+    // On its way a law may come to a limit that it leaves again.
+    if advanced.is_sound() { advanced } else { sketch.clone() }
 }
 
-/// A sketch fitted to convergence; where the likelihood has corners, the first `held` own parameters stay as they are.
+/// A sketch fitted to convergence, which may be the limit at which a law is that of another effect; where the likelihood has corners, the first `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
@@ -168,10 +170,7 @@ fn improved(
         held,
     };
     let fit = improve(&task, sketch.fit.clone());
-    match sketch.parts.last() {
-        Some(part) if !is_sound(part.effect, &fit) => sketch.clone(),
-        _ => Explanation { fit, ..sketch.clone() },
-    }
+    Explanation { fit, ..sketch.clone() }
 }
 
 /// A cheap look at a law on top of what is known: near its best start.

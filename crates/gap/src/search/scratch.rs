@@ -43,7 +43,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     let raced = field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch));
     let best = raced.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
-    Some(finish(campaign, 0, &best))
+    Some(finish(campaign, 0, &best)).filter(Explanation::is_sound)
 }
 
 /// Laws of which the likeliest sketch is refined, and by how many of its small steps a parameter is moved.
