@@ -31,19 +31,26 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     });
     let mut field: Vec<Explanation> = guessed.collect();
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-    let mut laws_seen = Vec::new();
-    let firsts = field.iter().filter(|sketch| {
-        let number = sketch.parts[0].law;
-        let first = !laws[number].afresh.is_empty() && !laws_seen.contains(&number);
-        laws_seen.push(number);
-        first
-    });
-    let refined: Vec<Explanation> = firsts.take(REFINED).map(|sketch| refined(known, sketch)).collect();
+    let firsts = first_of_each_law(&field, |law| !laws[law].afresh.is_empty());
+    let refined: Vec<Explanation> =
+        firsts.into_iter().take(REFINED).map(|sketch| refined(known, sketch)).collect();
     field.extend(refined);
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     let raced = field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch));
     let best = raced.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
     Some(finish(campaign, 0, &best)).filter(Explanation::is_sound)
+}
+
+/// The first sketch of every law that is asked for.
+fn first_of_each_law(field: &[Explanation], is_asked: impl Fn(usize) -> bool) -> Vec<&Explanation> {
+    let mut firsts: Vec<&Explanation> = Vec::new();
+    for sketch in field {
+        let law = sketch.parts[0].law;
+        if is_asked(law) && firsts.iter().all(|first| first.parts[0].law != law) {
+            firsts.push(sketch);
+        }
+    }
+    firsts
 }
 
 /// Laws of which the likeliest sketch is refined, and by how many of its small steps a parameter is moved.
@@ -53,19 +60,17 @@ const STEPS: [f64; 3] = [100.0, 50.0, 25.0];
 /// Own parameters moved one at a time, everything else identified anew each time: where `A` takes a drift for a slow pole unless
 /// nearly all of it is told, no joint step leads to the right one.
 fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
+    let moved = |from: &Explanation, j: usize, steps: f64| {
+        let mut own = from.fit.own.clone();
+        let o = &mut own[j];
+        o.value = (o.value + steps * o.step).clamp(o.low, o.high);
+        guessed(known, &sketch.parts, &sketch.fit.grid, &own)
+    };
     let mut best = sketch.clone();
-    for steps in STEPS {
-        for j in 0..best.fit.own.len() {
-            for direction in [-1.0, 1.0] {
-                let mut own = best.fit.own.clone();
-                let o = &mut own[j];
-                o.value = (o.value + direction * steps * o.step).clamp(o.low, o.high);
-                let moved = guessed(known, &sketch.parts, &sketch.fit.grid, &own);
-                if let Some(better) = moved.filter(|moved| moved.bic() < best.bic()) {
-                    best = better;
-                    break;
-                }
-            }
+    for (steps, j) in STEPS.into_iter().flat_map(|steps| (0..sketch.fit.own.len()).map(move |j| (steps, j))) {
+        let both = [-steps, steps].into_iter().filter_map(|steps| moved(&best, j, steps));
+        if let Some(better) = both.into_iter().find(|moved| moved.bic() < best.bic()) {
+            best = better;
         }
     }
     best
