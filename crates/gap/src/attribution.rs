@@ -2,10 +2,10 @@
 //! convergence, border knots placed anew, and a second effect where the first leaves much.
 
 use crate::campaign::Campaign;
-use crate::decide::SIGNIFICANT;
 use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::knots::detail;
+use crate::odds::SIGNIFICANT;
 use crate::search::{Prospect, Question, advance, finish, from_scratch, look, prospects};
 use crate::settings::Settings;
 use crate::starts::Known;

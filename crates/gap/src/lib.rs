@@ -34,6 +34,7 @@ mod noise_response;
 mod noise_size;
 mod nominal;
 mod normal;
+mod odds;
 mod omnibus;
 mod order;
 mod pairs;

@@ -1,6 +1,6 @@
 //! Weighing explanations that are compared as simulators: held-out records decide how much is explained.
 
-use crate::decide::Odds;
+use crate::odds::Odds;
 
 /// Share of the held-out gap left at which "none of these" is as likely as the best explanation, and its scale.
 const LEFT: (f64, f64) = (0.5, 0.05);

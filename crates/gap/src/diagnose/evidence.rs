@@ -2,8 +2,8 @@
 
 use super::Plan;
 use crate::attribution::Attribution;
-use crate::decide::{IMMATERIAL, SIGNIFICANT};
 use crate::explain::Explanation;
+use crate::odds::{IMMATERIAL, SIGNIFICANT};
 use crate::omnibus::{Omnibus, omnibus};
 use crate::pairs::{Firsts, Pair};
 use crate::search::on_a_free_course;

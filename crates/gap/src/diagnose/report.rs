@@ -3,13 +3,13 @@
 use super::Plan;
 use super::foreign::Foreign;
 use crate::closure::{Simulated, measure};
-use crate::decide::Odds;
 use crate::diagnosis::{
     Candidate, Cell, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
 };
 use crate::engine::Fit;
 use crate::explain::Explanation;
 use crate::localise::{Residuals, localise};
+use crate::odds::Odds;
 use crate::score::{innovations, picture};
 
 /// What the report is made of.
