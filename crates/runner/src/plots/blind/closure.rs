@@ -1,6 +1,6 @@
 //! Stated closure against what the stated models really close.
 
-use super::page::{COLOURS, Frame, INK, PlotError, page, tick};
+use super::page::{COLOURS, Frame, INK, PlotError, Sample, page, tick};
 use crate::blind::{Case, ClosureCheck};
 use plotters::prelude::*;
 
@@ -14,6 +14,7 @@ const LEAST: f64 = -0.5;
 pub fn closure(cases: &[Case]) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Closure on the hold-out records: stated against real (× beyond the frame)",
+        sample: Sample::Dot,
         names: &["surviving gap ≥ 1 sd", "smaller"],
         x: ("closure that the stated models have", LEAST..1.05),
         y: ("closure stated", LEAST..1.05),

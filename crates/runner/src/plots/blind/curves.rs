@@ -1,6 +1,6 @@
 //! Shares as curves: accuracy against size, calibration, abstention.
 
-use super::page::{COLOURS, Chart, Frame, INK, PlotError, page};
+use super::page::{COLOURS, Chart, Frame, INK, PlotError, Sample, page};
 use crate::blind::{AbstentionRow, Calibration, Share, SizeRow};
 use plotters::prelude::*;
 
@@ -15,26 +15,29 @@ pub fn accuracy(rows: &[SizeRow]) -> Result<String, PlotError> {
     let least = rows.iter().map(|r| r.wanted).fold(1.0, f64::min);
     let frame = Frame {
         title: "What was put in is named",
+        sample: Sample::Line,
         names: &["exact", "right class", "other laws, right class", "a wrong cause"],
-        x: ("surviving gap, noise sd", least.log2() - 0.3..largest.log2() + 0.3),
+        x: ("surviving gap asked for, noise sd", least.log2() - 0.3..largest.log2() + 0.3),
         y: ("share of rigs", 0.0..1.02),
     };
     let series: [fn(&SizeRow) -> Share; 4] = [|r| r.exact, |r| r.class, |r| r.mismatch_class, |r| r.wrong];
     page(SIZE, |canvas| {
-        frame.draw(
-            canvas,
-            |x| format!("{:.2}", x.exp2()),
-            |chart| {
-                for (k, share) in series.into_iter().enumerate() {
-                    // Slightly apart, so that intervals do not cover each other.
-                    let aside = 0.03 * (k as f64 - 1.5);
-                    let points: Vec<_> = rows.iter().map(|r| (r.wanted.log2() + aside, share(r))).collect();
-                    curve(chart, COLOURS[k], &points)?;
-                }
-                Ok(())
-            },
-        )
+        frame.draw(canvas, power_of_two, |chart| {
+            for (k, share) in series.into_iter().enumerate() {
+                // Slightly apart, so that intervals do not cover each other.
+                let aside = 0.03 * (k as f64 - 1.5);
+                let points: Vec<_> = rows.iter().map(|r| (r.wanted.log2() + aside, share(r))).collect();
+                curve(chart, COLOURS[k], &points)?;
+            }
+            Ok(())
+        })
     })
+}
+
+/// A tick of an axis of binary logarithms; none between powers of two.
+fn power_of_two(x: &f64) -> String {
+    let is_whole = (x - x.round()).abs() < 1e-6;
+    if is_whole { x.round().exp2().to_string() } else { String::new() }
 }
 
 /// Share of verdicts that hold against the probability they claim.
@@ -44,6 +47,7 @@ pub fn accuracy(rows: &[SizeRow]) -> Result<String, PlotError> {
 pub fn calibration(table: &Calibration) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Probabilities mean what they say where the curve follows the diagonal",
+        sample: Sample::Line,
         names: &["verdicts"],
         x: ("probability claimed", 0.0..1.02),
         y: ("share that holds", 0.0..1.02),
@@ -69,6 +73,7 @@ pub fn calibration(table: &Calibration) -> Result<String, PlotError> {
 pub fn abstention(rows: &[AbstentionRow]) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Staying silent below a probability",
+        sample: Sample::Line,
         names: &["verdicts still given", "of these, right"],
         x: ("least probability of a verdict", 0.0..1.02),
         y: ("share", 0.0..1.02),
@@ -98,4 +103,15 @@ fn curve(chart: &mut Chart<'_, '_>, colour: RGBColor, points: &[(f64, Share)]) -
     let bars = told.iter().map(|(x, _, [low, high])| PathElement::new([(*x, *low), (*x, *high)], colour));
     chart.draw_series(bars).map_err(PlotError::new)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::power_of_two;
+
+    #[test]
+    fn ticks_are_powers_of_two() {
+        let told = [-1.0, -0.5, 0.0, 1.0, 1.5, 2.0].map(|x| power_of_two(&x));
+        assert_eq!(told, ["0.5", "", "1", "2", "", "4"]);
+    }
 }

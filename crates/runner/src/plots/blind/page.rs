@@ -51,9 +51,17 @@ pub(super) fn page(
     Ok(svg)
 }
 
+/// What stands beside the name of a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sample {
+    Line,
+    Dot,
+}
+
 /// A title, the names of the series, and axes below them.
 pub(super) struct Frame<'t> {
     pub(super) title: &'t str,
+    pub(super) sample: Sample,
     pub(super) names: &'t [&'t str],
     pub(super) x: (&'t str, std::ops::Range<f64>),
     pub(super) y: (&'t str, std::ops::Range<f64>),
@@ -71,8 +79,11 @@ impl Frame<'_> {
         head.draw(&Text::new(self.title.to_owned(), (16, 10), letters(19))).map_err(PlotError::new)?;
         let mut x = 18;
         for (name, colour) in self.names.iter().zip(COLOURS) {
-            let sample = PathElement::new([(x, 46), (x + 24, 46)], colour.stroke_width(3));
-            head.draw(&sample).map_err(PlotError::new)?;
+            match self.sample {
+                Sample::Line => head.draw(&PathElement::new([(x, 46), (x + 24, 46)], colour.stroke_width(3))),
+                Sample::Dot => head.draw(&Circle::new((x + 12, 46), 4, colour.filled())),
+            }
+            .map_err(PlotError::new)?;
             head.draw(&Text::new((*name).to_owned(), (x + 30, 39), letters(14))).map_err(PlotError::new)?;
             x += 30 + 8 * name.chars().count() as i32 + 22;
         }

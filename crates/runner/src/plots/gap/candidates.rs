@@ -18,18 +18,24 @@ const FIGURE: f64 = 70.0;
 pub(super) fn figure(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let rows = rows(report);
+    let mut legend = vec![Entry::new(
+        Sample::Line(Pen::new(Rank::Chosen.colour(), 10.0)),
+        match diagnosis.verdict.status {
+            Status::Named => "named",
+            _ => "in the verdict",
+        },
+    )];
+    if diagnosis.verdict.corrected_by.is_some() {
+        let pen = Pen::new(Rank::Corrects.colour(), 10.0);
+        legend.push(Entry::new(Sample::Line(pen), "corrects the law of the one named"));
+    }
+    legend.push(Entry::new(Sample::Line(Pen::new(Rank::Other.colour(), 10.0)), "other candidates"));
     let sheet = Sheet {
         title: format!("{}: what explains the gap", report.rig.name),
         notes: vec![
             "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale; closure is on the records judged.".to_owned(),
         ],
-        legend: vec![
-            Entry::new(Sample::Line(Pen::new(CHOSEN, 10.0)), match diagnosis.verdict.status {
-                Status::Named => "named",
-                _ => "in the verdict",
-            }),
-            Entry::new(Sample::Line(Pen::new(tint(GREY, 0.5), 10.0)), "other candidates"),
-        ],
+        legend,
         grid: Grid {
             columns: COLUMNS,
             rows: 1,
@@ -51,11 +57,27 @@ pub(super) fn figure(report: &Report) -> String {
     })
 }
 
-const CHOSEN: RGBColor = OKABE_ITO[0];
+/// What the verdict makes of a candidate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rank {
+    Chosen,
+    Corrects,
+    Other,
+}
+
+impl Rank {
+    fn colour(self) -> RGBColor {
+        match self {
+            Self::Chosen => OKABE_ITO[0],
+            Self::Corrects => tint(OKABE_ITO[0], 0.5),
+            Self::Other => tint(GREY, 0.5),
+        }
+    }
+}
 
 struct Row {
     name: String,
-    chosen: bool,
+    rank: Rank,
     probability: f64,
     evidence: Option<f64>,
     closure: Option<f64>,
@@ -64,16 +86,21 @@ struct Row {
 fn rows(report: &Report) -> Vec<Row> {
     let diagnosis = &report.diagnosis;
     let verdict = &diagnosis.verdict;
+    let rank = |c: &Candidate| match c.effect {
+        effect if verdict.effects.contains(&effect) || verdict.class.contains(&effect) => Rank::Chosen,
+        effect if verdict.corrected_by == Some(effect) => Rank::Corrects,
+        _ => Rank::Other,
+    };
     let candidate = |c: &Candidate| Row {
         name: c.effect.to_string(),
-        chosen: verdict.effects.contains(&c.effect) || verdict.class.contains(&c.effect),
+        rank: rank(c),
         probability: c.probability,
         evidence: Some(-c.bic),
         closure: c.closure,
     };
     let rest = |name: &str, status: Status, probability: f64| Row {
         name: name.to_owned(),
-        chosen: verdict.status == status,
+        rank: if verdict.status == status { Rank::Chosen } else { Rank::Other },
         probability,
         evidence: None,
         closure: None,
@@ -86,10 +113,10 @@ fn rows(report: &Report) -> Vec<Row> {
 
 impl Row {
     fn draw(&self, canvas: &Canvas<'_>, frames: &Frames, index: usize, strongest: f64) {
-        let colour = if self.chosen { CHOSEN } else { tint(GREY, 0.5) };
+        let colour = self.rank.colour();
         let middle = frames.corner(0, 0).1 + ROW * (index as f64 + 0.5);
         let look = TextLook::new(15.0);
-        let name = if self.chosen { look.bold() } else { look };
+        let name = if self.rank == Rank::Chosen { look.bold() } else { look };
         canvas.text(&self.name, (frames.corner(0, 0).0 - 10.0, middle), name.end());
         let evidence = self.evidence.map(|e| ((e.max(0.0) / strongest).sqrt(), whole(e)));
         let closure = self.closure.map(|c| (c.clamp(0.0, 1.0), format!("{} %", whole(100.0 * c))));
