@@ -263,6 +263,12 @@ impl Assembly {
         self.denominator = convolve(&leading_one(&self.denominator), denominator);
     }
 
+    /// Gain at rest of the filter in series.
+    pub(crate) fn static_gain(&self) -> f64 {
+        let at_rest = |coefficients: &[f64]| leading_one(coefficients).iter().sum::<f64>();
+        at_rest(&self.numerator) / at_rest(&self.denominator)
+    }
+
     /// The taps between the filtered `u` and `B`: the numerator and the delay, linear between samples.
     pub(crate) fn taps(&self) -> Vec<f64> {
         let whole = self.delay.floor();

@@ -136,8 +136,8 @@ impl<W: Workers> Attribution<'_, W> {
             let laws = laws.map(|law| (look.effect, law));
             if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
-        let raced = self.raced(known, &promising, contest.to_beat);
-        done.extend(raced.into_iter().filter(|(_, law)| law.is_sound()));
+        done.extend(self.raced(known, &promising, contest.to_beat));
+        done.retain(|(_, law)| law.is_sound());
         done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
         // Several laws of one effect: the best counts.
         let mut seen: Vec<Effect> = Vec::new();

@@ -116,6 +116,11 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
+    /// Whether it is what it says: neither the limit of another effect nor noise in disguise.
+    pub(crate) fn may_be_a_cause(&self) -> bool {
+        self.is_sound() && !self.disguises_noise()
+    }
+
     /// Whether an effect of it is but the colour of the noise under another name.
     pub(crate) fn disguises_noise(&self) -> bool {
         self.parts.iter().any(|part| is_coloured_noise(part.effect, &self.fit))
@@ -123,7 +128,12 @@ impl Explanation {
 
     /// Whether every law of it is still one of its effect, not the limit at which it is another one.
     pub(crate) fn is_sound(&self) -> bool {
-        self.parts.iter().all(|part| is_sound(part.effect, &self.fit))
+        let mut rest = &self.fit.own[..];
+        self.parts.iter().all(|part| {
+            let (own, later) = rest.split_at(part.count);
+            rest = later;
+            is_sound(part.effect, own, &self.fit)
+        })
     }
 
     /// The same explanation, less likely.

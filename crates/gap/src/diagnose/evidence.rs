@@ -12,7 +12,7 @@ use crate::workers::Workers;
 /// Single effects and the best pair of them.
 #[derive(Debug)]
 pub(super) struct Evidence {
-    /// Every effect that was fitted: what is no cause by itself may still be one of two.
+    /// Every effect whose fit is one of it: what is no cause by itself may still be one of two.
     all: Vec<Explanation>,
     /// Those that may be the cause, best first.
     pub(super) singles: Vec<Explanation>,
@@ -57,7 +57,7 @@ impl Plan {
 
     /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
     fn weigh_in(&self, mut singles: Vec<Explanation>) -> Evidence {
-        singles.retain(|single| single.is_sound() && !single.disguises_noise());
+        singles.retain(Explanation::may_be_a_cause);
         self.hear_the_held_out(&mut singles);
         let all = singles.clone();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
@@ -90,13 +90,14 @@ impl Evidence {
     fn improved(&self, others: Vec<Explanation>) -> Option<Vec<Explanation>> {
         let mut all = self.all.clone();
         let mut improved = false;
-        for other in others {
+        for other in others.into_iter().filter(Explanation::may_be_a_cause) {
             let effect = other.parts[0].effect;
-            let known = all.iter_mut().find(|known| known.parts[0].effect == effect);
-            if let Some(known) = known.filter(|known| other.bic() < known.bic() - SIGNIFICANT) {
-                *known = other;
-                improved = true;
+            match all.iter_mut().find(|known| known.parts[0].effect == effect) {
+                Some(known) if other.bic() >= known.bic() - SIGNIFICANT => continue,
+                Some(known) => *known = other,
+                None => all.push(other),
             }
+            improved = true;
         }
         all.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         improved.then_some(all)

@@ -129,9 +129,13 @@ impl Plan {
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
-    /// Whether an explanation that is not all noise makes the simulation of the held-out records worse beyond chance.
+    /// Whether an explanation makes the simulation of the held-out records worse beyond chance. What is all noise is excused, and what
+    /// follows a clock beside what does not.
     pub(super) fn worsens(&self, explanation: &Explanation) -> bool {
-        let moves = explanation.effects().iter().any(|e| !e.is_noise());
+        let effects = explanation.effects();
+        let of_its_record = effects.iter().any(|e| e.is_of_its_record());
+        let lasting = effects.iter().any(|e| !e.is_noise() && !e.is_of_its_record());
+        let moves = of_its_record != lasting;
         let closure = || self.gap(&explanation.fit, self.settings.resamples).closure;
         moves && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
     }

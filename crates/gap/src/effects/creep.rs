@@ -16,6 +16,8 @@
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::{EquationColumn, convolve};
+use crate::beginnings::begins_as_a_filter;
+use crate::engine::{Fit, Own};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
@@ -29,7 +31,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         })
         .collect();
     let linear = Variant::conditional(starts, move |p, assembly| {
-        let pole = (-(-p[1]).exp()).exp();
+        let pole = pole(p[1]);
         assembly.filter(&[1.0 + p[0] * (1.0 - pole), -pole], &[1.0, -pole]);
         // How far the creep had gone when a record began is unknown.
         for &track in &tracks {
@@ -48,6 +50,27 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         }));
     }
     out
+}
+
+/// The pole of a time constant given by its logarithm.
+fn pole(log_tau: f64) -> f64 {
+    (-(-log_tau).exp()).exp()
+}
+
+/// The poles of several time constants.
+fn poles(p: &[f64]) -> [f64; 4] {
+    [0.0, 1.0, 2.0, 3.0].map(|k| pole(p[1] + k * p[2]))
+}
+
+/// Whether each record begins with what the creep may hold: with beginnings at will, a creep that is next to none follows whatever
+/// drifts in each record.
+pub(super) fn is_sound(own: &[Own], fit: &Fit) -> bool {
+    let p: Vec<f64> = own.iter().map(|o| o.value).collect();
+    match p.len() {
+        2 => begins_as_a_filter(fit, pole(p[1]), p[0]),
+        3 => poles(&p)[2..].iter().all(|&pole| begins_as_a_filter(fit, pole, 0.25 * p[0])),
+        _ => true,
+    }
 }
 
 /// What the borders go on doing by themselves.
@@ -79,7 +102,7 @@ fn spread(tracks: Vec<usize>) -> Variant {
         })
         .collect();
     Variant::conditional(starts, move |p, assembly| {
-        let poles = [0.0, 1.0, 2.0, 3.0].map(|k| (-(-p[1] - k * p[2]).exp()).exp());
+        let poles = poles(p);
         let without = |left_out: Option<usize>| {
             let others = poles.iter().enumerate().filter(|(k, _)| Some(*k) != left_out);
             others.fold(vec![1.0], |product, (_, pole)| convolve(&product, &[1.0, -pole]))

@@ -11,7 +11,8 @@
 
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::EquationColumn;
-use crate::engine::Fit;
+use crate::beginnings::begins_as_a_filter;
+use crate::engine::{Fit, Own};
 
 /// One way to lag.
 struct Lag {
@@ -79,10 +80,17 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 const GONE: f64 = 0.03;
 
 /// A pole in series is no extra one where `A` has given up one of its own: the plant's noise then is that of its output.
-pub(super) fn is_sound(fit: &Fit) -> bool {
+pub(super) fn is_sound(own: &[Own], fit: &Fit) -> bool {
     let in_series = fit.assembly.denominator.len() > 1;
     let a = &fit.linear.a;
     let before_last = if a.len() > 1 { a[a.len() - 2].abs() } else { 1.0 };
     // Vieta: far poles apart, the last two coefficients have the ratio of the fastest.
-    !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last)
+    let keeps_its_poles = !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last);
+    keeps_its_poles && (is_double(fit) || begins_as_a_filter(fit, own[0].value, 1.0))
+}
+
+/// Whether a lag comes twice, which begins with more than one exponential.
+fn is_double(fit: &Fit) -> bool {
+    let mut columns = fit.assembly.equation_columns.iter();
+    columns.any(|column| matches!(column, EquationColumn::Decay { sine: true, .. }))
 }

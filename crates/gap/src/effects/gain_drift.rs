@@ -98,7 +98,7 @@ const FARTHEST: f64 = 3.0;
 
 /// Whether the zero that the gain turns about is one that an output may have.
 pub(super) fn is_sound(fit: &Fit) -> bool {
-    let static_gain = fit.linear.b.iter().sum::<f64>();
+    let static_gain = fit.linear.b.iter().sum::<f64>() * fit.assembly.static_gain();
     let Some(zero) = share_of_the_change(fit).map(|share| share / static_gain) else { return true };
     let borders = &fit.linear.f[..fit.grid.len()];
     let low = borders.iter().copied().fold(f64::INFINITY, f64::min);

@@ -29,7 +29,6 @@ mod stribeck;
 use std::sync::Arc;
 
 use crate::assembly::Assembly;
-use crate::beginnings::begins_as_a_filter;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
@@ -139,14 +138,14 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
 pub(crate) use gain_drift::free_course;
 
 /// Whether a fitted law is still a law of its effect, not the limit at which it is another one.
-pub(crate) fn is_sound(effect: Effect, fit: &Fit) -> bool {
+///
+/// `own` are the parameters of the law.
+pub(crate) fn is_sound(effect: Effect, own: &[Own], fit: &Fit) -> bool {
     match effect {
         Effect::GainDrift => gain_drift::is_sound(fit),
-        Effect::ExtraPole => {
-            extra_pole::is_sound(fit) && begins_as_a_filter(fit) && !outlasts_the_records(fit)
-        }
+        Effect::ExtraPole => extra_pole::is_sound(own, fit) && !outlasts_the_records(fit),
         Effect::InputDelay | Effect::Resonance => !outlasts_the_records(fit),
-        Effect::Creep => begins_as_a_filter(fit),
+        Effect::Creep => creep::is_sound(own, fit),
         _ => true,
     }
 }

@@ -71,7 +71,8 @@ impl<W: Workers> Attribution<'_, W> {
         if search.left_of_gap() < FAR {
             search.every_law();
         }
-        search.found.into_iter().next().map(|best| self.knots_refined(best))
+        let best = search.found.into_iter().next()?;
+        Some(self.knots_refined(best.clone())).filter(Explanation::may_be_a_cause).or(Some(best))
     }
 }
 
@@ -117,7 +118,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
 
     /// Adds to the pairs found.
     fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
-        self.found.extend(pairs.into_iter().filter(|pair| pair.is_sound() && !pair.disguises_noise()));
+        self.found.extend(pairs.into_iter().filter(Explanation::may_be_a_cause));
         self.found.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
         let mut seen: Vec<[Effect; 2]> = Vec::new();
         self.found.retain(|pair| {
@@ -204,7 +205,8 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
         let to_beat = self.best().map(Explanation::bic);
         let contest = Contest { finished: FINISHED, to_beat };
-        let second = self.of.on_top_of(first, questions, contest).into_iter().next();
+        let second =
+            self.of.on_top_of(first, questions, contest).into_iter().find(Explanation::may_be_a_cause);
         self.consider(second);
     }
 

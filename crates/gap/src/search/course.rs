@@ -3,7 +3,7 @@
 use super::Task;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::effects::{free_course, is_sound};
+use crate::effects::free_course;
 use crate::engine::Ground;
 use crate::explain::{Explanation, Part, assembled};
 
@@ -21,5 +21,5 @@ pub(crate) fn on_a_free_course(campaign: &Campaign, single: &Explanation) -> Opt
     let ground = Ground { campaign, grid: &single.fit.grid, known: Some(&single.fit.design) };
     let task = Task { ground, build: &build, held: 0 };
     let fit = task.together(&law.starts[0], &single.fit.linear, ROUNDS)?;
-    is_sound(Effect::GainDrift, &fit).then(|| Explanation { parts: parts.clone(), fit, ..single.clone() })
+    Some(Explanation { parts: parts.clone(), fit, ..single.clone() }).filter(Explanation::is_sound)
 }

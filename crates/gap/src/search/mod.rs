@@ -10,7 +10,7 @@ use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::dynamics::dynamics_refitted;
 use crate::effect::Effect;
-use crate::effects::{Scene, Search, Variant, is_sound, variants};
+use crate::effects::{Scene, Search, Variant, variants};
 use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::explain::{Explanation, Part, assembled};
 use crate::starts::{Known, Score, ScoreTest, padded};
@@ -140,15 +140,14 @@ impl Prospect {
 
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    let advanced = improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
         false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
-    });
-    // On its way a law may come to a limit that it leaves again.
-    if advanced.is_sound() { advanced } else { sketch.clone() }
+    })
 }
 
-/// A sketch fitted to convergence, which may be the limit at which a law is that of another effect; where the likelihood has corners, the first `held` own parameters stay as they are.
+/// A sketch fitted to convergence, which need not be [sound](Explanation::is_sound); where the likelihood has corners, the first
+/// `held` own parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
@@ -213,12 +212,7 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
         }
     }?;
     let set_back = known.set_back;
-    is_sound(prospect.effect, &fit).then(|| Explanation {
-        parts: parts.clone(),
-        fit,
-        set_back,
-        held_out: 0.0,
-    })
+    Some(Explanation { parts: parts.clone(), fit, set_back, held_out: 0.0 })
 }
 
 /// One law's search.

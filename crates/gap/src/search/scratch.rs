@@ -7,7 +7,7 @@ use super::{Task, advance, finish};
 use crate::assembly::{Assembly, EquationColumn, Slow};
 use crate::borders::Grid;
 use crate::effect::Effect;
-use crate::effects::{Scene, is_sound, variants};
+use crate::effects::{Scene, variants};
 use crate::engine::{Ground, Own};
 use crate::explain::{Explanation, Part, assembled};
 use crate::knots::first_grid;
@@ -36,9 +36,10 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
         firsts.into_iter().take(REFINED).map(|sketch| refined(known, sketch)).collect();
     field.extend(refined);
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-    let raced = field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch));
-    let best = raced.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
-    Some(finish(campaign, 0, &best)).filter(Explanation::is_sound)
+    let mut raced: Vec<Explanation> =
+        field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch)).collect();
+    raced.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    raced.iter().map(|sketch| finish(campaign, 0, sketch)).find(Explanation::is_sound)
 }
 
 /// The first sketch of every law that is asked for.
@@ -84,8 +85,9 @@ fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Optio
     let assembly = task.assembly(own);
     let order = known.explanation.fit.linear.a.len();
     let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
-    let fit = task.held(own, &start, 1).filter(|fit| is_sound(parts[0].effect, fit))?;
+    let fit = task.held(own, &start, 1)?;
     Some(Explanation { parts: parts.to_vec(), fit, set_back: 0.0, held_out: 0.0 })
+        .filter(Explanation::is_sound)
 }
 
 /// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a gain that
