@@ -72,6 +72,7 @@ pub fn summary(scores: &Scores) -> String {
             shares.map(|s| s.value().map_or_else(|| "—".to_owned(), |x| format!("{:.1} %", 100.0 * x)));
         let _ = writeln!(text, "{:24} {exact:>13} {alarm:>12} {outside:>14} {precision:>10}", row.rule);
     }
+    text.push_str("The rules name one effect: precision is that over rigs with one or none.\n");
     text
 }
 
