@@ -111,6 +111,7 @@ fn value(coefficients: &[f64], z: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::{Ground, fit};
     use crate::testing::{noise_free, small_campaign, small_model};
 
     /// The oracle: the coefficient that the record was made with.
@@ -130,6 +131,25 @@ mod tests {
         };
         assert!((found(1e-6) - 0.7).abs() < 1e-6, "{}", found(1e-6));
         assert_eq!(found(1.0), 0.0);
+    }
+
+    #[test]
+    fn a_filter_begins_with_what_a_past_input_left() {
+        let pole = 0.94;
+        let column = EquationColumn::Decay { track: 0, radius: pole, frequency: 0.0, sine: false };
+        let mut assembly = Assembly { equation_columns: vec![column], ..Assembly::default() };
+        assembly.filter(&[1.0 - pole], &[1.0, -pole]);
+        let sound = |d: f64, share: f64| {
+            let (campaign, grid) = small_campaign();
+            let truth = Linear { d: vec![d], ..small_model(&grid) };
+            let campaign = noise_free(campaign, &grid, &assembly, &truth);
+            let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+            let fit = fit(ground, &|_| assembly.clone(), &[], &truth, 1).expect("a fit");
+            begins_as_a_filter(&fit, pole, share)
+        };
+        // Inputs up to one, a gain of one.
+        assert!(sound(2.0, 1.0) && sound(-2.0, -1.0));
+        assert!(!sound(20.0, 1.0) && !sound(-2.0, 0.1));
     }
 
     #[test]
