@@ -317,4 +317,21 @@ mod tests {
         assert_eq!(at, [0.0, 0.0, 0.5, 1.0, 0.0, -1.0, -1.0]);
         assert!(course.changes() && !Slow::on(Clock::Samples).changes());
     }
+
+    #[test]
+    fn the_static_gain_is_where_a_step_ends() {
+        let mut assembly = Assembly::default();
+        assert!((assembly.static_gain() - 1.0).abs() < 1e-12);
+        assembly.filter(&[0.5, 0.3], &[1.0, -0.8]);
+        assembly.filter(&[1.0], &[1.0, 0.0, 0.25]);
+        // The oracle: the response to a step, long after it.
+        let past = |x: &[f64], t: usize, lag: usize| if t < lag { 0.0 } else { x[t - lag] };
+        let (mut first, mut second) = (Vec::new(), Vec::new());
+        for t in 0..400 {
+            let feed = 0.5 + if t > 0 { 0.3 } else { 0.0 };
+            first.push(feed + 0.8 * past(&first, t, 1));
+            second.push(first[t] - 0.25 * past(&second, t, 2));
+        }
+        assert!((assembly.static_gain() - second[399]).abs() < 1e-9, "{}", second[399]);
+    }
 }

@@ -86,8 +86,8 @@ const CERTAIN: f64 = 10.0;
 ///
 /// `share` is `κ`. Compared at the first counted sample: nothing is known of what has died away before.
 pub(crate) fn begins_as_a_filter(fit: &Fit, pole: f64, share: f64) -> bool {
-    let most = fit.linear.f[..fit.grid.len()].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-    let held = MOST_HELD * most * (share * value(&fit.linear.b, 1.0 / pole)).abs();
+    let greatest = fit.linear.f[..fit.grid.len()].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let held = MOST_HELD * greatest * (share * value(&fit.linear.b, 1.0 / pole)).abs();
     let of_this = |column: &EquationColumn| match *column {
         EquationColumn::Decay { radius, frequency: 0.0, sine: false, .. } => radius == pole,
         _ => false,
@@ -95,11 +95,12 @@ pub(crate) fn begins_as_a_filter(fit: &Fit, pole: f64, share: f64) -> bool {
     fit.design.tracks.iter().all(|track| {
         let counted = (track.x.len() - track.from) as f64;
         let energy = (1.0 - pole.powf(2.0 * counted)) / (1.0 - pole * pole);
-        let most = held * pole.powi(track.from as i32) + CERTAIN * (fit.variance / energy).sqrt();
+        let died_away = pole.powi(track.from as i32);
+        let most = held * died_away + CERTAIN * (fit.variance / energy).sqrt();
         let columns = track.columns.numbers.iter();
         columns
             .filter(|&&j| of_this(&fit.assembly.equation_columns[j]))
-            .all(|&j| fit.linear.d[j].abs() * pole.powi(track.from as i32) <= most)
+            .all(|&j| fit.linear.d[j].abs() * died_away <= most)
     })
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::effects::{Apply, Search, Variant, is_coloured_noise, is_sound};
+use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
 use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
 use crate::starts::padded;
@@ -18,6 +18,7 @@ pub(crate) struct Part {
     /// Which of the effect's laws.
     pub(crate) law: usize,
     pub(crate) apply: Apply,
+    pub(crate) sound: Sound,
     /// Number of own parameters.
     pub(crate) count: usize,
     pub(crate) search: Search,
@@ -35,6 +36,7 @@ impl Part {
             effect,
             law,
             apply: variant.apply.clone(),
+            sound: variant.sound,
             count: variant.starts[0].len(),
             search: variant.search,
             handicap: variant.handicap,
@@ -48,6 +50,7 @@ impl Part {
             effect: Effect::BorderResolution,
             law: 0,
             apply,
+            sound: |_, _| true,
             count: 0,
             search: Search::Smooth,
             handicap: 0.0,
@@ -128,11 +131,12 @@ impl Explanation {
 
     /// Whether every law of it is still one of its effect, not the limit at which it is another one.
     pub(crate) fn is_sound(&self) -> bool {
-        let mut rest = &self.fit.own[..];
+        let values: Vec<f64> = self.fit.own.iter().map(|o| o.value).collect();
+        let mut rest = &values[..];
         self.parts.iter().all(|part| {
             let (own, later) = rest.split_at(part.count);
             rest = later;
-            is_sound(part.effect, own, &self.fit)
+            (part.sound)(own, &self.fit)
         })
     }
 

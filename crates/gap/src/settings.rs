@@ -19,6 +19,15 @@ pub struct Settings {
     pub resamples: usize,
 }
 
+impl Settings {
+    /// The same with some effects left out.
+    #[must_use]
+    pub fn without(mut self, effects: &[Effect]) -> Self {
+        self.effects.retain(|effect| !effects.contains(effect));
+        self
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {

@@ -8,8 +8,7 @@ fn verdict_without(effect: Effect, seed: u64, order: usize) -> Verdict {
     let cause = Ingredient::plain(effect.name(), 2.0).unwrap();
     let family = Family { order: Some(order), shape: None };
     let rig = MakeRig::new(seed).family(family).with(cause).make().unwrap().rig;
-    let mut settings = Settings::default();
-    settings.effects.retain(|known| *known != effect);
+    let settings = Settings::default().without(&[effect]);
     diagnose(&rig, Model::Identify, &settings).unwrap().verdict
 }
 

@@ -135,9 +135,12 @@ impl Plan {
         let effects = explanation.effects();
         let of_its_record = effects.iter().any(|e| e.is_of_its_record());
         let lasting = effects.iter().any(|e| !e.is_noise() && !e.is_of_its_record());
-        let moves = of_its_record != lasting;
+        let excused = match (of_its_record, lasting) {
+            (false, false) | (true, true) => true,
+            (true, false) | (false, true) => false,
+        };
         let closure = || self.gap(&explanation.fit, self.settings.resamples).closure;
-        moves && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
+        !excused && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
     }
 
     /// Whether the outliers that explain the gap come where the input is: something is missed there.

@@ -17,7 +17,7 @@
 use super::{Scene, Variant, fitted_tracks, own};
 use crate::assembly::{EquationColumn, convolve};
 use crate::beginnings::begins_as_a_filter;
-use crate::engine::{Fit, Own};
+use crate::engine::Fit;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
@@ -39,7 +39,9 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             assembly.equation_columns.push(decay);
         }
     });
-    let mut out = vec![linear, spread(fitted_tracks(scene.campaign))];
+    // With beginnings at will, a creep that is next to none follows whatever drifts in each record.
+    let linear = linear.sound_if(|p, fit| begins_as_a_filter(fit, pole(p[1]), p[0]));
+    let mut out = vec![linear, spread(fitted_tracks(scene.campaign)).sound_if(begins_spread)];
     for column in [after_effect::logarithmic, after_effect::ending, after_effect::since_reversal] {
         let starts = [3.0, 30.0]
             .iter()
@@ -62,17 +64,6 @@ fn poles(p: &[f64]) -> [f64; 4] {
     [0.0, 1.0, 2.0, 3.0].map(|k| pole(p[1] + k * p[2]))
 }
 
-/// Whether each record begins with what the creep may hold: with beginnings at will, a creep that is next to none follows whatever
-/// drifts in each record.
-pub(super) fn is_sound(own: &[Own], fit: &Fit) -> bool {
-    let p: Vec<f64> = own.iter().map(|o| o.value).collect();
-    match p.len() {
-        2 => begins_as_a_filter(fit, pole(p[1]), p[0]),
-        3 => poles(&p)[2..].iter().all(|&pole| begins_as_a_filter(fit, pole, 0.25 * p[0])),
-        _ => true,
-    }
-}
-
 /// What the borders go on doing by themselves.
 mod after_effect {
     use crate::assembly::BorderColumn;
@@ -88,6 +79,11 @@ mod after_effect {
     pub(super) fn since_reversal(scale: f64) -> BorderColumn {
         BorderColumn::ReversalLog { scale }
     }
+}
+
+/// Whether each record begins with what the slower ones of several time constants may hold.
+fn begins_spread(p: &[f64], fit: &Fit) -> bool {
+    poles(p)[2..].iter().all(|&pole| begins_as_a_filter(fit, pole, 0.25 * p[0]))
 }
 
 fn spread(tracks: Vec<usize>) -> Variant {

@@ -9,10 +9,10 @@
 //!
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
 
-use super::{Scene, Variant, fitted_tracks, own};
+use super::{Scene, Sound, Variant, fitted_tracks, outlasts_the_records, own};
 use crate::assembly::EquationColumn;
 use crate::beginnings::begins_as_a_filter;
-use crate::engine::{Fit, Own};
+use crate::engine::Fit;
 
 /// One way to lag.
 struct Lag {
@@ -57,7 +57,12 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             let (least, poles) = lag.poles();
             let starts = poles.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
             let tracks = if lag.slow { fitted_tracks(scene.campaign) } else { Vec::new() };
-            Variant::conditional(starts, move |p, assembly| {
+            // What comes twice begins with more than one exponential.
+            let sound: Sound = match lag.poles {
+                1 => |p, fit| is_a_lag(fit) && begins_as_a_filter(fit, p[0], 1.0),
+                _ => |_, fit| is_a_lag(fit),
+            };
+            let law = Variant::conditional(starts, move |p, assembly| {
                 for _ in 0..lag.poles {
                     assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 }
@@ -71,7 +76,8 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 if lag.passes {
                     assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
                 }
-            })
+            });
+            law.sound_if(sound)
         })
         .collect()
 }
@@ -80,17 +86,15 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 const GONE: f64 = 0.03;
 
 /// A pole in series is no extra one where `A` has given up one of its own: the plant's noise then is that of its output.
-pub(super) fn is_sound(own: &[Own], fit: &Fit) -> bool {
+fn keeps_its_poles(fit: &Fit) -> bool {
     let in_series = fit.assembly.denominator.len() > 1;
     let a = &fit.linear.a;
     let before_last = if a.len() > 1 { a[a.len() - 2].abs() } else { 1.0 };
     // Vieta: far poles apart, the last two coefficients have the ratio of the fastest.
-    let keeps_its_poles = !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last);
-    keeps_its_poles && (is_double(fit) || begins_as_a_filter(fit, own[0].value, 1.0))
+    !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last)
 }
 
-/// Whether a lag comes twice, which begins with more than one exponential.
-fn is_double(fit: &Fit) -> bool {
-    let mut columns = fit.assembly.equation_columns.iter();
-    columns.any(|column| matches!(column, EquationColumn::Decay { sine: true, .. }))
+/// Whether a lag is still one beside `A`.
+fn is_a_lag(fit: &Fit) -> bool {
+    keeps_its_poles(fit) && !outlasts_the_records(fit)
 }

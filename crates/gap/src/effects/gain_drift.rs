@@ -39,7 +39,7 @@ pub(super) fn variants() -> Vec<Variant> {
                 drift(assembly, Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
             });
             let afresh = if degree == 1 { AFRESH.map(start).into() } else { Vec::new() };
-            out.push(Variant { afresh, ..law });
+            out.push(Variant { afresh, ..law.sound_if(turns_about_an_output) });
         }
         let start = |rate: f64, (sine, cosine): (f64, f64)| {
             vec![
@@ -53,7 +53,7 @@ pub(super) fn variants() -> Vec<Variant> {
         });
         let afresh = RATES.iter().filter(|_| clock == Clock::Campaign);
         let afresh = afresh.flat_map(|&rate| PHASES.map(|phase| start(rate, phase))).collect();
-        out.push(Variant { afresh, ..law });
+        out.push(Variant { afresh, ..law.sound_if(turns_about_an_output) });
     }
     out
 }
@@ -86,18 +86,19 @@ pub(crate) fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
     let change = |value: f64| (1.0 + value) / (1.0 + first.1) - 1.0;
     let start = rest.iter().map(|k| own("gain_change", "1", change(k.1), (-1.0, 2.0), 0.001)).collect();
     let clocks: Vec<f64> = known.iter().map(|k| k.0).collect();
-    Some(Variant::new(vec![start], move |p, assembly| {
+    let law = Variant::new(vec![start], move |p, assembly| {
         let values = std::iter::once(0.0).chain(p.iter().copied());
         let bends = clocks.iter().copied().zip(values).collect();
         drift(assembly, Slow { bends, ..Slow::on(Clock::Samples) });
-    }))
+    });
+    Some(law.sound_if(turns_about_an_output))
 }
 
 /// Distance of the output's zero from the middle of the borders, in their range, at which a gain that changes is not told from a drift.
 const FARTHEST: f64 = 3.0;
 
 /// Whether the zero that the gain turns about is one that an output may have.
-pub(super) fn is_sound(fit: &Fit) -> bool {
+fn turns_about_an_output(_own: &[f64], fit: &Fit) -> bool {
     let static_gain = fit.linear.b.iter().sum::<f64>() * fit.assembly.static_gain();
     let Some(zero) = share_of_the_change(fit).map(|share| share / static_gain) else { return true };
     let borders = &fit.linear.f[..fit.grid.len()];

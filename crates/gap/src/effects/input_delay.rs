@@ -7,7 +7,7 @@
 //!
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
-use super::{Variant, own};
+use super::{Variant, outlasts_the_records, own};
 use crate::engine::Own;
 
 pub(super) fn variants() -> Vec<Variant> {
@@ -22,5 +22,8 @@ pub(super) fn variants() -> Vec<Variant> {
     });
     // B takes a whole sample where it has room: every whole sample is a valley of its own.
     let whole = |own: &[Own]| own[0].value.floor() as i64;
-    [response, positions].map(|law| Variant { climbs: law.starts.len(), valley: Some(whole), ..law }).into()
+    [response, positions]
+        .map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit)))
+        .map(|law| Variant { climbs: law.starts.len(), valley: Some(whole), ..law })
+        .into()
 }

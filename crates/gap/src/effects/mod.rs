@@ -50,6 +50,9 @@ pub(crate) enum Search {
 /// The change an effect makes to an assembly, given its own parameters.
 pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
 
+/// Whether a law, given its fitted own parameters, is still a law of its effect, not the limit at which it is another one.
+pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
+
 /// One law of an effect.
 pub(crate) struct Variant {
     /// Points the search starts from; all hold the same parameters.
@@ -62,6 +65,7 @@ pub(crate) struct Variant {
     /// Which valley a start lies in, where only the likeliest of each is climbed from.
     pub(crate) valley: Option<fn(&[Own]) -> i64>,
     pub(crate) apply: Apply,
+    pub(crate) sound: Sound,
     /// A finer border grid that comes with the law.
     pub(crate) grid: Option<Grid>,
     /// Added to the deviance: evidence that the innovations do not show, or a penalty.
@@ -87,6 +91,7 @@ impl Variant {
             climbs: CLIMBS,
             valley: None,
             apply: Arc::new(apply),
+            sound: |_, _| true,
             grid: None,
             handicap: 0.0,
         }
@@ -97,6 +102,11 @@ impl Variant {
         apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
     ) -> Self {
         Self { search: Search::Conditional, ..Self::new(starts, apply) }
+    }
+
+    /// The same law, of its effect only where a fit is sound.
+    fn sound_if(self, sound: Sound) -> Self {
+        Self { sound, ..self }
     }
 }
 
@@ -136,19 +146,6 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
 }
 
 pub(crate) use gain_drift::free_course;
-
-/// Whether a fitted law is still a law of its effect, not the limit at which it is another one.
-///
-/// `own` are the parameters of the law.
-pub(crate) fn is_sound(effect: Effect, own: &[Own], fit: &Fit) -> bool {
-    match effect {
-        Effect::GainDrift => gain_drift::is_sound(fit),
-        Effect::ExtraPole => extra_pole::is_sound(own, fit) && !outlasts_the_records(fit),
-        Effect::InputDelay | Effect::Resonance => !outlasts_the_records(fit),
-        Effect::Creep => creep::is_sound(own, fit),
-        _ => true,
-    }
-}
 
 /// Whether a pole of `A` dies away in no record: it follows a drift, and a lag has taken its place.
 fn outlasts_the_records(fit: &Fit) -> bool {

@@ -9,7 +9,7 @@
 
 use nalgebra::Complex;
 
-use super::{Scene, Variant, fitted_tracks, own};
+use super::{Scene, Variant, fitted_tracks, outlasts_the_records, own};
 use crate::assembly::EquationColumn;
 use crate::engine::{Fit, Own};
 use crate::spectrum::strongest_lines;
@@ -36,7 +36,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let laws = laws.into_iter().filter(|(starts, _)| !starts.is_empty());
     // Every line is a valley of its own.
     let ringing = |(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes);
-    laws.map(ringing).map(|law| Variant { climbs: LINES + 1, ..law }).collect()
+    laws.map(ringing)
+        .map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit)))
+        .map(|law| Variant { climbs: LINES + 1, ..law })
+        .collect()
 }
 
 /// Lines of the residual that a search starts from, and frequencies without a line.

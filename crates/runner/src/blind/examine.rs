@@ -41,7 +41,5 @@ pub fn examine(
 /// The defaults, less the effect that is taken out of the library for this rig.
 fn settings(sealed: &Sealed) -> Settings {
     let withheld = sealed.ticket().withheld.and_then(Effect::from_name);
-    let mut settings = Settings::default();
-    settings.effects.retain(|e| Some(*e) != withheld);
-    settings
+    Settings::default().without(withheld.as_slice())
 }

@@ -33,8 +33,7 @@ impl Workers for Pool {
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
 pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
-    let mut settings = Settings::default();
-    settings.effects.retain(|effect| !without.contains(effect));
+    let settings = Settings::default().without(without);
     let mut diagnosis = diagnose_with(&Pool, &rig, model, &settings)
         .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
     diagnosis.limitations.extend(notes);

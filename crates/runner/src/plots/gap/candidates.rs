@@ -18,18 +18,13 @@ const FIGURE: f64 = 70.0;
 pub(super) fn figure(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let rows = rows(report);
-    let mut legend = vec![Entry::new(
-        Sample::Line(Pen::new(Rank::Chosen.colour(), 10.0)),
-        match diagnosis.verdict.status {
-            Status::Named => "named",
-            _ => "in the verdict",
-        },
-    )];
+    let is_named = diagnosis.verdict.status == Status::Named;
+    let entry = |rank: Rank, name: &str| Entry::new(Sample::Line(Pen::new(rank.colour(), 10.0)), name);
+    let mut legend = vec![entry(Rank::Chosen, if is_named { "named" } else { "in the verdict" })];
     if diagnosis.verdict.corrected_by.is_some() {
-        let pen = Pen::new(Rank::Corrects.colour(), 10.0);
-        legend.push(Entry::new(Sample::Line(pen), "corrects the law of the one named"));
+        legend.push(entry(Rank::Corrects, "corrects the law of the one named"));
     }
-    legend.push(Entry::new(Sample::Line(Pen::new(Rank::Other.colour(), 10.0)), "other candidates"));
+    legend.push(entry(Rank::Other, "other candidates"));
     let sheet = Sheet {
         title: format!("{}: what explains the gap", report.rig.name),
         notes: vec![
