@@ -167,6 +167,19 @@ pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
     (a, variance.max(0.0))
 }
 
+/// Lags of the autoregression behind [`moving_average`].
+const LONG: usize = 40;
+
+/// The moving average `1 + c₁ q⁻¹ + …` of a degree, `c₁…` returned, of which signals are made (Durbin, Biometrika 46, 1959): the
+/// autoregression of the coefficients of a long autoregression. All zeros lie within the unit circle.
+pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
+    let mut long = vec![1.0];
+    long.extend(levinson(&autocorrelation(signals, LONG)).0);
+    let mut short = levinson(&autocorrelation(&[long], degree)).0;
+    short.resize(degree, 0.0);
+    short
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,13 +211,18 @@ mod tests {
         assert!((p[17] - slow).abs() < 1e-9 * (1.0 + slow));
     }
 
-    #[test]
-    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+    /// White noise of variance one.
+    fn white() -> impl FnMut() -> f64 {
         let mut state = 1_u64;
-        let mut white = || {
+        move || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        };
+        }
+    }
+
+    #[test]
+    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+        let mut white = white();
         let mut x = vec![0.0, 0.0];
         for t in 2..20_000 {
             x.push(1.6 * x[t - 1] - 0.7 * x[t - 2] + white());
@@ -212,5 +230,18 @@ mod tests {
         assert!((unpredictable_variance(&[x.clone()]) - 1.0).abs() < 0.05);
         assert!(mean_square(&[x]) > 5.0);
         assert!(unpredictable_variance(&[]).abs() < 1e-12);
+    }
+
+    /// The oracle: the coefficients that a signal was made with.
+    #[test]
+    fn a_moving_average_is_told_by_its_coefficients() {
+        let c = [0.9, 0.3, -0.4];
+        let mut white = white();
+        let w: Vec<f64> = (0..40_000).map(|_| white()).collect();
+        let past = |t: usize| c.iter().enumerate().map(|(k, c)| c * w[t - k - 1]).sum::<f64>();
+        let x: Vec<f64> = (3..w.len()).map(|t| w[t] + past(t)).collect();
+        let found = moving_average(&[x], 3);
+        assert!(found.iter().zip(c).all(|(found, c)| (found - c).abs() < 0.03), "{found:?}");
+        assert_eq!(moving_average(&[], 2), [0.0, 0.0]);
     }
 }

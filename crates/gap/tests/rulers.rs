@@ -96,3 +96,14 @@ fn errors_that_last_are_found() {
     });
     assert_eq!(named(&rig), [Effect::ColouredNoise]);
 }
+
+/// A running mean has zeros beside the unit circle, which no autoregression of moderate length has.
+#[test]
+fn errors_that_are_a_running_mean_are_found() {
+    let rig = made(|v, errors, _| {
+        let mean = |t: usize| errors[t] + 0.97 * errors[t.saturating_sub(5)..t].iter().sum::<f64>();
+        let averaged: Vec<f64> = (0..errors.len()).map(mean).collect();
+        plant(&operator(v, |_| 1.0), &averaged)
+    });
+    assert_eq!(named(&rig), [Effect::ColouredNoise]);
+}

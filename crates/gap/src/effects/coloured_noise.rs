@@ -1,15 +1,16 @@
 //! The equation error is not white.
 //!
 //! ```text
-//! ξ = w / D(q⁻¹), D of degree 1, 2, 4, 6, 10 or 20;   or ξ = (1 + c q⁻¹) w
+//! ξ = w / D(q⁻¹), D of degree 1, 2, 4, 6, 10 or 20;   or ξ = C(q⁻¹) w, C of degree 1, 3 or 8
 //! ```
 //!
-//! Parameters: coefficients of `D`, or `c`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
+//! Parameters: coefficients of `D`, or of `C`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
 //! Confused with: output noise.
 
-use super::{Variant, own};
+use super::{Scene, Variant, own};
+use crate::spectrum::moving_average;
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out: Vec<Variant> = [1, 2, 4, 6, 10, 20]
         .into_iter()
         .map(|degree| {
@@ -29,5 +30,11 @@ pub(super) fn variants() -> Vec<Variant> {
         .collect();
     let starts = [-0.3, 0.3].iter().map(|&c| vec![own("c", "1", c, (-0.97, 0.97), 0.003)]).collect();
     out.push(Variant::new(starts, |p, assembly| assembly.noise.ma = vec![p[0]]));
+    // Small steps from white noise do not get to zeros beside the unit circle.
+    out.extend([3, 8].map(|degree| {
+        let coefficients = moving_average(scene.innovations, degree);
+        let start = coefficients.into_iter().map(|c| own("c", "1", c, (-4.0, 4.0), 0.003)).collect();
+        Variant::conditional(vec![start], |p, assembly| assembly.noise.ma = p.to_vec())
+    }));
     out
 }

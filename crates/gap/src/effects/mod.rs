@@ -133,7 +133,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
         Effect::ExtraPole => extra_pole::variants(scene),
         Effect::Resonance => resonance::variants(scene),
         Effect::GainDrift => gain_drift::variants(),
-        Effect::ColouredNoise => coloured_noise::variants(),
+        Effect::ColouredNoise => coloured_noise::variants(scene),
         Effect::OutputNoise => output_noise::variants(),
         Effect::Outliers => outliers::variants(scene),
         Effect::PeriodicDisturbance => periodic_disturbance::variants(scene),

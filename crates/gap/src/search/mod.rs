@@ -255,7 +255,8 @@ impl Task<'_> {
     fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
         let assembly = self.assembly(own);
         let whitener = Whitener::new(&assembly.noise, &start.a);
-        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && whitener.ar.is_empty() {
+        let coloured = !assembly.noise.ar.is_empty() || !assembly.noise.ma.is_empty();
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured {
             return None;
         }
         let p = self.padded(start, &assembly);
