@@ -2,6 +2,7 @@
 
 use super::Plan;
 use crate::attribution::Attribution;
+use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::odds::{IMMATERIAL, SIGNIFICANT};
 use crate::omnibus::{Omnibus, omnibus};
@@ -30,7 +31,7 @@ impl Plan {
     /// counts from then on.
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
         let mut evidence = self.weigh_in(attribution.singles());
-        if evidence.leaves_something()
+        if (evidence.leaves_something() || evidence.is_coloured())
             && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
         {
             evidence = self.weigh_in(better);
@@ -80,6 +81,12 @@ impl Evidence {
     /// What the best effect leaves, where there is one.
     fn tests(&self) -> Option<&Omnibus> {
         self.tests.as_ref().filter(|_| self.significant)
+    }
+
+    /// Whether the best colours the noise. Where `A` has taken the pole of a lag before the plant the noise of the equation is a
+    /// moving average: `A y = B/P u + ξ ⟺ P·A y = B u + P·ξ`.
+    fn is_coloured(&self) -> bool {
+        self.significant && self.best.effects() == [Effect::ColouredNoise]
     }
 
     fn leaves_something(&self) -> bool {

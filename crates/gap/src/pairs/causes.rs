@@ -1,6 +1,7 @@
 //! Which members of a pair are causes of their own.
 
 use super::Pair;
+use crate::assembly::Assembly;
 use crate::effect::Effect;
 
 /// Share of what the best single effect gains, up to which a second one corrects the law of the first. Found on made rigs:
@@ -27,15 +28,26 @@ impl Pair {
         let members = self.explanation.effects();
         let of = |effect: Effect| alone.iter().find(|g| g.0 == effect).map_or(f64::NEG_INFINITY, |g| g.1);
         let best = alone.iter().map(|g| g.1).fold(0.0, f64::max);
-        let (first, second) = match of(members[1]) > of(members[0]) {
+        let filters_twice = filters_twice(&self.explanation.fit.assembly);
+        let swapped = match filters_twice {
+            true => members[0] == Effect::ColouredNoise,
+            false => of(members[1]) > of(members[0]),
+        };
+        let (first, second) = match swapped {
             true => (members[1], members[0]),
             false => (members[0], members[1]),
         };
-        match is_correction(second, self.gain, best, samples) {
+        match filters_twice || is_correction(second, self.gain, best, samples) {
             true => Causes { effects: vec![first], correction: Some(second) },
             false => Causes { effects: members, correction: None },
         }
     }
+}
+
+/// Whether a filter of the input has a moving average of the noise beside it. Where the filter's law `P` is a little off, `A` takes
+/// what is missing, and the noise of the equation pays for it: `A y = B/(P·Q) u + ξ ⟺ Q·A y = B/P u + Q·ξ`.
+fn filters_twice(assembly: &Assembly) -> bool {
+    assembly.denominator.len() > 1 && !assembly.noise.ma.is_empty()
 }
 
 /// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law.
@@ -53,6 +65,17 @@ mod tests {
         let beside = |second, gain| is_correction(second, gain, 30_000.0, 1000);
         assert!(beside(Effect::ColouredNoise, 2400.0));
         assert!(!beside(Effect::ColouredNoise, 2600.0));
+    }
+
+    #[test]
+    fn a_moving_average_beside_a_lag_corrects_it() {
+        let mut lag = Assembly::default();
+        lag.filter(&[0.1], &[1.0, -0.9]);
+        let mut noise = Assembly::default();
+        noise.noise.ma = vec![-0.8];
+        assert!(!filters_twice(&lag) && !filters_twice(&noise));
+        noise.filter(&[0.1], &[1.0, -0.9]);
+        assert!(filters_twice(&noise));
     }
 
     #[test]
