@@ -95,12 +95,12 @@ pub(crate) fn begins_as_a_filter(fit: &Fit, pole: f64, share: f64) -> bool {
     fit.design.tracks.iter().all(|track| {
         let counted = (track.x.len() - track.from) as f64;
         let energy = (1.0 - pole.powf(2.0 * counted)) / (1.0 - pole * pole);
-        let died_away = pole.powi(track.from as i32);
-        let most = held * died_away + CERTAIN * (fit.variance / energy).sqrt();
+        let remains = pole.powi(track.from as i32);
+        let most = held * remains + CERTAIN * (fit.variance / energy).sqrt();
         let columns = track.columns.numbers.iter();
         columns
             .filter(|&&j| of_this(&fit.assembly.equation_columns[j]))
-            .all(|&j| fit.linear.d[j].abs() * died_away <= most)
+            .all(|&j| fit.linear.d[j].abs() * remains <= most)
     })
 }
 

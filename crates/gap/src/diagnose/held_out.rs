@@ -135,10 +135,8 @@ impl Plan {
         let effects = explanation.effects();
         let of_its_record = effects.iter().any(|e| e.is_of_its_record());
         let lasting = effects.iter().any(|e| !e.is_noise() && !e.is_of_its_record());
-        let excused = match (of_its_record, lasting) {
-            (false, false) | (true, true) => true,
-            (true, false) | (false, true) => false,
-        };
+        let all_noise = !of_its_record && !lasting;
+        let excused = all_noise || of_its_record && lasting;
         let closure = || self.gap(&explanation.fit, self.settings.resamples).closure;
         !excused && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
     }

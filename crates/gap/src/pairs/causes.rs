@@ -25,28 +25,27 @@ pub(crate) struct Causes {
 impl Pair {
     /// Tells causes from corrections, `alone` being the gains of the single effects over the nominal model on as many `samples`.
     pub(crate) fn causes(&self, alone: &[(Effect, f64)], samples: usize) -> Causes {
+        let correction = match corrects_a_filter(&self.explanation.fit.assembly) {
+            true => Some(Effect::ColouredNoise),
+            false => self.small_correction(alone, samples),
+        };
+        let members = self.explanation.effects();
+        Causes { effects: members.into_iter().filter(|e| Some(*e) != correction).collect(), correction }
+    }
+
+    /// The member that gains less alone, where it takes no more than what an inexact law of the other leaves.
+    fn small_correction(&self, alone: &[(Effect, f64)], samples: usize) -> Option<Effect> {
         let members = self.explanation.effects();
         let of = |effect: Effect| alone.iter().find(|g| g.0 == effect).map_or(f64::NEG_INFINITY, |g| g.1);
         let best = alone.iter().map(|g| g.1).fold(0.0, f64::max);
-        let filters_twice = filters_twice(&self.explanation.fit.assembly);
-        let swapped = match filters_twice {
-            true => members[0] == Effect::ColouredNoise,
-            false => of(members[1]) > of(members[0]),
-        };
-        let (first, second) = match swapped {
-            true => (members[1], members[0]),
-            false => (members[0], members[1]),
-        };
-        match filters_twice || is_correction(second, self.gain, best, samples) {
-            true => Causes { effects: vec![first], correction: Some(second) },
-            false => Causes { effects: members, correction: None },
-        }
+        let second = if of(members[1]) > of(members[0]) { members[0] } else { members[1] };
+        is_correction(second, self.gain, best, samples).then_some(second)
     }
 }
 
 /// Whether a filter of the input has a moving average of the noise beside it. Where the filter's law `P` is a little off, `A` takes
 /// what is missing, and the noise of the equation pays for it: `A y = B/(P·Q) u + ξ ⟺ Q·A y = B/P u + Q·ξ`.
-fn filters_twice(assembly: &Assembly) -> bool {
+fn corrects_a_filter(assembly: &Assembly) -> bool {
     assembly.denominator.len() > 1 && !assembly.noise.ma.is_empty()
 }
 
@@ -73,9 +72,9 @@ mod tests {
         lag.filter(&[0.1], &[1.0, -0.9]);
         let mut noise = Assembly::default();
         noise.noise.ma = vec![-0.8];
-        assert!(!filters_twice(&lag) && !filters_twice(&noise));
+        assert!(!corrects_a_filter(&lag) && !corrects_a_filter(&noise));
         noise.filter(&[0.1], &[1.0, -0.9]);
-        assert!(filters_twice(&noise));
+        assert!(corrects_a_filter(&noise));
     }
 
     #[test]
