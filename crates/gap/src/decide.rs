@@ -10,8 +10,9 @@ use crate::settings::Settings;
 /// Least probability of a rival.
 const CLAIM: f64 = 0.04;
 
-/// Rivals in one answer at most.
+/// Rivals in one answer at most, and the probability from which the first of more rivals is still believed.
 const WIDEST: usize = 3;
+const PROBABLE: f64 = 0.5;
 
 fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
     Verdict { status, effects: Vec::new(), class: Vec::new(), stage, probability, corrected_by: None }
@@ -47,24 +48,55 @@ pub(crate) fn verdict(
             corrected_by: together.and_then(|t| t.correction),
         };
     }
-    let mut class = vec![first];
-    let mut sum = p;
-    for &(effect, p) in &ranked[1..] {
+    let mut rivals = vec![ranked[0]];
+    for &rival in &ranked[1..] {
         // A cause that is not sure enough to be named has at least one rival.
-        if class.len() > 1 && (sum >= settings.name_at || p < CLAIM) {
+        if rivals.len() > 1 && (sum(&rivals) >= settings.name_at || rival.1 < CLAIM) {
             break;
         }
-        class.push(effect);
-        sum += p;
+        rivals.push(rival);
     }
-    if class.len() > WIDEST {
-        // So many rivals are stand-ins for something else.
+    if rivals.len() > WIDEST && p < PROBABLE {
+        // So many rivals, and none before the others, are stand-ins for something else.
         return naming_nothing(Status::Unexplained, points_at.or(Some(first.stage())), 1.0 - p);
     }
+    rivals.truncate(WIDEST);
+    let class: Vec<Effect> = rivals.iter().map(|r| r.0).collect();
     let twins = class.len() > 1
         && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
     let status = if twins { Status::Class } else { Status::Ambiguous };
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
     let stage = stage.or(Some(first.stage()));
-    Verdict { status, effects: Vec::new(), class, stage, probability: sum, corrected_by: None }
+    Verdict { status, effects: Vec::new(), class, stage, probability: sum(&rivals), corrected_by: None }
+}
+
+fn sum(rivals: &[(Effect, f64)]) -> f64 {
+    rivals.iter().map(|r| r.1).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_rivals(probabilities: &[f64]) -> Verdict {
+        let effects = [Effect::GainDrift, Effect::ExtraPole, Effect::SensorDrift, Effect::Backlash];
+        let ranked: Vec<(Effect, f64)> = effects.into_iter().zip(probabilities.iter().copied()).collect();
+        let odds = Odds { effects: probabilities.to_vec(), none: 0.0, unexplained: 0.02 };
+        verdict(&ranked, &odds, None, None, &Settings::default())
+    }
+
+    #[test]
+    fn a_probable_cause_keeps_its_first_rivals_where_there_are_many() {
+        let ambiguous = of_rivals(&[0.55, 0.12, 0.11, 0.1]);
+        assert_eq!(ambiguous.status, Status::Ambiguous);
+        assert_eq!(ambiguous.class, [Effect::GainDrift, Effect::ExtraPole, Effect::SensorDrift]);
+        assert!((ambiguous.probability - 0.78).abs() < 1e-9);
+    }
+
+    #[test]
+    fn many_rivals_without_a_probable_one_are_stand_ins() {
+        let unexplained = of_rivals(&[0.3, 0.25, 0.2, 0.15]);
+        assert_eq!(unexplained.status, Status::Unexplained);
+        assert!(unexplained.class.is_empty());
+    }
 }
