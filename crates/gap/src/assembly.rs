@@ -18,6 +18,13 @@ pub(crate) struct Transition {
     pub(crate) law: TransitionLaw,
 }
 
+impl Transition {
+    /// The travel beyond which the envelope is below `least`, and a little more.
+    pub(crate) fn reach(&self, least: f64) -> f64 {
+        1.001 * self.length * (-least.ln()).powf(1.0 / self.shape)
+    }
+}
+
 /// What fades during a transition with envelope `φ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TransitionLaw {

@@ -30,11 +30,11 @@ impl Plan {
     /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
     /// counts from then on.
     pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
-        let mut evidence = self.weigh_in(attribution.singles());
+        let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
         if (evidence.leaves_something() || evidence.is_coloured())
             && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
         {
-            evidence = self.weigh_in(better);
+            evidence = self.weigh_in(attribution.workers, better);
         }
         if evidence.leaves_something()
             // Only the best: a free course follows in time whatever else changes while it passes.
@@ -43,23 +43,23 @@ impl Plan {
             && self.simulation_error(&freed.fit) < self.simulation_error(&evidence.best.fit)
             && let Some(better) = evidence.improved(vec![freed])
         {
-            evidence = self.weigh_in(better);
+            evidence = self.weigh_in(attribution.workers, better);
         }
         evidence.pair = self.pair(attribution, &evidence);
         if let Some(pair) = &evidence.pair
             && let Some(better) = evidence.improved(attribution.members_alone(pair))
         {
             let found = (pair.explanation.clone(), pair.left);
-            evidence = self.weigh_in(better);
+            evidence = self.weigh_in(attribution.workers, better);
             evidence.pair = evidence.tests().map(|tests| Pair::against(&evidence.best, tests, found));
         }
         evidence
     }
 
     /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
-    fn weigh_in(&self, mut singles: Vec<Explanation>) -> Evidence {
+    fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
         singles.retain(Explanation::may_be_a_cause);
-        self.hear_the_held_out(&mut singles);
+        self.hear_the_held_out(workers, &mut singles);
         let all = singles.clone();
         let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
         if significant {

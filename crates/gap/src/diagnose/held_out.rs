@@ -14,6 +14,7 @@ use crate::repeats::Repeating;
 use crate::score::heldout_log_score;
 use crate::simulate::free_run;
 use crate::spectrum::mean_square;
+use crate::workers::Workers;
 
 /// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
 const RUNAWAY: f64 = 20.0;
@@ -35,23 +36,22 @@ const MATERIAL: f64 = 0.5;
 impl Plan {
     /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
     /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
-    pub(super) fn hear_the_held_out(&self, singles: &mut [Explanation]) {
+    pub(super) fn hear_the_held_out(&self, workers: &impl Workers, singles: &mut [Explanation]) {
         let Some(nominal) = self.score(&self.nominal.fit) else { return };
         let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
         let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
+        let heard = workers.map(singles, |s| (self.score(&s.fit), self.simulation_error(&s.fit)));
         // Simulators are no safer for beating the nominal model: what they lose to the best of them counts.
         let reference = match self.campaign.criterion {
             Criterion::OneStep => nominal,
-            Criterion::Simulation { .. } => {
-                singles.iter().filter_map(|s| self.score(&s.fit)).fold(nominal, f64::max)
-            }
+            Criterion::Simulation { .. } => heard.iter().filter_map(|h| h.0).fold(nominal, f64::max),
         };
         let nominal_error = self.simulation_error(&self.nominal.fit);
-        for single in singles.iter_mut() {
-            let lost = self.score(&single.fit).map_or(0.0, |s| reference - s);
+        for (single, (score, error)) in singles.iter_mut().zip(heard) {
+            let lost = score.map_or(0.0, |s| reference - s);
             let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
             single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
-            if self.simulation_error(&single.fit) > RUNAWAY * nominal_error {
+            if error > RUNAWAY * nominal_error {
                 // What runs away on other records is no account of these either.
                 single.held_out += (self.nominal.bic() - single.bic()).max(0.0);
             }

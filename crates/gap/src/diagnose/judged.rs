@@ -57,17 +57,15 @@ impl Plan {
         power.min(self.nominal.fit.power).max(1e-300)
     }
 
+    /// Every judged record simulated by the model under diagnosis and by another.
     pub(super) fn simulations(&self, fit: &Fit) -> Vec<Simulated> {
         self.judged
             .iter()
             .enumerate()
             .map(|(i, &number)| {
                 let track = &self.campaign.tracks[number];
-                let before = match &self.foreign {
-                    Some(foreign) => foreign.runs[i].clone(),
-                    None => free_run(&self.campaign, &self.nominal.fit, number, track),
-                };
-                Simulated { number, before, after: free_run(&self.campaign, fit, number, track) }
+                let after = free_run(&self.campaign, fit, number, track);
+                Simulated { number, before: self.runs[i].clone(), after }
             })
             .collect()
     }

@@ -25,6 +25,7 @@ use crate::omnibus::omnibus;
 use crate::order::choose;
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
+use crate::simulate::free_run;
 use crate::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
 
@@ -65,8 +66,9 @@ struct Plan {
     nominal_innovations: Vec<Vec<f64>>,
     /// The model under diagnosis, where it is not the identified one.
     foreign: Option<Foreign>,
-    /// Tracks the gap is measured on.
+    /// Tracks the gap is measured on, and what the model under diagnosis makes of them.
     judged: Vec<usize>,
+    runs: Vec<Vec<f64>>,
     limitations: Vec<String>,
 }
 
@@ -109,8 +111,23 @@ impl Plan {
         // Where details of the borders are no candidate, no other may take what knots that follow them gain.
         let follows = settings.effects.contains(&Effect::BorderResolution);
         let detailed = if follows { detailed } else { nominal.clone() };
+        let run = |&k: &usize| free_run(&campaign, &nominal.fit, k, &campaign.tracks[k]);
+        let runs = match &foreign {
+            Some(foreign) => foreign.runs.clone(),
+            None => judged.iter().map(run).collect(),
+        };
         let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
-        Ok(Self { settings, campaign, nominal, detailed, nominal_innovations, foreign, judged, limitations })
+        Ok(Self {
+            settings,
+            campaign,
+            nominal,
+            detailed,
+            nominal_innovations,
+            foreign,
+            judged,
+            runs,
+            limitations,
+        })
     }
 
     /// Ranks the candidates and draws the conclusions.
@@ -162,7 +179,7 @@ impl Plan {
             Status::None => self.nominal.clone(),
             _ => joint.map_or(best, |(explanation, _)| explanation),
         };
-        self.report(Conclusion { singles, odds, verdict, augmented, left, together: found })
+        self.report(workers, Conclusion { singles, odds, verdict, augmented, left, together: found })
     }
 }
 

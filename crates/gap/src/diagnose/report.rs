@@ -11,6 +11,7 @@ use crate::explain::Explanation;
 use crate::localise::{Residuals, localise};
 use crate::odds::Odds;
 use crate::score::{innovations, picture};
+use crate::workers::Workers;
 
 /// What the report is made of.
 pub(super) struct Conclusion {
@@ -23,7 +24,7 @@ pub(super) struct Conclusion {
 }
 
 impl Plan {
-    pub(super) fn report(self, c: Conclusion) -> Diagnosis {
+    pub(super) fn report(self, workers: &impl Workers, c: Conclusion) -> Diagnosis {
         let campaign = &self.campaign;
         let floor = self.noise_floor(&c.augmented.fit);
         let runs = self.simulations(&c.augmented.fit);
@@ -45,13 +46,8 @@ impl Plan {
         if matches!(c.verdict.status, Status::None) {
             gap.closure = None;
         }
-        let candidates = c
-            .singles
-            .iter()
-            .zip(&c.odds.effects)
-            .map(|(s, p)| self.candidate(s, *p, floor, nominal_score))
-            .collect::<Vec<_>>();
-        let mut candidates = candidates;
+        let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
+        let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, floor, nominal_score));
         candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &self.nominal_innovations);

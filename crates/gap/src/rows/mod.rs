@@ -28,8 +28,20 @@ impl Rows {
     }
 
     pub(crate) fn push(&mut self, row: &[(u32, f64)], scale: f64) {
-        let present = row.iter().filter(|(_, x)| *x != 0.0);
-        self.terms.extend(present.map(|&(i, x)| (i, x * scale)));
+        self.extend(row, scale);
+        self.end_row();
+    }
+
+    /// Adds terms to the row that is being written.
+    fn extend(&mut self, terms: &[(u32, f64)], scale: f64) {
+        for &(i, x) in terms {
+            if x != 0.0 {
+                self.terms.push((i, x * scale));
+            }
+        }
+    }
+
+    fn end_row(&mut self) {
         self.start.push(self.terms.len() as u32);
     }
 
@@ -89,7 +101,6 @@ pub(crate) fn rows(
         point.terms.push((columns + start as u32, 1.0));
     }
     let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
-    let mut row: Vec<(u32, f64)> = Vec::new();
     for (t, m) in moves.iter().enumerate() {
         let slow = |s: &Slow| s.at(clock(s.clock, campaign, track, t, m.path));
         if m.reversal {
@@ -103,12 +114,7 @@ pub(crate) fn rows(
             point.step(m, track.v[t], narrowing);
         }
         let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
-        if assembly.border_columns.is_empty() {
-            out.push(&point.terms, gain);
-            continue;
-        }
-        row.clear();
-        row.extend_from_slice(&point.terms);
+        out.extend(&point.terms, gain);
         for (j, column) in assembly.border_columns.iter().enumerate() {
             if let BorderColumn::Start { .. } = column {
                 // Part of the working point.
@@ -121,9 +127,9 @@ pub(crate) fn rows(
                 _ => 0.0,
             };
             held[j] = column_value(column, m, s, held[j]);
-            row.push((columns + j as u32, held[j]));
+            out.extend(&[(columns + j as u32, held[j])], gain);
         }
-        out.push(&row, gain);
+        out.end_row();
     }
     out
 }

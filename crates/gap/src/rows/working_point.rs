@@ -12,6 +12,8 @@ const NEGLIGIBLE: f64 = 1e-5;
 pub(super) struct WorkingPoint<'a> {
     finder: Finder<'a>,
     transition: Option<Transition>,
+    /// Travel beyond which nothing of a transition is left.
+    reach: f64,
     /// The present combination.
     pub(super) terms: Vec<(u32, f64)>,
     /// What fades during the present transition.
@@ -44,6 +46,7 @@ impl<'a> WorkingPoint<'a> {
         Self {
             finder,
             transition: assembly.transition,
+            reach: assembly.transition.map_or(0.0, |transition| transition.reach(NEGLIGIBLE)),
             terms,
             fading: Vec::new(),
             own,
@@ -84,7 +87,9 @@ impl<'a> WorkingPoint<'a> {
             self.terms.extend(hat(&self.finder, side(m.branch), v, 1.0));
             return;
         }
-        let fade = self.transition.map_or(0.0, |transition| {
+        // Most moves are beyond it.
+        let passing = self.transition.filter(|_| m.travel <= self.reach);
+        let fade = passing.map_or(0.0, |transition| {
             let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
             if fade > NEGLIGIBLE { fade } else { 0.0 }
         });
