@@ -85,12 +85,17 @@ impl<W: Workers> Attribution<'_, W> {
     /// singles.
     pub(crate) fn rulers_from_scratch(&self, singles: &[Explanation]) -> Vec<Explanation> {
         let known = Known::new(self.campaign, self.detailed);
-        let asked: Vec<Effect> = RULERS.into_iter().filter(|e| self.settings.effects.contains(e)).collect();
+        let asked: Vec<Effect> = self.rulers().collect();
         let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
         let found: Vec<Explanation> = found.into_iter().flatten().collect();
         let most = found.iter().chain(singles).map(|s| self.gain(Some(s))).fold(0.0, f64::max);
         let rivals = found.into_iter().filter(|s| self.gain(Some(s)) > RIVAL * most).collect::<Vec<_>>();
         self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
+    }
+
+    /// The effects considered that may rule the input or the errors.
+    pub(crate) fn rulers(&self) -> impl Iterator<Item = Effect> {
+        RULERS.into_iter().filter(|e| self.settings.effects.contains(e))
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.

@@ -85,7 +85,8 @@ pub(crate) fn first_guess(
                 row[columns + j] = *psi;
             }
             let (row, x) = whitened.next(&row, track.x[t]);
-            if t >= track.from {
+            let counts = |masked: &[bool]| !masked[t - track.from];
+            if t >= track.from && track.masked.as_deref().is_none_or(counts) {
                 normal.add(row, x);
             }
         }

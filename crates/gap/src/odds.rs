@@ -66,7 +66,7 @@ mod calibration {
     /// The same where the best is supple enough to imitate others but for a little.
     pub(super) const NOTHING_BY_SUPPLE: (f64, f64) = (0.004, 0.0008);
     /// Deviance a sample that a second effect must gain.
-    pub(super) const SECOND: f64 = 0.1;
+    pub(super) const SECOND: f64 = 0.06;
     /// Share of what the second gains that both may leave.
     pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.

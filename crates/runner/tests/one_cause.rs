@@ -2,18 +2,13 @@
 
 mod common;
 
-use common::Folder;
+use common::verdict_on_made;
 use serde_json::{Value, json};
 
 /// The verdict on a made rig with one effect.
 fn verdict(effect: &str, law: &str, size: &str, (seed, order): (&str, &str)) -> Value {
-    let folder = Folder::with_good_rig();
     let what = ["--effect", effect, "--law", law, "--size", size, "--seed", seed, "--order", order];
-    let made = folder.switchback(&[&["rig", "--out", "made"][..], &what].concat()).output().expect("it runs");
-    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
-    let told = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
-    let page: Value = serde_json::from_slice(&told.stdout).expect("one JSON object on stdout");
-    page["verdict"].clone()
+    verdict_on_made(&what)
 }
 
 #[test]

@@ -7,8 +7,10 @@ use crate::effect::Effect;
 /// Share of what the best single effect gains, up to which a second one corrects the law of the first. Found on made rigs:
 /// laws that miss a little leave a fifteenth, two causes of one size each take a tenth at least.
 const CORRECTION: f64 = 0.085;
-/// The same where the second gains little a sample as well.
+/// The same where the second gains little a sample as well, and follows whatever the law of the first misses: which effects do.
+/// Beside rounding, to which the tests are blind, all are taken for such.
 const SMALL_CORRECTION: f64 = 0.3;
+const FOLLOWERS: [Effect; 2] = [Effect::ColouredNoise, Effect::Outliers];
 /// Deviance a sample up to which a second effect gains little, and up to which outliers correct a law whatever their share: where
 /// it misses now and then, tails grow heavy.
 const SMALL: f64 = 0.25;
@@ -39,7 +41,8 @@ impl Pair {
         let of = |effect: Effect| alone.iter().find(|g| g.0 == effect).map_or(f64::NEG_INFINITY, |g| g.1);
         let best = alone.iter().map(|g| g.1).fold(0.0, f64::max);
         let second = if of(members[1]) > of(members[0]) { members[0] } else { members[1] };
-        is_correction(second, self.gain, best, samples).then_some(second)
+        let follows = self.is_hidden || FOLLOWERS.contains(&second);
+        is_correction((second, follows), self.gain, best, samples).then_some(second)
     }
 }
 
@@ -49,9 +52,10 @@ fn corrects_a_filter(assembly: &Assembly) -> bool {
     assembly.denominator.len() > 1 && !assembly.noise.ma.is_empty()
 }
 
-/// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law.
-fn is_correction(second: Effect, gain: f64, best: f64, samples: usize) -> bool {
-    let is_small = gain < SMALL * samples as f64;
+/// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law; `follows` tells
+/// that it follows whatever that misses.
+fn is_correction((second, follows): (Effect, bool), gain: f64, best: f64, samples: usize) -> bool {
+    let is_small = follows && gain < SMALL * samples as f64;
     gain < CORRECTION * best || is_small && (gain < SMALL_CORRECTION * best || second == Effect::Outliers)
 }
 
@@ -61,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_little_beside_much_is_a_correction() {
-        let beside = |second, gain| is_correction(second, gain, 30_000.0, 1000);
+        let beside = |second, gain| is_correction((second, true), gain, 30_000.0, 1000);
         assert!(beside(Effect::ColouredNoise, 2400.0));
         assert!(!beside(Effect::ColouredNoise, 2600.0));
     }
@@ -78,18 +82,19 @@ mod tests {
     }
 
     #[test]
-    fn what_is_small_in_itself_corrects_a_larger_share() {
-        let beside = |gain, best| is_correction(Effect::ColouredNoise, gain, best, 10_000);
+    fn what_is_small_in_itself_and_follows_anything_corrects_a_larger_share() {
+        let beside = |gain, best| is_correction((Effect::ColouredNoise, true), gain, best, 10_000);
         assert!(beside(2400.0, 10_000.0));
         assert!(!beside(2400.0, 6000.0));
         assert!(!beside(2600.0, 10_000.0));
+        assert!(!is_correction((Effect::OutputNoise, false), 2400.0, 10_000.0, 10_000));
     }
 
     #[test]
     fn heavy_tails_must_be_many_to_be_a_cause() {
-        let beside = |second, gain| is_correction(second, gain, 6000.0, 10_000);
+        let beside = |second, gain| is_correction((second, true), gain, 6000.0, 10_000);
         assert!(beside(Effect::Outliers, 2000.0));
         assert!(!beside(Effect::Outliers, 5000.0));
-        assert!(!beside(Effect::InputNoise, 2000.0));
+        assert!(!beside(Effect::ColouredNoise, 2000.0));
     }
 }

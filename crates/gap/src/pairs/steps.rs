@@ -6,7 +6,8 @@ use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::knots::detail;
 use crate::omnibus::omnibus;
-use crate::search::Question;
+use crate::search::{Question, from_scratch};
+use crate::starts::Known;
 use crate::workers::Workers;
 
 /// First effects that a second one is looked for on top of before the restarts, and the share of the best gain that a
@@ -34,8 +35,9 @@ impl<W: Workers> Attribution<'_, W> {
     /// The best pair by a forward step and restarts.
     ///
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
-    /// best pair found is in turn held while every other effect is tried beside it; then twins of the firsts, while much is
-    /// left; then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
+    /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
+    /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
+    /// then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let best_single = singles.ranked.first()?;
         let gained = |s: &Explanation| self.nominal.bic() - s.bic();
@@ -56,6 +58,9 @@ impl<W: Workers> Attribution<'_, W> {
             }
         }
         search.restart();
+        if search.leaves_much() || search.is_coloured() {
+            search.afresh();
+        }
         if search.is_hopeless() {
             return search.found.into_iter().next();
         }
@@ -141,6 +146,44 @@ impl<'a, W: Workers> Search<'a, '_, W> {
             let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
             self.step(next);
         }
+    }
+
+    /// Seconds beside each member of the best pair, as it is in that, with the dynamics identified anew: what rules the input or the
+    /// errors may hide behind an effect that does not.
+    fn afresh(&mut self) {
+        let of = self.of;
+        for _ in 0..ROUNDS {
+            let Some(pair) = self.best().cloned() else { return };
+            let firsts = (0..2).filter_map(|number| pair.part(number, of.campaign));
+            let asked: Vec<(Explanation, Effect)> = firsts
+                .flat_map(|first| {
+                    self.seconds_afresh(&pair, &first).into_iter().map(move |e| (first.clone(), e))
+                })
+                .collect();
+            let found = of
+                .workers
+                .map(&asked, |(first, second)| from_scratch(&Known::new(of.campaign, first), *second));
+            self.consider(found.into_iter().flatten());
+            if self.best().is_none_or(|best| members(best) == members(&pair)) {
+                break;
+            }
+        }
+    }
+
+    /// The other member of a pair, and what else may rule the dynamics: behind coloured noise it would show by itself.
+    fn seconds_afresh(&self, pair: &Explanation, first: &Explanation) -> Vec<Effect> {
+        let present = first.parts[0].effect;
+        let rulers = self.of.rulers().filter(|_| present != Effect::ColouredNoise);
+        let mut seconds: Vec<Effect> =
+            members(pair).into_iter().chain(rulers).filter(|e| is_another(present, *e)).collect();
+        seconds.sort_unstable();
+        seconds.dedup();
+        seconds
+    }
+
+    /// Whether the best pair holds noise whose colour may stand in for what rules the dynamics.
+    fn is_coloured(&self) -> bool {
+        self.best().is_some_and(|pair| members(pair).contains(&Effect::ColouredNoise))
     }
 
     /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it

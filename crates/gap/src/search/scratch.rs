@@ -17,8 +17,9 @@ use crate::starts::Known;
 /// Starts, over all laws and both grids, that go on after the first round.
 const RACED: usize = 4;
 
-/// An effect that may rule what the dynamics are identified from, everything identified anew with it. The knots of what is known
-/// may follow the effect's trace, or a jump that is there: an even grid is tried beside them.
+/// An effect that may rule what the dynamics are identified from, on top of what is known, everything identified anew with it: of
+/// known effects the own parameters alone are taken over. The knots of what is known may follow the effect's trace, or a jump that is
+/// there: an even grid is tried beside them.
 pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
     let (campaign, fit) = (known.campaign, &known.explanation.fit);
     let scene = Scene { campaign, fit, innovations: &known.innovations };
@@ -26,8 +27,11 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let laws = variants(effect, &scene);
     let asked = laws.iter().enumerate().flat_map(|law| grids.iter().map(move |grid| (law, grid)));
     let guessed = asked.flat_map(|((number, law), grid)| {
-        let parts = vec![Part::of(effect, (number, law))];
-        law.starts.iter().chain(&law.afresh).filter_map(move |own| guessed(known, &parts, grid, own))
+        let mut parts = known.explanation.parts.clone();
+        parts.push(Part::of(effect, (number, law)));
+        let joined = |own: &Vec<Own>| fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
+        let starts = law.starts.iter().chain(&law.afresh).map(joined);
+        starts.filter_map(move |own| guessed(known, &parts, grid, &own)).collect::<Vec<_>>()
     });
     let mut field: Vec<Explanation> = guessed.collect();
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
@@ -44,10 +48,11 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
 
 /// The first sketch of every law that is asked for.
 fn first_of_each_law(field: &[Explanation], is_asked: impl Fn(usize) -> bool) -> Vec<&Explanation> {
+    let added = |sketch: &Explanation| sketch.parts.last().map_or(0, |part| part.law);
     let mut firsts: Vec<&Explanation> = Vec::new();
     for sketch in field {
-        let law = sketch.parts[0].law;
-        if is_asked(law) && firsts.iter().all(|first| first.parts[0].law != law) {
+        let law = added(sketch);
+        if is_asked(law) && firsts.iter().all(|first| added(first) != law) {
             firsts.push(sketch);
         }
     }
@@ -86,8 +91,8 @@ fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Optio
     let order = known.explanation.fit.linear.a.len();
     let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
     let fit = task.held(own, &start, 1)?;
-    Some(Explanation { parts: parts.to_vec(), fit, set_back: 0.0, held_out: 0.0 })
-        .filter(Explanation::is_sound)
+    let set_back = known.explanation.set_back;
+    Some(Explanation { parts: parts.to_vec(), fit, set_back, held_out: 0.0 }).filter(Explanation::is_sound)
 }
 
 /// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a gain that
