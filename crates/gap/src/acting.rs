@@ -194,7 +194,7 @@ impl<'a> Covariance<'a> {
 /// The whitening of every track, for noise through the response `h` of `B̃/den`.
 pub(crate) fn predictors(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Vec<Predictor> {
     let of_track = |track: &DesignTrack| match Acting::new(track, law, p) {
-        Some(acting) => Predictor::new(track, &acting, h, track.masked.as_deref()),
+        Some(acting) => Predictor::new(track, &acting, h, track.mask.out.as_deref()),
         None => Predictor::none(track.x.len() - track.from),
     };
     tracks.iter().map(of_track).collect()

@@ -10,10 +10,10 @@
 
 use std::sync::Arc;
 
-use crate::assembly::{Assembly, EquationColumn, NoiseLaw, convolve};
+use crate::assembly::{Assembly, EquationColumn, LEAST_VARIANCE, NoiseLaw, convolve};
 use crate::borders::Grid;
 use crate::campaign::{Campaign, Criterion, Track, WARM_UP};
-use crate::mask::masked;
+use crate::mask::{Mask, masked};
 use crate::motion::{Motion, motions};
 use crate::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
 
@@ -38,7 +38,25 @@ pub(crate) struct DesignTrack {
     /// Change of `u` per change of `v` while moving and while resting, where input noise is modelled.
     pub(crate) sensitivity: Option<Arc<[Rows; 2]>>,
     /// Samples that have no say.
-    pub(crate) masked: Option<Arc<[bool]>>,
+    pub(crate) mask: Mask,
+}
+
+/// Errors that are known where those before them are not.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Unforetold {
+    count: usize,
+    energy: f64,
+}
+
+impl Unforetold {
+    /// The deviance of `n` samples, these among them, of the rest's stretched to all.
+    pub(crate) fn among(self, n: f64, foretold: f64) -> f64 {
+        if self.count == 0 {
+            return foretold;
+        }
+        let count = self.count as f64;
+        foretold * (1.0 - count / n) + count * (self.energy / count).max(LEAST_VARIANCE).ln()
+    }
 }
 
 /// The chosen tracks under an assembly.
@@ -112,8 +130,8 @@ impl Design {
                     None => motions(&track.v, assembly.play, campaign.rule).into(),
                 };
                 let sensitive = assembly.noise.input.is_some();
-                let masked = match same(|c| c.masked) {
-                    Some(t) => t.masked.clone(),
+                let mask = match same(|c| c.masked) {
+                    Some(t) => t.mask.clone(),
                     None => masked(track, assembly, campaign.rule),
                 };
                 DesignTrack {
@@ -134,7 +152,7 @@ impl Design {
                             .and_then(|t| t.sensitivity.clone())
                             .unwrap_or_else(|| sensitivity_rows(track, grid, assembly.jitter).into())
                     }),
-                    masked,
+                    mask,
                 }
             })
             .collect();
@@ -233,10 +251,22 @@ impl Design {
     pub(crate) fn counted_innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
         let mut all = self.innovations(p, whitener);
         for (track, w) in self.tracks.iter().zip(&mut all) {
-            let masked = track.masked.iter().flat_map(|masked| masked.iter());
+            let masked = track.mask.out.iter().flat_map(|masked| masked.iter());
             w.iter_mut().zip(masked).filter(|(_, masked)| **masked).for_each(|(w, _)| *w = 0.0);
         }
         all
+    }
+
+    /// The errors, from sample `from − LEAD` of every track, that nothing foretells.
+    pub(crate) fn unforetold(&self, errors: &[Vec<f64>]) -> Unforetold {
+        let whitens = self.criterion == Criterion::OneStep;
+        let mut out = Unforetold::default();
+        for (track, e) in self.tracks.iter().zip(errors).filter(|_| whitens) {
+            let lead = track.from - track.from.saturating_sub(LEAD);
+            out.count += track.mask.unforetold.len();
+            out.energy += track.mask.unforetold.iter().map(|k| e[lead + k].powi(2)).sum::<f64>();
+        }
+        out
     }
 
     /// Equation errors of every track.
@@ -316,5 +346,21 @@ impl Common {
                 && had.saturation == assembly.saturation
                 && (had.saturation.is_none() || had.noise.reach() == assembly.noise.reach()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nothing_foretells_counts_by_itself() {
+        let white = 1000.0 * 0.25_f64.ln();
+        // As large as the others: as if it were foretold.
+        let alike = Unforetold { count: 40, energy: 40.0 * 0.25 };
+        assert!((alike.among(1000.0, white) - white).abs() < 1e-9);
+        // What a filter gained on the rest is not gained here.
+        let larger = Unforetold { count: 40, energy: 40.0 };
+        assert!((larger.among(1000.0, white) - 960.0 * 0.25_f64.ln()).abs() < 1e-9);
     }
 }

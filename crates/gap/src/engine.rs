@@ -6,6 +6,9 @@
 //! ```text
 //! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
 //! ```
+//!
+//! Samples without a say count as much as the others do in the mean; but those whose error is known, and only what foretells it is
+//! not, have the variance of their own errors: a filter gains nothing where it cannot be applied.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -96,15 +99,18 @@ fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
         return None;
     }
     let whitener = design.whitener(&assembly.noise, &p.a);
-    let innovations = design.innovations(p, &whitener);
+    let errors = design.all_errors(p);
+    let unforetold = design.unforetold(&errors);
+    let innovations = design.whitened(errors, &whitener);
     let weights = weigh(design, &assembly.noise, p, &innovations);
     let n = design.samples() as f64;
     let sum: f64 = weights.by_track(&innovations).iter().map(|w| energy(w)).sum();
     let variance = sum / (n - weights.left_out as f64).max(1.0);
-    let deviance = match weights.deviance {
-        Some(direct) => direct - 2.0 * design.log_slope(),
-        None => n * variance.ln() - 2.0 * weights.log_scale - 2.0 * design.log_slope(),
+    let foretold = match weights.deviance {
+        Some(direct) => direct,
+        None => n * variance.ln() - 2.0 * weights.log_scale,
     };
+    let deviance = unforetold.among(n, foretold) - 2.0 * design.log_slope();
     let deviance = deviance * design.criterion.share();
     deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
 }

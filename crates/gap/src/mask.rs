@@ -10,20 +10,36 @@ use crate::whitener::LEAD;
 /// A play that takes a larger share of a record to show where it stood is not waited for.
 const WAITED: f64 = 0.25;
 
-/// Which counted samples have no say, where there are any: those before it is known where the play stands, as the first samples of
-/// every record have none, and those with an output at a limit of the sensor.
-pub(crate) fn masked(track: &Track, assembly: &Assembly, rule: ReversalRule) -> Option<Arc<[bool]>> {
+/// Which counted samples of a track have no say.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Mask {
+    /// By sample, where any has none.
+    pub(crate) out: Option<Arc<[bool]>>,
+    /// Those whose error is known, but not the errors before it that foretell it.
+    pub(crate) unforetold: Arc<[usize]>,
+}
+
+/// Without a say are the samples before it is known where the play stands, as the first samples of every record are, and those with
+/// an output at a limit of the sensor.
+pub(crate) fn masked(track: &Track, assembly: &Assembly, rule: ReversalRule) -> Mask {
     let mut out = vec![false; track.y.len() - track.from];
+    let mut unforetold = Vec::new();
     let known = if assembly.play.is_none() { 0 } else { settled(&track.v, assembly.play, rule) + WARM_UP };
     let waited = known.saturating_sub(track.from);
     if (waited as f64) < WAITED * out.len() as f64 {
         out[..waited].fill(true);
     }
     if let Some(limits) = assembly.saturation {
-        let at_a_limit = limited(track, limits, assembly.noise.reach());
-        out.iter_mut().zip(at_a_limit).for_each(|(masked, limited)| *masked |= limited);
+        let unknown = limited(track, limits, 0);
+        let unwhitened = limited(track, limits, assembly.noise.reach());
+        for (k, ((masked, unknown), unwhitened)) in out.iter_mut().zip(unknown).zip(unwhitened).enumerate() {
+            if unwhitened && !unknown && !*masked {
+                unforetold.push(k);
+            }
+            *masked |= unwhitened;
+        }
     }
-    out.contains(&true).then(|| out.into())
+    Mask { out: out.contains(&true).then(|| out.into()), unforetold: unforetold.into() }
 }
 
 /// Which counted samples have an output at a limit among those the equation needs: it reaches back by its order, its errors by what
@@ -37,6 +53,7 @@ fn limited(track: &Track, limits: Saturation, whitener: usize) -> impl Iterator<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assembly::NoiseLaw;
     use crate::motion::Play;
     use crate::testing::small_campaign;
 
@@ -46,7 +63,7 @@ mod tests {
         let track = campaign.fit().next().expect("a track");
         let of = |width: f64, v: &[f64]| {
             let assembly = Assembly { play: Play { width, taper: 0.0 }, ..Assembly::default() };
-            masked(&Track { v: v.to_vec(), ..track.clone() }, &assembly, campaign.rule)
+            masked(&Track { v: v.to_vec(), ..track.clone() }, &assembly, campaign.rule).out
         };
         // Slowly down from the middle: a play of a tenth is crossed at sample 51.
         let count = track.v.len();
@@ -58,5 +75,24 @@ mod tests {
         assert!(of(0.0, &slow).is_none());
         // Never crossed.
         assert!(of(0.7, &slow).is_none());
+    }
+
+    #[test]
+    fn errors_near_a_limit_are_known_where_their_past_is_not() {
+        let (campaign, _) = small_campaign();
+        let mut track = campaign.fit().next().expect("a track").clone();
+        let at = track.from + 100;
+        track.y.fill(0.0);
+        track.y[at] = 9.0;
+        let of = |ar: Vec<f64>| {
+            let limits = Saturation { low: f64::NEG_INFINITY, high: 9.0, order: 2 };
+            let noise = NoiseLaw { ar, ..NoiseLaw::default() };
+            let assembly = Assembly { saturation: Some(limits), noise, ..Assembly::default() };
+            let mask = masked(&track, &assembly, campaign.rule);
+            let out = mask.out.expect("a sample at the limit");
+            (out.iter().filter(|out| **out).count(), mask.unforetold.to_vec())
+        };
+        assert_eq!(of(vec![]), (3, vec![]));
+        assert_eq!(of(vec![0.5; 2]), (5, vec![103, 104]));
     }
 }

@@ -86,7 +86,7 @@ pub(crate) fn first_guess(
             }
             let (row, x) = whitened.next(&row, track.x[t]);
             let counts = |masked: &[bool]| !masked[t - track.from];
-            if t >= track.from && track.masked.as_deref().is_none_or(counts) {
+            if t >= track.from && track.mask.out.as_deref().is_none_or(counts) {
                 normal.add(row, x);
             }
         }

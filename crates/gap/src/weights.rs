@@ -71,9 +71,9 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let (scale, predictors) = (Some(scale), Some(predictors));
         return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
     }
-    let masked: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.masked.is_some())).then(|| {
+    let masked: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.mask.out.is_some())).then(|| {
         let mask = |t: &DesignTrack| {
-            t.masked.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+            t.mask.out.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
         };
         design.tracks.iter().map(mask).collect()
     });
