@@ -111,7 +111,7 @@ impl<W: Workers> Attribution<'_, W> {
     }
 
     /// Penalised deviance gained over the nominal model.
-    fn gain(&self, explanation: Option<&Explanation>) -> f64 {
+    pub(crate) fn gain(&self, explanation: Option<&Explanation>) -> f64 {
         explanation.map_or(0.0, |e| self.nominal.bic() - e.bic())
     }
 

@@ -141,9 +141,9 @@ impl Plan {
         !excused && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
     }
 
-    /// Whether the outliers that explain the gap come where the input is: something is missed there.
+    /// Whether outliers that explain the gap, alone or beside another effect, come where the input is: something is missed there.
     pub(super) fn misses_at_places(&self, explanation: &Explanation) -> bool {
-        explanation.effects() == [Effect::Outliers]
+        explanation.effects().contains(&Effect::Outliers)
             && come_where_the_input_is(&self.campaign, &explanation.fit)
     }
 

@@ -159,6 +159,7 @@ impl Plan {
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
                 && !self.worsens(&explanation)
+                && !(causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation))
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);

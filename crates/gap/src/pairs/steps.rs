@@ -26,6 +26,8 @@ const FAR: f64 = 0.12;
 /// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
 const NEAR: f64 = 0.95;
 const NEARBY: usize = 3;
+/// Share of a first's gain that a second gains alone, from which its law is known.
+const CLEAR: f64 = 0.5;
 /// Times that a member of a pair is held as it is beside the other.
 const ROUNDS: usize = 2;
 /// Pairs fitted to convergence on each first effect.
@@ -39,14 +41,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
     /// then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
-        let best_single = singles.ranked.first()?;
-        let gained = |s: &Explanation| self.nominal.bic() - s.bic();
-        let serious: Vec<Effect> = (singles.ranked.iter())
-            .filter(|s| gained(s) > SEED * gained(best_single))
-            .map(|s| s.parts[0].effect)
-            // Heavy tails stand in for whatever else is missing.
-            .filter(|e| *e != Effect::Outliers || *e == best_single.parts[0].effect)
-            .collect();
+        let serious = serious(singles, |s| self.gain(Some(s)));
         let mut search =
             Search { of: self, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() };
         search.details(&serious[..serious.len().min(DETAILED)]);
@@ -81,6 +76,16 @@ impl<W: Workers> Attribution<'_, W> {
     }
 }
 
+/// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they are
+/// serious where nothing that may be the cause gains more.
+fn serious(singles: Firsts<'_>, gained: impl Fn(&Explanation) -> f64) -> Vec<Effect> {
+    let most = singles.ranked.first().map_or(0.0, &gained);
+    let is_tails = |s: &&Explanation| s.parts[0].effect == Effect::Outliers;
+    let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
+    let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
+    tails.chain(others).map(|s| s.parts[0].effect).collect()
+}
+
 /// A search for two effects under way.
 struct Search<'a, 'b, W> {
     of: &'a Attribution<'b, W>,
@@ -98,10 +103,17 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     fn step(&mut self, first: Effect) {
         self.tried.push(first);
         let others = self.of.settings.effects.iter().filter(|e| is_another(first, **e));
-        let questions: Vec<Question> =
-            others.map(|e| self.single(*e).map_or_else(|| Question::open(*e), Question::after)).collect();
+        let questions: Vec<Question> = others.map(|e| self.question(first, *e)).collect();
         self.ask(first, &questions);
         self.details(&[first]);
+    }
+
+    /// The law that served a second alone is asked after where it gained a share of what the first did: a weak trace is not told from
+    /// what the first leaves.
+    fn question(&self, first: Effect, second: Effect) -> Question {
+        let least = CLEAR * self.of.gain(self.single(first));
+        let is_clear = |s: &&Explanation| self.of.gain(Some(s)) > least;
+        self.single(second).filter(is_clear).map_or_else(|| Question::open(second), Question::after)
     }
 
     /// Details of the borders beside each first: the knots that follow them, placed with the effect known.
@@ -189,7 +201,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it
     /// was alone, then as it is beside the other.
     fn every_law(&mut self) {
-        let gain = |pair: &Explanation| self.of.nominal.bic() - pair.bic();
+        let gain = |pair: &Explanation| self.of.gain(Some(pair));
         let Some(most) = self.best().map(gain) else { return };
         let near: Vec<[Effect; 2]> =
             self.found.iter().filter(|pair| gain(pair) > NEAR * most).take(NEARBY).map(members).collect();
@@ -231,7 +243,7 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     fn left_of_gap(&self) -> f64 {
         let Some(best) = self.best() else { return 1.0 };
         let left = self.left();
-        left / (left + self.of.nominal.bic() - best.bic())
+        left / (left + self.of.gain(Some(best)))
     }
 
     /// Whether so much is left that another first may find a better pair.
