@@ -63,6 +63,16 @@ fn a_constant_input_or_output_is_refused() {
 }
 
 #[test]
+fn a_held_out_record_whose_output_never_moves_is_told() {
+    let v = input(1500, 1.0);
+    let mut records = whole();
+    records.push(record("dead", Usage::Holdout, v.clone(), vec![0.3; v.len()]));
+    let diagnosis = found(&rig(Some(1), records), Model::Identify);
+    let told: Vec<&String> = diagnosis.limitations.iter().filter(|l| l.contains("never moves")).collect();
+    assert!(matches!(told[..], [told] if told.contains("`dead`")), "{told:?}");
+}
+
+#[test]
 fn one_period_is_judged_with_a_word_about_it() {
     let v: Vec<f64> = (0..400).map(|t| (2.0 * PI * t as f64 / 400.0).sin()).collect();
     let y = output(&v);

@@ -216,6 +216,12 @@ fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usiz
 }
 
 fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {
+    for track in campaign.tracks.iter().filter(|t| t.y.iter().all(|y| *y == t.y[0])) {
+        limitations.push(format!(
+            "y never moves in `{}`: its sensor may have been off; check the record, or leave it out",
+            track.name
+        ));
+    }
     if campaign.fit().all(|t| t.is_pulsed()) {
         limitations.push(
             "no free record among the fit records: pulse experiments cannot see backlash or gradual transition, and hardly \
