@@ -156,10 +156,11 @@ impl Plan {
             let causes = pair.causes(&gains, samples);
             let together = odds_together(self.nominal.bic(), &pair, &causes, &effects);
             let (explanation, pair_left) = (pair.explanation, pair.left);
+            let misses = causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation);
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
                 && !self.worsens(&explanation)
-                && !(causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation))
+                && !misses
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.most() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
