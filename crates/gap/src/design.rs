@@ -49,7 +49,7 @@ pub(crate) struct Unforetold {
 }
 
 impl Unforetold {
-    /// The deviance of `n` samples, these among them, of the rest's stretched to all.
+    /// The deviance of `n` samples with these among them; `foretold` is that of the others, stretched to all `n`.
     pub(crate) fn among(self, n: f64, foretold: f64) -> f64 {
         if self.count == 0 {
             return foretold;

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Samples without a say count as much as the others do in the mean; but those whose error is known, and only what foretells it is
-//! not, have the variance of their own errors: a filter gains nothing where it cannot be applied.
+//! not, have the variance of their own errors: a filter gains nothing where it cannot be applied. The steps take no account of these few; whether
+//! one is taken does.
 
 use std::cell::OnceCell;
 use std::sync::Arc;

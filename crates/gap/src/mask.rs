@@ -30,24 +30,27 @@ pub(crate) fn masked(track: &Track, assembly: &Assembly, rule: ReversalRule) -> 
         out[..waited].fill(true);
     }
     if let Some(limits) = assembly.saturation {
-        let unknown = limited(track, limits, 0);
-        let unwhitened = limited(track, limits, assembly.noise.reach());
-        for (k, ((masked, unknown), unwhitened)) in out.iter_mut().zip(unknown).zip(unwhitened).enumerate() {
-            if unwhitened && !unknown && !*masked {
+        // The equation reaches back by its order, its errors by what whitens them.
+        let order = limits.order.min(LEAD);
+        let reach = limits.order.saturating_add(assembly.noise.reach()).min(LEAD);
+        let since = since_a_limit(track, limits).skip(track.from);
+        for (k, (masked, since)) in out.iter_mut().zip(since).enumerate() {
+            if since > order && since <= reach && !*masked {
                 unforetold.push(k);
             }
-            *masked |= unwhitened;
+            *masked |= since <= reach;
         }
     }
     Mask { out: out.contains(&true).then(|| out.into()), unforetold: unforetold.into() }
 }
 
-/// Which counted samples have an output at a limit among those the equation needs: it reaches back by its order, its errors by what
-/// whitens them.
-fn limited(track: &Track, limits: Saturation, whitener: usize) -> impl Iterator<Item = bool> {
-    let reach = limits.order.saturating_add(whitener).min(LEAD);
-    let at: Vec<bool> = track.y.iter().map(|y| *y <= limits.low || *y >= limits.high).collect();
-    (track.from..track.y.len()).map(move |t| at[t - reach..=t].iter().any(|c| *c))
+/// Samples since the output was last at a limit, 0 where it is there.
+fn since_a_limit(track: &Track, limits: Saturation) -> impl Iterator<Item = usize> {
+    track.y.iter().scan(usize::MAX, move |since, y| {
+        let at_a_limit = *y <= limits.low || *y >= limits.high;
+        *since = if at_a_limit { 0 } else { since.saturating_add(1) };
+        Some(*since)
+    })
 }
 
 #[cfg(test)]

@@ -30,11 +30,14 @@ pub(crate) struct Causes {
 impl Pair {
     /// Tells causes from corrections, `alone` being the gains of the single effects over the nominal model on as many `samples`.
     pub(crate) fn causes(&self, alone: &[(Effect, f64)], samples: usize) -> Causes {
-        let correction = match corrects_a_filter(&self.explanation.fit.assembly) {
-            true => Some(Effect::ColouredNoise),
+        let assembly = &self.explanation.fit.assembly;
+        let correction = if corrects_a_filter(assembly) {
+            Some(Effect::ColouredNoise)
+        } else if assembly.saturation.is_some() {
             // Ties at a limit are exact: there is nothing to correct.
-            false if self.explanation.fit.assembly.saturation.is_some() => None,
-            false => self.small_correction(alone, samples),
+            None
+        } else {
+            self.small_correction(alone, samples)
         };
         let members = self.explanation.effects();
         Causes { effects: members.into_iter().filter(|e| Some(*e) != correction).collect(), correction }

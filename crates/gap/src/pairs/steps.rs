@@ -41,7 +41,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
     /// then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
-        let serious = serious(singles, |s| self.gain(Some(s)));
+        let serious = self.serious(singles);
         let mut search =
             Search { of: self, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() };
         search.details(&serious[..serious.len().min(DETAILED)]);
@@ -74,16 +74,17 @@ impl<W: Workers> Attribution<'_, W> {
         let best = search.found.into_iter().next()?;
         Some(self.knots_refined(best.clone())).filter(Explanation::may_be_a_cause).or(Some(best))
     }
-}
 
-/// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they are
-/// serious where nothing that may be the cause gains more.
-fn serious(singles: Firsts<'_>, gained: impl Fn(&Explanation) -> f64) -> Vec<Effect> {
-    let most = singles.ranked.first().map_or(0.0, &gained);
-    let is_tails = |s: &&Explanation| s.parts[0].effect == Effect::Outliers;
-    let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
-    let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
-    tails.chain(others).map(|s| s.parts[0].effect).collect()
+    /// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they
+    /// are serious where nothing that may be the cause gains more.
+    fn serious(&self, singles: Firsts<'_>) -> Vec<Effect> {
+        let gained = |s: &Explanation| self.gain(Some(s));
+        let most = self.gain(singles.ranked.first());
+        let is_tails = |s: &&Explanation| s.parts[0].effect == Effect::Outliers;
+        let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
+        let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
+        tails.chain(others).map(|s| s.parts[0].effect).collect()
+    }
 }
 
 /// A search for two effects under way.
