@@ -90,8 +90,15 @@ pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64
     cells
 }
 
+/// Cells by their edges, with as many decimals as tell the closest edges apart.
 fn labels(edges: &[f64]) -> Vec<String> {
-    edges.windows(2).map(|w| format!("{:.4}..{:.4}", w[0], w[1])).collect()
+    let widths = edges.windows(2).map(|w| w[1] - w[0]);
+    let narrowest = widths.filter(|x| *x > 0.0 && x.is_finite()).fold(f64::INFINITY, f64::min);
+    let decimals = match narrowest.is_finite() {
+        true => (3.0 - narrowest.log10().floor()).clamp(4.0, 300.0) as usize,
+        false => 4,
+    };
+    edges.windows(2).map(|w| format!("{:.decimals$}..{:.decimals$}", w[0], w[1])).collect()
 }
 
 fn bin(edges: &[f64], x: f64) -> Option<usize> {

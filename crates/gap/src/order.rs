@@ -16,13 +16,34 @@ use crate::simulate::free_run;
 use crate::spectrum::{autocorrelation, unpredictable_variance};
 use crate::workers::Workers;
 
-/// A structure chosen from the fit records.
+/// A structure of the nominal model with its fit.
 #[derive(Debug)]
 pub(crate) struct Chosen {
     /// The records with the lead and the criterion chosen.
     pub(crate) campaign: Campaign,
     pub(crate) fit: Fit,
-    lead: usize,
+    /// What was chosen, in words, where the rig does not declare it.
+    pub(crate) told: Option<String>,
+}
+
+/// What the fit records leave to choose from.
+#[derive(Debug)]
+pub(crate) enum Choice {
+    /// There is one answer.
+    One(Chosen),
+    /// The equation error is not what the nominal model says. An effect may be the reason: then a fit one step ahead is efficient
+    /// once it is added; else models are compared as simulators.
+    Either(Chosen, Box<Simulator>),
+}
+
+/// The best structure identified as a simulator.
+#[derive(Debug)]
+pub(crate) struct Simulator {
+    /// The records as they are.
+    campaign: Campaign,
+    structure: Structure,
+    /// On the first grid.
+    first: Fit,
 }
 
 /// Largest lead tried, samples.
@@ -48,6 +69,16 @@ struct Structure {
 }
 
 impl Structure {
+    /// In words.
+    fn told(&self) -> String {
+        let lead = match self.lead {
+            0 => String::new(),
+            1 => " and an output that follows the input within its sample".to_owned(),
+            lead => format!(" and an output {} sample ahead of the input", lead - 1),
+        };
+        format!("the rig declares no order: order {}{lead}", self.order)
+    }
+
     /// The records as this structure sees them.
     fn applied(&self, campaign: &Campaign) -> Campaign {
         campaign.with_branches_from(self.begins).led_by(self.lead)
@@ -71,12 +102,12 @@ impl Tried {
 ///
 /// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
 /// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
-/// says, and models are compared as simulators from there on.
+/// says.
 pub(crate) fn choose(
     workers: &impl Workers,
     campaign: &Campaign,
     most: usize,
-) -> Result<Chosen, DiagnoseError> {
+) -> Result<Choice, DiagnoseError> {
     let attempts = workers.map(&structures(campaign, most), |s| attempt(campaign, *s));
     let mut tried = Vec::new();
     let mut failure = None;
@@ -89,13 +120,18 @@ pub(crate) fn choose(
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
-    let by_steps =
+    let steps =
         simplest(&tried, |t| t.one_step).map(|found| one_step(campaign, found.structure)).transpose()?;
-    let by_runs = simplest(&tried, Tried::simulated).and_then(|t| Some((t.structure, t.simulator.as_ref()?)));
-    match (by_steps, by_runs) {
-        (Some(steps), Some((_, runs))) if steps.suffices(runs) => Ok(steps),
-        (_, Some((structure, runs))) => Ok(simulator(campaign, structure, runs)),
-        (Some(steps), None) => Ok(steps),
+    let runs = simplest(&tried, Tried::simulated).and_then(|t| {
+        let first = t.simulator.clone()?;
+        Some(Simulator { campaign: campaign.clone(), structure: t.structure, first })
+    });
+    match (steps, runs) {
+        (Some(steps), Some(runs)) if !runs.is_needless_beside(&steps.campaign, &steps.fit) => {
+            Ok(Choice::Either(steps, Box::new(runs)))
+        }
+        (Some(steps), _) => Ok(Choice::One(steps)),
+        (None, Some(runs)) => Ok(Choice::One(runs.chosen())),
         (None, None) => Err(unstable()),
     }
 }
@@ -104,52 +140,39 @@ pub(crate) fn choose(
 fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, DiagnoseError> {
     let campaign = structure.applied(campaign);
     let fit = identify(&campaign, structure.order)?;
-    Ok(Chosen { campaign, fit, lead: structure.lead })
+    let told = Some(format!("{} was chosen from the fit records", structure.told()));
+    Ok(Chosen { campaign, fit, told })
 }
 
-/// The structure identified as a simulator, from its fit on the first grid.
-fn simulator(campaign: &Campaign, structure: Structure, first: &Fit) -> Chosen {
-    let led = structure.applied(campaign);
-    let share = independent_share(&led.judged_by(SIMULATION), first);
-    let campaign = led.judged_by(Criterion::Simulation { share });
-    let mut fit = first.clone();
-    fit.deviance *= share;
-    let fit = refine(&campaign, fit, &|_| Assembly::default());
-    Chosen { campaign, fit, lead: structure.lead }
-}
-
-impl Chosen {
-    /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as
-    /// good as a simulator's fit and its innovations are white.
-    fn suffices(&self, simulator: &Fit) -> bool {
-        if !settles(&self.fit.linear.a) {
-            return false;
-        }
-        let error = simulation_error(&self.campaign, &self.fit);
-        let repeats = NoiseResponse::of(&self.fit).repeat_variance(&self.campaign, Track::is_fit);
-        let noise = repeats.map_or(0.0, |(variance, _)| variance);
-        let w = innovations(&self.campaign, &self.fit, Track::is_fit);
-        let colour = 1.0 - unpredictable_variance(&w) / self.fit.power.max(1e-300);
-        error < NOISE * noise || (colour < COLOURED && simulator.power > EFFICIENT * error)
+impl Simulator {
+    /// The structure with its borders' knots placed, compared as a simulator from here on.
+    pub(crate) fn chosen(&self) -> Chosen {
+        let led = self.structure.applied(&self.campaign);
+        let share = independent_share(&led.judged_by(SIMULATION), &self.first);
+        let campaign = led.judged_by(Criterion::Simulation { share });
+        let mut fit = self.first.clone();
+        fit.deviance *= share;
+        let fit = refine(&campaign, fit, &|_| Assembly::default());
+        let told = format!(
+            "{} was chosen from the fit records; the equation error is far from white, so models are fitted and compared by \
+             their free run",
+            self.structure.told()
+        );
+        Chosen { campaign, fit, told: Some(told) }
     }
 
-    /// The choice in words.
-    pub(crate) fn told(&self) -> String {
-        let lead = match self.lead {
-            0 => String::new(),
-            1 => " and an output that follows the input within its sample".to_owned(),
-            lead => format!(" and an output {} sample ahead of the input", lead - 1),
-        };
-        let criterion = match self.campaign.criterion {
-            Criterion::OneStep => "",
-            Criterion::Simulation { .. } => {
-                "; the equation error is far from white, so models are fitted and compared by their free run"
-            }
-        };
-        format!(
-            "the rig declares no order: order {}{lead} was chosen from the fit records{criterion}",
-            self.fit.linear.a.len()
-        )
+    /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as
+    /// good as the simulator's fit and its innovations are white.
+    pub(crate) fn is_needless_beside(&self, campaign: &Campaign, fit: &Fit) -> bool {
+        if !settles(&fit.linear.a) {
+            return false;
+        }
+        let error = simulation_error(campaign, fit);
+        let repeats = NoiseResponse::of(fit).repeat_variance(campaign, Track::is_fit);
+        let noise = repeats.map_or(0.0, |(variance, _)| variance);
+        let w = innovations(campaign, fit, Track::is_fit);
+        let colour = 1.0 - unpredictable_variance(&w) / fit.power.max(1e-300);
+        error < NOISE * noise || (colour < COLOURED && self.first.power > EFFICIENT * error)
     }
 }
 

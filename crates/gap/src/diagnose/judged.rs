@@ -5,6 +5,7 @@ use crate::campaign::Criterion;
 use crate::closure::Simulated;
 use crate::engine::Fit;
 use crate::noise_response::NoiseResponse;
+use crate::sensor::SensorCurve;
 use crate::simulate::free_run;
 use crate::spectrum::unpredictable_variance;
 
@@ -18,7 +19,7 @@ impl Plan {
             return self.unforeseeable(fit);
         }
         let response = NoiseResponse::of(fit);
-        let model = fit.power * response.gain();
+        let model = fit.power * response.gain() * self.noise_shown(&fit.assembly.curve);
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         // Rounding repeats with the input, and is noise all the same.
         let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0);
@@ -26,6 +27,21 @@ impl Plan {
             Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
             _ => (model, relative(fit.samples as f64)),
         }
+    }
+
+    /// Variance that the sensor's characteristic makes of one unit of it on the judged records: where it is steep it shows more of
+    /// what lies before it.
+    fn noise_shown(&self, curve: &SensorCurve) -> f64 {
+        /// Inverse slope of a characteristic at least: flatter ones are a limit of the range.
+        const LEAST: f64 = 0.05;
+        if curve.is_straight() {
+            return 1.0;
+        }
+        let tracks = self.judged.iter().map(|&number| &self.campaign.tracks[number]);
+        let readings = tracks.flat_map(|track| &track.y[track.from..]);
+        let (sum, count) = readings
+            .fold((0.0, 0.0), |(sum, count), &y| (sum + curve.undo(y).1.max(LEAST).powi(-2), count + 1.0));
+        sum / f64::max(count, 1.0)
     }
 
     /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is

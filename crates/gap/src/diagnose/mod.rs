@@ -22,7 +22,7 @@ use crate::knots::detail;
 use crate::nominal::identify;
 use crate::odds::{Leavings, holds_together, odds, odds_together};
 use crate::omnibus::omnibus;
-use crate::order::choose;
+use crate::order::{Choice, Chosen, choose};
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
 use crate::simulate::free_run;
@@ -51,7 +51,50 @@ pub fn diagnose_with(
     model: Model,
     settings: &Settings,
 ) -> Result<Diagnosis, DiagnoseError> {
-    Ok(Plan::new(workers, rig, model, settings)?.conclude(workers))
+    let records = Campaign::new(rig)?;
+    let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
+    let conclude = |plan: Plan| {
+        let conclusion = plan.attribute(workers);
+        plan.report(workers, conclusion)
+    };
+    let (steps, simulator) = match structure(workers, records, (rig, &model, settings))? {
+        Choice::One(chosen) => return Ok(conclude(plan(chosen)?)),
+        Choice::Either(steps, simulator) => (plan(steps)?, simulator),
+    };
+    let by_steps = steps.attribute(workers);
+    let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
+    if told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
+        return Ok(steps.report(workers, by_steps));
+    }
+    let runs = plan(simulator.chosen())?;
+    let by_runs = runs.attribute(workers);
+    // What a simulator leaves alone may be what it cannot see.
+    match (by_steps.verdict.status, by_runs.verdict.status) {
+        (Status::Unexplained, Status::None) => Ok(steps.report(workers, by_steps)),
+        _ => Ok(runs.report(workers, by_runs)),
+    }
+}
+
+/// The structure of the nominal model: that of the model or the rig where they declare one.
+fn structure(
+    workers: &impl Workers,
+    campaign: Campaign,
+    (rig, model, settings): (&Rig, &Model, &Settings),
+) -> Result<Choice, DiagnoseError> {
+    let order = match (model, rig.order) {
+        (Model::Given(m), Some(n)) if m.a.len() != n => {
+            return Err(DiagnoseError::Order { model: m.a.len(), rig: n });
+        }
+        (Model::Given(m), _) => Some(m.a.len()),
+        (_, order) => order,
+    };
+    match order {
+        Some(n) => {
+            let fit = identify(&campaign, n.max(1))?;
+            Ok(Choice::One(Chosen { campaign, fit, told: None }))
+        }
+        None => choose(workers, &campaign, settings.max_order),
+    }
 }
 
 /// What is known before any effect is tried.
@@ -73,40 +116,19 @@ struct Plan {
 }
 
 impl Plan {
-    /// Identifies the nominal model.
-    fn new(
-        workers: &impl Workers,
-        rig: &Rig,
-        model: Model,
-        settings: &Settings,
-    ) -> Result<Self, DiagnoseError> {
-        let mut campaign = Campaign::new(rig)?;
+    /// Lays out what a diagnosis of the chosen nominal model starts from.
+    fn new(rig: &Rig, model: &Model, settings: &Settings, chosen: Chosen) -> Result<Self, DiagnoseError> {
+        let Chosen { campaign, fit, told } = chosen;
         let mut settings = settings.clone();
-        let mut limitations = Vec::new();
-        let order = match (&model, rig.order) {
-            (Model::Given(m), Some(n)) if m.a.len() != n => {
-                return Err(DiagnoseError::Order { model: m.a.len(), rig: n });
-            }
-            (Model::Given(m), _) => Some(m.a.len()),
-            (_, order) => order,
-        };
-        let nominal = match order {
-            Some(n) => identify(&campaign, n.max(1))?,
-            None => {
-                let chosen = choose(workers, &campaign, settings.max_order)?;
-                limitations.push(chosen.told());
-                campaign = chosen.campaign;
-                chosen.fit
-            }
-        };
+        let mut limitations = Vec::from_iter(told);
         if campaign.criterion.simulates() {
             // What changes only the noise moves no simulation.
             settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
         }
         let judged = judged_tracks(&campaign, &mut limitations);
-        let foreign = Foreign::of(&model, rig, &campaign, &judged)?;
+        let foreign = Foreign::of(model, rig, &campaign, &judged)?;
         note_what_the_records_lack(&campaign, &mut limitations);
-        let detailed = Explanation::nominal(nominal);
+        let detailed = Explanation::nominal(fit);
         let nominal = coarse(&campaign, &detailed);
         // Where details of the borders are no candidate, no other may take what knots that follow them gain.
         let follows = settings.effects.contains(&Effect::BorderResolution);
@@ -131,7 +153,7 @@ impl Plan {
     }
 
     /// Ranks the candidates and draws the conclusions.
-    fn conclude(self, workers: &impl Workers) -> Diagnosis {
+    fn attribute(&self, workers: &impl Workers) -> Conclusion {
         let attribution = Attribution {
             campaign: &self.campaign,
             settings: &self.settings,
@@ -181,7 +203,7 @@ impl Plan {
             Status::None => self.nominal.clone(),
             _ => joint.map_or(best, |(explanation, _)| explanation),
         };
-        self.report(workers, Conclusion { singles, odds, verdict, augmented, left, together: found })
+        Conclusion { singles, odds, verdict, augmented, left, together: found }
     }
 }
 

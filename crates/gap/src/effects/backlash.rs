@@ -4,20 +4,40 @@
 //! p(t) = p(t−1) unless |v − p| exceeds half the play; u = F[p];   the play even, or changing along the stroke
 //! ```
 //!
-//! Parameters: full width `play`, in strokes (0.0003…0.7), its relative change `taper` from the middle of the stroke to its upper end
+//! Parameters: full width `play`, in strokes (0.00001…0.7), its relative change `taper` from the middle of the stroke to its upper end
 //! (−1…1: wear is uneven). Stage: operator. It leaves a rest of `u` after each reversal, for a
 //! travel equal to the play; the shift `v ∓ play/2` along the branches is absorbed by the borders, so designed
 //! pulse experiments alone do not see it. Confused with: gradual transition (the jump at the end of the rest tells),
 //! a reversal threshold against noise on `v`.
 
-use super::{Search, Variant, own};
+use super::{Scene, Search, Variant, own};
+use crate::campaign::Campaign;
 use crate::motion::Play;
 
-pub(super) fn variants() -> Vec<Variant> {
+/// Starts are this width times powers of a ratio, in strokes.
+const ANCHOR: f64 = 0.0006;
+/// No play is narrower, in strokes.
+const NARROWEST: f64 = 1e-5;
+/// Samples that must lie within a play of the last reversal for it to leave a trace.
+const TRACES: usize = 3;
+
+/// The width below which a play leaves no trace in the fit records, [`ANCHOR`] at most.
+fn narrowest(campaign: &Campaign) -> f64 {
+    let moves = campaign.fit().flat_map(|t| t.moves.iter()).filter(|m| m.moves && m.travel > 0.0);
+    let mut travels: Vec<f64> = moves.map(|m| m.travel).filter(|travel| *travel < ANCHOR).collect();
+    travels.sort_by(f64::total_cmp);
+    travels.get(TRACES - 1).copied().unwrap_or(ANCHOR).max(2.0 * NARROWEST)
+}
+
+pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // The profile is not smooth: a width off by half has lost the trace.
-    let widths =
-        |ratio: f64| std::iter::successors(Some(0.0006), move |w| Some(ratio * w)).take_while(|w| *w < 0.6);
-    let width = |w: f64| own("play", "strokes", w, (0.0003, 0.7), 0.16 * w);
+    let least = narrowest(scene.campaign);
+    let widths = |ratio: f64| {
+        let below = (ANCHOR / least).log(ratio).floor() as i32;
+        let first = ANCHOR * ratio.powi(-below);
+        std::iter::successors(Some(first), move |w| Some(ratio * w)).take_while(|w| *w < 0.6)
+    };
+    let width = |w: f64| own("play", "strokes", w, (0.5 * least, 0.7), 0.16 * w);
     let even = widths(1.5).map(|w| vec![width(w)]).collect();
     let tapered =
         |w: f64| [-0.6, 0.6].map(|taper| vec![width(w), own("taper", "1", taper, (-1.0, 1.0), 0.3)]);

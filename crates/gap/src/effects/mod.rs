@@ -124,7 +124,7 @@ pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
     match effect {
         Effect::InputDelay => input_delay::variants(),
         Effect::InputNoise => input_noise::variants(scene),
-        Effect::Backlash => backlash::variants(),
+        Effect::Backlash => backlash::variants(scene),
         Effect::GradualTransition => gradual_transition::variants(scene),
         Effect::RateDependence => rate_dependence::variants(scene),
         Effect::Creep => creep::variants(scene),

@@ -10,7 +10,7 @@
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let starts = [-1.0, 1.5]
+    let starts = [-1.0, 1.5, 4.0]
         .iter()
         .map(|&r| vec![own("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])
         .collect();

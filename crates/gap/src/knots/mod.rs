@@ -56,10 +56,11 @@ pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Op
     Some(halved(campaign, on_first_grid(campaign, fitted, build)?, build))
 }
 
-/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a sample's
-/// hundredth, which is a tenth of the noise's standard deviation.
+/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a tenth a sample, which is a
+/// third of the noise's standard deviation. No grid is fine enough for every border, and knots that follow a bend or a small jump are
+/// the border's own.
 pub(crate) fn detail(campaign: &Campaign) -> f64 {
-    0.01 * campaign.fit_samples() as f64
+    0.1 * campaign.fit_samples() as f64
 }
 
 /// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
