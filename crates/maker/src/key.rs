@@ -38,6 +38,8 @@ pub struct Key {
     pub b: Vec<f64>,
     /// Shape of the borders.
     pub borders: &'static str,
+    /// Whether they are curved between the levels too.
+    pub curved: bool,
     /// Standard deviation of the white equation error.
     pub noise_sd: f64,
     /// The effects; none, one or more.

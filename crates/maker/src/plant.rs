@@ -10,8 +10,9 @@ use switchback_estimator::hysteresis::{Interval, SwitchedHysteresis};
 
 /// A nominal system: the switched hysteresis on its interval, the linear part, and the noise.
 ///
-/// `A(q⁻¹) y(t) = B(q⁻¹) u(t) + ξ(t)` with `u = F[v]`, `u_M − u_m = 1`, borders straight between the levels, `ξ`
-/// white, Gaussian, of standard deviation `noise_sd`. So a nominal model with hat functions at the levels has no gap.
+/// `A(q⁻¹) y(t) = B(q⁻¹) u(t) + ξ(t)` with `u = F[v]`, `u_M − u_m = 1`, `ξ` white, Gaussian, of standard deviation `noise_sd`.
+/// Borders are straight between the levels, so that a nominal model with hat functions there has no gap; or they are curved, so
+/// that no table has none and a fine one hardly any.
 #[derive(Debug)]
 pub struct Plant {
     /// `a₁…aₙ`.
@@ -22,7 +23,7 @@ pub struct Plant {
     pub hysteresis: SwitchedHysteresis,
     /// The working interval, input units.
     pub interval: Interval,
-    /// The levels of the pulse experiments with both satellites, increasing; the borders' knots.
+    /// The levels of the pulse experiments with both satellites, increasing.
     pub levels: Vec<f64>,
     /// Standard deviation of the white equation error, output units.
     pub noise_sd: f64,
@@ -32,6 +33,8 @@ pub struct Plant {
     pub sample_time: f64,
     /// Shape that the borders were drawn from.
     pub shape: Shape,
+    /// Whether the borders are curved between the levels too.
+    pub curved: bool,
 }
 
 impl Plant {

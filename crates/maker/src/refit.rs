@@ -11,8 +11,8 @@ use switchback_estimator::rig::Usage;
 /// y(t) = −Σᵢ aᵢ y(t−i) + Σᵢ Σ_k μ_ik φ_k(t−i) + ξ(t),   i = 1…n
 /// ```
 ///
-/// with a hat function `φ_k` at every level for each of the two borders. The `μ_ik` are left free (not of rank one), so
-/// the nominal model can absorb no more than this.
+/// with a hat function `φ_k` at every level for each of the two borders, and several between two levels where the borders are curved.
+/// The `μ_ik` are left free (not of rank one), so the nominal model can absorb no more than this.
 pub(crate) struct Refit {
     order: usize,
     columns: usize,
@@ -21,6 +21,9 @@ pub(crate) struct Refit {
     /// First sample of each passage that is predicted.
     first: Vec<usize>,
 }
+
+/// Cells of a curved border's table to a cell between levels: what a table of straight pieces misses falls with the square.
+const FINER: usize = 4;
 
 /// What the best nominal re-fit leaves.
 pub(crate) struct Leftover {
@@ -36,7 +39,7 @@ impl Refit {
     /// Lays out the regression for the commanded inputs of a campaign.
     pub(crate) fn new(plant: &Plant, passages: &[Passage]) -> Self {
         let order = plant.order();
-        let knots = plant.levels.len();
+        let knots = 1 + (plant.levels.len() - 1) * if plant.curved { FINER } else { 1 };
         let mut hats = Vec::with_capacity(passages.len());
         let mut first = Vec::with_capacity(passages.len());
         for passage in passages {

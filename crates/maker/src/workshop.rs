@@ -160,6 +160,7 @@ impl Workshop {
             a: self.plant.a.clone(),
             b: self.plant.b.clone(),
             borders: self.plant.shape.name(),
+            curved: self.plant.curved,
             noise_sd: self.plant.noise_sd,
             effects,
             size: trial.size,

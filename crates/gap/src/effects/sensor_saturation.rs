@@ -38,7 +38,7 @@ fn soft(scene: &Scene<'_>) -> Vec<Variant> {
                 .map(|&at| {
                     vec![
                         own("knee", "share of the half range", at, (0.1, 0.98), 0.005),
-                        own("width", "share of the half range", 1.0, (0.005, 20.0), 0.005),
+                        own("width", "share of the half range", 1.0, (0.05, 20.0), 0.005),
                     ]
                 })
                 .collect();

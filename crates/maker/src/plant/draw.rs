@@ -42,6 +42,11 @@ impl Shape {
         Self::NonMonotone,
     ];
 
+    /// Whether its borders bend.
+    fn is_curved(self) -> bool {
+        matches!(self, Self::HardeningSpring | Self::General | Self::NonMonotone)
+    }
+
     /// The shape's name in a key.
     pub fn name(self) -> &'static str {
         match self {
@@ -64,12 +69,17 @@ impl Plant {
         let m = rng.random_range(7..=11);
         let levels: Vec<f64> =
             (0..=m).map(|j| interval.low() + interval.width() * f64::from(j) / f64::from(m)).collect();
-        let table = draw_borders(shape, &levels, rng);
-        let hysteresis =
-            SwitchedHysteresis::new(interval, Box::new(table)).expect("drawn borders span exactly one");
+        let borders = Borders::draw(shape, &levels, rng);
         let a = draw_poles(order, rng);
         let span = rng.random_range(-0.5..2.0_f64).exp2() * 10.0_f64.powi(rng.random_range(-1..=2));
         let b = draw_numerator(&a, span, rng);
+        let sample_time = [1e-4, 1e-3, 0.01, 0.05][rng.random_range(0..4)];
+        // The output's noise, not the equation's, is what an engineer sees: 0.1 % to 2 % of the stationary span.
+        let noise = 10.0_f64.powf(rng.random_range(-3.0..-1.7));
+        let curved = shape.is_curved() && rng.random_bool(CURVED);
+        let table = borders.table(&levels, if curved { POINTS } else { 1 });
+        let hysteresis =
+            SwitchedHysteresis::new(interval, Box::new(table)).expect("drawn borders span exactly one");
         let mut plant = Self {
             a,
             b,
@@ -78,13 +88,12 @@ impl Plant {
             levels,
             noise_sd: 0.0,
             reach: 0.0,
-            sample_time: [1e-4, 1e-3, 0.01, 0.05][rng.random_range(0..4)],
+            sample_time,
             shape,
+            curved,
         };
         plant.reach = plant.y_half();
-        // The output's noise, not the equation's, is what an engineer sees: 0.1 % to 2 % of the stationary span.
-        plant.noise_sd =
-            2.0 * plant.y_half() * 10.0_f64.powf(rng.random_range(-3.0..-1.7)) / plant.noise_amplification();
+        plant.noise_sd = 2.0 * plant.y_half() * noise / plant.noise_amplification();
         plant
     }
 }
@@ -100,46 +109,86 @@ fn draw_interval(rng: &mut ChaCha8Rng) -> Interval {
     Interval::new(low * scale, high * scale).expect("the second end lies above the first")
 }
 
-/// Borders at the levels, scaled to `u_m = C_d(h_m)`, `u_M = C_a(h_M) = u_m + 1`.
-fn draw_borders(shape: Shape, levels: &[f64], rng: &mut ChaCha8Rng) -> Table {
-    let m = levels.len() - 1;
-    let gap = rng.random_range(0.1..0.6); // distance of the borders, in units of the drawn curves
-    let jump = rng.random_range(1..m); // the cell that a jump falls into
-    // At least a cell and a half apart, or both borders of a relay could fall together.
-    let (centre_a, centre_d) = (rng.random_range(0.61..0.8), rng.random_range(0.2..0.39));
-    let steep = rng.random_range(3.0..12.0);
-    let waves = rng.random_range(0.8..1.6);
-    let curve = |x: f64, j: usize, rising: bool| -> f64 {
-        let side = if rising { gap } else { -gap };
+/// How often borders that bend do so between the levels too, and in how many straight pieces a cell.
+const CURVED: f64 = 0.5;
+const POINTS: usize = 16;
+
+/// The curves that borders follow.
+struct Borders {
+    shape: Shape,
+    /// Distance of the borders, in units of the drawn curves.
+    gap: f64,
+    /// The cell that a jump falls into.
+    jump: usize,
+    /// Centres of the ascending and the descending border's steps.
+    centres: (f64, f64),
+    steep: f64,
+    waves: f64,
+    offset: f64,
+}
+
+impl Borders {
+    fn draw(shape: Shape, levels: &[f64], rng: &mut ChaCha8Rng) -> Self {
+        let gap = rng.random_range(0.1..0.6);
+        let jump = rng.random_range(1..levels.len() - 1);
+        // At least a cell and a half apart, or both borders of a relay could fall together.
+        let centres = (rng.random_range(0.61..0.8), rng.random_range(0.2..0.39));
+        let steep = rng.random_range(3.0..12.0);
+        let waves = rng.random_range(0.8..1.6);
+        let offset = rng.random_range(-1.0..0.0);
+        Self { shape, gap, jump, centres, steep, waves, offset }
+    }
+
+    /// One border at `x`, a share of the interval, where `level` is the number of the last level up to there.
+    fn curve(&self, x: f64, level: usize, rising: bool) -> f64 {
+        let side = if rising { self.gap } else { -self.gap };
         let s = 2.0 * x - 1.0;
-        let centre = if rising { centre_a } else { centre_d };
-        match shape {
+        let centre = if rising { self.centres.0 } else { self.centres.1 };
+        match self.shape {
             Shape::LeafSpring => s + side,
             Shape::HardeningSpring => (0.5 + 0.5 * s * s) * s + side,
             Shape::Relay => 0.1 * s + if x > centre { 1.0 } else { -1.0 },
-            Shape::General => (steep * (x - centre)).tanh() + 0.3 * x * x,
-            Shape::Discontinuous => 0.7 * s + side + if j > jump { 0.8 } else { 0.0 },
-            Shape::NonMonotone => s + side + 0.5 * (waves * std::f64::consts::TAU * x).sin(),
+            Shape::General => (self.steep * (x - centre)).tanh() + 0.3 * x * x,
+            Shape::Discontinuous => 0.7 * s + side + if level > self.jump { 0.8 } else { 0.0 },
+            Shape::NonMonotone => s + side + 0.5 * (self.waves * std::f64::consts::TAU * x).sin(),
         }
-    };
-    let at = |rising: bool| -> Vec<f64> {
-        levels.iter().enumerate().map(|(j, _)| curve(j as f64 / m as f64, j, rising)).collect()
-    };
-    let (mut ascending, mut descending) = (at(true), at(false));
-    if matches!(shape, Shape::General) {
-        // A loop that closes: beyond its ends both curves would meet.
-        let (low, high) = (0.5 * (ascending[0] + descending[0]), 0.5 * (ascending[m] + descending[m]));
+    }
+
+    /// Both borders in `points` straight pieces a cell, scaled to `u_m = C_d(h_m)`, `u_M = C_a(h_M) = u_m + 1`.
+    fn table(&self, levels: &[f64], points: usize) -> Table {
+        let m = levels.len() - 1;
+        let places = points * m;
+        let at = |rising: bool| -> Vec<f64> {
+            (0..=places).map(|i| self.curve(i as f64 / places as f64, i / points, rising)).collect()
+        };
+        let (mut ascending, mut descending) = (at(true), at(false));
+        if matches!(self.shape, Shape::General) {
+            close(&mut ascending, &mut descending, points);
+        }
+        let (low, span) = (descending[0], ascending[places] - descending[0]);
         for values in [&mut ascending, &mut descending] {
-            values[0] = low;
-            values[m] = high;
+            values.iter_mut().for_each(|u| *u = self.offset + (*u - low) / span);
+        }
+        let place = |i: usize| match i % points {
+            0 => levels[i / points],
+            _ => levels[0] + (levels[m] - levels[0]) * i as f64 / places as f64,
+        };
+        Table { levels: (0..=places).map(place).collect(), ascending, descending }
+    }
+}
+
+/// Makes a loop that closes: straight in the first cell and in the last, beyond which both curves would meet.
+fn close(ascending: &mut [f64], descending: &mut [f64], points: usize) {
+    let last = ascending.len() - 1;
+    let ends = [0, last].map(|end| 0.5 * (ascending[end] + descending[end]));
+    for values in [ascending, descending] {
+        let inner = [values[points], values[last - points]];
+        for i in 0..points {
+            let share = i as f64 / points as f64;
+            values[i] = ends[0] + (inner[0] - ends[0]) * share;
+            values[last - i] = ends[1] + (inner[1] - ends[1]) * share;
         }
     }
-    let (low, span) = (descending[0], ascending[m] - descending[0]);
-    let offset = rng.random_range(-1.0..0.0);
-    for values in [&mut ascending, &mut descending] {
-        values.iter_mut().for_each(|u| *u = offset + (*u - low) / span);
-    }
-    Table { levels: levels.to_vec(), ascending, descending }
 }
 
 /// A stable denominator of the given order: real poles and complex pairs, radius 0.3 to 0.93.
@@ -181,4 +230,27 @@ fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
         }
     }
     product
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use switchback_estimator::hysteresis::BorderPair;
+
+    #[test]
+    fn curved_borders_pass_through_those_that_are_straight_between_the_levels() {
+        let levels: Vec<f64> = (0..=9).map(|j| -2.0 + f64::from(j) / 3.0).collect();
+        for (seed, shape) in (0..).zip(Shape::ALL) {
+            let borders = Borders::draw(shape, &levels, &mut ChaCha8Rng::seed_from_u64(seed));
+            let [straight, curved] = [1, POINTS].map(|points| borders.table(&levels, points));
+            for v in &levels {
+                assert!((straight.ascending(*v) - curved.ascending(*v)).abs() < 1e-12, "{shape:?} at {v}");
+                assert!((straight.descending(*v) - curved.descending(*v)).abs() < 1e-12, "{shape:?} at {v}");
+            }
+            let inside = || (1..90).map(|i| -2.0 + f64::from(i) / 30.0);
+            let apart = inside().any(|v| (straight.ascending(v) - curved.ascending(v)).abs() > 1e-3);
+            assert!(apart || !shape.is_curved(), "{shape:?}");
+        }
+    }
 }

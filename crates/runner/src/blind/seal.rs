@@ -61,6 +61,7 @@ struct WrittenKey<'a> {
     seed: u64,
     order: usize,
     borders: &'a str,
+    curved: bool,
     noise_sd: f64,
     size: f64,
     effects: Vec<WrittenEffect<'a>>,
@@ -86,6 +87,7 @@ impl Sealed {
             seed: key.seed,
             order: key.order,
             borders: key.borders,
+            curved: key.curved,
             noise_sd: key.noise_sd,
             size: key.size,
             effects: key

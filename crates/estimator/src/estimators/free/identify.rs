@@ -118,6 +118,7 @@ fn examine(
 ) -> Vec<Warning> {
     let visits = featured.basis.visits(segments);
     let reversals = data.records.iter().map(|(_, b)| b.reversals()).sum();
-    let (noise, threshold) = (data.noise, data.rule.threshold);
-    Examination { basis: &featured.basis, structure, theta, noise, threshold, reversals, visits }.warnings()
+    let (noise, threshold, range) = (data.noise, data.rule.threshold, data.interval.width());
+    Examination { basis: &featured.basis, structure, theta, noise, threshold, range, reversals, visits }
+        .warnings()
 }

@@ -96,6 +96,8 @@ impl fmt::Display for Warning {
 
 /// A knot with fewer samples beside it than this is reported.
 const FEW_SAMPLES: usize = 10;
+/// Share of the working interval up to which a threshold is that of rounding in arithmetic.
+const ROUNDING: f64 = 1e-12;
 /// Fewer reversals than this are reported.
 const FEW_REVERSALS: usize = 4;
 
@@ -107,6 +109,8 @@ pub(super) struct Examination<'a> {
     pub(super) theta: &'a Parameters,
     pub(super) noise: SensorNoise,
     pub(super) threshold: f64,
+    /// Width of the working interval.
+    pub(super) range: f64,
     pub(super) reversals: usize,
     /// Samples in the cells beside each knot.
     pub(super) visits: Vec<usize>,
@@ -115,7 +119,8 @@ pub(super) struct Examination<'a> {
 impl Examination<'_> {
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let mut found = Vec::new();
-        if self.noise.threshold > 0.0 {
+        // The last digits of a computed input are no news.
+        if self.noise.threshold > ROUNDING * self.range {
             found.push(Warning::SensorNoise { threshold: self.threshold });
         }
         if self.basis.is_switched() && self.reversals < FEW_REVERSALS {
