@@ -131,9 +131,15 @@ fn measured(v: &[f64], seed: u64) -> String {
 
 /// The verdict on a rig made with the arguments given.
 pub fn verdict_on_made(what: &[&str]) -> serde_json::Value {
+    verdict_on_changed(what, str::to_owned)
+}
+
+/// The same once its `rig.toml` was changed.
+pub fn verdict_on_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
     let folder = Folder::with_good_rig();
     let made = folder.switchback(&[&["rig", "--out", "made"], what].concat()).output().expect("it runs");
     assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    folder.edit("made/rig.toml", change);
     let told = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
     let page: serde_json::Value = serde_json::from_slice(&told.stdout).expect("one JSON object on stdout");
     page["verdict"].clone()
