@@ -183,6 +183,7 @@ pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::white;
 
     #[test]
     fn the_fast_transform_agrees_with_the_sum() {
@@ -209,15 +210,6 @@ mod tests {
         let p = power(&tracks[1][..256], 256);
         let slow = ordinate(&tracks[1][..256], 2.0 * PI * 17.0 / 256.0);
         assert!((p[17] - slow).abs() < 1e-9 * (1.0 + slow));
-    }
-
-    /// White noise of variance one.
-    fn white() -> impl FnMut() -> f64 {
-        let mut state = 1_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        }
     }
 
     #[test]

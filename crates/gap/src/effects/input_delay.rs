@@ -7,23 +7,29 @@
 //!
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
-use super::{Variant, outlasts_the_records, own};
+use super::{Search, Variant, outlasts_the_records, own};
 use crate::engine::Own;
 
+/// Delays of the positions tried within the first sample, and within each of the next few. A branch taken a sample too late costs
+/// more than any smooth part gains: the likelihood has a corner at every ratio of two moves that meet at a reversal.
+const WITHIN_THE_FIRST: [f64; 9] = [0.015, 0.03, 0.06, 0.12, 0.25, 0.4, 0.6, 0.8, 0.95];
+const WITHIN_A_LATER: [f64; 4] = [0.05, 0.2, 0.5, 0.8];
+
 pub(super) fn variants() -> Vec<Variant> {
-    let starts: Vec<_> = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0]
-        .iter()
-        .map(|&d| vec![own("delay", "samples", d, (0.0, 10.0), 0.02)])
-        .collect();
-    let response = Variant::conditional(starts.clone(), |p, assembly| assembly.delay = p[0]);
-    let positions = Variant::conditional(starts, |p, assembly| {
-        assembly.delay = p[0].floor();
-        assembly.late = p[0] - assembly.delay;
+    let delay = |d: f64, step: f64| vec![own("delay", "samples", d, (0.0, 10.0), step)];
+    let responses = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0];
+    let response = Variant::conditional(responses.map(|d| delay(d, 0.02)).into(), |p, assembly| {
+        assembly.delay = p[0];
     });
     // B takes a whole sample where it has room: every whole sample is a valley of its own.
     let whole = |own: &[Own]| own[0].value.floor() as i64;
-    [response, positions]
-        .map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit)))
-        .map(|law| Variant { climbs: law.starts.len(), valley: Some(whole), ..law })
-        .into()
+    let response = Variant { climbs: response.starts.len(), valley: Some(whole), ..response };
+    let later = [1.0, 2.0, 3.0].into_iter().flat_map(|k| WITHIN_A_LATER.map(|part| (k + part, part)));
+    let starts = WITHIN_THE_FIRST.into_iter().map(|part| (part, part)).chain(later);
+    let positions = Variant::new(starts.map(|(d, part)| delay(d, 0.3 * part)).collect(), |p, assembly| {
+        assembly.delay = p[0].floor();
+        assembly.late = p[0] - assembly.delay;
+    });
+    let positions = Variant { search: Search::Profile, ..positions };
+    [response, positions].map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit))).into()
 }

@@ -6,13 +6,15 @@
 //!
 //! Parameter: `ratio = var n / var ξ`. Stage: disturbance. It biases least-squares estimates of `A` towards zero. Confused with:
 //! coloured equation noise; told from it because one ratio fixes all of `C`.
+//!
+//! The search starts where `A` and `C` are solved for in turn: from a biased `A` no step leads to the right one.
 
 use super::{Variant, own};
 
 pub(super) fn variants() -> Vec<Variant> {
-    let starts = [-1.0, 1.5, 4.0]
+    let starts = [-1.0, 1.5]
         .iter()
         .map(|&r| vec![own("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])
         .collect();
-    vec![Variant::new(starts, |p, assembly| assembly.noise.output_ratio = p[0].exp())]
+    vec![Variant::conditional(starts, |p, assembly| assembly.noise.output_ratio = p[0].exp())]
 }

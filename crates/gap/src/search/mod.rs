@@ -21,6 +21,8 @@ const LOOK: usize = 2;
 const AHEAD: usize = 2;
 const FINAL: usize = 14;
 const RACE: usize = 4;
+/// Rounds in which `A` and a noise filter that follows from it are solved for in turn (Steiglitz and McBride, 1965).
+const RELAXED: usize = 6;
 /// Points of a pattern search at most: to see whether a law may still win, and in the end.
 const SCOUTED: usize = 8;
 const TRIALS: usize = 30;
@@ -187,25 +189,23 @@ pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation
     // The own parameters of what is known, then those of the law.
     let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
     let starts = law.starts.iter().map(|own| joined(own));
+    let held = |own: Vec<Own>| {
+        let afresh = task.dynamics_refitted(&own, &base);
+        best([task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))].into_iter().flatten())
+    };
     let fit = match law.search {
         // Without own parameters there is one start, and nothing that a look could compare.
         Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
         Search::Smooth => ahead(starts.filter_map(|own| task.together(&own, &base, 1)), |fit| {
             task.from(fit).together(&fit.own, &fit.linear, LOOK - 1)
         }),
-        Search::Profile => ahead(starts.filter_map(|own| task.held(&own, &base, 1)), |fit| {
-            task.from(fit).held(&fit.own, &fit.linear, LOOK - 1)
-        }),
+        Search::Profile => {
+            ahead(starts.filter_map(held), |fit| task.from(fit).held(&fit.own, &fit.linear, LOOK - 1))
+        }
         Search::Weights => best(starts.filter_map(|own| task.held(&own, &base, 0)))
             .and_then(|best| task.held(&best.own, &best.linear, LOOK)),
         Search::Conditional => {
-            let mut held: Vec<Fit> = starts
-                .filter_map(|own| {
-                    let afresh = task.dynamics_refitted(&own, &base);
-                    let fits = [task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))];
-                    best(fits.into_iter().flatten())
-                })
-                .collect();
+            let mut held: Vec<Fit> = starts.filter_map(held).collect();
             held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
             // The best start need not lead to the best point: B may have taken what a neighbour would explain.
             best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
@@ -251,17 +251,19 @@ impl Task<'_> {
         Some(fitted)
     }
 
-    /// `A` and `B` by least squares; nothing without a filter.
+    /// `A` and `B` by least squares; nothing without a filter. Where the filter of the noise follows from `A`, by some rounds.
     fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
         let assembly = self.assembly(own);
-        let whitener = Whitener::new(&assembly.noise, &start.a);
-        let coloured = !assembly.noise.ar.is_empty() || !assembly.noise.ma.is_empty();
-        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured {
+        let noise = &assembly.noise;
+        let coloured = !noise.ar.is_empty() || !noise.ma.is_empty();
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured && noise.output_ratio == 0.0 {
             return None;
         }
-        let p = self.padded(start, &assembly);
+        let rounds = if noise.output_ratio > 0.0 { RELAXED } else { 1 };
         let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
-        dynamics_refitted(&design, &whitener, &p)
+        (0..rounds).try_fold(self.padded(start, &assembly), |p, _| {
+            dynamics_refitted(&design, &Whitener::new(noise, &p.a), &p)
+        })
     }
 
     /// Alternates between everything together and the own parameters held, until neither moves: where own parameters
@@ -326,4 +328,55 @@ fn ahead(fits: impl Iterator<Item = Fit>, further: impl Fn(&Fit) -> Option<Fit>)
 
 fn best(fits: impl Iterator<Item = Fit>) -> Option<Fit> {
     fits.min_by(|x, y| x.deviance.total_cmp(&y.deviance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{noise_free, small_campaign, small_model, white};
+
+    /// Least squares draws `A` towards zero; what is solved for in turn with the filter that follows from it does not stay there.
+    #[test]
+    fn behind_output_noise_the_dynamics_are_found_from_biased_ones() {
+        let (campaign, grid) = small_campaign();
+        let truth = Linear { a: vec![-1.5, 0.6], ..small_model(&grid) };
+        let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &truth);
+        let mut noise = white();
+        campaign.tracks[0].y.iter_mut().for_each(|y| *y += 0.2 * noise());
+        let off = |p: &Linear| p.a.iter().zip(&truth.a).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let nominal = Task { ground, build: &|_| Assembly::default(), held: 0 };
+        let biased = nominal.together(&[], &truth, FINAL).expect("a fit").linear;
+        assert!(off(&biased) > 0.2, "{:?}", biased.a);
+        let build = |_: &[f64]| {
+            let mut assembly = Assembly::default();
+            assembly.noise.output_ratio = 1e3;
+            assembly
+        };
+        let task = Task { ground, build: &build, held: 0 };
+        let found = task.dynamics_refitted(&[], &biased).expect("solved");
+        assert!(off(&found) < 0.3 * off(&biased), "{:?} {:?}", biased.a, found.a);
+    }
+
+    /// A branch taken a sample too late costs more than a derivative at a start far off can tell.
+    #[test]
+    fn positions_that_act_a_little_late_are_found() {
+        let (campaign, grid) = small_campaign();
+        for late in [0.037, 0.3] {
+            let assembly = Assembly { late, ..Assembly::default() };
+            let mut campaign = noise_free(campaign.clone(), &grid, &assembly, &small_model(&grid));
+            let mut noise = white();
+            campaign.tracks[0].y.iter_mut().for_each(|y| *y += 1e-3 * noise());
+            let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+            let nominal =
+                fit(ground, &|_| Assembly::default(), &[], &small_model(&grid), FINAL).expect("a fit");
+            let known = Explanation::nominal(nominal);
+            let base = Known::new(&campaign, &known);
+            let asked = prospects(&base, base.test().as_ref(), &Question::open(Effect::InputDelay));
+            let looks = asked.iter().filter_map(|prospect| look(&base, prospect));
+            let done = looks.map(|sketch| finish(&campaign, 0, &sketch));
+            let best = done.min_by(|x, y| x.bic().total_cmp(&y.bic())).expect("a law");
+            assert!((best.fit.own[0].value - late).abs() < 2e-3, "{late}: {:?}", best.fit.own);
+        }
+    }
 }
