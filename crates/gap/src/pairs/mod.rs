@@ -79,6 +79,9 @@ fn is_hidden(tests: &Omnibus) -> bool {
     tests.unrounded < HIDDEN
 }
 
+/// Share of the best single effect's gain that another needs for outliers to hide that it is the better one, and how many are tried.
+const HIDES: f64 = 0.5;
+const RIVALS: usize = 6;
 /// Deviance left a sample from which a second effect is looked for.
 const WORTH_A_LOOK: f64 = 0.03;
 
@@ -94,7 +97,7 @@ impl<W: Workers> Attribution<'_, W> {
         let explanation = if self.is_worth_a_look(tests.excess()) {
             self.searched(singles)?
         } else if self.is_worth_a_look(tests.tails) {
-            self.with_outliers(best_single)?
+            self.with_outliers(singles)?
         } else if is_hidden(tests) {
             self.searched(singles)?
         } else {
@@ -116,17 +119,25 @@ impl<W: Workers> Attribution<'_, W> {
             .collect()
     }
 
-    /// Outliers beside a first effect: the only cause that leaves nothing but heavy tails.
-    fn with_outliers(&self, first: &Explanation) -> Option<Explanation> {
-        let present = first.parts[0].effect;
+    /// Outliers beside the best first effect: the only cause that leaves nothing but heavy tails. They hide which is the best alone.
+    fn with_outliers(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let outliers = Effect::Outliers;
-        let other = present != outliers && !present.twins().contains(&outliers);
-        (other && self.settings.effects.contains(&outliers))
-            .then(|| {
-                let alone = Contest { finished: 1, to_beat: None };
-                self.on_top_of(first, &[Question::open(outliers)], alone)
-            })
-            .and_then(|pairs| pairs.into_iter().next())
+        if !self.settings.effects.contains(&outliers) {
+            return None;
+        }
+        let most = self.gain(singles.ranked.first());
+        let may_have_them = |first: &&Explanation| {
+            let present = first.parts[0].effect;
+            let other = present != outliers && !present.twins().contains(&outliers);
+            other && self.gain(Some(first)) > HIDES * most
+        };
+        let firsts: Vec<&Explanation> = singles.ranked.iter().filter(may_have_them).take(RIVALS).collect();
+        let beside = |first: &&Explanation| {
+            let alone = Contest { finished: 1, to_beat: None };
+            self.on_top_of(first, &[Question::open(outliers)], alone).into_iter().next()
+        };
+        let pairs = firsts.iter().filter_map(beside);
+        pairs.min_by(|x, y| x.bic().total_cmp(&y.bic()))
     }
 }
 

@@ -22,13 +22,18 @@ const DETAILED: usize = 6;
 /// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
 const HOPELESS: f64 = 0.3;
 /// The same after the restarts: another law of its members seldom takes what is left.
-const FAR: f64 = 0.12;
+const FAR: f64 = 0.2;
 /// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
 const NEAR: f64 = 0.95;
 const NEARBY: usize = 3;
 /// Share of a first's gain that a second gains alone, from which its law is known.
 const CLEAR: f64 = 0.5;
-/// Times that a member of a pair is held as it is beside the other.
+/// Share of the best pair's gain that is close to it, and how many such pairs are compared by what they leave.
+const CLOSE: f64 = 0.99;
+const RIVALS: usize = 6;
+/// Share of the gain by which a pair with large errors here and there must beat one without.
+const STOPGAP: f64 = 0.01;
+/// Times that a member of a pair is held as it is beside the other, and that knots and laws are sought in turn.
 const ROUNDS: usize = 2;
 /// Pairs fitted to convergence on each first effect.
 const FINISHED: usize = 3;
@@ -39,7 +44,8 @@ impl<W: Workers> Attribution<'_, W> {
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
     /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
     /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
-    /// then every law of both members and their twins; and border knots placed anew. No knot saves a hopeless pair.
+    /// then every law of both members and their twins, and border knots placed anew, with which another law may serve better. No
+    /// knot saves a hopeless pair.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let serious = self.serious(singles);
         let mut search =
@@ -68,11 +74,17 @@ impl<W: Workers> Attribution<'_, W> {
             }
         }
         search.restart();
-        if search.left_of_gap() < FAR {
-            search.every_law();
+        for _ in 0..ROUNDS {
+            if search.left_of_gap() < FAR {
+                search.every_law();
+            }
+            search.prefer_what_leaves_less();
+            search.place_knots_anew();
+            if !search.leaves_much() {
+                break;
+            }
         }
-        let best = search.found.into_iter().next()?;
-        Some(self.knots_refined(best.clone())).filter(Explanation::may_be_a_cause).or(Some(best))
+        search.found.into_iter().next()
     }
 
     /// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they
@@ -134,13 +146,19 @@ impl<'a, W: Workers> Search<'a, '_, W> {
         self.consider(found.into_iter().flatten());
     }
 
-    /// Adds to the pairs found.
+    /// Adds to the pairs found. Large errors here and there take what a law misses now and then: by a little they gain more than the
+    /// cause itself.
     fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
         self.found.extend(pairs.into_iter().filter(Explanation::may_be_a_cause));
-        self.found.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-        let mut seen: Vec<[Effect; 2]> = Vec::new();
+        let of = self.of;
+        let rank = |pair: &Explanation| match members(pair).contains(&Effect::Outliers) {
+            true => pair.bic() + STOPGAP * of.gain(Some(pair)).max(0.0),
+            false => pair.bic(),
+        };
+        self.found.sort_by(|x, y| rank(x).total_cmp(&rank(y)));
+        let mut seen: Vec<[(Effect, usize); 2]> = Vec::new();
         self.found.retain(|pair| {
-            let both = members(pair);
+            let both = laws(pair);
             let new = !seen.contains(&both);
             seen.push(both);
             new
@@ -204,11 +222,17 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     fn every_law(&mut self) {
         let gain = |pair: &Explanation| self.of.gain(Some(pair));
         let Some(most) = self.best().map(gain) else { return };
-        let near: Vec<[Effect; 2]> =
-            self.found.iter().filter(|pair| gain(pair) > NEAR * most).take(NEARBY).map(members).collect();
+        let mut near: Vec<[Effect; 2]> = Vec::new();
+        for both in self.found.iter().filter(|pair| gain(pair) > NEAR * most).map(members) {
+            if near.len() < NEARBY && !near.contains(&both) {
+                near.push(both);
+            }
+        }
         for [one, other] in near {
-            for (held, moved) in [(one, other), (other, one)] {
-                self.ask(held, &self.laws_of(held, moved));
+            for (member, moved) in [(one, other), (other, one)] {
+                for held in alike(member) {
+                    self.ask(held, &self.laws_of(held, moved));
+                }
             }
             for round in 0..ROUNDS {
                 let Some(pair) = self.found.iter().find(|pair| members(pair) == [one, other]).cloned() else {
@@ -222,11 +246,33 @@ impl<'a, W: Workers> Search<'a, '_, W> {
         }
     }
 
+    /// Puts first, of the pairs that come close to the best, the one that with what it leaves to further causes costs least.
+    fn prefer_what_leaves_less(&mut self) {
+        let gain = |pair: &Explanation| self.of.gain(Some(pair));
+        let Some(most) = self.best().map(gain) else { return };
+        let close = self.found.iter().take_while(|pair| gain(pair) > CLOSE * most).count().min(RIVALS);
+        let cost = |pair: &Explanation| {
+            pair.bic() + omnibus(self.of.campaign, &pair.fit).map_or(0.0, |tests| tests.excess())
+        };
+        let costs = self.of.workers.map(&self.found[..close], cost);
+        let least = (0..close).min_by(|&i, &j| costs[i].total_cmp(&costs[j])).unwrap_or(0);
+        self.found[..=least].rotate_right(1);
+    }
+
+    /// Border knots placed anew for the best pair.
+    fn place_knots_anew(&mut self) {
+        if let Some(best) = self.found.first_mut() {
+            let anew = self.of.knots_refined(best.clone());
+            if anew.may_be_a_cause() {
+                *best = anew;
+            }
+        }
+    }
+
     /// Questions after every law of an effect and of its twins beside another.
     fn laws_of(&self, held: Effect, moved: Effect) -> Vec<Question> {
-        let alike = std::iter::once(moved).chain(moved.twins().iter().copied());
         let considered = |e: &Effect| is_another(held, *e) && self.of.settings.effects.contains(e);
-        alike.filter(considered).map(Question::open).collect()
+        alike(moved).filter(considered).map(Question::open).collect()
     }
 
     /// Deviance left by the best pair; infinite where there is none.
@@ -261,9 +307,8 @@ impl<'a, W: Workers> Search<'a, '_, W> {
     fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
         let to_beat = self.best().map(Explanation::bic);
         let contest = Contest { finished: FINISHED, to_beat };
-        let second =
-            self.of.on_top_of(first, questions, contest).into_iter().find(Explanation::may_be_a_cause);
-        self.consider(second);
+        let seconds = self.of.on_top_of(first, questions, contest).into_iter();
+        self.consider(seconds.filter(Explanation::may_be_a_cause).take(FINISHED));
     }
 
     fn single(&self, effect: Effect) -> Option<&'a Explanation> {
@@ -276,6 +321,18 @@ fn members(pair: &Explanation) -> [Effect; 2] {
     let mut both = [pair.parts[0].effect, pair.parts[1].effect];
     both.sort_unstable();
     both
+}
+
+/// Both effects of a pair with the numbers of their laws, in one order.
+fn laws(pair: &Explanation) -> [(Effect, usize); 2] {
+    let mut both = [0, 1].map(|i| (pair.parts[i].effect, pair.parts[i].law));
+    both.sort_unstable();
+    both
+}
+
+/// An effect and its twins.
+fn alike(effect: Effect) -> impl Iterator<Item = Effect> {
+    std::iter::once(effect).chain(effect.twins().iter().copied())
 }
 
 /// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact
