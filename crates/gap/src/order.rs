@@ -1,6 +1,8 @@
-//! Order, lead and criterion of the nominal model, where the rig declares no order.
+//! Order, lead and criterion of the nominal model: chosen from the records where no order is declared.
 
 use std::f64::consts::LN_2;
+
+use switchback_estimator::rig::Rig;
 
 use crate::assembly::Assembly;
 use crate::campaign::{Campaign, Criterion, Track};
@@ -12,6 +14,7 @@ use crate::motion::Begins;
 use crate::noise_response::NoiseResponse;
 use crate::nominal::{first_fit, identify};
 use crate::score::innovations;
+use crate::settings::Model;
 use crate::simulate::free_run;
 use crate::spectrum::{autocorrelation, unpredictable_variance};
 use crate::workers::Workers;
@@ -98,16 +101,42 @@ impl Tried {
     }
 }
 
+/// The order that a given model has or the rig declares.
+///
+/// # Errors
+/// [`DiagnoseError::Order`] where they differ.
+pub(crate) fn declared(rig: &Rig, model: &Model) -> Result<Option<usize>, DiagnoseError> {
+    match (model, rig.order) {
+        (Model::Given(m), Some(n)) if m.a.len() != n => {
+            Err(DiagnoseError::Order { model: m.a.len(), rig: n })
+        }
+        (Model::Given(m), _) => Ok(Some(m.a.len())),
+        (_, order) => Ok(order),
+    }
+}
+
+/// The structure of the nominal model: of the order declared, else chosen.
+pub(crate) fn structure(
+    workers: &impl Workers,
+    campaign: Campaign,
+    declared: Option<usize>,
+    most: usize,
+) -> Result<Choice, DiagnoseError> {
+    match declared {
+        Some(n) => {
+            let fit = identify(&campaign, n.max(1))?;
+            Ok(Choice::One(Chosen { campaign, fit, told: None }))
+        }
+        None => choose(workers, &campaign, most),
+    }
+}
+
 /// Chooses among orders `1…most` and leads of up to [`LEADS`] samples by the simulation error on the fit records.
 ///
 /// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
 /// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
 /// says.
-pub(crate) fn choose(
-    workers: &impl Workers,
-    campaign: &Campaign,
-    most: usize,
-) -> Result<Choice, DiagnoseError> {
+fn choose(workers: &impl Workers, campaign: &Campaign, most: usize) -> Result<Choice, DiagnoseError> {
     let attempts = workers.map(&structures(campaign, most), |s| attempt(campaign, *s));
     let mut tried = Vec::new();
     let mut failure = None;

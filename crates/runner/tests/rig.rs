@@ -35,6 +35,19 @@ fn the_same_seed_writes_the_same_folder_and_says_what_is_in_it() {
 }
 
 #[test]
+fn what_was_put_in_tells_how_the_borders_run_between_the_levels() {
+    let root = tempfile::tempdir().unwrap();
+    let made = |seed: &str| {
+        let out = root.path().join(seed);
+        let run = switchback().args(["rig", "--seed", seed, "--json", "--out"]).arg(out).assert().success();
+        let key: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+        key["curved"].as_bool().unwrap()
+    };
+    let curved: Vec<bool> = ["1", "2", "3", "4", "5", "6", "7", "8"].map(made).into();
+    assert!(curved.contains(&true) && curved.contains(&false), "{curved:?}");
+}
+
+#[test]
 fn an_unknown_effect_is_refused_and_nothing_is_written() {
     let root = tempfile::tempdir().unwrap();
     let out = root.path().join("rig");

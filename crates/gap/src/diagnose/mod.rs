@@ -19,10 +19,9 @@ use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::explain::Explanation;
 use crate::knots::detail;
-use crate::nominal::identify;
 use crate::odds::{Leavings, holds_together, odds, odds_together};
 use crate::omnibus::omnibus;
-use crate::order::{Choice, Chosen, choose};
+use crate::order::{Choice, Chosen, declared, structure};
 use crate::score::innovations;
 use crate::settings::{Model, Settings};
 use crate::simulate::free_run;
@@ -57,7 +56,7 @@ pub fn diagnose_with(
         let conclusion = plan.attribute(workers);
         plan.report(workers, conclusion)
     };
-    let (steps, simulator) = match structure(workers, records, (rig, &model, settings))? {
+    let (steps, simulator) = match structure(workers, records, declared(rig, &model)?, settings.max_order)? {
         Choice::One(chosen) => return Ok(conclude(plan(chosen)?)),
         Choice::Either(steps, simulator) => (plan(steps)?, simulator),
     };
@@ -72,28 +71,6 @@ pub fn diagnose_with(
     match (by_steps.verdict.status, by_runs.verdict.status) {
         (Status::Unexplained, Status::None) => Ok(steps.report(workers, by_steps)),
         _ => Ok(runs.report(workers, by_runs)),
-    }
-}
-
-/// The structure of the nominal model: that of the model or the rig where they declare one.
-fn structure(
-    workers: &impl Workers,
-    campaign: Campaign,
-    (rig, model, settings): (&Rig, &Model, &Settings),
-) -> Result<Choice, DiagnoseError> {
-    let order = match (model, rig.order) {
-        (Model::Given(m), Some(n)) if m.a.len() != n => {
-            return Err(DiagnoseError::Order { model: m.a.len(), rig: n });
-        }
-        (Model::Given(m), _) => Some(m.a.len()),
-        (_, order) => order,
-    };
-    match order {
-        Some(n) => {
-            let fit = identify(&campaign, n.max(1))?;
-            Ok(Choice::One(Chosen { campaign, fit, told: None }))
-        }
-        None => choose(workers, &campaign, settings.max_order),
     }
 }
 

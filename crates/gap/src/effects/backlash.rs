@@ -49,3 +49,20 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     .map(|law| Variant { search: Search::Profile, ..law })
     .into()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::motions;
+    use crate::testing::small_campaign;
+
+    #[test]
+    fn plays_are_searched_as_narrow_as_the_records_show_them() {
+        let (mut campaign, _) = small_campaign();
+        assert!((narrowest(&campaign) - ANCHOR).abs() < 1e-15);
+        // Three reversals, each followed by a move of 0.0002 strokes before the next larger one.
+        let v: Vec<f64> = [0.1, 0.5, 0.4998, 0.3, 0.3002, 0.6, 0.5998, 0.2].into();
+        campaign.tracks[0].moves = motions(&v, Play::default(), campaign.rule).into();
+        assert!((narrowest(&campaign) - 0.0002).abs() < 1e-9);
+    }
+}

@@ -85,7 +85,9 @@ fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
 }
 
 fn told(key: &Key) -> String {
-    let mut text = format!("order {}, {} borders, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
+    let between = if key.curved { " curved between the levels" } else { "" };
+    let mut text =
+        format!("order {}, {} borders{between}, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
     for e in &key.effects {
         let _ = writeln!(
             text,
@@ -121,7 +123,7 @@ pub(crate) fn key_json(key: &Key) -> serde_json::Value {
         .collect();
     serde_json::json!({
         "seed": key.seed, "order": key.order, "a": key.a, "b": key.b, "borders": key.borders,
-        "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
+        "curved": key.curved, "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
     })
 }
 
