@@ -1,7 +1,7 @@
 //! A composition of effects as plain data: what the fit and the simulation both interpret.
 //!
 //! ```text
-//! v → delay → play → borders (transition, wear, widening) + border columns → gain → num/den → B/A → + disturbances → sensor → y
+//! v → delay → play → borders (transition, wear, widening, relaxation) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
 use crate::motion::Play;
@@ -104,18 +104,45 @@ impl Slow {
     }
 }
 
-/// A loop that is wider the faster the input moves: by the share `share·(r/scale)^power` of its width, `r` the speed in strokes per
-/// sample.
+/// A loop whose width depends on the speed `r` of the input, in strokes per sample: it is wider by the share `share·g(r)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Widening {
     pub(crate) share: f64,
     pub(crate) power: f64,
     pub(crate) scale: f64,
+    pub(crate) speeds: Speeds,
+}
+
+/// At which speeds a loop is wide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Speeds {
+    /// `g = (r/scale)^power`.
+    High,
+    /// `g = exp(−(r/scale)^power)`.
+    Low,
 }
 
 impl Widening {
     pub(crate) fn at(&self, speed: f64) -> f64 {
-        self.share * (speed / self.scale).powf(self.power)
+        let relative = (speed / self.scale).powf(self.power);
+        match self.speeds {
+            Speeds::High => self.share * relative,
+            Speeds::Low => self.share * (-relative).exp(),
+        }
+    }
+}
+
+/// A working point that goes towards the middle between the borders while the input rests: by the share
+/// `share·(1 − e^(−rest/tau))` of its distance, `rest` in samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Relaxation {
+    pub(crate) share: f64,
+    pub(crate) tau: f64,
+}
+
+impl Relaxation {
+    pub(crate) fn after(&self, rest: usize) -> f64 {
+        self.share * (1.0 - (-(rest as f64) / self.tau).exp())
     }
 }
 
@@ -244,6 +271,7 @@ pub(crate) struct Assembly {
     pub(crate) wear: Option<Slow>,
     /// How the loop widens with the speed.
     pub(crate) widening: Option<Widening>,
+    pub(crate) relaxation: Option<Relaxation>,
     pub(crate) border_columns: Vec<BorderColumn>,
     /// Relative change of the gain.
     pub(crate) gain: Option<Slow>,

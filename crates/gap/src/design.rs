@@ -336,6 +336,7 @@ impl Common {
                 && had.transition == assembly.transition
                 && had.wear == assembly.wear
                 && had.widening == assembly.widening
+                && had.relaxation == assembly.relaxation
                 && had.gain == assembly.gain
                 && had.border_columns == assembly.border_columns,
             columns: had.equation_columns == assembly.equation_columns

@@ -16,7 +16,8 @@ use crate::nominal::{first_fit, identify};
 use crate::score::innovations;
 use crate::settings::Model;
 use crate::simulate::free_run;
-use crate::spectrum::{autocorrelation, unpredictable_variance};
+use crate::spectrum::{autocorrelation, mean_square, unpredictable_variance};
+use crate::weights::weigh;
 use crate::workers::Workers;
 
 /// A structure of the nominal model with its fit.
@@ -199,10 +200,19 @@ impl Simulator {
         let error = simulation_error(campaign, fit);
         let repeats = NoiseResponse::of(fit).repeat_variance(campaign, Track::is_fit);
         let noise = repeats.map_or(0.0, |(variance, _)| variance);
-        let w = innovations(campaign, fit, Track::is_fit);
-        let colour = 1.0 - unpredictable_variance(&w) / fit.power.max(1e-300);
+        let colour = 1.0 - white_share(fit);
         error < NOISE * noise || (colour < COLOURED && self.first.power > EFFICIENT * error)
     }
+}
+
+/// Share of the innovations' variance that their past does not foretell, each weighed as it was for the fit: what is hit by an
+/// outlier tells nothing about the colour of the rest.
+fn white_share(fit: &Fit) -> f64 {
+    let (design, noise) = (&fit.design, &fit.assembly.noise);
+    let raw = design.innovations(&fit.linear, &design.whitener(noise, &fit.linear.a));
+    let weights = weigh(design, noise, &fit.linear, &raw);
+    let weighed = weights.by_track(&raw);
+    unpredictable_variance(&weighed) / mean_square(&weighed).max(1e-300)
 }
 
 /// Each error counted for one.

@@ -6,16 +6,17 @@
 //! u = C(v) + c·branch·ln(1 + rest/τ)                         logarithmic creep at rest
 //! u = C(v) + c·branch·(1 − exp(−rest/τ))                     creep at rest that ends
 //! u = C(v) + c·branch·ln(1 + t/τ)                            logarithmic creep, t since the last reversal
+//! u = C(v) − k·(C(v) − m(v))·(1 − exp(−rest/τ))              relaxation at rest towards the middle m between the borders
 //! ```
 //!
 //! Equal weights on time constants spread evenly in their logarithm make the step response grow with the logarithm of
 //! time (Krejci and Kuhnen, "Inverse control of systems with hysteresis and creep", IEE Proc. Control Theory Appl. 148, 2001).
-//! Parameters: `kappa` (−0.9…1 for one time constant, beyond which the lag is the response and no after-effect; 3 for several), time constant `tau` in samples (8…5000; the shortest
+//! Parameters: `kappa` (−0.9…1 for one time constant, beyond which the lag is the response and no after-effect; 3 for several), share `k` of the distance (−1…2), time constant `tau` in samples (8…5000; the shortest
 //! of several 1…1000), their ratio `rho` (1.5…20). Stage: operator. After each move the output goes on
 //! drifting the same way. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{EquationColumn, convolve};
+use crate::assembly::{EquationColumn, Relaxation, convolve};
 use crate::beginnings::begins_as_a_filter;
 use crate::engine::Fit;
 
@@ -51,7 +52,23 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             assembly.border_columns.push(column(p[0].exp()));
         }));
     }
+    out.push(relaxing());
     out
+}
+
+fn relaxing() -> Variant {
+    let starts = [3.0, 30.0, 200.0]
+        .iter()
+        .map(|&tau: &f64| {
+            vec![
+                own("share", "1", 0.3, (-1.0, 2.0), 0.002),
+                own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02),
+            ]
+        })
+        .collect();
+    Variant::conditional(starts, |p, assembly| {
+        assembly.relaxation = Some(Relaxation { share: p[0], tau: p[1].exp() });
+    })
 }
 
 /// The pole of a time constant given by its logarithm.

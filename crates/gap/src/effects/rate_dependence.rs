@@ -10,7 +10,7 @@
 //! friction (which falls with speed), creep.
 
 use super::{Scene, Variant, own, typical_speed};
-use crate::assembly::{BorderColumn, Resting, Widening};
+use crate::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let scale = typical_speed(scene.campaign);
@@ -29,7 +29,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         ]
     });
     out.push(Variant::conditional(starts.into(), move |p, assembly| {
-        assembly.widening = Some(Widening { share: p[0], power: p[1], scale });
+        assembly.widening = Some(Widening { share: p[0], power: p[1], scale, speeds: Speeds::High });
     }));
     out
 }

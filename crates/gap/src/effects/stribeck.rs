@@ -2,14 +2,16 @@
 //!
 //! ```text
 //! u = C(v) + c·g(t),   g = branch·exp(−(r/r_s)^power),   r = |v(t) − v(t−1)|
+//! u = C(v) + w·|g(t)|·half(v)·branch,   half(v) = ½(C_a − C_d)                 the whole loop is wider when it is slow
 //! the same with z for g,   z(t) = g − (g − z(t−1))·exp(−r/length)               a bristle bends first (LuGre)
 //! ```
 //!
-//! Parameters: Stribeck speed `r_s` in strokes per sample, `power` (0.3…4; 2 is the Gaussian law, below 1 near the hyperbolic one); `length` in strokes (0.002…0.2); the coefficient is estimated with the borders. Stage:
+//! Parameters: Stribeck speed `r_s` in strokes per sample, `power` (0.3…4; 2 is the Gaussian law, below 1 near the hyperbolic one); `length` in strokes (0.002…0.2); the coefficient is estimated with the borders, `widening` w
+//! (−0.9…20) is not. Stage:
 //! operator. Slow passages show a wider loop than fast ones, and only below `r_s`. Confused with: rate dependence.
 
 use super::{Scene, Variant, own, typical_speed};
-use crate::assembly::{BorderColumn, Resting};
+use crate::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);
@@ -35,5 +37,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         let column = BorderColumn::Bristle { power: p[1], scale: p[0], length: p[2] };
         assembly.border_columns.push(column);
     });
-    vec![low_speed(Resting::Held), low_speed(Resting::Zero), bristle]
+    let share = own("widening", "half widths of the loop", 0.3, (-0.9, 20.0), 0.005);
+    let starts =
+        [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0)].map(|start| [vec![share], slow(start)].concat());
+    let wider = Variant::conditional(starts.into(), |p, assembly| {
+        assembly.widening = Some(Widening { share: p[0], power: p[2], scale: p[1], speeds: Speeds::Low });
+    });
+    vec![low_speed(Resting::Held), low_speed(Resting::Zero), bristle, wider]
 }

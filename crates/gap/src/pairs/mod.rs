@@ -6,9 +6,11 @@ mod steps;
 pub(crate) use self::causes::Causes;
 
 use crate::attribution::{Attribution, Contest};
+use crate::clustering::come_where_the_input_is;
 use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::explain::Explanation;
+use crate::knots::detail;
 use crate::omnibus::{Omnibus, omnibus};
 use crate::search::{Question, finish};
 use crate::workers::Workers;
@@ -100,6 +102,8 @@ impl<W: Workers> Attribution<'_, W> {
             self.with_outliers(singles)?
         } else if is_hidden(tests) {
             self.searched(singles)?
+        } else if come_where_the_input_is(self.campaign, &best_single.fit) {
+            self.with_details(best_single)?
         } else {
             return None;
         };
@@ -117,6 +121,14 @@ impl<W: Workers> Attribution<'_, W> {
             .into_iter()
             .flatten()
             .collect()
+    }
+
+    /// Details of the borders beside a first effect: the knots that follow them, placed with the effect known.
+    fn with_details(&self, first: &Explanation) -> Option<Explanation> {
+        let is_new = !first.effects().contains(&Effect::BorderResolution);
+        let detailed = || first.clone().with_details(self.campaign);
+        let considered = is_new && self.settings.effects.contains(&Effect::BorderResolution);
+        considered.then(detailed).filter(|detailed| first.bic() - detailed.bic() > detail(self.campaign))
     }
 
     /// Outliers beside the best first effect: the only cause that leaves nothing but heavy tails. They hide which is the best alone.

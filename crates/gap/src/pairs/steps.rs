@@ -4,7 +4,6 @@ use super::Firsts;
 use crate::attribution::{Attribution, Contest};
 use crate::effect::Effect;
 use crate::explain::Explanation;
-use crate::knots::detail;
 use crate::omnibus::omnibus;
 use crate::search::{Question, from_scratch};
 use crate::starts::Known;
@@ -129,19 +128,13 @@ impl<'a, W: Workers> Search<'a, '_, W> {
         self.single(second).filter(is_clear).map_or_else(|| Question::open(second), Question::after)
     }
 
-    /// Details of the borders beside each first: the knots that follow them, placed with the effect known.
+    /// Details of the borders beside each first.
     fn details(&mut self, firsts: &[Effect]) {
         let of = self.of;
-        if !of.settings.effects.contains(&Effect::BorderResolution) {
-            return;
-        }
-        let is_new = |e: &&Effect| **e != Effect::BorderResolution && !self.detailed.contains(e);
+        let is_new = |e: &&Effect| !self.detailed.contains(e);
         let firsts: Vec<Effect> = firsts.iter().filter(is_new).copied().collect();
         let singles: Vec<&Explanation> = firsts.iter().filter_map(|e| self.single(*e)).collect();
-        let found = of.workers.map(&singles, |first| {
-            let detailed = (*first).clone().with_details(of.campaign);
-            (first.bic() - detailed.bic() > detail(of.campaign)).then_some(detailed)
-        });
+        let found = of.workers.map(&singles, |first| of.with_details(first));
         self.detailed.extend(firsts);
         self.consider(found.into_iter().flatten());
     }

@@ -100,6 +100,7 @@ pub(crate) fn rows(
     if let Some(start) = assembly.border_columns.iter().position(own) {
         point.terms.push((columns + start as u32, 1.0));
     }
+    let mut stopped: Option<usize> = None;
     let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
     for (t, m) in moves.iter().enumerate() {
         let slow = |s: &Slow| s.at(clock(s.clock, campaign, track, t, m.path));
@@ -112,6 +113,12 @@ pub(crate) fn rows(
             let widening = assembly.widening.map_or(0.0, |widening| widening.at(m.step.abs()));
             let narrowing = assembly.wear.as_ref().map_or(0.0, slow) - widening;
             point.step(m, track.v[t], narrowing);
+            stopped = Some(t);
+        } else if let (Some(relaxation), Some(stopped)) = (assembly.relaxation, stopped) {
+            if stopped + 1 == t {
+                point.stop();
+            }
+            point.relax(track.v[stopped], relaxation.after(t - stopped));
         }
         let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
         out.extend(&point.terms, gain);

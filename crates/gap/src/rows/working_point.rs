@@ -16,6 +16,8 @@ pub(super) struct WorkingPoint<'a> {
     reach: f64,
     /// The present combination.
     pub(super) terms: Vec<(u32, f64)>,
+    /// The combination where the input stopped.
+    at_stop: Vec<(u32, f64)>,
     /// What fades during the present transition.
     fading: Vec<(u32, f64)>,
     /// The border that the last move was on, the share of the other one in the working point, and what that was just after the last
@@ -48,6 +50,7 @@ impl<'a> WorkingPoint<'a> {
             transition: assembly.transition,
             reach: assembly.transition.map_or(0.0, |transition| transition.reach(NEGLIGIBLE)),
             terms,
+            at_stop: Vec::new(),
             fading: Vec::new(),
             own,
             share,
@@ -115,6 +118,20 @@ impl<'a> WorkingPoint<'a> {
         }
     }
 
+    /// The input rests from here on.
+    pub(super) fn stop(&mut self) {
+        self.at_stop.clone_from(&self.terms);
+    }
+
+    /// Goes by a share of the way from where it stopped to the middle between the borders.
+    pub(super) fn relax(&mut self, v: f64, share: f64) {
+        let sum = &mut self.sum;
+        sum.clear();
+        sum.extend(self.at_stop.iter().map(|&(i, w)| (i, w * (1.0 - share))));
+        sum.extend([0, 1].iter().flat_map(|&side| hat(&self.finder, side, v, 0.5 * share)));
+        merge(sum, &mut self.scratch, &mut self.terms);
+    }
+
     /// The mean over both borders where noise on the position decides the branch.
     pub(super) fn jittered(&mut self, ascending: f64, v: f64) {
         self.terms.clear();
@@ -145,7 +162,7 @@ fn merge(terms: &[(u32, f64)], scratch: &mut [f64], out: &mut Vec<(u32, f64)>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::assembly::{Assembly, BorderColumn, Transition, TransitionLaw, Widening};
+    use crate::assembly::{Assembly, BorderColumn, Relaxation, Speeds, Transition, TransitionLaw, Widening};
     use crate::campaign::Track;
     use crate::design::Design;
     use crate::testing::{small_campaign, small_model};
@@ -180,22 +197,50 @@ mod tests {
     #[test]
     fn a_widening_loop_keeps_its_middle() {
         let (campaign, grid) = small_campaign();
-        let widening = Widening { share: 0.7, power: 0.5, scale: 0.02 };
         let plain = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
-        let assembly = Assembly { widening: Some(widening), ..Assembly::default() };
-        let wide = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let f = small_model(&grid).f;
+        let law = |speeds| Widening { share: 0.7, power: 0.5, scale: 0.02, speeds };
+        let rises = |r: f64| 0.7 * (r / 0.02).sqrt();
+        let falls = |r: f64| 0.7 * (-(r / 0.02).sqrt()).exp();
+        let laws: [(Widening, &dyn Fn(f64) -> f64); 2] =
+            [(law(Speeds::High), &rises), (law(Speeds::Low), &falls)];
+        for (widening, at) in laws {
+            let assembly = Assembly { widening: Some(widening), ..Assembly::default() };
+            let wide = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+            for (number, track) in campaign.fit().enumerate() {
+                let [plain, wide] = [&plain, &wide].map(|design| design.input(&design.tracks[number], &f));
+                let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
+                let mut growth = 0.0;
+                for t in 1..track.v.len() {
+                    let step = track.v[t] - track.v[t - 1];
+                    if step != 0.0 {
+                        let half = 0.5 * (on(1, track.v[t]) - on(0, track.v[t]));
+                        growth = step.signum() * half * at(step.abs());
+                    }
+                    assert!((wide[t] - plain[t] - growth).abs() < 1e-12, "{t}");
+                }
+            }
+        }
+    }
+
+    /// The oracle: the distance to the middle between the borders, and how much of it is left.
+    #[test]
+    fn a_working_point_at_rest_goes_towards_the_middle() {
+        let (campaign, grid) = small_campaign();
+        let relaxation = Some(Relaxation { share: 0.8, tau: 2.5 });
+        let plain = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+        let assembly = Assembly { relaxation, ..Assembly::default() };
+        let relaxed = Design::new(&campaign, &grid, &assembly, Track::is_fit);
         let f = small_model(&grid).f;
         for (number, track) in campaign.fit().enumerate() {
-            let [plain, wide] = [&plain, &wide].map(|design| design.input(&design.tracks[number], &f));
+            let [plain, relaxed] = [&plain, &relaxed].map(|design| design.input(&design.tracks[number], &f));
             let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
-            let mut growth = 0.0;
+            let mut rest = 0.0;
             for t in 1..track.v.len() {
-                let step = track.v[t] - track.v[t - 1];
-                if step != 0.0 {
-                    let half = 0.5 * (on(1, track.v[t]) - on(0, track.v[t]));
-                    growth = step.signum() * half * 0.7 * (step.abs() / 0.02).sqrt();
-                }
-                assert!((wide[t] - plain[t] - growth).abs() < 1e-12, "{t}");
+                rest = if track.v[t] == track.v[t - 1] { rest + 1.0 } else { 0.0 };
+                let middle = 0.5 * (on(0, track.v[t]) + on(1, track.v[t]));
+                let left = 1.0 - 0.8 * (1.0 - (-rest / 2.5_f64).exp());
+                assert!((relaxed[t] - middle - left * (plain[t] - middle)).abs() < 1e-4, "{t}");
             }
         }
     }
