@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use crate::assembly::Assembly;
 use crate::borders::Grid;
 use crate::campaign::Campaign;
+use crate::dense_sums::DenseSums;
 use crate::design::{Design, Linear, filtered_rows};
 use crate::engine::{Fit, Ground, fit};
 use crate::error::DiagnoseError;
@@ -53,6 +54,9 @@ pub(crate) fn first_guess(
     let columns = n + nb * k;
     let size = columns + assembly.equation_columns.len();
     let mut normal = Normal::new(size);
+    // A recursive filter leaves few zeros in a row, and so does the memory of the errors.
+    let is_dense = !design.poles.is_empty() || !assembly.noise.ar.is_empty();
+    let mut sums = is_dense.then(|| DenseSums::new((0..size).collect()));
     let mut row = vec![0.0; size];
     for track in &design.tracks {
         let dense = (!design.poles.is_empty()).then(|| filtered_rows(&design, track, k));
@@ -87,9 +91,15 @@ pub(crate) fn first_guess(
             let (row, x) = whitened.next(&row, track.x[t]);
             let counts = |masked: &[bool]| !masked[t - track.from];
             if t >= track.from && track.mask.out.as_deref().is_none_or(counts) {
-                normal.add(row, x);
+                match &mut sums {
+                    Some(sums) => sums.push(row, std::iter::empty(), x),
+                    None => normal.add(row, x),
+                }
             }
         }
+    }
+    if let Some(sums) = sums {
+        sums.add_to(&mut normal);
     }
     let factor = normal.factor(1e-7).ok_or_else(|| DiagnoseError::Singular {
         reason: "the lagged outputs and border features are linearly dependent".into(),
