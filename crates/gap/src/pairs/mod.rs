@@ -2,6 +2,7 @@
 
 mod causes;
 mod steps;
+mod under_way;
 
 pub(crate) use self::causes::Causes;
 
