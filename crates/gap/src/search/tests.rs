@@ -22,6 +22,10 @@ fn behind_output_noise_the_dynamics_are_found_from_biased_ones() {
     let task = Task { ground, build: &build, held: 0 };
     let found = task.dynamics_refitted(&[], &biased).expect("solved");
     assert!(off(&found) < 0.3 * off(&biased), "{:?} {:?}", biased.a, found.a);
+    // It has settled: another time moves nothing.
+    let again = task.dynamics_refitted(&[], &found).expect("solved");
+    let moved: f64 = again.a.iter().zip(&found.a).map(|(x, y)| (x - y).abs()).sum();
+    assert!(moved < 1e-5, "{:?} {:?}", found.a, again.a);
 }
 
 /// A branch taken a sample too late costs more than a derivative at a start far off can tell.
