@@ -112,12 +112,12 @@ impl Work for Block<'_> {
 
 /// Lanes by value: nothing is stored before all of them are read, so that they stay together in a vector.
 #[inline(always)]
-fn times(x: f64, y: [f64; LANES]) -> [f64; LANES] {
+pub(crate) fn times(x: f64, y: [f64; LANES]) -> [f64; LANES] {
     y.map(|y| x * y)
 }
 
 #[inline(always)]
-fn plus(mut x: [f64; LANES], y: [f64; LANES]) -> [f64; LANES] {
+pub(crate) fn plus(mut x: [f64; LANES], y: [f64; LANES]) -> [f64; LANES] {
     for l in 0..LANES {
         x[l] += y[l];
     }

@@ -17,10 +17,21 @@ pub(crate) struct Gains<'a> {
 
 /// A column with what it shares with the present parameters.
 pub(crate) struct Scored {
+    /// From its first number that is not zero to the last.
     column: Vec<f64>,
+    first: usize,
     cross: Vec<f64>,
     solved: Vec<f64>,
     gradient: f64,
+}
+
+impl Scored {
+    /// `Σ x·y` of two columns.
+    fn dot(&self, other: &Self) -> f64 {
+        let first = self.first.max(other.first);
+        let rest = |c: &'_ Self| first.saturating_sub(c.first).min(c.column.len());
+        dot(&self.column[rest(self)..], &other.column[rest(other)..])
+    }
 }
 
 /// What a column shares with the model.
@@ -44,11 +55,14 @@ impl<'a> Gains<'a> {
     }
 
     /// Prepares a weighted column.
-    pub(crate) fn score(&self, column: Vec<f64>) -> Scored {
-        let cross = self.jacobian.cross(&column);
+    pub(crate) fn score(&self, mut column: Vec<f64>) -> Scored {
+        let first = column.iter().position(|x| *x != 0.0).unwrap_or(column.len());
+        column.truncate(column.iter().rposition(|x| *x != 0.0).map_or(first, |last| last + 1));
+        column.drain(..first);
+        let cross = self.jacobian.cross(first, &column);
         let solved = self.factor.solve(&cross);
-        let gradient = dot(&column, self.w) - dot(&cross, &self.left);
-        Scored { column, cross, solved, gradient }
+        let gradient = dot(&column, &self.w[first..]) - dot(&cross, &self.left);
+        Scored { column, first, cross, solved, gradient }
     }
 
     /// Approximate gain in deviance from adding these columns, `gᵀ S⁻¹ g / σ²` with `S` the Schur complement.
@@ -57,7 +71,7 @@ impl<'a> Gains<'a> {
         for (i, c) in columns.iter().enumerate() {
             small.gradient[i] = c.gradient;
             for (j, d) in columns.iter().enumerate().skip(i) {
-                let corner = dot(&c.column, &d.column);
+                let corner = c.dot(d);
                 let s = corner - dot(&c.cross, &d.solved);
                 small.set(i, j, if i == j { s.max(1e-9 * corner) } else { s });
             }
@@ -80,9 +94,40 @@ impl<'a> Gains<'a> {
 
     /// Approximate gain in deviance from adding one column.
     pub(crate) fn of_sums(&self, sums: &Sums) -> f64 {
-        let schur = sums.corner - dot(&sums.cross, &self.factor.solve(&sums.cross));
+        let schur = sums.corner - self.factor.energy(&sums.cross);
         let gradient = sums.plain - dot(&sums.cross, &self.left);
         let least = 1e-9 * sums.corner;
         if schur.max(least) > 0.0 { gradient * gradient / schur.max(least) / self.variance } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn columns_share_only_where_both_are_something(
+            x in prop::collection::vec(-3..4_i32, 0..20),
+            y in prop::collection::vec(-3..4_i32, 0..20),
+            (first, other) in (0..30_usize, 0..30_usize),
+        ) {
+            let scored = |first: usize, column: &[i32]| Scored {
+                column: column.iter().map(|x| f64::from(*x)).collect(),
+                first,
+                cross: Vec::new(),
+                solved: Vec::new(),
+                gradient: 0.0,
+            };
+            let whole = |first: usize, column: &[i32]| {
+                let mut whole = [0; 60];
+                whole[first..first + column.len()].copy_from_slice(column);
+                whole
+            };
+            let slow: i32 = whole(first, &x).iter().zip(whole(other, &y)).map(|(x, y)| x * y).sum();
+            prop_assert_eq!(scored(first, &x).dot(&scored(other, &y)), f64::from(slow));
+        }
     }
 }

@@ -29,6 +29,7 @@ mod lattice;
 mod linear;
 mod localise;
 mod mask;
+mod mixed_sums;
 mod motion;
 mod noise_response;
 mod noise_size;

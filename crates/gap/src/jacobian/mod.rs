@@ -15,6 +15,7 @@ use self::sparse::sparse_rows;
 use crate::dense_sums::DenseSums;
 use crate::design::{Design, DesignTrack};
 use crate::linear::Linear;
+use crate::mixed_sums::MixedSums;
 use crate::normal::Normal;
 use crate::rows::Rows;
 use crate::weights::Weights;
@@ -29,7 +30,8 @@ pub(crate) struct Jacobian {
 
 #[derive(Debug, Clone)]
 enum Store {
-    Sparse(Rows),
+    /// Those of `A` and `B`, `width` a row; the rest from the first border value on.
+    Sparse { width: usize, dynamics: Vec<f64>, others: Rows },
     /// Row-major.
     Dense(Vec<f64>),
 }
@@ -54,11 +56,16 @@ impl Jacobian {
             }
             Store::Dense(out)
         } else {
-            let mut out = Rows::with_capacity(design.samples());
+            let mut others = Rows::with_capacity(design.samples());
+            let width = p.a.len() + p.b.len();
+            let mut dynamics = Vec::with_capacity(design.samples() * width);
             for (track, factors) in parts(design, weights) {
-                sparse_rows((design, track), p, whitener, factors, |row| out.push(row, 1.0));
+                sparse_rows((design, track), p, whitener, factors, |row| {
+                    dynamics.extend_from_slice(&row.dynamics);
+                    others.push(&row.others, 1.0);
+                });
             }
-            Store::Sparse(out)
+            Store::Sparse { width, dynamics, others }
         };
         Self { columns, store }
     }
@@ -67,10 +74,12 @@ impl Jacobian {
     pub(crate) fn normal(&self, w: &[f64]) -> Normal {
         let mut normal = Normal::new(self.columns);
         match &self.store {
-            Store::Sparse(rows) => {
-                for (t, &w) in w.iter().enumerate() {
-                    normal.add_sparse(rows.row(t), w);
+            Store::Sparse { width, dynamics, others } => {
+                let mut sums = MixedSums::new((0..*width).collect(), *width..self.columns);
+                for (t, (dynamics, &w)) in dynamics.chunks_exact(*width).zip(w).enumerate() {
+                    sums.push(dynamics, std::iter::empty(), others.row(t), w);
                 }
+                sums.add_to(&mut normal);
             }
             Store::Dense(rows) => {
                 let mut sums = DenseSums::new((0..self.columns).collect());
@@ -83,11 +92,11 @@ impl Jacobian {
         normal
     }
 
-    /// `Σ x·c` for a weighted column `c`; zeros of `c` cost a comparison.
-    pub(crate) fn cross(&self, column: &[f64]) -> Vec<f64> {
+    /// `Σ x·c` for a weighted column `c` that begins at the row `first`; zeros of `c` cost a comparison.
+    pub(crate) fn cross(&self, first: usize, column: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.columns];
         for (t, &c) in column.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-            self.add_row(t, c, &mut out);
+            self.add_row(first + t, c, &mut out);
         }
         out
     }
@@ -95,9 +104,13 @@ impl Jacobian {
     /// `sum += scale·row(t)`.
     pub(crate) fn add_row(&self, t: usize, scale: f64, sum: &mut [f64]) {
         match &self.store {
-            Store::Sparse(rows) => {
-                for &(i, x) in rows.row(t) {
-                    sum[i as usize] += x * scale;
+            Store::Sparse { width, dynamics, others } => {
+                let (first, rest) = sum.split_at_mut(*width);
+                for (sum, x) in first.iter_mut().zip(&dynamics[t * width..]) {
+                    *sum += x * scale;
+                }
+                for &(i, x) in others.row(t) {
+                    rest[i as usize] += x * scale;
                 }
             }
             Store::Dense(rows) => {
@@ -122,6 +135,8 @@ pub(crate) fn normal_equations(
     let columns = p.len();
     let width = columns + extra.len();
     let mut normal = Normal::new(width);
+    let dynamics = p.a.len() + p.b.len();
+    let mut sums = MixedSums::new((0..dynamics).chain(columns..width).collect(), dynamics..columns);
     let mut row_number = 0;
     for (number, (track, factors)) in parts(design, weights).enumerate() {
         if spreads(design, whitener, weights) {
@@ -137,13 +152,13 @@ pub(crate) fn normal_equations(
             sums.add_to(&mut normal);
         } else {
             sparse_rows((design, track), p, whitener, factors, |row| {
-                let extra = extra.iter().enumerate();
-                row.extend(extra.map(|(j, column)| ((columns + j) as u32, column[row_number])));
-                normal.add_sparse(row, w[row_number]);
+                let extra = extra.iter().map(|column| column[row_number]);
+                sums.push(&row.dynamics, extra, &row.others, w[row_number]);
                 row_number += 1;
             });
         }
     }
+    sums.add_to(&mut normal);
     normal
 }
 

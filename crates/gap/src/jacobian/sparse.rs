@@ -47,70 +47,70 @@ fn spans(track: &DesignTrack, ar: usize) -> impl Iterator<Item = (Range<usize>, 
     (from..whole).map(move |t| (t..t + 1, known + t - from)).chain([(whole..end, ar)])
 }
 
-/// Hands over the weighted derivatives of one track, indices increasing; whitening with `D` alone is a longer `b̃` and averaged
-/// lags.
+/// A row: the derivatives with respect to `A` and `B`, and what of those with respect to the border values and the coefficients of
+/// disturbances is not zero, numbered from the first border value on, in no order.
+#[derive(Debug, Default)]
+pub(super) struct SparseRow {
+    pub(super) dynamics: Vec<f64>,
+    pub(super) others: Vec<(u32, f64)>,
+}
+
+impl SparseRow {
+    fn clear(&mut self) {
+        self.dynamics.clear();
+        self.others.clear();
+    }
+
+    /// Adds to the sum of the border features: so few terms that a search among them is quick.
+    fn add(&mut self, features: &[(u32, f64)], scale: f64) {
+        for &(i, x) in features {
+            match self.others.iter_mut().find(|term| term.0 == i) {
+                Some(term) => term.1 += scale * x,
+                None => self.others.push((i, scale * x)),
+            }
+        }
+    }
+}
+
+/// Hands over the weighted derivatives of one track; whitening with `D` alone is a longer `b̃` and averaged lags.
 pub(super) fn sparse_rows(
     (design, track): (&Design, &DesignTrack),
     p: &Linear,
     whitener: &Whitener,
     weights: Option<&[f64]>,
-    mut emit: impl FnMut(&mut Vec<(u32, f64)>),
+    mut emit: impl FnMut(&SparseRow),
 ) {
     let (na, nb, k) = (p.a.len(), p.b.len(), p.f.len());
     let ar: Vec<f64> = std::iter::once(1.0).chain(whitener.ar.iter().copied()).collect();
     let b = convolve(&p.b, &design.taps);
     let tapped = tapped(design, track, p);
     let numbers = &track.columns.numbers;
-    let mut border = Sparse::default();
-    let mut row: Vec<(u32, f64)> = Vec::with_capacity(64);
+    let mut row = SparseRow::default();
     for (samples, length) in spans(track, whitener.ar.len()) {
         let signals = [&track.x[..], &tapped];
         let white = Averaged::new(&ar[..=length], signals, &b, (samples.clone(), na.max(nb)));
         for t in samples {
             let weight = weights.map_or(1.0, |w| w[t - track.from]);
             row.clear();
-            if weight != 0.0 {
-                row.extend((0..na).map(|i| (i as u32, weight * white.x[t - white.first - i - 1])));
-                row.extend(
-                    (0..nb).map(|j| ((na + j) as u32, -weight * white.tapped[t - white.first - j - 1])),
-                );
-                for (j, b) in white.b.iter().enumerate() {
-                    border.add(track.rows.row(t.saturating_sub(j + 1)), -weight * b);
-                }
-                border.drain((na + nb) as u32, &mut row);
-                for (c, number) in numbers.iter().enumerate() {
-                    let lags = white.ar.iter().enumerate();
-                    let psi: f64 = lags.map(|(i, d)| d * track.columns.row(t - i)[c]).sum();
-                    if psi != 0.0 {
-                        row.push(((na + nb + k + number) as u32, -weight * psi));
-                    }
+            if weight == 0.0 {
+                row.dynamics.resize(na + nb, 0.0);
+                emit(&row);
+                continue;
+            }
+            let now = t - white.first;
+            row.dynamics.extend(white.x[now - na..now].iter().rev().map(|x| weight * x));
+            row.dynamics.extend(white.tapped[now - nb..now].iter().rev().map(|u| -weight * u));
+            for (j, b) in white.b.iter().enumerate() {
+                row.add(track.rows.row(t.saturating_sub(j + 1)), -weight * b);
+            }
+            for (c, number) in numbers.iter().enumerate() {
+                let lags = white.ar.iter().enumerate();
+                let psi: f64 = lags.map(|(i, d)| d * track.columns.row(t - i)[c]).sum();
+                if psi != 0.0 {
+                    row.others.push(((k + number) as u32, -weight * psi));
                 }
             }
-            emit(&mut row);
+            emit(&row);
         }
-    }
-}
-
-/// A sparse sum of sparse rows: so few terms that a search among them is quick.
-#[derive(Default)]
-struct Sparse {
-    /// By increasing index.
-    terms: Vec<(u32, f64)>,
-}
-
-impl Sparse {
-    fn add(&mut self, row: &[(u32, f64)], scale: f64) {
-        for &(i, x) in row {
-            let at = self.terms.iter().position(|term| term.0 >= i).unwrap_or(self.terms.len());
-            match self.terms.get_mut(at) {
-                Some(term) if term.0 == i => term.1 += scale * x,
-                _ => self.terms.insert(at, (i, scale * x)),
-            }
-        }
-    }
-
-    /// Moves the sum to a row, by increasing index.
-    fn drain(&mut self, offset: u32, row: &mut Vec<(u32, f64)>) {
-        row.extend(self.terms.drain(..).map(|(i, x)| (offset + i, x)));
     }
 }

@@ -90,7 +90,7 @@ fn further_columns_are_appended() {
         let w = design.innovations(&p, &whitener).concat();
         let extra: Vec<f64> = (0..w.len()).map(|t| (t as f64 * 0.9).cos()).collect();
         let jacobian = Jacobian::new(&design, &p, &whitener, &Weights::default());
-        let (alone, cross) = (jacobian.normal(&w), jacobian.cross(&extra));
+        let (alone, cross) = (jacobian.normal(&w), jacobian.cross(0, &extra));
         let both = normal_equations(&design, &p, &whitener, &Weights::default(), (&w, &[extra]));
         for (i, x) in cross.iter().enumerate() {
             assert!((both.entry(i, p.len()) - x).abs() < 1e-10);
