@@ -24,10 +24,14 @@ pub(crate) struct Mask {
 pub(crate) fn masked(track: &Track, assembly: &Assembly, rule: ReversalRule) -> Mask {
     let mut out = vec![false; track.y.len() - track.from];
     let mut unforetold = Vec::new();
-    let known = if assembly.play.is_none() { 0 } else { settled(&track.v, assembly.play, rule) + WARM_UP };
-    let waited = known.saturating_sub(track.from);
-    if (waited as f64) < WAITED * out.len() as f64 {
-        out[..waited].fill(true);
+    if !assembly.play.is_none() {
+        // What comes later is not waited for.
+        let longest = (WAITED * out.len() as f64).ceil() as usize;
+        let beginning = &track.v[..(track.from + longest).min(track.v.len())];
+        let waited = (settled(beginning, assembly.play, rule) + WARM_UP).saturating_sub(track.from);
+        if waited < longest {
+            out[..waited].fill(true);
+        }
     }
     if let Some(limits) = assembly.saturation {
         // The equation reaches back by its order, its errors by what whitens them.

@@ -83,19 +83,26 @@ impl<'a> WorkingPoint<'a> {
         }
     }
 
+    /// The value of a border.
+    #[inline]
+    pub(super) fn put_on_border(&mut self, branch: f64, v: f64) {
+        self.terms.clear();
+        self.terms.extend(hat(&self.finder, side(branch), v, 1.0));
+    }
+
     /// A move on a border.
     pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
-        if narrowing == 0.0 && self.transition.is_none() {
-            self.terms.clear();
-            self.terms.extend(hat(&self.finder, side(m.branch), v, 1.0));
-            return;
-        }
-        // Most moves are beyond it.
+        // Most moves are beyond the transition.
         let passing = self.transition.filter(|_| m.travel <= self.reach);
         let fade = passing.map_or(0.0, |transition| {
             let fade = (-(m.travel / transition.length).powf(transition.shape)).exp();
             if fade > NEGLIGIBLE { fade } else { 0.0 }
         });
+        if narrowing == 0.0 && fade == 0.0 {
+            self.share = 0.0;
+            self.put_on_border(m.branch, v);
+            return;
+        }
         let law = self.transition.map(|transition| transition.law);
         self.share = if law == Some(TransitionLaw::Crossing) { fade * self.after_turn } else { 0.0 };
         let sum = &mut self.sum;
