@@ -6,7 +6,7 @@ use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::knots::detail;
 use crate::odds::SIGNIFICANT;
-use crate::search::{Prospect, Question, advance, finish, from_scratch, look, prospects};
+use crate::search::{Question, advance, finish, from_scratch, looks};
 use crate::settings::Settings;
 use crate::starts::Known;
 use crate::workers::Workers;
@@ -27,13 +27,6 @@ pub(crate) struct Attribution<'a, W> {
 pub(crate) struct Contest {
     pub(crate) finished: usize,
     pub(crate) to_beat: Option<f64>,
-}
-
-/// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.
-struct Look {
-    effect: Effect,
-    gain: f64,
-    laws: Vec<Explanation>,
 }
 
 /// Share of the best gain that makes an effect promising, and how many are fitted to convergence at least.
@@ -59,8 +52,6 @@ const BEHIND: f64 = 0.3;
 const NEAR: f64 = 100.0;
 /// As many times what its first rounds gained a law may be behind and still go on.
 const STRIDES: f64 = 3.0;
-/// Second effects looked at beside a first, the most promising by the score test.
-const SECONDS: usize = 6;
 /// Candidates whose knots are placed anew at most where none follows a detail, and the share of the best gain that they need.
 const REPLACED: usize = 3;
 const RIVAL: f64 = 0.85;
@@ -122,7 +113,7 @@ impl<W: Workers> Attribution<'_, W> {
         questions: &[Question],
         contest: Contest,
     ) -> Vec<Explanation> {
-        let looks = self.looks(known, questions);
+        let looks = looks(self.workers, &Known::new(self.campaign, known), questions);
         let gain = |e: &Explanation| known.bic() - e.bic();
         let most = looks.first().map_or(0.0, |look| look.gain);
         let mut promising: Vec<(Effect, Explanation)> = Vec::new();
@@ -180,39 +171,6 @@ impl<W: Workers> Attribution<'_, W> {
             let law = if may_win { finish(self.campaign, held, &runner.law) } else { runner.law.clone() };
             (runner.effect, law)
         })
-    }
-
-    /// A look at each effect, the most promising first.
-    fn looks(&self, known: &Explanation, questions: &[Question]) -> Vec<Look> {
-        let base = Known::new(self.campaign, known);
-        let test = base.test();
-        let mut prospects: Vec<Prospect> = self
-            .workers
-            .map(questions, |question| prospects(&base, test.as_ref(), question))
-            .into_iter()
-            .flatten()
-            .collect();
-        if !known.parts.is_empty() {
-            keep_promising(&mut prospects);
-        }
-        let laws = self.workers.map(&prospects, |prospect| look(&base, prospect));
-        let mut looks: Vec<Look> = Vec::new();
-        for (effect, law) in prospects.iter().map(|p| p.effect).zip(laws) {
-            let Some(law) = law else { continue };
-            let gain = known.bic() - law.bic();
-            match looks.iter_mut().find(|look| look.effect == effect) {
-                Some(look) => {
-                    look.gain = look.gain.max(gain);
-                    look.laws.push(law);
-                }
-                None => looks.push(Look { effect, gain, laws: vec![law] }),
-            }
-        }
-        for look in &mut looks {
-            look.laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-        }
-        looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
-        looks
     }
 
     /// The nominal fit placed its knots with the effect's trace in the residual: the rivals get theirs anew.
@@ -281,20 +239,4 @@ struct Runner {
     law: Explanation,
     /// Penalised deviance that the first rounds gained.
     advanced: f64,
-}
-
-/// Keeps the laws of the few most promising effects, and those that the test is blind to.
-fn keep_promising(prospects: &mut Vec<Prospect>) {
-    let mut effects: Vec<(Effect, f64)> = Vec::new();
-    for p in prospects.iter() {
-        let score = p.score.unwrap_or(f64::INFINITY);
-        match effects.iter_mut().find(|e| e.0 == p.effect) {
-            Some(e) => e.1 = e.1.max(score),
-            None => effects.push((p.effect, score)),
-        }
-    }
-    effects.sort_by(|x, y| y.1.total_cmp(&x.1));
-    let blind = effects.iter().filter(|e| e.1 == f64::INFINITY).count();
-    effects.truncate(blind + SECONDS);
-    prospects.retain(|p| effects.iter().any(|e| e.0 == p.effect));
 }

@@ -1,19 +1,23 @@
 //! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
 
 mod course;
+mod looks;
+mod prospects;
 mod scratch;
 
 pub(crate) use self::course::on_a_free_course;
+pub(crate) use self::looks::looks;
+use self::prospects::Prospect;
 pub(crate) use self::scratch::from_scratch;
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::design::{Design, Linear, Whitener};
 use crate::dynamics::dynamics_refitted;
 use crate::effect::Effect;
-use crate::effects::{Scene, Search, Variant, variants};
+use crate::effects::{Search, Variant};
 use crate::engine::{Build, Fit, Ground, Own, fit};
-use crate::explain::{Explanation, Part, assembled};
-use crate::starts::{Known, Score, ScoreTest, padded};
+use crate::explain::{Explanation, assembled};
+use crate::starts::{Known, padded};
 
 /// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
 const LOOK: usize = 2;
@@ -63,83 +67,6 @@ impl Question {
     }
 }
 
-/// One law of an effect added to what is known, and how promising it is.
-pub(crate) struct Prospect {
-    pub(crate) effect: Effect,
-    law: Variant,
-    /// What is known, then the law.
-    parts: Vec<Part>,
-    /// Gain in deviance at its best start by the score test; unknown where the test is blind to the law.
-    pub(crate) score: Option<f64>,
-}
-
-/// Starts of a law that are fitted, likeliest first by the score test.
-const STARTS: usize = 5;
-/// Laws of an effect that are looked at, and the share of the best one's score that a further one needs.
-const LAWS: usize = 4;
-const LAW: f64 = 0.4;
-
-/// The laws of one more effect on top of what is known, each with its likeliest starts. Empty where the records rule the
-/// effect out.
-pub(crate) fn prospects(
-    known: &Known<'_>,
-    test: Option<&ScoreTest<'_>>,
-    question: &Question,
-) -> Vec<Prospect> {
-    let effect = question.effect;
-    let fit = &known.explanation.fit;
-    let scene = Scene { campaign: known.campaign, fit, innovations: &known.innovations };
-    let mut out: Vec<Prospect> = (variants(effect, &scene).into_iter().enumerate())
-        .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
-        .map(|(number, law)| {
-            let mut parts = known.explanation.parts.clone();
-            parts.push(Part::of(effect, (number, &law)));
-            Prospect { effect, law, parts, score: None }
-        })
-        .collect();
-    // A law of the noise moves weights, or far more than a chord can tell; and a grid is no start.
-    let Some(test) = test.filter(|_| !effect.is_noise() && out.iter().all(|p| p.law.grid.is_none())) else {
-        return out;
-    };
-    out.iter_mut().for_each(|prospect| prospect.order_starts(test));
-    let score = |p: &Prospect| p.score.unwrap_or(0.0);
-    out.sort_by(|x, y| score(y).total_cmp(&score(x)));
-    let least = LAW * out.first().map_or(0.0, score);
-    out.retain(|p| score(p) >= least);
-    out.truncate(LAWS);
-    out
-}
-
-impl Prospect {
-    /// Keeps the likeliest starts: by the test, and by what is left where a filter moves poles.
-    fn order_starts(&mut self, test: &ScoreTest<'_>) {
-        let build = |values: &[f64]| assembled(&self.parts, values);
-        let mut scored: Vec<(Score, Vec<Own>)> =
-            self.law.starts.iter().map(|own| (test.score(&build, own), own.clone())).collect();
-        self.score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
-        if let Some(valley) = self.law.valley {
-            let alone = |score: &Score| score.refitted.unwrap_or(score.linear);
-            scored.sort_by(|x, y| alone(&y.0).total_cmp(&alone(&x.0)));
-            let mut seen = Vec::new();
-            scored.retain(|(_, own)| {
-                let new = !seen.contains(&valley(own));
-                seen.push(valley(own));
-                new
-            });
-        }
-        scored.sort_by(|x, y| y.0.linear.total_cmp(&x.0.linear));
-        if scored.len() > STARTS && scored.iter().all(|(score, _)| score.refitted.is_some()) {
-            // The best by the test, then the best of the others by what is left.
-            scored[1..].sort_by(|x, y| y.0.refitted.unwrap_or(0.0).total_cmp(&x.0.refitted.unwrap_or(0.0)));
-            scored.truncate(STARTS + 1);
-        } else {
-            scored.truncate(STARTS);
-        }
-        self.law.climbs = self.law.climbs.min(scored.len());
-        self.law.starts = scored.into_iter().map(|s| s.1).collect();
-    }
-}
-
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
@@ -175,7 +102,7 @@ fn improved(
 }
 
 /// A cheap look at a law on top of what is known: near its best start.
-pub(crate) fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
+fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
     let (campaign, known) = (known.campaign, known.explanation);
     let (law, parts) = (&prospect.law, &prospect.parts);
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);

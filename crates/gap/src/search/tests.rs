@@ -1,4 +1,5 @@
 use super::*;
+use crate::Serial;
 use crate::testing::{noise_free, small_campaign, small_model, white};
 
 /// Least squares draws `A` towards zero; what is solved for in turn with the filter that follows from it does not stay there.
@@ -41,9 +42,8 @@ fn positions_that_act_a_little_late_are_found() {
         let nominal = fit(ground, &|_| Assembly::default(), &[], &small_model(&grid), FINAL).expect("a fit");
         let known = Explanation::nominal(nominal);
         let base = Known::new(&campaign, &known);
-        let asked = prospects(&base, base.test().as_ref(), &Question::open(Effect::InputDelay));
-        let looks = asked.iter().filter_map(|prospect| look(&base, prospect));
-        let done = looks.map(|sketch| finish(&campaign, 0, &sketch));
+        let looks = looks(&Serial, &base, &[Question::open(Effect::InputDelay)]);
+        let done = looks.iter().flat_map(|look| &look.laws).map(|sketch| finish(&campaign, 0, sketch));
         let best = done.min_by(|x, y| x.bic().total_cmp(&y.bic())).expect("a law");
         assert!((best.fit.own[0].value - late).abs() < 2e-3, "{late}: {:?}", best.fit.own);
     }
