@@ -1,7 +1,7 @@
 //! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
 
 use super::Firsts;
-use super::under_way::{RESTARTS, Search};
+use super::under_way::{PairSearch, RESTARTS};
 use crate::attribution::Attribution;
 use crate::effect::Effect;
 use crate::explain::Explanation;
@@ -30,7 +30,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// knot saves a hopeless pair.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let serious = self.serious(singles);
-        let mut search = Search::new(self, singles);
+        let mut search = PairSearch::new(self, singles);
         search.details(&serious[..serious.len().min(DETAILED)]);
         for &effect in &serious {
             let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
@@ -56,12 +56,14 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         for _ in 0..ROUNDS {
-            if search.left_of_gap() < FAR {
+            let was_near = search.left_of_gap() < FAR;
+            if was_near {
                 search.every_law();
             }
             search.prefer_what_leaves_less();
             search.place_knots_anew();
-            if !search.leaves_much() {
+            let may_gain = was_near || search.left_of_gap() < FAR;
+            if !may_gain || !search.leaves_much() {
                 break;
             }
         }

@@ -29,7 +29,7 @@ const FINISHED: usize = 3;
 const ROUNDS: usize = 2;
 
 /// A search for two effects under way.
-pub(super) struct Search<'a, 'b, W> {
+pub(super) struct PairSearch<'a, 'b, W> {
     of: &'a Attribution<'b, W>,
     singles: Firsts<'a>,
     /// Firsts that seconds were looked for on.
@@ -40,7 +40,7 @@ pub(super) struct Search<'a, 'b, W> {
     pub(super) found: Vec<Explanation>,
 }
 
-impl<'a, 'b, W: Workers> Search<'a, 'b, W> {
+impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     pub(super) fn new(of: &'a Attribution<'b, W>, singles: Firsts<'a>) -> Self {
         Self { of, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() }
     }
