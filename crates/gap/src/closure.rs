@@ -111,6 +111,7 @@ pub(crate) fn measure(
         after: figure(after, drawn_after),
         closure: (before.ci90[0] > 0.0).then(|| figure(closure, drawn_closure)),
         noise_floor: noise.0.max(0.0).sqrt() * campaign.y_scale,
+        identified_anew: None,
         predictive_gain: 0.0,
         per_record,
     }

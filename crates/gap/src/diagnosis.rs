@@ -82,6 +82,8 @@ pub struct Gap {
     pub closure: Option<Figure>,
     /// Standard deviation of the noise in the output, output units.
     pub noise_floor: f64,
+    /// `G²` of the nominal model identified anew from the fit records; absent where that is the model under diagnosis.
+    pub identified_anew: Option<Figure>,
     /// Predictive gain of the augmentation, nats per hold-out sample.
     pub predictive_gain: f64,
     /// A hold-out record at a time.

@@ -39,6 +39,7 @@ fn silent(status: Status) -> Diagnosis {
             after: nothing,
             closure: None,
             noise_floor: 0.0,
+            identified_anew: None,
             predictive_gain: 0.0,
             per_record: vec![],
         },

@@ -136,6 +136,28 @@ fn a_given_model_is_the_one_diagnosed() {
 }
 
 #[test]
+fn a_given_model_of_another_gain_lacks_nothing_but_that() {
+    let folder = Folder::with_good_rig();
+    let mut model = model_of(&folder);
+    let louder = |x: &Value| Value::from(1.2 * x.as_f64().expect("a number"));
+    model["gain"] = louder(&model["gain"]);
+    model["b"] = model["b"].as_array().expect("coefficients").iter().map(louder).collect();
+    folder.write("model.json", &model.to_string());
+    let page = diagnosed(&folder, &["--model", "model.json"]);
+    assert_eq!(page["verdict"]["status"], "none");
+    let figure = |key: &str| page["gap"][key]["estimate"].as_f64().expect("a number");
+    assert!(figure("before") > 0.01, "{page:#}");
+    assert!(figure("identified_anew").abs() < 1e-3 * figure("before"), "{page:#}");
+    let output = folder.switchback(&["gap", "rig.toml", "--model", "model.json"]).output().expect("it runs");
+    let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
+    assert!(told.contains("missing from the model but the right parameters"), "{told}");
+    assert!(
+        told.contains("Identified anew from the fit records, a model without any cause closes"),
+        "{told}"
+    );
+}
+
+#[test]
 fn another_simulators_predictions_are_diagnosed_in_their_column() {
     let folder = Folder::with_good_rig();
     for name in ["descendant.csv", "ascendant.csv", "again.csv"] {

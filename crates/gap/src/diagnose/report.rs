@@ -30,6 +30,18 @@ impl Plan {
         let runs = self.simulations(&c.augmented.fit);
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        if self.foreign.is_some() {
+            let runs = self.simulations(&self.nominal.fit);
+            let anew = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+            gap.identified_anew = Some(anew.after);
+            if gap.before.ci90[0] > 1.0 {
+                limitations.push(
+                    "the model under diagnosis misses the judged records by more than their mean does: compare its units, its \
+                     sample time and its coefficients with the rig's"
+                        .into(),
+                );
+            }
+        }
         let nominal_score = self.score(&self.nominal.fit);
         gap.predictive_gain =
             self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);

@@ -39,6 +39,7 @@ struct Gap<'a> {
     after: Interval,
     closure: Option<Interval>,
     noise_floor: f64,
+    identified_anew: Option<Interval>,
     predictive_gain: f64,
     per_record: Vec<RecordGap<'a>>,
 }
@@ -107,7 +108,8 @@ struct Next<'a> {
 /// One JSON object, indented, with a newline at its end.
 ///
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
-/// output units, `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
+/// output units, `identified_anew` the `G²` of a nominal model identified from the fit records where another was given,
+/// `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
 /// `bic` relative to the nominal model. `together` is the best pair of effects, `gain` in penalised deviance over the best
 /// single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
@@ -166,6 +168,7 @@ fn gap(diagnosis: &Diagnosis) -> Gap<'_> {
         after: interval(&gap.after),
         closure: gap.closure.as_ref().map(interval),
         noise_floor: gap.noise_floor,
+        identified_anew: gap.identified_anew.as_ref().map(interval),
         predictive_gain: gap.predictive_gain,
         per_record: per_record.collect(),
     }

@@ -26,9 +26,12 @@ pub fn digits(x: f64, count: usize) -> String {
     text.replace('-', "−")
 }
 
-/// A share in whole percent, with decimals where it comes closer to 100 than that; `percent` may be negative.
+/// A share in whole percent, with decimals where it comes closer to 100 than that, up to three; `percent` may be negative.
 pub(super) fn whole_percent(percent: f64) -> String {
     let short = 100.0 - percent;
+    if short > 0.0 && short < 0.0005 {
+        return "> 99.999".to_owned();
+    }
     let decimals =
         if short > 0.0 && short < 1.0 { (-short.log10().floor()).clamp(1.0, 3.0) as usize } else { 0 };
     // Adding zero turns the −0 of rounding into 0.
@@ -105,6 +108,8 @@ mod tests {
     fn all_but_a_trace_is_not_all() {
         assert_eq!(whole_percent(96.4), "96");
         assert_eq!(whole_percent(99.93), "99.93");
+        assert_eq!(whole_percent(99.999_96), "> 99.999");
+        assert_eq!(whole_percent(100.0), "100");
         assert_eq!(whole_percent(-0.2), "0");
         assert_eq!(whole_percent(-112.3), "−112");
     }

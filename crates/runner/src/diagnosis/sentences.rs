@@ -7,6 +7,9 @@ use switchback_gap::{Candidate, Diagnosis, Effect, Status};
 /// Least gain of the prediction, nats per sample, that is worth a sentence.
 const WORTH_TELLING: f64 = 1e-4;
 
+/// Multiples of the output's variance from which a gap is told in these.
+const MANY: f64 = 10.0;
+
 /// The sentences of the verdict, in the order in which they are read.
 pub(super) fn verdict(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
@@ -16,6 +19,7 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     sentences.push(cause(diagnosis, &units));
+    sentences.extend(identified_anew(diagnosis));
     if !matches!(diagnosis.verdict.status, Status::None) {
         sentences.extend(closure(report));
         sentences.push(remainder(diagnosis, &units));
@@ -43,6 +47,15 @@ fn size(report: &Report) -> String {
         let at_most = percent(high);
         return format!(
             "On {held_out} {model} misses no more than the noise does: any gap is below {at_most} % of the output's variance."
+        );
+    }
+    if low > MANY {
+        let times = |x: f64| digits(x, 2);
+        return format!(
+            "On {held_out} {model} misses {} times [{}, {}] the output's variance.",
+            times(gap.before.estimate),
+            times(low),
+            times(high)
         );
     }
     format!(
@@ -74,6 +87,11 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
     let verdict = &diagnosis.verdict;
     let p = probability(verdict.probability);
     match verdict.status {
+        Status::None if is_of_parameters(diagnosis) => {
+            format!(
+                "Nothing significant is missing from the model but the right parameters, probability {p}."
+            )
+        }
         Status::None => format!("Nothing significant is missing from the model, probability {p}."),
         Status::Named if verdict.effects.len() > 1 => {
             let each: Vec<_> =
@@ -171,6 +189,27 @@ pub(super) fn probability(p: f64) -> String {
     }
 }
 
+/// Whether there is a gap that a model identified anew may close by itself.
+fn is_of_parameters(diagnosis: &Diagnosis) -> bool {
+    diagnosis.gap.identified_anew.is_some() && diagnosis.gap.before.ci90[0] > 0.0
+}
+
+/// How much of the gap of a model that was given is its parameters' alone.
+fn identified_anew(diagnosis: &Diagnosis) -> Option<String> {
+    let gap = &diagnosis.gap;
+    let anew = gap.identified_anew.filter(|_| is_of_parameters(diagnosis))?;
+    let share = 1.0 - anew.estimate / gap.before.estimate;
+    Some(if share > 0.0 {
+        format!(
+            "Identified anew from the fit records, a model without any cause closes {} % of the gap.",
+            whole_percent(100.0 * share.min(1.0))
+        )
+    } else {
+        "Identified anew from the fit records, a model without any cause closes nothing of the gap."
+            .to_owned()
+    })
+}
+
 /// How far the gap closes, in simulation and in prediction.
 fn closure(report: &Report) -> Vec<String> {
     let diagnosis = &report.diagnosis;
@@ -181,6 +220,7 @@ fn closure(report: &Report) -> Vec<String> {
         (Status::Named, _) => "Adding it",
         _ => "Adding the best explanation",
     };
+    let as_well = if gap.identified_anew.is_some() { " as well" } else { "" };
     let mut sentences = Vec::new();
     let noise_only =
         !diagnosis.verdict.effects.is_empty() && diagnosis.verdict.effects.iter().all(|e| e.is_noise());
@@ -192,7 +232,7 @@ fn closure(report: &Report) -> Vec<String> {
             let percent = whole_percent;
             sentences.push(match closure.estimate {
                 c if c > 0.0 => format!(
-                    "{adding} closes {} % [{}, {}] of the gap on {}.",
+                    "{adding}{as_well} closes {} % [{}, {}] of the gap on {}.",
                     percent(100.0 * c),
                     percent(low),
                     percent(high),
