@@ -140,8 +140,9 @@ fn a_given_model_of_another_gain_lacks_nothing_but_that() {
     let folder = Folder::with_good_rig();
     let mut model = model_of(&folder);
     let louder = |x: &Value| Value::from(1.2 * x.as_f64().expect("a number"));
-    model["gain"] = louder(&model["gain"]);
-    model["b"] = model["b"].as_array().expect("coefficients").iter().map(louder).collect();
+    let b: Vec<Value> = model["b"].as_array().expect("coefficients").iter().map(louder).collect();
+    let gain = louder(&model["gain"]);
+    (model["b"], model["gain"]) = (b.into(), gain);
     folder.write("model.json", &model.to_string());
     let page = diagnosed(&folder, &["--model", "model.json"]);
     assert_eq!(page["verdict"]["status"], "none");
