@@ -49,7 +49,11 @@ pub(crate) fn looks(workers: &impl Workers, known: &Known<'_>, questions: &[Ques
     if !known.explanation.parts.is_empty() {
         keep_promising(&mut entries);
     }
-    let laws: Vec<(Effect, Prospect)> = shortened_where_hopeless(entries)
+    // Of filters the test knows little where the dynamics are not solved for again, as in simulations.
+    if !known.campaign.criterion.simulates() {
+        entries = shortened_where_hopeless(entries);
+    }
+    let laws: Vec<(Effect, Prospect)> = entries
         .into_iter()
         .flat_map(|entry| entry.laws.into_iter().map(move |law| (entry.effect, law)))
         .collect();
