@@ -193,3 +193,28 @@ fn control_false_discoveries(cells: &mut [Cell]) {
         cells[i].q_value = least;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The oracle: `min_{j ≥ i} p(j)·m/j` of the ordered p-values (Benjamini and Hochberg, 1995).
+    #[test]
+    fn q_values_are_the_least_rate_at_which_a_cell_is_found() {
+        let cell = |p: f64| Cell { axis: "v", cell: String::new(), share: 0.0, q_value: p };
+        let mut cells: Vec<Cell> = [0.02, 0.04, 0.041, 0.005, 0.9].map(cell).into();
+        control_false_discoveries(&mut cells);
+        let expected = [0.05, 0.051_25, 0.051_25, 0.025, 0.9];
+        for (cell, q) in cells.iter().zip(expected) {
+            assert!((cell.q_value - q).abs() < 1e-12, "{cells:?}");
+        }
+    }
+
+    #[test]
+    fn cells_close_together_are_told_apart() {
+        assert_eq!(labels(&[0.0, 0.1, 0.25]), ["0.0000..0.1000", "0.1000..0.2500"]);
+        let close = labels(&[0.5, 0.500_001, 0.500_002, 0.500_004]);
+        assert!(close.windows(2).all(|w| w[0] != w[1]));
+        assert_eq!(labels(&[1.0, 1.0]), ["1.0000..1.0000"]);
+    }
+}

@@ -282,3 +282,36 @@ fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
     let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
     (LN_2 / half as f64).min(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{noise_free, small_campaign, small_model, white};
+
+    /// The share of white innovations where the errors of the equation are coloured by `ar`, or hit here and there.
+    fn share(ar: f64, is_hit: bool) -> f64 {
+        let (campaign, grid) = small_campaign();
+        let truth = small_model(&grid);
+        let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &truth);
+        let (mut noise, mut error) = (white(), 0.0);
+        let mut past = [0.0; 2];
+        for (t, y) in campaign.tracks[0].y.iter_mut().enumerate() {
+            error = ar * error + 0.01 * noise();
+            let hit = if is_hit && t % 37 < 2 { 1.0 } else { 0.0 };
+            let now = error + hit - truth.a[0] * past[0] - truth.a[1] * past[1];
+            past = [now, past[0]];
+            *y += now;
+        }
+        let mut assembly = Assembly::default();
+        assembly.noise.mixture = is_hit.then_some((0.05, 50.0));
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        white_share(&fit(ground, &|_| assembly.clone(), &[], &truth, 20).expect("a fit"))
+    }
+
+    #[test]
+    fn what_the_past_foretells_is_colour_and_what_hits_is_none() {
+        let [plain, coloured, hit] = [share(0.0, false), share(0.9, false), share(0.0, true)];
+        assert!(plain > 0.85 && hit > 0.85, "{plain} {hit}");
+        assert!(coloured < 0.6 * plain, "{coloured} {plain}");
+    }
+}

@@ -34,6 +34,8 @@ pub(crate) struct Knee {
 
 /// Excess over the width beyond which a knee goes on straight.
 const STEEPEST: f64 = 5.0;
+/// Slope of an inverse at least where noise is shown: flatter ones are a limit of the range.
+const FLATTEST: f64 = 0.05;
 
 impl SensorCurve {
     pub(crate) fn is_straight(&self) -> bool {
@@ -75,6 +77,16 @@ impl SensorCurve {
         (x, slope)
     }
 
+    /// Mean square slope `dy/dx` over some readings: the variance that is made of one unit of it before the sensor.
+    pub(crate) fn shown(&self, readings: impl Iterator<Item = f64>) -> f64 {
+        if self.is_straight() {
+            return 1.0;
+        }
+        let squares = readings.map(|y| self.undo(y).1.max(FLATTEST).powi(-2));
+        let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square, count + 1.0));
+        sum / f64::max(count, 1.0)
+    }
+
     /// The reading `y` of `x`: the solution that continues from small readings, by Newton's method.
     pub(crate) fn read(&self, x: f64) -> f64 {
         if self.is_straight() {
@@ -111,6 +123,19 @@ mod tests {
         };
         inverts(&inverse);
         inverts(&SensorCurve { forwards: Some(Forwards::new(0.08, -0.01)), ..SensorCurve::default() });
+    }
+
+    /// The oracle: readings a little beside each other.
+    #[test]
+    fn a_steep_sensor_shows_more_noise() {
+        let curve = SensorCurve { powers: vec![0.1, 0.05], ..SensorCurve::default() };
+        let before: Vec<f64> = (-20..=20).map(|i| f64::from(i) * 0.05).collect();
+        let h = 1e-5;
+        let slope = |x: &f64| (curve.read(x + h) - curve.read(x - h)) / (2.0 * h);
+        let slow = before.iter().map(|x| slope(x).powi(2)).sum::<f64>() / before.len() as f64;
+        let shown = curve.shown(before.iter().map(|x| curve.read(*x)));
+        assert!((shown - slow).abs() < 1e-6 && (shown - 1.0).abs() > 0.01, "{shown} {slow}");
+        assert_eq!(SensorCurve::default().shown([0.3, 7.0].into_iter()), 1.0);
     }
 
     fn inverts(curve: &SensorCurve) {

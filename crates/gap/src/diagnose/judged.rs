@@ -32,16 +32,8 @@ impl Plan {
     /// Variance that the sensor's characteristic makes of one unit of it on the judged records: where it is steep it shows more of
     /// what lies before it.
     fn noise_shown(&self, curve: &SensorCurve) -> f64 {
-        /// Inverse slope of a characteristic at least: flatter ones are a limit of the range.
-        const LEAST: f64 = 0.05;
-        if curve.is_straight() {
-            return 1.0;
-        }
         let tracks = self.judged.iter().map(|&number| &self.campaign.tracks[number]);
-        let readings = tracks.flat_map(|track| &track.y[track.from..]);
-        let (sum, count) = readings
-            .fold((0.0, 0.0), |(sum, count), &y| (sum + curve.undo(y).1.max(LEAST).powi(-2), count + 1.0));
-        sum / f64::max(count, 1.0)
+        curve.shown(tracks.flat_map(|track| &track.y[track.from..]).copied())
     }
 
     /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
