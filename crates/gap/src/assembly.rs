@@ -292,17 +292,6 @@ impl Assembly {
                 == Self { noise: NoiseLaw::default(), ..other.clone() }
     }
 
-    /// Whether each move ends on a border, and nothing is added to `u`.
-    pub(crate) fn keeps_to_the_borders(&self) -> bool {
-        self.jitter == 0.0
-            && self.transition.is_none()
-            && self.wear.is_none()
-            && self.widening.is_none()
-            && self.relaxation.is_none()
-            && self.border_columns.is_empty()
-            && self.gain.is_none()
-    }
-
     /// Puts a filter in series with those present.
     pub(crate) fn filter(&mut self, numerator: &[f64], denominator: &[f64]) {
         self.numerator = convolve(&leading_one(&self.numerator), numerator);

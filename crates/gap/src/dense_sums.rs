@@ -60,12 +60,9 @@ impl DenseSums {
     /// Adds the sums to normal equations of all parameters.
     pub(crate) fn add_to(mut self, normal: &mut Normal) {
         self.sum_up();
-        for (i, &row) in self.parameters.iter().enumerate() {
-            normal.gradient[row] += self.gradient[i];
-            let sums = &self.matrix[i * self.stride..(i + 1) * self.stride];
-            for (&column, sum) in self.parameters.iter().zip(sums).skip(i) {
-                normal.add_entry(row, column, *sum);
-            }
+        normal.add_block(&self.parameters, &self.matrix, self.stride);
+        for (&row, sum) in self.parameters.iter().zip(&self.gradient) {
+            normal.gradient[row] += sum;
         }
     }
 }

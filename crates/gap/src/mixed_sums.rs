@@ -12,7 +12,7 @@ const BLOCK: usize = 64;
 
 /// `Σ x xᵀ` and `Σ x w` over rows `x` with entries of some parameters in every row, and of few of the others in each.
 pub(crate) struct MixedSums {
-    /// The parameters that every row has entries of.
+    /// The parameters that every row has entries of, increasing.
     heads: Vec<usize>,
     /// The others.
     others: Range<usize>,
@@ -77,12 +77,9 @@ impl MixedSums {
     pub(crate) fn add_to(mut self, normal: &mut Normal) {
         self.sum_up();
         let (count, w) = (self.others.len(), self.heads.len());
+        normal.add_block(&self.heads, &self.head_sums, self.stride);
         for (i, &row) in self.heads.iter().enumerate() {
-            let sums = &self.head_sums[i * self.stride..(i + 1) * self.stride];
-            normal.gradient[row] += sums[w];
-            for (&column, sum) in self.heads.iter().zip(sums).skip(i) {
-                normal.add_entry(row.min(column), row.max(column), *sum);
-            }
+            normal.gradient[row] += self.head_sums[i * self.stride + w];
         }
         for (i, row) in self.others.clone().enumerate() {
             let sums = &self.cross_sums[i * self.stride..(i + 1) * self.stride];

@@ -64,6 +64,16 @@ impl Normal {
         }
     }
 
+    /// Adds sums over some parameters, increasing, with each other: row-major, `stride` from one row to the next, of which the lower
+    /// triangle is not read.
+    pub(crate) fn add_block(&mut self, parameters: &[usize], sums: &[f64], stride: usize) {
+        for (i, &row) in parameters.iter().enumerate() {
+            for (&column, sum) in parameters.iter().zip(&sums[i * stride..]).skip(i) {
+                self.add_entry(row, column, *sum);
+            }
+        }
+    }
+
     /// Adds to an entry of the symmetric matrix, `i ≤ j`.
     pub(crate) fn add_entry(&mut self, i: usize, j: usize, x: f64) {
         self.matrix[i * self.size + j] += x;

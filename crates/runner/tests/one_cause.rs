@@ -24,9 +24,16 @@ fn readings_that_repeat_because_they_are_rounded_leave_no_outliers() {
 }
 
 #[test]
-fn what_an_inexact_law_leaves_is_no_second_cause() {
+fn a_soft_knee_is_no_second_cause() {
     let verdict = verdict("sensor_saturation", "2", "2", ("13097605359539705777", "3"));
     assert_eq!(verdict["effects"], json!(["sensor_saturation"]), "{verdict:#}");
+}
+
+#[test]
+fn what_an_inexact_law_leaves_is_a_correction() {
+    let verdict = verdict("extra_pole", "2", "4", ("6731017774290076540", "3"));
+    assert_eq!(verdict["effects"], json!(["extra_pole"]), "{verdict:#}");
+    assert!(verdict["corrected_by"].is_string(), "{verdict:#}");
 }
 
 #[test]

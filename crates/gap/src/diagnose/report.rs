@@ -4,7 +4,7 @@ use super::Plan;
 use super::foreign::Foreign;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
 };
 use crate::engine::Fit;
 use crate::explain::Explanation;
@@ -30,17 +30,13 @@ impl Plan {
         let runs = self.simulations(&c.augmented.fit);
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
-        if self.foreign.is_some() {
-            let runs = self.simulations(&self.nominal.fit);
-            let anew = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
-            gap.identified_anew = Some(anew.after);
-            if gap.before.ci90[0] > 1.0 {
-                limitations.push(
-                    "the model under diagnosis misses the judged records by more than their mean does: compare its units, its \
-                     sample time and its coefficients with the rig's"
-                        .into(),
-                );
-            }
+        gap.identified_anew = self.identified_anew(floor);
+        if self.foreign.is_some() && gap.before.ci90[0] > 1.0 {
+            limitations.push(
+                "the model under diagnosis misses the judged records by more than their mean does: compare its units, its sample \
+                 time and its coefficients with the rig's"
+                    .into(),
+            );
         }
         let nominal_score = self.score(&self.nominal.fit);
         gap.predictive_gain =
@@ -81,6 +77,13 @@ impl Plan {
             residuals_after: after,
             limitations,
         }
+    }
+
+    /// `G²` of the identified nominal model, where another was given.
+    fn identified_anew(&self, floor: (f64, f64)) -> Option<Figure> {
+        self.foreign.as_ref()?;
+        let runs = self.simulations(&self.nominal.fit);
+        Some(measure(&self.campaign, &runs, floor, (self.settings.seed, self.settings.resamples)).after)
     }
 
     /// Where the model under diagnosis misses: as it was given, or else the identified nominal one. `noise` is the variance of the

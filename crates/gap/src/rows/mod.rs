@@ -94,11 +94,8 @@ pub(crate) fn rows(
     assembly: &Assembly,
 ) -> Rows {
     let columns = grid.len() as u32;
-    let mut point = WorkingPoint::new(grid, assembly, track.v[0], campaign.criterion);
-    if assembly.keeps_to_the_borders() {
-        return on_the_borders(point, track, moves);
-    }
     let mut out = Rows::with_capacity(track.v.len());
+    let mut point = WorkingPoint::new(grid, assembly, track.v[0], campaign.criterion);
     let own = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
     if let Some(start) = assembly.border_columns.iter().position(own) {
         point.terms.push((columns + start as u32, 1.0));
@@ -140,18 +137,6 @@ pub(crate) fn rows(
             out.extend(&[(columns + j as u32, held[j])], gain);
         }
         out.end_row();
-    }
-    out
-}
-
-/// The rows of one track where each move ends on a border.
-fn on_the_borders(mut point: WorkingPoint<'_>, track: &Track, moves: &[Motion]) -> Rows {
-    let mut out = Rows::with_capacity(track.v.len());
-    for (m, v) in moves.iter().zip(&track.v) {
-        if m.moves {
-            point.put_on_border(m.branch, *v);
-        }
-        out.push(&point.terms, 1.0);
     }
     out
 }

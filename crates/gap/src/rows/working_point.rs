@@ -83,13 +83,6 @@ impl<'a> WorkingPoint<'a> {
         }
     }
 
-    /// The value of a border.
-    #[inline]
-    pub(super) fn put_on_border(&mut self, branch: f64, v: f64) {
-        self.terms.clear();
-        self.terms.extend(hat(&self.finder, side(branch), v, 1.0));
-    }
-
     /// A move on a border.
     pub(super) fn step(&mut self, m: &Motion, v: f64, narrowing: f64) {
         // Most moves are beyond the transition.
@@ -100,7 +93,8 @@ impl<'a> WorkingPoint<'a> {
         });
         if narrowing == 0.0 && fade == 0.0 {
             self.share = 0.0;
-            self.put_on_border(m.branch, v);
+            self.terms.clear();
+            self.terms.extend(hat(&self.finder, side(m.branch), v, 1.0));
             return;
         }
         let law = self.transition.map(|transition| transition.law);

@@ -87,7 +87,7 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
     let verdict = &diagnosis.verdict;
     let p = probability(verdict.probability);
     match verdict.status {
-        Status::None if is_of_parameters(diagnosis) => {
+        Status::None if closed_anew(diagnosis).is_some_and(|share| share > 0.0) => {
             format!(
                 "Nothing significant is missing from the model but the right parameters, probability {p}."
             )
@@ -189,25 +189,22 @@ pub(super) fn probability(p: f64) -> String {
     }
 }
 
-/// Whether there is a gap that a model identified anew may close by itself.
-fn is_of_parameters(diagnosis: &Diagnosis) -> bool {
-    diagnosis.gap.identified_anew.is_some() && diagnosis.gap.before.ci90[0] > 0.0
+/// Share of the gap of a model that was given that a model without any cause closes, identified anew; nothing where there is no gap.
+fn closed_anew(diagnosis: &Diagnosis) -> Option<f64> {
+    let gap = &diagnosis.gap;
+    let anew = gap.identified_anew.filter(|_| gap.before.ci90[0] > 0.0)?;
+    Some((1.0 - anew.estimate / gap.before.estimate).clamp(0.0, 1.0))
 }
 
 /// How much of the gap of a model that was given is its parameters' alone.
 fn identified_anew(diagnosis: &Diagnosis) -> Option<String> {
-    let gap = &diagnosis.gap;
-    let anew = gap.identified_anew.filter(|_| is_of_parameters(diagnosis))?;
-    let share = 1.0 - anew.estimate / gap.before.estimate;
-    Some(if share > 0.0 {
-        format!(
-            "Identified anew from the fit records, a model without any cause closes {} % of the gap.",
-            whole_percent(100.0 * share.min(1.0))
-        )
-    } else {
-        "Identified anew from the fit records, a model without any cause closes nothing of the gap."
-            .to_owned()
-    })
+    let closes = match closed_anew(diagnosis)? {
+        0.0 => "nothing".to_owned(),
+        share => format!("{} %", whole_percent(100.0 * share)),
+    };
+    Some(format!(
+        "Identified anew from the fit records, a model without any cause closes {closes} of the gap."
+    ))
 }
 
 /// How far the gap closes, in simulation and in prediction.
