@@ -57,7 +57,6 @@ pub(crate) fn first_guess(
     // A recursive filter leaves few zeros in a row, and so does the memory of the errors.
     let is_dense = !design.poles.is_empty() || !assembly.noise.ar.is_empty();
     let mut sums = is_dense.then(|| DenseSums::new((0..size).collect()));
-    let mut thinned = Thinned::to(ENOUGH * size, design.samples());
     let mut row = vec![0.0; size];
     for track in &design.tracks {
         let dense = (!design.poles.is_empty()).then(|| filtered_rows(&design, track, k));
@@ -66,8 +65,7 @@ pub(crate) fn first_guess(
         for t in track.from.saturating_sub(assembly.noise.ar.len()).max(n)..track.x.len() {
             let may_count = |masked: &[bool]| !masked[t - track.from];
             let counts = t >= track.from && track.mask.out.as_deref().is_none_or(may_count);
-            let is_taken = counts && (sums.is_none() || thinned.takes_next());
-            if !is_taken && assembly.noise.ar.is_empty() {
+            if !counts && assembly.noise.ar.is_empty() {
                 continue;
             }
             row.fill(0.0);
@@ -97,8 +95,8 @@ pub(crate) fn first_guess(
             }
             let (row, x) = whitened.next(&row, track.x[t]);
             match &mut sums {
-                Some(sums) if is_taken => sums.push(row, std::iter::empty(), x),
-                None if is_taken => normal.add(row, x),
+                Some(sums) if counts => sums.push(row, std::iter::empty(), x),
+                None if counts => normal.add(row, x),
                 _ => {}
             }
         }
@@ -137,27 +135,6 @@ pub(crate) fn first_guess(
     let unscaled = |j: usize| if j < hats { 1.0 } else { 1.0 / size_of(j).max(1e-12) };
     let f: Vec<f64> = (0..k).map(|j| vt[(lead, j)] * svd.singular_values[lead] * unscaled(j)).collect();
     Ok(Linear { a: theta[..n].to_vec(), b, f, d: theta[columns..].to_vec() })
-}
-
-/// Dense rows an unknown from which a guess is made: a fit to all samples follows it.
-const ENOUGH: usize = 30;
-
-/// Takes some of many, at steps of no common measure with any period of the input.
-struct Thinned {
-    share: f64,
-    at: f64,
-}
-
-impl Thinned {
-    fn to(enough: usize, all: usize) -> Self {
-        Self { share: (enough as f64 / all.max(1) as f64).min(1.0), at: 0.0 }
-    }
-
-    fn takes_next(&mut self) -> bool {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        self.at = (self.at + GOLDEN).fract();
-        self.at < self.share
-    }
 }
 
 /// Filters the rows of a regression and their right-hand sides by `1 + d₁ q⁻¹ + …`.
@@ -213,20 +190,6 @@ mod tests {
         assert!((guess.b[1] / guess.b[0] - 0.75).abs() < 0.02, "{:?}", guess.b);
         let column = guess.f[7] * guess.b[0] / truth.b[0];
         assert!((column - 2.0).abs() < 0.05, "{column}");
-    }
-
-    #[test]
-    fn some_of_many_are_spread_over_every_phase_of_a_period() {
-        let mut thinned = Thinned::to(6000, 18_000);
-        let taken: Vec<bool> = (0..18_000).map(|_| thinned.takes_next()).collect();
-        for period in [2, 3, 6, 10] {
-            for phase in 0..period {
-                let count = taken.iter().skip(phase).step_by(period).filter(|taken| **taken).count();
-                assert!(count.abs_diff(6000 / period) < 30, "{period} {phase}: {count}");
-            }
-        }
-        let mut all = Thinned::to(6000, 5000);
-        assert!((0..5000).all(|_| all.takes_next()));
     }
 
     /// The oracle: the equation's terms filtered one by one.
