@@ -8,6 +8,7 @@ use crate::diagnosis::Gap;
 use crate::effect::Effect;
 use crate::engine::Fit;
 use crate::explain::Explanation;
+use crate::lattice::worth;
 use crate::odds::IMMATERIAL;
 use crate::omnibus::omnibus;
 use crate::repeats::Repeating;
@@ -29,6 +30,11 @@ const SERIOUS: f64 = 0.2;
 const AS_GOOD: f64 = 0.01;
 /// Share of another's simulation error that is clearly less: a log score hangs on the few samples beside a jump.
 const CLEARLY: f64 = 0.9;
+
+/// Log score a sample that a model has for the lattice it puts the outputs on, of which their density knows nothing.
+fn told_by_the_lattice(fit: &Fit) -> f64 {
+    fit.assembly.noise.lattice.map_or(0.0, |_| 0.5 * worth(1))
+}
 
 /// Share of the gap that an explanation closes which is its cause: the upper end of the interval lies above.
 const MATERIAL: f64 = 0.5;
@@ -64,7 +70,8 @@ impl Plan {
     pub(super) fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
         let excused = one.effects().iter().any(|e| e.is_of_its_record());
         let (error, other) = (self.simulation_error(&one.fit), self.simulation_error(&than.fit));
-        let scores = self.score(&one.fit).zip(self.score(&than.fit));
+        let score = |e: &Explanation| self.score(&e.fit).map(|score| score + told_by_the_lattice(&e.fit));
+        let scores = score(one).zip(score(than));
         error < RUNAWAY * other
             && (excused || error < CLEARLY * other || scores.is_none_or(|(one, other)| one > other - AS_GOOD))
     }
