@@ -24,9 +24,9 @@ pub(crate) struct Odds {
 }
 
 impl Odds {
-    /// Probability of the likeliest effect.
-    pub(crate) fn most(&self) -> f64 {
-        self.effects.iter().copied().fold(0.0, f64::max)
+    /// Probability that something is missing and one of the candidates is it.
+    pub(crate) fn told(&self) -> f64 {
+        1.0 - self.none - self.unexplained
     }
 }
 
@@ -71,6 +71,8 @@ mod calibration {
     pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.
     pub(super) const TOGETHER: f64 = 0.89;
+    /// How often the cause is the twin of the pair's only cause, where the twin gains more alone. Of seven such made rigs it was in five.
+    pub(super) const TWIN: f64 = 0.6;
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
     pub(super) const SILENCE: f64 = 0.89;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
@@ -253,7 +255,7 @@ pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
     pair.gain > calibration::SECOND * samples as f64 && pair.left < calibration::AFTER * total
 }
 
-/// Weighs what a pair names, `causes`; the singles are no rivals of a pair that holds one of them.
+/// Weighs what a pair names, `causes`; the singles are no rivals of a pair that holds one of them, but for a twin.
 pub(crate) fn odds_together(
     nominal_bic: f64,
     pair: &Pair,
@@ -265,8 +267,13 @@ pub(crate) fn odds_together(
     let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], leaves);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
-    together.effects =
-        singles.iter().map(|(e, _)| if causes.effects.contains(e) { p } else { 0.0 }).collect();
+    let by_twin = if causes.rival.is_some() { calibration::TWIN } else { 0.0 };
+    let claim = |effect: Effect| match () {
+        () if causes.effects.contains(&effect) => (1.0 - by_twin) * p,
+        () if causes.rival == Some(effect) => by_twin * p,
+        () => 0.0,
+    };
+    together.effects = singles.iter().map(|(e, _)| claim(*e)).collect();
     together
 }
 

@@ -161,7 +161,7 @@ impl Plan {
                 && !self.worsens(&explanation)
                 && !misses
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
-            if together.most() >= self.settings.name_at && holds {
+            if together.told() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
                 (left, odds, joint) = (pair_left, together, Some((explanation, causes)));
             }

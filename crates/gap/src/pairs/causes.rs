@@ -25,6 +25,8 @@ pub(crate) struct Causes {
     pub(crate) effects: Vec<Effect>,
     /// The one that takes no more than what an inexact law of the other leaves.
     pub(crate) correction: Option<Effect>,
+    /// The twin of the only cause that gains more alone: with what corrects the pair, the data cannot tell which it is.
+    pub(crate) rival: Option<Effect>,
 }
 
 impl Pair {
@@ -40,7 +42,9 @@ impl Pair {
             self.small_correction(alone, samples)
         };
         let members = self.explanation.effects();
-        Causes { effects: members.into_iter().filter(|e| Some(*e) != correction).collect(), correction }
+        let effects: Vec<Effect> = members.into_iter().filter(|e| Some(*e) != correction).collect();
+        let rival = twin_ahead(&effects, alone);
+        Causes { effects, correction, rival }
     }
 
     /// The member that gains less alone, where it takes no more than what an inexact law of the other leaves.
@@ -58,6 +62,13 @@ impl Pair {
 /// what is missing, and the noise of the equation pays for it: `A y = B/(P·Q) u + ξ ⟺ Q·A y = B/P u + Q·ξ`.
 fn corrects_a_filter(assembly: &Assembly) -> bool {
     assembly.denominator.len() > 1 && !assembly.noise.ma.is_empty()
+}
+
+/// The twin of an only cause, where it is the effect that gains most `alone`.
+fn twin_ahead(causes: &[Effect], alone: &[(Effect, f64)]) -> Option<Effect> {
+    let [cause] = causes else { return None };
+    let (first, _) = alone.iter().max_by(|x, y| x.1.total_cmp(&y.1))?;
+    cause.twins().contains(first).then_some(*first)
 }
 
 /// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law; `follows` tells
@@ -87,6 +98,16 @@ mod tests {
         assert!(!corrects_a_filter(&lag) && !corrects_a_filter(&noise));
         noise.filter(&[0.1], &[1.0, -0.9]);
         assert!(corrects_a_filter(&noise));
+    }
+
+    #[test]
+    fn a_twin_that_gains_more_alone_is_a_rival_of_an_only_cause() {
+        let alone = [(Effect::ExtraPole, 9000.0), (Effect::InputDelay, 9500.0), (Effect::Creep, 100.0)];
+        assert_eq!(twin_ahead(&[Effect::ExtraPole], &alone), Some(Effect::InputDelay));
+        // It is the first itself, it is no twin of the first, there are two.
+        assert_eq!(twin_ahead(&[Effect::InputDelay], &alone), None);
+        assert_eq!(twin_ahead(&[Effect::Creep], &alone), None);
+        assert_eq!(twin_ahead(&[Effect::ExtraPole, Effect::Outliers], &alone), None);
     }
 
     #[test]
