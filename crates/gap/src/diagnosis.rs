@@ -140,6 +140,8 @@ pub struct Candidate {
 pub struct Together {
     /// Both effects.
     pub effects: Vec<Effect>,
+    /// The parameters of each, fitted beside the other.
+    pub parameters: Vec<Vec<FittedParameter>>,
     /// Penalised deviance gained over the best single effect.
     pub gain: f64,
     /// Deviance that causes in general would still gain beside the pair, beyond chance.

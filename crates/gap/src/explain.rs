@@ -7,7 +7,7 @@ use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
-use crate::engine::{Build, Fit, Ground, fit};
+use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::search::finish;
 use crate::starts::padded;
 
@@ -119,6 +119,13 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
+    /// The own parameters of one of the effects and their standard errors.
+    pub(crate) fn own(&self, number: usize) -> impl Iterator<Item = (&Own, f64)> + Clone {
+        let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
+        let of = from..from + self.parts[number].count;
+        self.fit.own[of.clone()].iter().zip(self.fit.own_se[of].iter().copied())
+    }
+
     /// Whether it is what it says: neither the limit of another effect nor noise in disguise.
     pub(crate) fn may_be_a_cause(&self) -> bool {
         self.is_sound() && !self.disguises_noise()
@@ -149,10 +156,8 @@ impl Explanation {
     /// One of the effects without the others, by the law and with the own parameters that it has beside them, the rest fitted
     /// anew on the same knots.
     pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
-        let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
-        let part = self.parts[number].clone();
-        let own = &self.fit.own[from..from + part.count];
-        let parts = vec![part];
+        let own: Vec<Own> = self.own(number).map(|(own, _)| *own).collect();
+        let parts = vec![self.parts[number].clone()];
         let values: Vec<f64> = own.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
         linear.b.truncate(linear.a.len());
@@ -160,7 +165,7 @@ impl Explanation {
         linear.d.clear();
         let start = padded(&linear, self.fit.grid.len(), &assembled(&parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
-        let fit = fit(ground, &|values| assembled(&parts, values), own, &start, ALONE)?;
+        let fit = fit(ground, &|values| assembled(&parts, values), &own, &start, ALONE)?;
         Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
     }
 

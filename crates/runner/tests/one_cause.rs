@@ -47,3 +47,10 @@ fn the_unknown_zero_of_the_output_is_no_second_cause_beside_a_gain_that_wanders(
     let verdict = verdict("gain_drift", "2", "4", ("17263246882115084920", "2"));
     assert_eq!(verdict["effects"], json!(["gain_drift"]), "{verdict:#}");
 }
+
+#[test]
+fn a_twin_that_gains_more_alone_is_a_rival_of_one_that_needs_a_correction() {
+    let verdict = verdict("input_delay", "1", "4", ("9551534221114429084", "1"));
+    assert_eq!(verdict["status"], "class", "{verdict:#}");
+    assert_eq!(verdict["class"], json!(["input_delay", "extra_pole"]), "{verdict:#}");
+}

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::verdict_on_made;
+use common::{diagnosis_of_made, verdict_on_made};
 use serde_json::Value;
 
 /// The effects named on a made rig with two of them, sorted.
@@ -44,4 +44,30 @@ fn a_step_of_the_borders_is_found_behind_coarse_rounding() {
 fn a_gain_that_drifts_a_little_is_found_behind_a_sensor_that_clips() {
     let effects = ["gain_drift", "sensor_saturation"];
     assert_eq!(named(effects, "1", ["6952109671641562290", "1"]), effects);
+}
+
+#[test]
+fn a_slow_lag_is_found_beside_friction_that_rules_the_dynamics() {
+    let effects = ["extra_pole", "rate_dependence"];
+    assert_eq!(named(effects, "4", ["3133952703731551655", "3"]), effects);
+}
+
+#[test]
+fn friction_behind_coarse_rounding_is_told_as_it_is_beside_it() {
+    let effects = ["--effect", "sensor_quantisation", "--effect", "rate_dependence"];
+    let what = ["--size", "4", "--seed", "16227372047960906123", "--order", "1"];
+    let page = diagnosis_of_made(&[&effects[..], &what].concat());
+    assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(2), "{:#}", page["verdict"]);
+    let together = &page["together"];
+    let of = |effect: &str| {
+        let members = together["effects"].as_array().expect("both effects");
+        let number = members.iter().position(|member| member == effect).expect("one of both");
+        together["parameters"][number][0].clone()
+    };
+    // The friction is viscous; alone it takes some of what the rounding leaves.
+    let power = of("rate_dependence");
+    let (low, high) = (power["ci90"][0].as_f64(), power["ci90"][1].as_f64());
+    assert!(power["name"] == "power" && low < Some(1.0) && high > Some(1.0), "{power:#}");
+    let step = of("sensor_quantisation");
+    assert!(step["name"] == "step" && step["value"].as_f64() > Some(0.0), "{step:#}");
 }

@@ -4,6 +4,7 @@ mod evidence;
 mod foreign;
 mod held_out;
 mod judged;
+mod parameters;
 mod report;
 
 use switchback_estimator::rig::Rig;
@@ -14,7 +15,7 @@ use self::report::Conclusion;
 use crate::attribution::Attribution;
 use crate::campaign::Campaign;
 use crate::decide::verdict;
-use crate::diagnosis::{Diagnosis, Status, Together};
+use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::explain::Explanation;
@@ -150,7 +151,7 @@ impl Plan {
         let mut joint = None;
         let gains: Vec<(Effect, f64)> =
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
-        let found = pair.as_ref().map(|pair| Together::of(pair, &gains));
+        let found = pair.as_ref().map(|pair| self.together(pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
             let causes = pair.causes(&gains, samples);
             let together = odds_together(self.nominal.bic(), &pair, &causes, &effects);

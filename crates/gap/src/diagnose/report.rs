@@ -2,14 +2,15 @@
 
 use super::Plan;
 use super::foreign::Foreign;
+use super::parameters::parameters;
 use crate::closure::{Simulated, measure};
-use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
-};
+use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, Status, Together, Verdict};
+use crate::effect::Effect;
 use crate::engine::Fit;
 use crate::explain::Explanation;
 use crate::localise::{Residuals, localise};
 use crate::odds::Odds;
+use crate::pairs::Pair;
 use crate::score::{innovations, picture};
 use crate::workers::Workers;
 
@@ -107,17 +108,18 @@ impl Plan {
             effect,
             stage: effect.stage(),
             probability: p,
-            parameters: s
-                .fit
-                .own
-                .iter()
-                .zip(&s.fit.own_se)
-                .map(|(o, se)| FittedParameter { name: o.name, unit: o.unit, value: o.value, se: *se })
-                .collect(),
+            parameters: parameters(&self.campaign, s, 0),
             bic: s.bic() - self.nominal.bic(),
             heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
         }
+    }
+
+    /// What is told of a pair; `gains` are those of the single effects over the nominal model, the best first.
+    pub(super) fn together(&self, pair: &Pair, gains: &[(Effect, f64)]) -> Together {
+        let members = 0..pair.explanation.parts.len();
+        let parameters = members.map(|number| parameters(&self.campaign, &pair.explanation, number));
+        Together::of(pair, gains, parameters.collect())
     }
 
     fn series(&self, runs: &[Simulated]) -> Vec<HoldoutSeries> {

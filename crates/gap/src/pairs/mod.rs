@@ -8,7 +8,7 @@ pub(crate) use self::causes::Causes;
 
 use crate::attribution::{Attribution, Contest};
 use crate::clustering::come_where_the_input_is;
-use crate::diagnosis::Together;
+use crate::diagnosis::{FittedParameter, Together};
 use crate::effect::Effect;
 use crate::explain::Explanation;
 use crate::knots::detail;
@@ -51,8 +51,8 @@ pub(crate) struct Firsts<'a> {
 }
 
 impl Together {
-    /// `gains` are those of the single effects over the nominal model, the best first.
-    pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)]) -> Self {
+    /// `gains` are those of the single effects over the nominal model, the best first; `parameters` those of the members.
+    pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)], parameters: Vec<Vec<FittedParameter>>) -> Self {
         let effects = pair.explanation.effects();
         let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
         let both = pair.gain + gains.first().map_or(0.0, |g| g.1);
@@ -62,6 +62,7 @@ impl Together {
             gain: pair.gain,
             left: pair.left,
             left_by_single: pair.left_by_single,
+            parameters,
             shares: shares.to_vec(),
             interaction,
         }

@@ -2,7 +2,7 @@
 
 use super::{Report, Units, told};
 use serde::Serialize;
-use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure, Together};
+use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure, FittedParameter, Together};
 
 /// The object that `gap --json` prints; figures that do not exist are null.
 #[derive(Serialize)]
@@ -81,6 +81,7 @@ struct Explanation {
 #[derive(Serialize)]
 struct Pair {
     effects: Vec<&'static str>,
+    parameters: Vec<Vec<Parameter>>,
     gain: f64,
     left: f64,
     left_by_single: f64,
@@ -110,8 +111,8 @@ struct Next<'a> {
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
 /// output units, `identified_anew` the `G²` of a nominal model identified from the fit records where another was given,
 /// `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
-/// `bic` relative to the nominal model. `together` is the best pair of effects, `gain` in penalised deviance over the best
-/// single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
+/// `bic` relative to the nominal model. `together` is the best pair of effects: `parameters` those of each, fitted beside the other,
+/// `gain` in penalised deviance over the best single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
 /// the augmented model that is no cause of its own.
 pub fn json(report: &Report) -> String {
@@ -124,7 +125,7 @@ pub fn json(report: &Report) -> String {
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(place).collect(),
         candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
-        together: diagnosis.together.as_ref().map(pair),
+        together: diagnosis.together.as_ref().map(|together| pair(together, &units)),
         samples: diagnosis.samples,
         left: diagnosis.left,
         next_experiment: diagnosis.next_experiment.as_ref().map(|next| Next {
@@ -183,25 +184,30 @@ fn place(cell: &Cell) -> Place<'_> {
 }
 
 fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
-    let parameters = candidate.parameters.iter().map(|parameter| {
-        let told = told(parameter, units);
-        Parameter { name: told.name, value: told.value, ci90: told.ci90, unit: told.unit }
-    });
     Explanation {
         effect: candidate.effect.name(),
         stage: candidate.stage.name(),
         probability: candidate.probability,
-        parameters: parameters.collect(),
+        parameters: parameters(&candidate.parameters, units),
         bic: candidate.bic,
         heldout_log_score: candidate.heldout_log_score,
         closure: candidate.closure,
     }
 }
 
-fn pair(pair: &Together) -> Pair {
-    let Together { effects, gain, left, left_by_single, shares, interaction } = pair;
+fn parameters(fitted: &[FittedParameter], units: &Units) -> Vec<Parameter> {
+    let one = |parameter: &FittedParameter| {
+        let told = told(parameter, units);
+        Parameter { name: told.name, value: told.value, ci90: told.ci90, unit: told.unit }
+    };
+    fitted.iter().map(one).collect()
+}
+
+fn pair(pair: &Together, units: &Units) -> Pair {
+    let Together { effects, parameters: fitted, gain, left, left_by_single, shares, interaction } = pair;
     Pair {
         effects: names(effects),
+        parameters: fitted.iter().map(|of_one| parameters(of_one, units)).collect(),
         gain: *gain,
         left: *left,
         left_by_single: *left_by_single,

@@ -53,6 +53,7 @@ pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
             ends.map(|x| (0.5 * x).exp()),
             "sd of the equation error".to_owned(),
         ),
+        "output units" => scaled(1.0, units.output.clone()),
         "per standard deviation of y" => scaled(1.0, "per sd of y".to_owned()),
         other => scaled(1.0, other.to_owned()),
     };

@@ -2,10 +2,13 @@
 
 use super::number::{digits, whole_percent, with_interval};
 use super::{Report, Source, Units, place, told};
-use switchback_gap::{Candidate, Diagnosis, Effect, Status};
+use switchback_gap::{Diagnosis, Effect, FittedParameter, Status, Verdict};
 
 /// Least gain of the prediction, nats per sample, that is worth a sentence.
 const WORTH_TELLING: f64 = 1e-4;
+
+/// Parameters of one effect at most that are told one by one.
+const READABLE: usize = 8;
 
 /// Multiples of the output's variance from which a gap is told in these.
 const MANY: f64 = 10.0;
@@ -140,16 +143,30 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
 
 /// `backlash (play 0.12 ± 0.01 V)`
 fn described(effect: Effect, diagnosis: &Diagnosis, units: &Units) -> String {
-    let candidate = diagnosis.candidates.iter().find(|candidate| candidate.effect == effect);
-    match candidate.map(|candidate| parameters(candidate, units)).filter(|text| !text.is_empty()) {
-        Some(text) => format!("{effect} ({text})"),
+    let candidate = || diagnosis.candidates.iter().find(|candidate| candidate.effect == effect);
+    let alone = || candidate().map(|candidate| &candidate.parameters[..]);
+    match fitted_together(effect, diagnosis).or_else(alone).filter(|fitted| !fitted.is_empty()) {
+        Some(fitted) => format!("{effect} ({})", parameters(fitted, units)),
         None => effect.to_string(),
     }
 }
 
-/// Parameters with their 90 % intervals; nothing for an effect without parameters of its own.
-pub(super) fn parameters(candidate: &Candidate, units: &Units) -> String {
-    let each = candidate.parameters.iter().map(|parameter| {
+/// The parameters of an effect beside the other one of a pair that the verdict names: alone it takes some of what is the other's.
+fn fitted_together(effect: Effect, diagnosis: &Diagnosis) -> Option<&[FittedParameter]> {
+    let Verdict { effects, corrected_by, .. } = &diagnosis.verdict;
+    let told = |e: &Effect| effects.contains(e) || *corrected_by == Some(*e);
+    let pair = diagnosis.together.as_ref().filter(|pair| pair.effects.iter().all(told))?;
+    let fitted = pair.effects.iter().zip(&pair.parameters).find(|(member, _)| **member == effect);
+    fitted.map(|(_, parameters)| &parameters[..])
+}
+
+/// Parameters with their 90 % intervals; nothing for an effect without parameters of its own, and a number where they are too many to
+/// be read.
+pub(super) fn parameters(fitted: &[FittedParameter], units: &Units) -> String {
+    if fitted.len() > READABLE {
+        return format!("{} parameters, in the JSON", fitted.len());
+    }
+    let each = fitted.iter().map(|parameter| {
         let told = told(parameter, units);
         let text =
             format!("{} {} {}", told.name.replace('_', " "), with_interval(told.value, told.ci90), told.unit);

@@ -73,14 +73,14 @@ fn explanations(report: &Report, units: &Units) -> String {
     }
     let table = columns(&rows);
     let told: Vec<String> = listed()
-        .map(|candidate| (candidate.effect, parameters(candidate, units)))
+        .map(|candidate| (candidate.effect, parameters(&candidate.parameters, units)))
         .filter(|(_, text)| !text.is_empty())
         .map(|(effect, text)| wrapped(&format!("  {effect}: {text}"), "    "))
         .collect();
     if told.is_empty() {
         table
     } else {
-        format!("{table}\nparameters with 90 % intervals:\n{}", told.concat())
+        format!("{table}\nparameters of each explanation by itself, with 90 % intervals:\n{}", told.concat())
     }
 }
 

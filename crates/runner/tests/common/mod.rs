@@ -136,11 +136,19 @@ pub fn verdict_on_made(what: &[&str]) -> serde_json::Value {
 
 /// The same once its `rig.toml` was changed.
 pub fn verdict_on_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
+    diagnosis_of_changed(what, change)["verdict"].clone()
+}
+
+/// The whole diagnosis.
+pub fn diagnosis_of_made(what: &[&str]) -> serde_json::Value {
+    diagnosis_of_changed(what, str::to_owned)
+}
+
+fn diagnosis_of_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
     let folder = Folder::with_good_rig();
     let made = folder.switchback(&[&["rig", "--out", "made"], what].concat()).output().expect("it runs");
     assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
     folder.edit("made/rig.toml", change);
     let told = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
-    let page: serde_json::Value = serde_json::from_slice(&told.stdout).expect("one JSON object on stdout");
-    page["verdict"].clone()
+    serde_json::from_slice(&told.stdout).expect("one JSON object on stdout")
 }
