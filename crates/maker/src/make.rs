@@ -90,6 +90,21 @@ impl Ingredient {
         })?;
         Ok(Self { law: *chosen, plain: law == 0, size })
     }
+
+    /// What is true of it once its magnitude is found, and what size that makes.
+    pub(crate) fn found(&self, magnitude: f64, size: f64) -> TrueEffect {
+        TrueEffect {
+            effect: self.law.effect(),
+            law: self.law.name(),
+            plain: self.plain,
+            stage: self.law.stage(),
+            nature: self.law.nature(),
+            magnitude,
+            unit: self.law.unit(),
+            wanted: self.size,
+            size,
+        }
+    }
 }
 
 /// A recipe: everything else about the rig is drawn from the seed.
@@ -170,12 +185,30 @@ impl MakeRig {
         {
             return Err(MakeError::ForeignKey { recipe: self.seed, key: key.seed });
         }
+        self.with_found(key.noise_sd, key.effects.clone())
+    }
+
+    /// The same rig once more from what a search found: standard deviation of the noise, magnitude and size of each effect. `None`
+    /// where there are not as many as effects.
+    ///
+    /// # Errors
+    /// [`MakeError::Record`] as in [`MakeRig::make`].
+    pub fn from_found(&self, noise_sd: f64, found: &[(f64, f64)]) -> Result<Option<MadeRig>, MakeError> {
+        if found.len() != self.ingredients.len() {
+            return Ok(None);
+        }
+        let entries =
+            self.ingredients.iter().zip(found).map(|(i, (magnitude, size))| i.found(*magnitude, *size));
+        self.with_found(noise_sd, entries.collect()).map(Some)
+    }
+
+    fn with_found(&self, noise_sd: f64, effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
         let mut workshop = self.workshop();
-        workshop.plant.noise_sd = key.noise_sd;
-        let sized = self.ingredients.iter().zip(&key.effects).enumerate();
+        workshop.plant.noise_sd = noise_sd;
+        let sized = self.ingredients.iter().zip(&effects).enumerate();
         let active: Vec<Active> =
             sized.map(|(slot, (i, e))| workshop.active(slot, i.law, e.magnitude)).collect();
-        workshop.assemble(&active, key.effects.clone())
+        workshop.assemble(&active, effects)
     }
 
     /// The system and the campaign of the recipe.

@@ -72,18 +72,7 @@ impl Workshop {
         let law = ingredient.law;
         let active = |magnitude: f64| self.active(slot, law, magnitude);
         let found = magnitude_for(ingredient.size, law.limit(), |x| self.trial(&[active(x)]).size);
-        let entry = TrueEffect {
-            effect: law.effect(),
-            law: law.name(),
-            plain: ingredient.plain,
-            stage: law.stage(),
-            nature: law.nature(),
-            magnitude: found.magnitude,
-            unit: law.unit(),
-            wanted: ingredient.size,
-            size: found.size,
-        };
-        (active(found.magnitude), entry)
+        (active(found.magnitude), ingredient.found(found.magnitude, found.size))
     }
 
     /// Where the magnitude alone does not bring the size, the noise may: a size is a ratio of the two.

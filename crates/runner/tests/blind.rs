@@ -1,7 +1,7 @@
 //! The blind study, with examiners that are easy to foresee in place of the diagnosis.
 
 use std::collections::BTreeMap;
-use switchback::blind::{self, Expect, Journal, Kind, Study};
+use switchback::blind::{self, Expect, Journal, KEY_FILE, Kind, Sealed, Study, WrittenKeys};
 use switchback_estimator::rig::Rig;
 use switchback_gap::{DiagnoseError, Diagnosis, Figure, Gap, ResidualPicture, Settings, Status, Verdict};
 use switchback_maker::Plan;
@@ -21,6 +21,10 @@ fn study() -> Study {
         plan: Plan { step: 120, periods: 8, sweep: 400, drive: 200, repeat_periods: 3 },
         expect: Expect::default(),
     }
+}
+
+fn sealed(study: &Study) -> Vec<Sealed> {
+    blind::seal(blind::design(study).unwrap(), &WrittenKeys::default(), &|| ()).unwrap()
 }
 
 fn silent(status: Status) -> Diagnosis {
@@ -66,7 +70,7 @@ fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
         let study = study();
-        let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+        let sealed = sealed(&study);
         let key = blind::key_file(&sealed);
         let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
         let scores = blind::score(&cases, &study.expect);
@@ -105,7 +109,7 @@ fn an_examiner_sees_what_a_users_folder_holds_and_never_the_withheld_effect() {
     let mut study = study();
     study.slice = None;
     study.seeds = 0;
-    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    let sealed = sealed(&study);
     for one in &sealed {
         let rig = one.rig().unwrap();
         assert_eq!(rig, one.open().unwrap().rig);
@@ -128,7 +132,7 @@ fn an_examiner_sees_what_a_users_folder_holds_and_never_the_withheld_effect() {
 fn a_refused_rig_counts_as_failed() {
     let mut study = study();
     study.slice = Some(3);
-    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    let sealed = sealed(&study);
     let refuse = |_: &Rig, _: &Settings| Err(DiagnoseError::ConstantInput);
     let cases = blind::examine(&sealed, &refuse, &|| ()).unwrap();
     assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
@@ -139,7 +143,7 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     let folder = tempfile::tempdir().unwrap();
     let mut study = study();
     study.slice = Some(4);
-    let sealed = blind::seal(blind::design(&study).unwrap(), &|| ()).unwrap();
+    let sealed = sealed(&study);
     let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
     let mut journal = Journal::open(folder.path(), "one").unwrap();
     assert!(sealed.iter().all(|rig| journal.recall(rig).is_none()));
@@ -163,6 +167,26 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     assert_eq!([known("one"), known("another")], [3, 0]);
     Journal::open(folder.path(), "one").unwrap().close().unwrap();
     assert_eq!(known("one"), 0);
+}
+
+#[test]
+fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut study = study();
+    study.slice = Some(4);
+    let file = blind::key_file(&sealed(&study));
+    std::fs::write(folder.path().join(KEY_FILE), &file).unwrap();
+    let is_known = |program: &str| !Journal::open(folder.path(), program).unwrap().keys().is_empty();
+    // A file that nobody vouches for.
+    assert!(!is_known("one"));
+    Journal::open(folder.path(), "one").unwrap().keep_keys(&blind::sha256(&file)).unwrap();
+    assert_eq!([is_known("one"), is_known("another")], [true, false]);
+    let keys = Journal::open(folder.path(), "one").unwrap().keys();
+    let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();
+    assert_eq!(blind::key_file(&again), file);
+    // A file that was changed since.
+    std::fs::write(folder.path().join(KEY_FILE), file.replacen("size", "sice", 1)).unwrap();
+    assert!(!is_known("one"));
 }
 
 #[test]

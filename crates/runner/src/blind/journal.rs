@@ -1,10 +1,11 @@
 //! What is judged already, on disk while an examination runs: one that was interrupted is taken up where it stood.
 //!
 //! A line a rig: `{"program": …, "rig": …, "case": {…}}`, the first two the SHA-256 of the executable that judged and of the
-//! rig's line in the key file. Only the same executable's judgement of the same rig counts.
+//! rig's line in the key file. Only the same executable's judgement of the same rig counts. A line once keys are sealed:
+//! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same executable found need not be searched for again.
 
 use super::case::Case;
-use super::seal::{Sealed, sha256};
+use super::seal::{Sealed, WrittenKeys, sha256};
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -20,6 +21,8 @@ pub struct Journal {
     file: File,
     program: String,
     known: HashMap<String, Case>,
+    /// SHA-256 of the key file sealed last.
+    keys: Option<String>,
 }
 
 /// The journal could not be read or written.
@@ -38,6 +41,15 @@ struct Line<'a> {
     rig: String,
     case: Case,
 }
+
+#[derive(Serialize, Deserialize)]
+struct KeysLine<'a> {
+    program: &'a str,
+    keys: String,
+}
+
+/// The key file of a report folder.
+pub const KEY_FILE: &str = "key.jsonl";
 
 impl Journal {
     /// Opens the journal of a report folder, an empty one if there is none; `program` tells executables apart.
@@ -64,7 +76,32 @@ impl Journal {
             .filter(|line| line.program == program)
             .map(|line| (line.rig, line.case))
             .collect();
-        Ok(Self { path, file, program: program.to_owned(), known })
+        let keys = text
+            .lines()
+            .filter_map(|line| serde_json::from_str::<KeysLine<'_>>(line).ok())
+            .filter(|line| line.program == program)
+            .map(|line| line.keys)
+            .next_back();
+        Ok(Self { path, file, program: program.to_owned(), known, keys })
+    }
+
+    /// The keys beside the journal, if the same executable sealed them; else none.
+    pub fn keys(&self) -> WrittenKeys {
+        let text = fs::read_to_string(self.path.with_file_name(KEY_FILE)).unwrap_or_default();
+        match &self.keys {
+            Some(hash) if *hash == sha256(&text) => WrittenKeys::read(&text),
+            _ => WrittenKeys::default(),
+        }
+    }
+
+    /// Keeps that keys were sealed in a file with this SHA-256.
+    ///
+    /// # Errors
+    /// [`JournalError`] if the system refuses.
+    pub fn keep_keys(&mut self, hash: &str) -> Result<(), JournalError> {
+        let line = KeysLine { program: &self.program, keys: hash.to_owned() };
+        let line = serde_json::to_string(&line).expect("strings are JSON") + "\n";
+        self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
     }
 
     /// What was judged of a rig before.

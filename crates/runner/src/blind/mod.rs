@@ -22,7 +22,7 @@ mod twins;
 pub use case::{Baseline, Case, ClosureCheck, Reply};
 pub use design::{Kind, Ticket, design};
 pub use examine::{Examiner, examine};
-pub use journal::{Journal, JournalError};
+pub use journal::{Journal, JournalError, KEY_FILE};
 pub use place::PlaceCheck;
 pub use report::{artefacts, summary};
 pub use scenario::{BlindError, Expect, Study, is_blind, read};
@@ -30,5 +30,5 @@ pub use score::{
     AbstentionRow, AccuracyRow, BaselineRow, Bound, Calibration, CalibrationBin, ClosureRow, Confusion,
     Measure, PlaceRow, Scores, Share, SizeRow, TARGETS, score,
 };
-pub use seal::{Sealed, key_file, seal, sha256};
+pub use seal::{Sealed, WrittenKeys, key_file, seal, sha256};
 pub use twins::{class_of, same_class};

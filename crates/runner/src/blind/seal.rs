@@ -2,8 +2,9 @@
 
 use super::design::Ticket;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::collections::HashMap;
 use std::fmt::Write;
 use switchback_estimator::rig::Rig;
 use switchback_maker::{Key, MadeRig, MakeError};
@@ -38,19 +39,69 @@ impl Sealed {
     }
 }
 
-/// Makes every rig once, in parallel, and keeps its key. `done` hears of each rig.
+/// Makes every rig once, in parallel, and keeps its key. What the same program found before is not searched for again. `done` hears
+/// of each rig.
 ///
 /// # Errors
 /// [`MakeError`] of the first rig that could not be made.
-pub fn seal(tickets: Vec<Ticket>, done: &(dyn Fn() + Sync)) -> Result<Vec<Sealed>, MakeError> {
+pub fn seal(
+    tickets: Vec<Ticket>,
+    before: &WrittenKeys,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Sealed>, MakeError> {
     tickets
         .into_par_iter()
         .map(|ticket| {
-            let key = ticket.recipe.make()?.key;
+            let sealed = match before.reopened(&ticket)? {
+                Some(key) => Sealed { ticket, key },
+                None => Sealed { key: ticket.recipe.make()?.key, ticket },
+            };
             done();
-            Ok(Sealed { ticket, key })
+            Ok(sealed)
         })
         .collect()
+}
+
+/// The keys in a key file, by the number of the rig.
+#[derive(Debug, Default)]
+pub struct WrittenKeys(HashMap<usize, (String, Found)>);
+
+/// What a key says that was searched for.
+#[derive(Debug, Deserialize)]
+struct Found {
+    id: usize,
+    noise_sd: f64,
+    effects: Vec<FoundEffect>,
+}
+
+#[derive(Debug, Deserialize)]
+struct FoundEffect {
+    magnitude: f64,
+    size: f64,
+}
+
+impl WrittenKeys {
+    /// Reads a key file; lines that are no keys are none.
+    pub fn read(key_file: &str) -> Self {
+        let key = |line: &str| {
+            let found: Found = serde_json::from_str(line).ok()?;
+            Some((found.id, (line.to_owned(), found)))
+        };
+        Self(key_file.lines().filter_map(key).collect())
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The key of a rig, if making the rig again from what was found gives the line that was written.
+    fn reopened(&self, ticket: &Ticket) -> Result<Option<Key>, MakeError> {
+        let Some((line, Found { noise_sd, effects, .. })) = self.0.get(&ticket.id) else { return Ok(None) };
+        let found: Vec<(f64, f64)> = effects.iter().map(|e| (e.magnitude, e.size)).collect();
+        let made = ticket.recipe.from_found(*noise_sd, &found)?;
+        Ok(made.map(|made| made.key).filter(|key| key_line(ticket, key) == *line))
+    }
 }
 
 #[derive(Serialize)]
@@ -79,31 +130,34 @@ struct WrittenEffect<'a> {
 impl Sealed {
     /// The rig's line in the key file: whatever makes one rig another.
     pub fn key_line(&self) -> String {
-        let Self { ticket, key } = self;
-        let written = WrittenKey {
-            id: ticket.id,
-            kind: ticket.kind.name(),
-            withheld: ticket.withheld,
-            seed: key.seed,
-            order: key.order,
-            borders: key.borders,
-            curved: key.curved,
-            noise_sd: key.noise_sd,
-            size: key.size,
-            effects: key
-                .effects
-                .iter()
-                .map(|e| WrittenEffect {
-                    effect: e.effect,
-                    law: e.law,
-                    magnitude: e.magnitude,
-                    unit: e.unit,
-                    size: e.size,
-                })
-                .collect(),
-        };
-        serde_json::to_string(&written).expect("numbers and strings are JSON")
+        key_line(&self.ticket, &self.key)
     }
+}
+
+fn key_line(ticket: &Ticket, key: &Key) -> String {
+    let written = WrittenKey {
+        id: ticket.id,
+        kind: ticket.kind.name(),
+        withheld: ticket.withheld,
+        seed: key.seed,
+        order: key.order,
+        borders: key.borders,
+        curved: key.curved,
+        noise_sd: key.noise_sd,
+        size: key.size,
+        effects: key
+            .effects
+            .iter()
+            .map(|e| WrittenEffect {
+                effect: e.effect,
+                law: e.law,
+                magnitude: e.magnitude,
+                unit: e.unit,
+                size: e.size,
+            })
+            .collect(),
+    };
+    serde_json::to_string(&written).expect("numbers and strings are JSON")
 }
 
 /// The key file: one JSON object a line and a rig, in the order of the design.
@@ -125,6 +179,24 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::blind::Kind;
+    use switchback_maker::{Ingredient, MakeRig, Plan};
+
+    #[test]
+    fn a_key_is_taken_over_only_where_it_gives_the_same_rig() {
+        let plan = Plan { step: 120, periods: 8, sweep: 400, drive: 200, repeat_periods: 3 };
+        let backlash = Ingredient::plain("backlash", 1.0).expect("an effect");
+        let recipe = MakeRig::new(7).plan(plan).with(backlash);
+        let ticket = Ticket { id: 3, kind: Kind::Single, system: 0, withheld: None, recipe };
+        let sealed = seal(vec![ticket.clone()], &WrittenKeys::default(), &|| ()).expect("a rig");
+        let file = key_file(&sealed);
+        let reopened = |file: &str| WrittenKeys::read(file).reopened(&ticket).expect("a rig");
+        assert_eq!(reopened(&file).map(|key| key_line(&ticket, &key) + "\n"), Some(file.clone()));
+        // Of another rig, of another recipe, and no key at all.
+        assert_eq!(reopened(&file.replace("\"id\":3", "\"id\":4")), None);
+        assert_eq!(reopened(&file.replace("\"seed\":7", "\"seed\":8")), None);
+        assert_eq!(reopened("{\"id\":3}"), None);
+    }
 
     #[test]
     fn the_hash_is_the_standards() {

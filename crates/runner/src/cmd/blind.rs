@@ -1,6 +1,6 @@
 //! `switchback SCENARIO.toml` with `study = "blind"`.
 
-use crate::blind::{self, Case, Examiner, Journal, Sealed, Study};
+use crate::blind::{self, Case, Examiner, Journal, KEY_FILE, Sealed, Study};
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::progress::Meter;
@@ -37,16 +37,17 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let tickets = blind::design(&study).map_err(StudyError)?;
     let meter = Meter::counting("rigs made", quiet);
     meter.planned(tickets.len() as u64);
-    let sealed = blind::seal(tickets, &|| meter.advanced(1)).map_err(StudyError)?;
+    let mut journal = Journal::open(out, &this_program())?;
+    let sealed = blind::seal(tickets, &journal.keys(), &|| meter.advanced(1)).map_err(StudyError)?;
     meter.finish();
     let key = blind::key_file(&sealed);
     let hash = blind::sha256(&key);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
-    folder.commit(&only("key.jsonl", key))?;
-    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join("key.jsonl").display()))?;
+    folder.commit(&only(KEY_FILE, key))?;
+    journal.keep_keys(&hash)?;
+    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join(KEY_FILE).display()))?;
     page.say(&format!("SHA-256 {hash}"))?;
 
-    let mut journal = Journal::open(out, &this_program())?;
     let cases = examine(sealed, &mut journal, page)?;
     let outcome = conclude(&study, &hash, &cases, out, page)?;
     journal.close()?;
