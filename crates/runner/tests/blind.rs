@@ -171,21 +171,23 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
 
 #[test]
 fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
-    let folder = tempfile::tempdir().unwrap();
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("new");
     let mut study = study();
     study.slice = Some(4);
     let file = blind::key_file(&sealed(&study));
-    std::fs::write(folder.path().join(KEY_FILE), &file).unwrap();
-    let is_known = |program: &str| !Journal::open(folder.path(), program).unwrap().keys().is_empty();
+    assert!(Journal::open(&folder, "one").unwrap().keys().is_empty());
+    std::fs::write(folder.join(KEY_FILE), &file).unwrap();
+    let is_known = |program: &str| !Journal::open(&folder, program).unwrap().keys().is_empty();
     // A file that nobody vouches for.
     assert!(!is_known("one"));
-    Journal::open(folder.path(), "one").unwrap().keep_keys(&blind::sha256(&file)).unwrap();
+    Journal::open(&folder, "one").unwrap().keep_keys(&blind::sha256(&file)).unwrap();
     assert_eq!([is_known("one"), is_known("another")], [true, false]);
-    let keys = Journal::open(folder.path(), "one").unwrap().keys();
+    let keys = Journal::open(&folder, "one").unwrap().keys();
     let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();
     assert_eq!(blind::key_file(&again), file);
     // A file that was changed since.
-    std::fs::write(folder.path().join(KEY_FILE), file.replacen("size", "sice", 1)).unwrap();
+    std::fs::write(folder.join(KEY_FILE), file.replacen("size", "sice", 1)).unwrap();
     assert!(!is_known("one"));
 }
 

@@ -52,13 +52,14 @@ struct KeysLine<'a> {
 pub const KEY_FILE: &str = "key.jsonl";
 
 impl Journal {
-    /// Opens the journal of a report folder, an empty one if there is none; `program` tells executables apart.
+    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells executables apart.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
     pub fn open(folder: &Path, program: &str) -> Result<Self, JournalError> {
         let path = folder.join("unfinished.jsonl");
         let fails = |source| JournalError { path: path.display().to_string(), source };
+        fs::create_dir_all(folder).map_err(fails)?;
         let text = match fs::read(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             other => other.map_err(fails)?,
