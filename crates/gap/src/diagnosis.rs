@@ -112,8 +112,8 @@ pub struct FittedParameter {
     pub unit: &'static str,
     /// The estimate.
     pub value: f64,
-    /// Its standard error; NaN where the likelihood gives none.
-    pub se: f64,
+    /// Its 90 % interval; NaN where the likelihood gives none.
+    pub ci90: [f64; 2],
 }
 
 /// One effect as an explanation.

@@ -60,6 +60,17 @@ pub(crate) struct Fit {
     pub(crate) design: Arc<Design>,
 }
 
+/// Half-width of a 90 % interval in standard errors of a normal estimate.
+const Z90: f64 = 1.644_853_626_951_472_6;
+
+impl Fit {
+    /// 90 % intervals of the own parameters; NaN where the likelihood gives no standard error.
+    pub(crate) fn intervals(&self) -> Vec<[f64; 2]> {
+        let interval = |(o, se): (&Own, &f64)| [o.value - Z90 * se, o.value + Z90 * se];
+        self.own.iter().zip(&self.own_se).map(interval).collect()
+    }
+}
+
 /// Where the fit is done.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {

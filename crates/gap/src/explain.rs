@@ -1,13 +1,14 @@
 //! Effects as an explanation: the best of their variants, fitted together with the nominal model.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
-use crate::engine::{Build, Fit, Ground, Own, fit};
+use crate::engine::{Build, Fit, Ground, fit};
 use crate::search::finish;
 use crate::starts::padded;
 
@@ -119,11 +120,10 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
-    /// The own parameters of one of the effects and their standard errors.
-    pub(crate) fn own(&self, number: usize) -> impl Iterator<Item = (&Own, f64)> + Clone {
+    /// Where the own parameters of one of the effects lie among those of all.
+    pub(crate) fn own_of(&self, number: usize) -> Range<usize> {
         let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
-        let of = from..from + self.parts[number].count;
-        self.fit.own[of.clone()].iter().zip(self.fit.own_se[of].iter().copied())
+        from..from + self.parts[number].count
     }
 
     /// Whether it is what it says: neither the limit of another effect nor noise in disguise.
@@ -156,7 +156,7 @@ impl Explanation {
     /// One of the effects without the others, by the law and with the own parameters that it has beside them, the rest fitted
     /// anew on the same knots.
     pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
-        let own: Vec<Own> = self.own(number).map(|(own, _)| *own).collect();
+        let own = &self.fit.own[self.own_of(number)];
         let parts = vec![self.parts[number].clone()];
         let values: Vec<f64> = own.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
@@ -165,7 +165,7 @@ impl Explanation {
         linear.d.clear();
         let start = padded(&linear, self.fit.grid.len(), &assembled(&parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
-        let fit = fit(ground, &|values| assembled(&parts, values), &own, &start, ALONE)?;
+        let fit = fit(ground, &|values| assembled(&parts, values), own, &start, ALONE)?;
         Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
     }
 

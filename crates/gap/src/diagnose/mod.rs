@@ -151,7 +151,7 @@ impl Plan {
         let mut joint = None;
         let gains: Vec<(Effect, f64)> =
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
-        let found = pair.as_ref().map(|pair| self.together(pair, &gains));
+        let found = pair.as_ref().map(|pair| self.together(workers, pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
             let causes = pair.causes(&gains, samples);
             let together = odds_together(self.nominal.bic(), &pair, &causes, &effects);

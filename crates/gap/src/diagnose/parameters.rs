@@ -5,36 +5,42 @@ use crate::diagnosis::FittedParameter;
 use crate::effect::Effect;
 use crate::explain::Explanation;
 
-/// The parameters of one effect of an explanation, given by its number, as fitted beside the others.
+/// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all own
+/// parameters of the explanation.
 ///
 /// What a user would measure comes first: the step of a lattice, the limits of a sensor, the share of outliers and their size, the
 /// time constant of a lag.
 pub(super) fn parameters(
     campaign: &Campaign,
-    explanation: &Explanation,
-    number: usize,
+    (explanation, number): (&Explanation, usize),
+    intervals: &[[f64; 2]],
 ) -> Vec<FittedParameter> {
-    let own = explanation.own(number);
-    let searched =
-        own.clone().map(|(own, se)| FittedParameter { name: own.name, unit: own.unit, value: own.value, se });
     let effect = explanation.parts[number].effect;
-    let lag = own.clone().find(|(own, _)| effect == Effect::ExtraPole && own.name == "pole");
-    let time_constant = lag.and_then(|(pole, se)| time_constant(pole.value, se));
-    time_constant.into_iter().chain(read_off(campaign, explanation, effect)).chain(searched).collect()
+    let own = explanation.own_of(number);
+    let searched = explanation.fit.own[own.clone()].iter().zip(&intervals[own]);
+    let searched =
+        searched.map(|(o, ci90)| FittedParameter { name: o.name, unit: o.unit, value: o.value, ci90: *ci90 });
+    let lag = searched.clone().find(|own| effect == Effect::ExtraPole && own.name == "pole");
+    let told_first = lag.as_ref().and_then(time_constant).into_iter();
+    told_first.chain(read_off(campaign, explanation, effect)).chain(searched).collect()
 }
 
 /// `ln τ` of a lag with the pole `p = exp(−1/τ)`, `τ` in samples; nothing where the pole is none of a lag.
-fn time_constant(pole: f64, se: f64) -> Option<FittedParameter> {
-    let rate = -pole.ln();
-    let logarithm =
-        || FittedParameter { name: "log_tau", unit: "ln samples", value: -rate.ln(), se: se / (pole * rate) };
-    (pole > 0.0 && pole < 1.0).then(logarithm)
+fn time_constant(pole: &FittedParameter) -> Option<FittedParameter> {
+    let logarithm = |p: f64| -(-p.ln()).ln();
+    let is_of_a_lag = pole.value > 0.0 && pole.value < 1.0;
+    is_of_a_lag.then(|| FittedParameter {
+        name: "log_tau",
+        unit: "ln samples",
+        value: logarithm(pole.value),
+        ci90: pole.ci90.map(logarithm),
+    })
 }
 
 /// What is no own parameter of a law: nothing searches for it.
 fn read_off(campaign: &Campaign, explanation: &Explanation, effect: Effect) -> Vec<FittedParameter> {
     let assembly = &explanation.fit.assembly;
-    let known = |name, unit, value| FittedParameter { name, unit, value, se: f64::NAN };
+    let known = |name, unit, value| FittedParameter { name, unit, value, ci90: [f64::NAN; 2] };
     let level = |name, y: f64| known(name, "output units", campaign.y_mean + campaign.y_scale * y);
     match effect {
         Effect::SensorQuantisation => {
@@ -65,15 +71,19 @@ mod tests {
 
     #[test]
     fn a_pole_is_a_time_constant() {
-        let tau = |pole: f64| time_constant(pole, 0.0).map(|p| p.value.exp());
-        assert!(tau((-0.1f64).exp()).is_some_and(|tau| (tau - 10.0).abs() < 1e-9));
-        assert_eq!((tau(-0.3), tau(1.0)), (None, None));
-    }
-
-    #[test]
-    fn its_error_is_the_slope_times_that_of_the_pole() {
-        let at = |pole: f64| time_constant(pole, 1e-3).expect("a lag");
-        let slope = (at(0.9 + 1e-6).value - at(0.9 - 1e-6).value) / 2e-6;
-        assert!((at(0.9).se / 1e-3 / slope - 1.0).abs() < 1e-6);
+        let pole = |value: f64, half: f64| FittedParameter {
+            name: "pole",
+            unit: "1",
+            value,
+            ci90: [value - half, value + half],
+        };
+        let of = |tau: f64| (-1.0 / tau).exp();
+        let tau = time_constant(&pole(of(10.0), 0.005)).expect("a lag");
+        assert!((tau.value.exp() - 10.0).abs() < 1e-9);
+        let ends = tau.ci90.map(|end| of(end.exp()) - of(10.0));
+        assert!((ends[0] + 0.005).abs() < 1e-9 && (ends[1] - 0.005).abs() < 1e-9, "{ends:?}");
+        assert!(time_constant(&pole(-0.3, 0.1)).is_none() && time_constant(&pole(1.0, 0.1)).is_none());
+        // An interval that reaches a pole that forgets nothing ends nowhere.
+        assert!(time_constant(&pole(0.999, 0.01)).is_some_and(|tau| tau.ci90[1].is_nan()));
     }
 }

@@ -12,6 +12,7 @@ use crate::localise::{Residuals, localise};
 use crate::odds::Odds;
 use crate::pairs::Pair;
 use crate::score::{innovations, picture};
+use crate::search::profiled;
 use crate::workers::Workers;
 
 /// What the report is made of.
@@ -57,6 +58,10 @@ impl Plan {
         }
         let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
         let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, floor, nominal_score));
+        let is_told = |effect| c.verdict.effects.contains(&effect) || c.verdict.class.contains(&effect);
+        for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
+            candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
+        }
         candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &self.nominal_innovations);
@@ -108,7 +113,7 @@ impl Plan {
             effect,
             stage: effect.stage(),
             probability: p,
-            parameters: parameters(&self.campaign, s, 0),
+            parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
             bic: s.bic() - self.nominal.bic(),
             heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
@@ -116,9 +121,10 @@ impl Plan {
     }
 
     /// What is told of a pair; `gains` are those of the single effects over the nominal model, the best first.
-    pub(super) fn together(&self, pair: &Pair, gains: &[(Effect, f64)]) -> Together {
-        let members = 0..pair.explanation.parts.len();
-        let parameters = members.map(|number| parameters(&self.campaign, &pair.explanation, number));
+    pub(super) fn together(&self, workers: &impl Workers, pair: &Pair, gains: &[(Effect, f64)]) -> Together {
+        let (campaign, both) = (&self.campaign, &pair.explanation);
+        let intervals = profiled(workers, campaign, both);
+        let parameters = (0..both.parts.len()).map(|number| parameters(campaign, (both, number), &intervals));
         Together::of(pair, gains, parameters.collect())
     }
 

@@ -2,11 +2,13 @@
 
 mod course;
 mod looks;
+mod profile;
 mod prospects;
 mod scratch;
 
 pub(crate) use self::course::on_a_free_course;
 pub(crate) use self::looks::looks;
+pub(crate) use self::profile::profiled;
 use self::prospects::Prospect;
 pub(crate) use self::scratch::from_scratch;
 use crate::assembly::Assembly;

@@ -4,11 +4,8 @@ use super::Units;
 use std::f64::consts::TAU;
 use switchback_gap::FittedParameter;
 
-/// Half-width of a 90 % interval in standard errors of a normal estimate.
-const Z90: f64 = 1.644_853_626_951_472_6;
-
-/// Standard error from which a logarithm counts as undetermined.
-const VAGUE: f64 = 3.0;
+/// Width of an interval from which a logarithm counts as undetermined.
+const VAGUE: f64 = 10.0;
 
 /// A fitted parameter as its user would state it.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +26,11 @@ pub struct Told {
 pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
     // A logarithm known no better than to a few units is not known.
     let logarithm = parameter.unit.starts_with("ln ");
-    let half = if logarithm && parameter.se > VAGUE { f64::NAN } else { Z90 * parameter.se };
-    let ends = [parameter.value - half, parameter.value, parameter.value + half];
+    let [low, high] = match parameter.ci90 {
+        [low, high] if logarithm && high - low > VAGUE => [f64::NAN; 2],
+        ends => ends,
+    };
+    let ends = [low, parameter.value, high];
     let name = parameter.name;
     let scaled = |factor: f64, unit: String| (name.to_owned(), ends.map(|x| factor * x), unit);
     let (name, [low, value, high], unit) = match parameter.unit {
@@ -69,14 +69,14 @@ mod tests {
     }
 
     fn fitted(name: &'static str, unit: &'static str, value: f64) -> FittedParameter {
-        FittedParameter { name, unit, value, se: 0.1 * value }
+        FittedParameter { name, unit, value, ci90: [0.9 * value, 1.1 * value] }
     }
 
     #[test]
     fn lengths_are_told_in_input_units() {
         let play = told(&fitted("play", "strokes", 0.1), &units());
         assert_eq!((play.name.as_str(), play.value, play.unit.as_str()), ("play", 2.0, "V"));
-        assert!((play.ci90[1] - play.value - Z90 * 0.2).abs() < 1e-12);
+        assert!((play.ci90[1] - play.value - 0.2).abs() < 1e-12);
     }
 
     #[test]
