@@ -83,12 +83,17 @@ pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     // One digit of the error decides how many of the value are worth telling; two where it begins with a one.
     let first = half / 10f64.powf(half.log10().floor());
     let decimals = (f64::from(u8::from(first < 2.0)) - half.log10().floor()).clamp(0.0, 9.0) as usize;
-    let fixed = |x: f64| format!("{x:.decimals$}").replace('-', "−");
+    let fixed = |x: f64, decimals: usize| format!("{x:.decimals$}").replace('-', "−");
     if (above - below).abs() < 0.2 * half {
-        format!("{} ± {}", fixed(value), fixed(half))
-    } else {
-        format!("{} [{}, {}]", fixed(value), fixed(low), fixed(high))
+        return format!("{} ± {}", fixed(value, decimals), fixed(half, decimals));
     }
+    let all = |decimals: usize| [value, low, high].map(|x| fixed(x, decimals));
+    // An end close to the estimate needs a digit more to be told from it.
+    let [told, least, most] = match all(decimals) {
+        [told, least, most] if told == least || told == most => all(decimals + 1),
+        apart => apart,
+    };
+    format!("{told} [{least}, {most}]")
 }
 
 #[cfg(test)]
@@ -100,6 +105,7 @@ mod tests {
         assert_eq!(with_interval(0.12345, [0.1134, 0.1334]), "0.123 ± 0.010");
         assert_eq!(with_interval(0.12345, [0.0934, 0.1534]), "0.12 ± 0.03");
         assert_eq!(with_interval(0.5, [0.3, 0.9]), "0.5 [0.3, 0.9]");
+        assert_eq!(with_interval(0.0397, [0.03967, 0.04007]), "0.03970 [0.03967, 0.04007]");
         assert_eq!(with_interval(0.6, [-1e9, 1e9]), "0.600, undetermined");
         assert_eq!(with_interval(2.0, [f64::NAN, f64::NAN]), "2.00");
     }
