@@ -8,7 +8,7 @@ use crate::assembly::Assembly;
 use crate::campaign::Campaign;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
-use crate::engine::{Build, Fit, Ground, fit};
+use crate::engine::{Build, Fit, Ground, Own, fit};
 use crate::search::finish;
 use crate::starts::padded;
 
@@ -158,15 +158,24 @@ impl Explanation {
     pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
         let own = &self.fit.own[self.own_of(number)];
         let parts = vec![self.parts[number].clone()];
+        let fit = self.with_parts_replaced(&parts, own, campaign)?;
+        Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
+    }
+
+    /// The nominal model alone, fitted anew on the same knots from where it is beside the effects.
+    pub(crate) fn without_parts(&self, campaign: &Campaign) -> Option<Self> {
+        self.with_parts_replaced(&[], &[], campaign).map(Self::nominal)
+    }
+
+    fn with_parts_replaced(&self, parts: &[Part], own: &[Own], campaign: &Campaign) -> Option<Fit> {
         let values: Vec<f64> = own.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
         linear.b.truncate(linear.a.len());
         linear.f.truncate(self.fit.grid.len());
         linear.d.clear();
-        let start = padded(&linear, self.fit.grid.len(), &assembled(&parts, &values));
+        let start = padded(&linear, self.fit.grid.len(), &assembled(parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
-        let fit = fit(ground, &|values| assembled(&parts, values), own, &start, ALONE)?;
-        Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
+        fit(ground, &|values| assembled(parts, values), own, &start, ALONE)
     }
 
     /// The same explanation with border knots placed anew, where that is better.

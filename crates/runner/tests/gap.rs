@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, listing};
+use common::{Folder, listing, verdict_on_made};
 use serde_json::Value;
 use std::fs;
 use switchback_gap::Effect;
@@ -82,6 +82,12 @@ fn a_rig_without_a_gap_has_none() {
     for field in ["effect", "stage", "probability", "parameters", "bic", "heldout_log_score", "closure"] {
         assert!(candidate.get(field).is_some(), "{field}");
     }
+}
+
+#[test]
+fn an_effect_that_rides_on_the_knots_of_curved_borders_is_no_cause() {
+    let verdict = verdict_on_made(&["--seed", "1704405990122765189", "--order", "2"]);
+    assert_eq!(verdict["status"], "none", "{verdict:#}");
 }
 
 #[test]

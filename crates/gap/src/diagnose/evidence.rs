@@ -29,7 +29,14 @@ pub(super) struct Evidence {
 impl Plan {
     /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
     /// counts from then on.
-    pub(super) fn gather(&self, attribution: &Attribution<'_, impl Workers>) -> Evidence {
+    pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
+        let attribution = &Attribution {
+            campaign: &self.campaign,
+            settings: &self.settings,
+            nominal: &self.nominal.plain,
+            detailed: &self.nominal.detailed,
+            workers,
+        };
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
         if (evidence.leaves_something() || evidence.is_coloured())
             && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
@@ -61,12 +68,13 @@ impl Plan {
         singles.retain(Explanation::may_be_a_cause);
         self.hear_the_held_out(workers, &mut singles);
         let all = singles.clone();
-        let significant = singles.first().is_some_and(|s| s.bic() < self.nominal.bic() - 0.5 * SIGNIFICANT);
+        let significant =
+            singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
             self.drop_what_held_out_records_refute(&mut singles);
         }
-        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal).clone();
+        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
         Evidence { all, singles, significant, best, tests, pair: None }
     }

@@ -43,7 +43,7 @@ impl Plan {
     /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
     /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
     pub(super) fn hear_the_held_out(&self, workers: &impl Workers, singles: &mut [Explanation]) {
-        let Some(nominal) = self.score(&self.nominal.fit) else { return };
+        let Some(nominal) = self.score(&self.nominal.plain.fit) else { return };
         let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
         let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
         let heard = workers.map(singles, |s| (self.score(&s.fit), self.simulation_error(&s.fit)));
@@ -52,14 +52,14 @@ impl Plan {
             Criterion::OneStep => nominal,
             Criterion::Simulation { .. } => heard.iter().filter_map(|h| h.0).fold(nominal, f64::max),
         };
-        let nominal_error = self.simulation_error(&self.nominal.fit);
+        let nominal_error = self.simulation_error(&self.nominal.plain.fit);
         for (single, (score, error)) in singles.iter_mut().zip(heard) {
             let lost = score.map_or(0.0, |s| reference - s);
             let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
             single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
             if error > RUNAWAY * nominal_error {
                 // What runs away on other records is no account of these either.
-                single.held_out += (self.nominal.bic() - single.bic()).max(0.0);
+                single.held_out += (self.nominal.plain.bic() - single.bic()).max(0.0);
             }
         }
         singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
@@ -93,10 +93,10 @@ impl Plan {
             repeating.add(track, &error);
         }
         let error = |s: &Explanation| self.simulation_error(&s.fit);
-        let gained = self.nominal.evidence() - best.evidence();
+        let gained = self.nominal.plain.evidence() - best.evidence();
         let rivals = singles.iter().filter(|s| {
             let effect = s.parts[0].effect;
-            let serious = self.nominal.evidence() - s.evidence() > SERIOUS * gained;
+            let serious = self.nominal.plain.evidence() - s.evidence() > SERIOUS * gained;
             serious && !effect.is_noise() && !effect.is_of_its_record()
         });
         let least = rivals.map(error).fold(f64::INFINITY, f64::min);

@@ -62,7 +62,7 @@ impl Plan {
             Criterion::OneStep => fit.power,
             Criterion::Simulation { .. } => self.unforeseeable(fit).0,
         };
-        power.min(self.nominal.fit.power).max(1e-300)
+        power.min(self.nominal.plain.fit.power).max(1e-300)
     }
 
     /// Every judged record simulated by the model under diagnosis and by another.

@@ -12,7 +12,6 @@ use switchback_estimator::rig::Rig;
 use self::evidence::Evidence;
 use self::foreign::Foreign;
 use self::report::Conclusion;
-use crate::attribution::Attribution;
 use crate::campaign::Campaign;
 use crate::decide::verdict;
 use crate::diagnosis::{Diagnosis, Status};
@@ -20,10 +19,9 @@ use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::explain::Explanation;
 use crate::knots::detail;
-use crate::odds::{Leavings, holds_together, odds, odds_together};
+use crate::odds::{Leavings, SIGNIFICANT, holds_together, odds, odds_together};
 use crate::omnibus::omnibus;
 use crate::order::{Choice, Chosen, declared, structure};
-use crate::score::innovations;
 use crate::settings::{Model, Settings};
 use crate::simulate::free_run;
 use crate::simulators::weighed_by_closure;
@@ -53,20 +51,21 @@ pub fn diagnose_with(
 ) -> Result<Diagnosis, DiagnoseError> {
     let records = Campaign::new(rig)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
-    let conclude = |plan: Plan| {
+    let conclude = |mut plan: Plan| {
         let conclusion = plan.attribute(workers);
         plan.report(workers, conclusion)
     };
-    let (steps, simulator) = match structure(workers, records, declared(rig, &model)?, settings.max_order)? {
-        Choice::One(chosen) => return Ok(conclude(plan(chosen)?)),
-        Choice::Either(steps, simulator) => (plan(steps)?, simulator),
-    };
+    let (mut steps, simulator) =
+        match structure(workers, records, declared(rig, &model)?, settings.max_order)? {
+            Choice::One(chosen) => return Ok(conclude(plan(chosen)?)),
+            Choice::Either(steps, simulator) => (plan(steps)?, simulator),
+        };
     let by_steps = steps.attribute(workers);
     let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
     if told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
         return Ok(steps.report(workers, by_steps));
     }
-    let runs = plan(simulator.chosen())?;
+    let mut runs = plan(simulator.chosen())?;
     let by_runs = runs.attribute(workers);
     // What a simulator leaves alone may be what it cannot see.
     match (by_steps.verdict.status, by_runs.verdict.status) {
@@ -81,10 +80,7 @@ struct Plan {
     settings: Settings,
     campaign: Campaign,
     /// The nominal model as identified here.
-    nominal: Explanation,
-    /// The same with border knots placed from the data.
-    detailed: Explanation,
-    nominal_innovations: Vec<Vec<f64>>,
+    nominal: Nominal,
     /// The model under diagnosis, where it is not the identified one.
     foreign: Option<Foreign>,
     /// Tracks the gap is measured on, and what the model under diagnosis makes of them.
@@ -106,40 +102,43 @@ impl Plan {
         let judged = judged_tracks(&campaign, &mut limitations);
         let foreign = Foreign::of(model, rig, &campaign, &judged)?;
         note_what_the_records_lack(&campaign, &mut limitations);
-        let detailed = Explanation::nominal(fit);
-        let nominal = coarse(&campaign, &detailed);
-        // Where details of the borders are no candidate, no other may take what knots that follow them gain.
-        let follows = settings.effects.contains(&Effect::BorderResolution);
-        let detailed = if follows { detailed } else { nominal.clone() };
-        let run = |&k: &usize| free_run(&campaign, &nominal.fit, k, &campaign.tracks[k]);
+        let nominal = Nominal::new(&campaign, &settings, Explanation::nominal(fit));
         let runs = match &foreign {
             Some(foreign) => foreign.runs.clone(),
-            None => judged.iter().map(run).collect(),
+            None => nominal.runs(&campaign, &judged),
         };
-        let nominal_innovations = innovations(&campaign, &nominal.fit, |t| t.is_fit());
-        Ok(Self {
-            settings,
-            campaign,
-            nominal,
-            detailed,
-            nominal_innovations,
-            foreign,
-            judged,
-            runs,
-            limitations,
-        })
+        Ok(Self { settings, campaign, nominal, foreign, judged, runs, limitations })
+    }
+
+    /// Founds the diagnosis on another optimum of the nominal model.
+    fn found_on(&mut self, nominal: Nominal) {
+        if self.foreign.is_none() {
+            self.runs = nominal.runs(&self.campaign, &self.judged);
+        }
+        self.nominal = nominal;
+    }
+
+    /// The nominal model on the grid of the best explanation, where that is smooth, though it seemed to follow details, and the effect
+    /// gains nothing on it: the borders are curved, and the effect only rides on the knots.
+    fn on_the_grid_of(&self, best: &Explanation) -> Option<Nominal> {
+        let least = self.nominal.plain.bic() - SIGNIFICANT;
+        best.without_parts(&self.campaign).filter(|alone| alone.bic() < least)?;
+        let smooth = best.on_a_smooth_grid(&self.campaign)?;
+        let plain = smooth.without_parts(&self.campaign).filter(|alone| alone.bic() < least)?;
+        let rides = smooth.bic() > plain.bic() - SIGNIFICANT;
+        let detailed =
+            [&plain, &self.nominal.detailed].into_iter().min_by(|x, y| x.bic().total_cmp(&y.bic()))?.clone();
+        rides.then_some(Nominal { plain, detailed })
     }
 
     /// Ranks the candidates and draws the conclusions.
-    fn attribute(&self, workers: &impl Workers) -> Conclusion {
-        let attribution = Attribution {
-            campaign: &self.campaign,
-            settings: &self.settings,
-            nominal: &self.nominal,
-            detailed: &self.detailed,
-            workers,
-        };
-        let Evidence { singles, significant, best, mut tests, pair, .. } = self.gather(&attribution);
+    fn attribute(&mut self, workers: &impl Workers) -> Conclusion {
+        let mut evidence = self.gather(workers);
+        if let Some(better) = self.on_the_grid_of(&evidence.best) {
+            self.found_on(better);
+            evidence = self.gather(workers);
+        }
+        let Evidence { singles, significant, best, mut tests, pair, .. } = evidence;
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
@@ -147,14 +146,14 @@ impl Plan {
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
         let refuted = significant && (self.hardly_closes(&best, left) || self.misses_at_places(&best));
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
-        let mut odds = odds(self.nominal.bic(), &effects, leaves);
+        let mut odds = odds(self.nominal.plain.bic(), &effects, leaves);
         let mut joint = None;
         let gains: Vec<(Effect, f64)> =
-            singles.iter().map(|s| (s.parts[0].effect, self.nominal.bic() - s.bic())).collect();
+            singles.iter().map(|s| (s.parts[0].effect, self.nominal.plain.bic() - s.bic())).collect();
         let found = pair.as_ref().map(|pair| self.together(workers, pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
             let causes = pair.causes(&gains, samples);
-            let together = odds_together(self.nominal.bic(), &pair, &causes, &effects);
+            let together = odds_together(self.nominal.plain.bic(), &pair, &causes, &effects);
             let (explanation, pair_left) = (pair.explanation, pair.left);
             let misses = causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation);
             let holds = self.better_held_out(&explanation, &best)
@@ -178,10 +177,34 @@ impl Plan {
         let causes = joint.as_ref().map(|(_, causes)| causes);
         let verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
         let augmented = match verdict.status {
-            Status::None => self.nominal.clone(),
+            Status::None => self.nominal.plain.clone(),
             _ => joint.map_or(best, |(explanation, _)| explanation),
         };
         Conclusion { singles, odds, verdict, augmented, left, together: found }
+    }
+}
+
+/// The nominal model.
+#[derive(Debug)]
+struct Nominal {
+    /// Without knots that follow details of the borders.
+    plain: Explanation,
+    /// With border knots placed from the data; the same where details are no candidate.
+    detailed: Explanation,
+}
+
+impl Nominal {
+    fn new(campaign: &Campaign, settings: &Settings, detailed: Explanation) -> Self {
+        let plain = coarse(campaign, &detailed);
+        // Where details of the borders are no candidate, no other may take what knots that follow them gain.
+        let follows = settings.effects.contains(&Effect::BorderResolution);
+        let detailed = if follows { detailed } else { plain.clone() };
+        Self { plain, detailed }
+    }
+
+    /// Free runs over some tracks.
+    fn runs(&self, campaign: &Campaign, tracks: &[usize]) -> Vec<Vec<f64>> {
+        tracks.iter().map(|&k| free_run(campaign, &self.plain.fit, k, &campaign.tracks[k])).collect()
     }
 }
 

@@ -40,7 +40,7 @@ impl Plan {
                     .into(),
             );
         }
-        let nominal_score = self.score(&self.nominal.fit);
+        let nominal_score = self.score(&self.nominal.plain.fit);
         gap.predictive_gain =
             self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
         if campaign.criterion.simulates() {
@@ -64,7 +64,7 @@ impl Plan {
         }
         candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
         let where_ = self.map(&c.augmented.fit, floor.0);
-        let before = picture(campaign, &self.nominal_innovations);
+        let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
         let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
         Diagnosis {
@@ -88,7 +88,7 @@ impl Plan {
     /// `G²` of the identified nominal model, where another was given.
     fn identified_anew(&self, floor: (f64, f64)) -> Option<Figure> {
         self.foreign.as_ref()?;
-        let runs = self.simulations(&self.nominal.fit);
+        let runs = self.simulations(&self.nominal.plain.fit);
         Some(measure(&self.campaign, &runs, floor, (self.settings.seed, self.settings.resamples)).after)
     }
 
@@ -99,7 +99,7 @@ impl Plan {
         match &self.foreign {
             Some(Foreign { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
             Some(Foreign { residuals, .. }) => localise(&self.campaign, residuals, floor),
-            None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.fit), floor),
+            None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.plain.fit), floor),
         }
     }
 
@@ -114,7 +114,7 @@ impl Plan {
             stage: effect.stage(),
             probability: p,
             parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
-            bic: s.bic() - self.nominal.bic(),
+            bic: s.bic() - self.nominal.plain.bic(),
             heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
         }
