@@ -4,6 +4,7 @@ mod evidence;
 mod foreign;
 mod held_out;
 mod judged;
+mod nominal;
 mod parameters;
 mod report;
 
@@ -11,6 +12,7 @@ use switchback_estimator::rig::Rig;
 
 use self::evidence::Evidence;
 use self::foreign::Foreign;
+use self::nominal::Nominal;
 use self::report::Conclusion;
 use crate::campaign::Campaign;
 use crate::decide::verdict;
@@ -18,12 +20,10 @@ use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::explain::Explanation;
-use crate::knots::detail;
 use crate::odds::{Leavings, SIGNIFICANT, holds_together, odds, odds_together};
 use crate::omnibus::omnibus;
 use crate::order::{Choice, Chosen, declared, structure};
 use crate::settings::{Model, Settings};
-use crate::simulate::free_run;
 use crate::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
 
@@ -181,38 +181,6 @@ impl Plan {
             _ => joint.map_or(best, |(explanation, _)| explanation),
         };
         Conclusion { singles, odds, verdict, augmented, left, together: found }
-    }
-}
-
-/// The nominal model.
-#[derive(Debug)]
-struct Nominal {
-    /// Without knots that follow details of the borders.
-    plain: Explanation,
-    /// With border knots placed from the data; the same where details are no candidate.
-    detailed: Explanation,
-}
-
-impl Nominal {
-    fn new(campaign: &Campaign, settings: &Settings, detailed: Explanation) -> Self {
-        let plain = coarse(campaign, &detailed);
-        // Where details of the borders are no candidate, no other may take what knots that follow them gain.
-        let follows = settings.effects.contains(&Effect::BorderResolution);
-        let detailed = if follows { detailed } else { plain.clone() };
-        Self { plain, detailed }
-    }
-
-    /// Free runs over some tracks.
-    fn runs(&self, campaign: &Campaign, tracks: &[usize]) -> Vec<Vec<f64>> {
-        tracks.iter().map(|&k| free_run(campaign, &self.plain.fit, k, &campaign.tracks[k])).collect()
-    }
-}
-
-/// The model without the knots that follow details, where these matter; else the model itself.
-fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
-    match detailed.on_a_smooth_grid(campaign) {
-        Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
-        _ => detailed.clone(),
     }
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn profiled(
 }
 
 impl Task<'_> {
-    /// How far an own parameter may move to one side before the deviance leaves the interval, or its range ends.
+    /// Where an own parameter that moves to one side leaves the interval, or its range ends.
     fn end(&self, fit: &Fit, j: usize, side: f64) -> f64 {
         let o = fit.own[j];
         let most = if side > 0.0 { o.high - o.value } else { o.value - o.low };
