@@ -2,14 +2,19 @@
 
 mod common;
 
-use common::{diagnosis_of_made, verdict_on_made};
+use common::diagnosis_of_made;
 use serde_json::Value;
 
-/// The effects named on a made rig with two of them, sorted.
-fn named([one, other]: [&str; 2], size: &str, [seed, order]: [&str; 2]) -> Vec<String> {
+/// The diagnosis of a made rig with two effects.
+fn diagnosis([one, other]: [&str; 2], size: &str, [seed, order]: [&str; 2]) -> Value {
     let effects = ["--effect", one, "--effect", other];
     let what = ["--size", size, "--seed", seed, "--order", order];
-    let verdict = verdict_on_made(&[&effects[..], &what].concat());
+    diagnosis_of_made(&[&effects[..], &what].concat())
+}
+
+/// The effects named on it, sorted.
+fn named(put_in: [&str; 2], size: &str, seed_and_order: [&str; 2]) -> Vec<String> {
+    let verdict = &diagnosis(put_in, size, seed_and_order)["verdict"];
     let effects = verdict["effects"].as_array().expect("a list");
     let mut names: Vec<String> = effects.iter().filter_map(Value::as_str).map(String::from).collect();
     names.sort_unstable();
@@ -54,9 +59,7 @@ fn a_slow_lag_is_found_beside_friction_that_rules_the_dynamics() {
 
 #[test]
 fn friction_behind_coarse_rounding_is_told_as_it_is_beside_it() {
-    let effects = ["--effect", "sensor_quantisation", "--effect", "rate_dependence"];
-    let what = ["--size", "4", "--seed", "16227372047960906123", "--order", "1"];
-    let page = diagnosis_of_made(&[&effects[..], &what].concat());
+    let page = diagnosis(["sensor_quantisation", "rate_dependence"], "4", ["16227372047960906123", "1"]);
     assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(2), "{:#}", page["verdict"]);
     let together = &page["together"];
     let of = |effect: &str| {
