@@ -64,7 +64,7 @@ pub(crate) fn detail(campaign: &Campaign) -> f64 {
 }
 
 /// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
-const ROUGH: f64 = 0.4;
+const ROUGH: f64 = 1.0 / 3.0;
 
 /// The same, as fine as smooth borders ask for: a finer grid may follow a detail all along the borders.
 pub(crate) fn smoothly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
