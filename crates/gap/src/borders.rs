@@ -18,6 +18,11 @@ impl Grid {
         self.knots[0].len() + self.knots[1].len()
     }
 
+    /// Where a border jumps.
+    pub(crate) fn jumps(&self, side: usize) -> impl Iterator<Item = f64> {
+        self.knots[side].windows(2).filter(|w| w[0] == w[1]).map(|w| w[0])
+    }
+
     /// The two border values that carry `v` on a border, with their weights (linear interpolation; constant outside).
     pub(crate) fn hat(&self, side: usize, v: f64) -> [(usize, f64); 2] {
         self.hat_before(side, self.knots[side].partition_point(|&k| k < v), v)

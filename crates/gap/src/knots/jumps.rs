@@ -106,7 +106,7 @@ const BY: [usize; 9] = [1, 2, 3, 5, 8, 12, 20, 35, 60];
 
 /// Jumps moved to where the neighbouring samples want them; nothing where none should move.
 fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
-    if best.grid.knots.iter().all(|knots| knots.windows(2).all(|w| w[0] != w[1])) {
+    if (0..2).all(|s| best.grid.jumps(s).next().is_none()) {
         return None;
     }
     let design = Design::like(Some(&best.design), model.campaign, &best.grid, &best.assembly);
@@ -119,7 +119,7 @@ fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
     let mut changed = false;
     for s in 0..2 {
         let knots = &best.grid.knots[s];
-        for from in knots.windows(2).filter(|w| w[0] == w[1]).map(|w| w[0]) {
+        for from in best.grid.jumps(s) {
             let found = [false, true].into_iter().filter_map(|up| {
                 // No further than the next knot.
                 let beyond = |k: &&f64| if up { **k > from } else { **k < from };

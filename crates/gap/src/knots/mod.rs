@@ -75,8 +75,18 @@ pub(crate) fn smoothly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> 
     Some(if unforetold > ROUGH && is_detail { first } else { fine })
 }
 
+/// The first grid, with the jumps found where no experiment has set levels: a border may be discontinuous (Rochdi et al. 2009,
+/// Assumption 1), and only where it is tabulated at levels can a jump between them be finer than the table.
 fn on_first_grid(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    refitted(campaign, fitted, &first_grid(campaign), build)
+    let mut grid = first_grid(campaign);
+    if campaign.levels.is_empty() {
+        for side in 0..2 {
+            for jump in fitted.grid.jumps(side) {
+                grid.insert(side, jump, true);
+            }
+        }
+    }
+    refitted(campaign, fitted, &grid, build)
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.

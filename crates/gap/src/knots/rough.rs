@@ -20,17 +20,19 @@ pub(super) fn roughness(coarse: &Grid, fine: &Grid, f: &[f64]) -> f64 {
             fine.knots[side].iter().copied().zip(f[offset..].iter().copied()).collect();
         let known: Vec<(f64, f64)> =
             knots.iter().filter(|(v, _)| coarse.knots[side].contains(v)).copied().collect();
-        for right in 1..known.len() {
-            let inside =
-                knots.iter().filter(|(v, _)| (known[right - 1].0..known[right].0).contains(v)).skip(1);
-            let missed = |reach: usize| -> f64 {
-                let points = &known[right.saturating_sub(reach)..(right + reach).min(known.len())];
-                inside.clone().map(|&(v, f)| (f - lagrange(points, v)).powi(2)).sum()
-            };
-            let [linear, cubic] = [1, 2].map(missed);
-            let is_end = right == 1 || right + 1 == known.len();
-            unforetold += if is_end { cubic.min(linear) } else { cubic };
-            all += linear;
+        // No polynomial goes across a jump.
+        for known in known.chunk_by(|left, right| left.0 < right.0) {
+            for right in 1..known.len() {
+                let inside = knots.iter().filter(|(v, _)| *v > known[right - 1].0 && *v < known[right].0);
+                let missed = |reach: usize| -> f64 {
+                    let points = &known[right.saturating_sub(reach)..(right + reach).min(known.len())];
+                    inside.clone().map(|&(v, f)| (f - lagrange(points, v)).powi(2)).sum()
+                };
+                let [linear, cubic] = [1, 2].map(missed);
+                let is_end = right == 1 || right + 1 == known.len();
+                unforetold += if is_end { cubic.min(linear) } else { cubic };
+                all += linear;
+            }
         }
     }
     if all > 0.0 { unforetold / all } else { 0.0 }
