@@ -47,6 +47,8 @@ pub(crate) enum Clock {
     Record,
     /// Travel of the whole campaign.
     Travel,
+    /// Share of the records that are over: between them time passes too, and nobody records how much.
+    Pauses,
 }
 
 /// A slow change `Σ_k c_k·s_k(t)` of a clock.

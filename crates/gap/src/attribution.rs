@@ -36,8 +36,8 @@ const FINISHED: usize = 4;
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
 /// Effects that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop that closes, a
-/// gain that changes, a slow lag before the plant, errors that last, a line; and a delay, of which `B` takes whole samples.
-const RULERS: [Effect; 8] = [
+/// gain that changes, a slow lag before the plant, errors that last, a line, a trend; and a delay, of which `B` takes whole samples.
+const RULERS: [Effect; 9] = [
     Effect::InputDelay,
     Effect::RateDependence,
     Effect::Stribeck,
@@ -46,6 +46,7 @@ const RULERS: [Effect; 8] = [
     Effect::ExtraPole,
     Effect::ColouredNoise,
     Effect::PeriodicDisturbance,
+    Effect::SensorDrift,
 ];
 /// How far behind the leader, as a share of its gain and in penalised deviance at least, a law goes on to convergence.
 const BEHIND: f64 = 0.3;

@@ -19,6 +19,8 @@ pub(crate) struct Track {
     pub(crate) y: Vec<f64>,
     /// Sample of the campaign at which the record starts, counting the records in the order of the file.
     pub(crate) clock: usize,
+    /// Records of the campaign before this one.
+    pub(crate) before: usize,
     /// Travel of the campaign before the record starts, strokes.
     pub(crate) travelled: f64,
     /// Period of the input in samples, where it repeats exactly.
@@ -154,6 +156,7 @@ impl Campaign {
                 v,
                 y,
                 clock,
+                before: tracks.len(),
                 travelled: 0.0,
                 period,
                 moves: Arc::default(),

@@ -38,6 +38,7 @@ pub(crate) fn propose(
             usage: Usage::Holdout,
             y: vec![0.0; v.len()],
             clock: campaign.total,
+            before: campaign.tracks.len(),
             travelled: campaign.travel,
             period: None,
             from: WARM_UP.min(v.len()),

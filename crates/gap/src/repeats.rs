@@ -78,6 +78,7 @@ mod tests {
             v: vec![0.0; length],
             y: vec![0.0; length],
             clock: 0,
+            before: 0,
             travelled: 0.0,
             period: Some(period),
             from: 12,

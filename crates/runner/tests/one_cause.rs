@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::verdict_on_made;
+use common::{diagnosis_of_made, verdict_on_made};
 use serde_json::{Value, json};
 
 /// The verdict on a made rig with one effect.
@@ -53,4 +53,13 @@ fn a_twin_that_gains_more_alone_is_a_rival_of_one_that_needs_a_correction() {
     let verdict = verdict("input_delay", "1", "4", ("9551534221114429084", "1"));
     assert_eq!(verdict["status"], "class", "{verdict:#}");
     assert_eq!(verdict["class"], json!(["input_delay", "extra_pole"]), "{verdict:#}");
+}
+
+#[test]
+fn a_zero_that_drifts_on_between_the_records_is_told_from_noise_that_lasts() {
+    let ramp = ["--effect", "sensor_drift", "--size", "4", "--seed", "6539456920451778020", "--order", "2"];
+    let diagnosis = diagnosis_of_made(&ramp);
+    assert_eq!(diagnosis["verdict"]["effects"], json!(["sensor_drift"]), "{:#}", diagnosis["verdict"]);
+    let closure = diagnosis["gap"]["closure"]["estimate"].as_f64();
+    assert!(closure.is_some_and(|closure| closure > 0.9), "{:#}", diagnosis["gap"]);
 }

@@ -4,7 +4,7 @@
 //! y = x + drift(t);  a slow drift enters the equation as A(1)·drift
 //! ```
 //!
-//! Laws: a line or cubic over the campaign, a line over each record (common slope), piecewise linear within each
+//! Laws: a line or cubic over the campaign, a line that goes on in the pauses between records, a line over each record (common slope), piecewise linear within each
 //! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
 
 use super::{Scene, Variant};
@@ -21,6 +21,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             }));
         }
     }
+    out.push(Variant::new(vec![Vec::new()], |_, assembly| {
+        let trend = |clock| EquationColumn::Trend { clock, degree: 1 };
+        assembly.equation_columns.extend([Clock::Campaign, Clock::Pauses].map(trend));
+    }));
     out.extend(PIECES.map(|pieces| piecewise(scene, pieces)));
     out
 }

@@ -82,6 +82,7 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
         Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
         Clock::Samples => (track.clock + t) as f64,
         Clock::Record => t as f64 / track.v.len() as f64,
+        Clock::Pauses => track.before as f64 / campaign.tracks.len() as f64,
         Clock::Travel => (track.travelled + path) / campaign.travel,
     }
 }
