@@ -3,8 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::campaign::Campaign;
 use crate::diagnosis::{Figure, Gap, RecordGap};
+use crate::records::campaign::Campaign;
 
 /// Simulations of one record, dimensionless.
 pub(crate) struct Simulated {

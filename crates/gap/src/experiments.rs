@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 
 use switchback_estimator::rig::{Role, Usage};
 
-use crate::campaign::{Campaign, Track, WARM_UP};
+use crate::attribution::explain::Explanation;
 use crate::diagnosis::{ExperimentKind, NextExperiment, Status, Verdict};
-use crate::explain::Explanation;
-use crate::motion::{Play, motions};
-use crate::simulate::free_run;
+use crate::records::campaign::{Campaign, Track, WARM_UP};
+use crate::records::motion::{Play, motions};
+use crate::simulation::simulate::free_run;
 
 /// Samples of a proposed record.
 const LENGTH: usize = 1500;

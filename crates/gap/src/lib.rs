@@ -1,58 +1,44 @@
-//! The sim-to-real gap of a switched-hysteresis model.
+//! The sim-to-real gap of a switched-hysteresis model: where it lies, which unmodelled effect causes it, how far it closes.
+//!
+//! Start at [`diagnose()`]: a rig in, a [`Diagnosis`] out. Behind it, in the order in which a diagnosis passes through them:
+//!
+//! | room | what it does |
+//! |---|---|
+//! | `records` | the rig's records in dimensionless form, what moved and what repeats |
+//! | `nominal` | the model without effects: identified, of an order chosen, border knots placed; or given |
+//! | `effects` | one effect a file: its laws, as additions to the model |
+//! | `model` | what is fitted: borders, an assembly of effects, a sensor's characteristic |
+//! | `likelihood` | rows, derivatives, weights and whitening of an assembly, and its maximum likelihood |
+//! | `least_squares` | the normal equations beneath |
+//! | `attribution` | effects looked at, fitted, composed: explanations, best first |
+//! | `residuals` | what an explanation leaves: omnibus tests, spectra, scores |
+//! | `simulation` | free runs of what is fitted |
+//! | `verdict` | calibrated odds of the explanations, and what is told |
+//! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
+//! | `diagnose`, `diagnosis` | the order of all this, and its report |
+//!
+//! [`workbench`] makes rigs with known causes by plain loops: the oracle of the rest.
 
-mod acting;
-mod assembly;
 mod attribution;
-mod beginnings;
-mod borders;
-mod campaign;
 mod closure;
-mod clustering;
-mod decide;
-mod dense_sums;
-mod design;
 mod diagnose;
 mod diagnosis;
-mod dynamics;
 mod effect;
 mod effects;
-mod engine;
 mod error;
 mod experiments;
-mod explain;
-mod forwards;
-mod gains;
-mod given;
-mod jacobian;
-mod knots;
-mod lattice;
-mod linear;
+mod least_squares;
+mod likelihood;
 mod localise;
-mod mask;
-mod mixed_sums;
-mod motion;
-mod noise_response;
-mod noise_size;
+mod model;
 mod nominal;
-mod normal;
-mod odds;
-mod omnibus;
-mod order;
-mod pairs;
-mod repeats;
-mod rows;
-mod score;
-mod search;
-mod sensor;
+mod records;
+mod residuals;
 mod settings;
-mod simulate;
-mod simulators;
-mod spectral;
-mod spectrum;
-mod starts;
-mod sums;
-mod weights;
-mod whitener;
+mod simulation;
+#[cfg(test)]
+mod testing;
+mod verdict;
 pub mod workbench;
 mod workers;
 
@@ -65,5 +51,3 @@ pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
 pub use settings::{Model, NominalModel, Settings};
 pub use workers::{Serial, Workers};
-#[cfg(test)]
-mod testing;

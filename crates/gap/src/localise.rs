@@ -2,11 +2,11 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::campaign::Campaign;
 use crate::diagnosis::Cell;
-use crate::engine::Fit;
-use crate::motion::Motion;
-use crate::score::innovations;
+use crate::likelihood::engine::Fit;
+use crate::records::campaign::Campaign;
+use crate::records::motion::Motion;
+use crate::residuals::score::innovations;
 
 /// Residual and circumstances of one sample.
 struct Sample {
@@ -156,7 +156,7 @@ fn spectrum_cells(cells: &mut Vec<Cell>, innovations: &[Vec<f64>], variance: f64
     let mut sums = [0.0; BANDS];
     let mut count = 0.0;
     for segment in innovations.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
-        let power = crate::spectrum::power(segment, SEGMENT);
+        let power = crate::residuals::spectrum::power(segment, SEGMENT);
         for (k, p) in power.iter().enumerate().skip(1).take(SEGMENT / 2 - 1) {
             sums[k * BANDS / (SEGMENT / 2)] += p / (SEGMENT as f64 * variance) - 1.0;
         }

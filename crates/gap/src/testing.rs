@@ -3,11 +3,11 @@
 use switchback_estimator::Record;
 use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
-use crate::assembly::{Assembly, convolve};
-use crate::borders::Grid;
-use crate::campaign::Campaign;
-use crate::design::Design;
-use crate::linear::Linear;
+use crate::likelihood::design::Design;
+use crate::model::assembly::{Assembly, convolve};
+use crate::model::borders::Grid;
+use crate::model::linear::Linear;
+use crate::records::campaign::Campaign;
 
 /// A short free record with rests and reversals of many sizes, and a grid with a jump.
 pub(crate) fn small_campaign() -> (Campaign, Grid) {

@@ -1,13 +1,13 @@
 //! What the fits say before anything is weighed.
 
 use super::Plan;
-use crate::attribution::Attribution;
+use crate::attribution::contest::Attribution;
+use crate::attribution::explain::Explanation;
+use crate::attribution::pairs::{Firsts, Pair};
+use crate::attribution::search::on_a_free_course;
 use crate::effect::Effect;
-use crate::explain::Explanation;
-use crate::odds::{IMMATERIAL, SIGNIFICANT};
-use crate::omnibus::{Omnibus, omnibus};
-use crate::pairs::{Firsts, Pair};
-use crate::search::on_a_free_course;
+use crate::residuals::omnibus::{Omnibus, omnibus};
+use crate::verdict::odds::{IMMATERIAL, SIGNIFICANT};
 use crate::workers::Workers;
 
 /// Single effects and the best pair of them.

@@ -2,11 +2,11 @@
 
 use switchback_estimator::rig::{Rig, RigRecord};
 
-use crate::campaign::{Campaign, Track};
 use crate::error::DiagnoseError;
 use crate::localise::Residuals;
+use crate::records::campaign::{Campaign, Track};
 use crate::settings::Model;
-use crate::simulate::free_run;
+use crate::simulation::simulate::free_run;
 
 /// A model as it was given: nothing of it is fitted.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ impl Foreign {
         Ok(match model {
             Model::Identify => None,
             Model::Given(model) => {
-                let given = crate::given::scaled(campaign, model)?;
+                let given = crate::nominal::given::scaled(campaign, model)?;
                 let run = |&k: &usize| free_run(campaign, &given, k, &campaign.tracks[k]);
                 Some(Self {
                     runs: judged.iter().map(run).collect(),

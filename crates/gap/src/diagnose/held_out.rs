@@ -1,20 +1,20 @@
 //! What the held-out records say about the explanations.
 
 use super::Plan;
-use crate::campaign::Criterion;
+use crate::attribution::explain::Explanation;
 use crate::closure::measure;
-use crate::clustering::come_where_the_input_is;
 use crate::diagnosis::Gap;
 use crate::effect::Effect;
-use crate::engine::Fit;
-use crate::explain::Explanation;
-use crate::lattice::worth;
-use crate::odds::IMMATERIAL;
-use crate::omnibus::omnibus;
-use crate::repeats::Repeating;
-use crate::score::heldout_log_score;
-use crate::simulate::free_run;
-use crate::spectrum::mean_square;
+use crate::likelihood::engine::Fit;
+use crate::records::campaign::Criterion;
+use crate::records::repeats::Repeating;
+use crate::residuals::clustering::come_where_the_input_is;
+use crate::residuals::lattice::worth;
+use crate::residuals::omnibus::omnibus;
+use crate::residuals::score::heldout_log_score;
+use crate::residuals::spectrum::mean_square;
+use crate::simulation::simulate::free_run;
+use crate::verdict::odds::IMMATERIAL;
 use crate::workers::Workers;
 
 /// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.

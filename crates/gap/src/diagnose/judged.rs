@@ -1,13 +1,13 @@
 //! Simulations of the judged records and the noise in them.
 
 use super::Plan;
-use crate::campaign::Criterion;
 use crate::closure::Simulated;
-use crate::engine::Fit;
-use crate::noise_response::NoiseResponse;
-use crate::sensor::SensorCurve;
-use crate::simulate::free_run;
-use crate::spectrum::unpredictable_variance;
+use crate::likelihood::engine::Fit;
+use crate::model::sensor::SensorCurve;
+use crate::records::campaign::Criterion;
+use crate::residuals::spectrum::unpredictable_variance;
+use crate::simulation::noise_response::NoiseResponse;
+use crate::simulation::simulate::free_run;
 
 impl Plan {
     /// Variance of the noise in the output and its relative standard error.

@@ -14,17 +14,17 @@ use self::evidence::Evidence;
 use self::foreign::Foreign;
 use self::nominal::Nominal;
 use self::report::Conclusion;
-use crate::campaign::Campaign;
-use crate::decide::verdict;
+use crate::attribution::explain::Explanation;
 use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
-use crate::explain::Explanation;
-use crate::odds::{Leavings, SIGNIFICANT, holds_together, odds, odds_together};
-use crate::omnibus::omnibus;
-use crate::order::{Choice, Chosen, declared, structure};
+use crate::nominal::order::{Choice, Chosen, declared, structure};
+use crate::records::campaign::Campaign;
+use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
-use crate::simulators::weighed_by_closure;
+use crate::verdict::decide::verdict;
+use crate::verdict::odds::{Leavings, SIGNIFICANT, holds_together, odds, odds_together};
+use crate::verdict::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.

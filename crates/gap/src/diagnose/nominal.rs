@@ -1,11 +1,11 @@
 //! The nominal model, with and without knots that follow details of the borders.
 
-use crate::campaign::Campaign;
+use crate::attribution::explain::Explanation;
 use crate::effect::Effect;
-use crate::explain::Explanation;
-use crate::knots::detail;
+use crate::nominal::knots::detail;
+use crate::records::campaign::Campaign;
 use crate::settings::Settings;
-use crate::simulate::free_run;
+use crate::simulation::simulate::free_run;
 
 /// The nominal model.
 #[derive(Debug)]

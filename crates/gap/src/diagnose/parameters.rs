@@ -1,9 +1,9 @@
 //! The parameters of an effect as it is told: those that were searched for, and those read off the data or the fit.
 
-use crate::campaign::Campaign;
+use crate::attribution::explain::Explanation;
 use crate::diagnosis::FittedParameter;
 use crate::effect::Effect;
-use crate::explain::Explanation;
+use crate::records::campaign::Campaign;
 
 /// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all own
 /// parameters of the explanation.

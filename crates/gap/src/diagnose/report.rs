@@ -3,16 +3,16 @@
 use super::Plan;
 use super::foreign::Foreign;
 use super::parameters::parameters;
+use crate::attribution::explain::Explanation;
+use crate::attribution::pairs::Pair;
+use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, Status, Together, Verdict};
 use crate::effect::Effect;
-use crate::engine::Fit;
-use crate::explain::Explanation;
+use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
-use crate::odds::Odds;
-use crate::pairs::Pair;
-use crate::score::{innovations, picture};
-use crate::search::profiled;
+use crate::residuals::score::{innovations, picture};
+use crate::verdict::odds::Odds;
 use crate::workers::Workers;
 
 /// What the report is made of.

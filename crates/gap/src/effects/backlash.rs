@@ -11,8 +11,8 @@
 //! a reversal threshold against noise on `v`.
 
 use super::{Scene, Search, Variant, own};
-use crate::campaign::Campaign;
-use crate::motion::Play;
+use crate::records::campaign::Campaign;
+use crate::records::motion::Play;
 
 /// Starts are this width times powers of a ratio, in strokes.
 const ANCHOR: f64 = 0.0006;
@@ -53,7 +53,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::motions;
+    use crate::records::motion::motions;
     use crate::testing::small_campaign;
 
     #[test]

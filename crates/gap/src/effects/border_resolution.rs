@@ -1,11 +1,11 @@
 //! The borders have more detail than the grid they are tabulated on.
 //!
-//! The nominal model already places its knots from the data ([`crate::knots`]); what remains for this effect is detail finer than
+//! The nominal model already places its knots from the data ([`crate::nominal::knots`]); what remains for this effect is detail finer than
 //! that placement resolves. A jump is finer than a table only where designed experiments tabulate the borders at levels; without them
 //! it is the border's own. Law: three times the knots. Stage: operator. Confused with: outliers, sensor effects.
 
 use super::{Scene, Variant};
-use crate::borders::Grid;
+use crate::model::borders::Grid;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let knots = scene.fit.grid.knots.clone().map(|knots| {

@@ -10,7 +10,7 @@
 //! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
 
 use super::{Variant, own};
-use crate::assembly::{BorderColumn, Clock, Slow};
+use crate::model::assembly::{BorderColumn, Clock, Slow};
 
 pub(super) fn variants() -> Vec<Variant> {
     let mut out = Vec::new();

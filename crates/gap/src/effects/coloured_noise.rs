@@ -8,7 +8,7 @@
 //! Confused with: output noise.
 
 use super::{Scene, Variant, own};
-use crate::spectrum::moving_average;
+use crate::residuals::spectrum::moving_average;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out: Vec<Variant> = [1, 2, 4, 6, 10, 20]
@@ -24,7 +24,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 })
                 .collect();
             Variant::conditional(starts, |p, assembly| {
-                assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, p);
+                assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, p);
             })
         })
         .collect();

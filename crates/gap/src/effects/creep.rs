@@ -16,9 +16,9 @@
 //! drifting the same way. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{EquationColumn, Relaxation, convolve};
-use crate::beginnings::begins_as_a_filter;
-use crate::engine::Fit;
+use crate::likelihood::engine::Fit;
+use crate::model::assembly::{EquationColumn, Relaxation, convolve};
+use crate::simulation::beginnings::begins_as_a_filter;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
@@ -83,7 +83,7 @@ fn poles(p: &[f64]) -> [f64; 4] {
 
 /// What the borders go on doing by themselves.
 mod after_effect {
-    use crate::assembly::BorderColumn;
+    use crate::model::assembly::BorderColumn;
 
     pub(super) fn logarithmic(scale: f64) -> BorderColumn {
         BorderColumn::RestingLog { scale }

@@ -10,9 +10,9 @@
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
 
 use super::{Scene, Sound, Variant, fitted_tracks, outlasts_the_records, own};
-use crate::assembly::EquationColumn;
-use crate::beginnings::begins_as_a_filter;
-use crate::engine::Fit;
+use crate::likelihood::engine::Fit;
+use crate::model::assembly::EquationColumn;
+use crate::simulation::beginnings::begins_as_a_filter;
 
 /// One way to lag.
 struct Lag {
@@ -74,7 +74,7 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                     assembly.equation_columns.extend(modes.iter().map(decay));
                 }
                 if lag.passes {
-                    assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
+                    assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
                 }
             });
             law.sound_if(sound)

@@ -16,10 +16,10 @@
 //! mid-line and loop alike. Confused with: border wear (the mid-line tells), sensor drift.
 
 use super::{Variant, own};
-use crate::assembly::{Assembly, Clock, EquationColumn, Slow};
-use crate::campaign::Campaign;
-use crate::engine::Fit;
-use crate::rows::clock;
+use crate::likelihood::engine::Fit;
+use crate::likelihood::rows::clock;
+use crate::model::assembly::{Assembly, Clock, EquationColumn, Slow};
+use crate::records::campaign::Campaign;
 
 /// Rates of a wave, radians over the clock.
 const RATES: [f64; 3] = [4.0, 9.0, 18.0];

@@ -12,7 +12,7 @@
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{BorderColumn, Transition, TransitionLaw};
+use crate::model::assembly::{BorderColumn, Transition, TransitionLaw};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing]

@@ -8,7 +8,7 @@
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
 use super::{Search, Variant, outlasts_the_records, own};
-use crate::engine::Own;
+use crate::likelihood::engine::Own;
 
 /// Delays of the positions tried within the first sample, and within each of the next few. A branch taken a sample too late costs
 /// more than any smooth part gains: the likelihood has a corner at every ratio of two moves that meet at a reversal.

@@ -12,7 +12,7 @@
 //! inverse variance of the equation error. The colour that the response gives the noise counts as well. Stage: input. Confused with:
 //! outliers, and coloured noise, which what is added to `u` is at order 2.
 
-use crate::assembly::InputNoise;
+use crate::model::assembly::InputNoise;
 
 use super::{Scene, Search, Variant, own};
 

@@ -2,8 +2,8 @@
 //! is confused with.
 //!
 //! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from own
-//! parameters to changes of an [`Assembly`]. The same assembly is fitted ([`crate::engine`]) and simulated
-//! ([`crate::simulate`]), and effects compose by being applied one after the other.
+//! parameters to changes of an [`Assembly`]. The same assembly is fitted ([`crate::likelihood::engine`]) and simulated
+//! ([`crate::simulation::simulate`]), and effects compose by being applied one after the other.
 
 mod backlash;
 mod border_resolution;
@@ -28,11 +28,11 @@ mod stribeck;
 
 use std::sync::Arc;
 
-use crate::assembly::Assembly;
-use crate::borders::Grid;
-use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::engine::{Fit, Own};
+use crate::likelihood::engine::{Fit, Own};
+use crate::model::assembly::Assembly;
+use crate::model::borders::Grid;
+use crate::records::campaign::Campaign;
 
 /// How the own parameters are searched after the starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@
 //! Confused with: input noise, a border jump between grid points.
 
 use super::{Scene, Variant};
-use crate::campaign::Track;
+use crate::records::campaign::Track;
 
 /// Exact repeats of the last output, as a share of the samples, that chance does not make: a sensor that holds its value
 /// leaves large errors too, but is another cause.

@@ -12,8 +12,8 @@
 use std::f64::consts::TAU;
 
 use super::{Scene, Variant, fitted_tracks, own};
-use crate::assembly::{Assembly, EquationColumn};
-use crate::spectrum::{share_of_line, sharpened, strongest_lines};
+use crate::model::assembly::{Assembly, EquationColumn};
+use crate::residuals::spectrum::{share_of_line, sharpened, strongest_lines};
 
 /// Highest frequency of a line, radians per sample.
 const FASTEST: f64 = 3.13;

@@ -10,7 +10,7 @@
 //! friction (which falls with speed), creep.
 
 use super::{Scene, Variant, own, typical_speed};
-use crate::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let scale = typical_speed(scene.campaign);

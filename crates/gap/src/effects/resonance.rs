@@ -10,9 +10,9 @@
 use nalgebra::Complex;
 
 use super::{Scene, Variant, fitted_tracks, outlasts_the_records, own};
-use crate::assembly::EquationColumn;
-use crate::engine::{Fit, Own};
-use crate::spectrum::strongest_lines;
+use crate::likelihood::engine::{Fit, Own};
+use crate::model::assembly::EquationColumn;
+use crate::residuals::spectrum::strongest_lines;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // A mode rings in the residual: its lines are the likeliest frequencies.
@@ -76,7 +76,7 @@ fn ringing(tracks: Vec<usize>, starts: Vec<Vec<Own>>, passes: bool) -> Variant {
                 }
             }
             if passes {
-                assembly.noise.ar = crate::assembly::times_monic(&assembly.noise.ar, &poles[1..]);
+                assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, &poles[1..]);
             }
         }
     })
@@ -121,7 +121,7 @@ fn undone(b: &[f64], pole: Complex<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::Linear;
+    use crate::model::linear::Linear;
 
     #[test]
     fn a_pole_that_the_numerator_undoes_is_found() {

@@ -8,7 +8,7 @@
 //! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
 
 use super::{Scene, Variant};
-use crate::assembly::{Clock, EquationColumn};
+use crate::model::assembly::{Clock, EquationColumn};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();

@@ -10,9 +10,9 @@
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
 use super::{Scene, Variant, own};
-use crate::engine::Own;
-use crate::forwards::Forwards;
-use crate::sensor::Bumps;
+use crate::likelihood::engine::Own;
+use crate::model::forwards::Forwards;
+use crate::model::sensor::Bumps;
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out: Vec<Variant> = [2, 6]

@@ -8,7 +8,7 @@
 //! A lattice too fine to matter is no cause.
 
 use super::{Scene, Variant};
-use crate::lattice::{is_material, lattice, worth};
+use crate::residuals::lattice::{is_material, lattice, worth};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let Some(step) = lattice(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {

@@ -9,8 +9,8 @@
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
 use super::{Scene, Variant, own};
-use crate::assembly::Saturation;
-use crate::sensor::Knee;
+use crate::model::assembly::Saturation;
+use crate::model::sensor::Knee;
 
 /// Ties at an extreme that chance does not make, in samples.
 const TIES: usize = 6;

@@ -11,7 +11,7 @@
 //! operator. Slow passages show a wider loop than fast ones, and only below `r_s`. Confused with: rate dependence.
 
 use super::{Scene, Variant, own, typical_speed};
-use crate::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);

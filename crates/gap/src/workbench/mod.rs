@@ -13,9 +13,9 @@ use switchback_estimator::Record;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
-use crate::campaign::Campaign;
 use crate::effect::Effect;
-use crate::nominal::identify;
+use crate::nominal::identify::identify;
+use crate::records::campaign::Campaign;
 use drive::Drive;
 use plant::Plant;
 

@@ -60,10 +60,10 @@ impl Plant {
         while left > 0 {
             if left >= 2 && rng.random::<f64>() < 0.5 {
                 let (r, w): (f64, f64) = (rng.random_range(0.4..0.85), rng.random_range(0.2..1.6));
-                a = crate::assembly::convolve(&a, &[1.0, -2.0 * r * w.cos(), r * r]);
+                a = crate::model::assembly::convolve(&a, &[1.0, -2.0 * r * w.cos(), r * r]);
                 left -= 2;
             } else {
-                a = crate::assembly::convolve(&a, &[1.0, -rng.random_range(0.1..0.85)]);
+                a = crate::model::assembly::convolve(&a, &[1.0, -rng.random_range(0.1..0.85)]);
                 left -= 1;
             }
         }
@@ -259,7 +259,7 @@ impl Plant {
             && e.choice[0] >= 0.5
         {
             let pole = 0.95 * e.magnitude;
-            a = crate::assembly::times_monic(&a, &[-pole]);
+            a = crate::model::assembly::times_monic(&a, &[-pole]);
             let gain = 1.0 - pole;
             return self.recursion(&a, gain, u, (dc, first), rng);
         }

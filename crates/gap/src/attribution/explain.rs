@@ -1,0 +1,230 @@
+//! Effects as an explanation: the best of their variants, fitted together with the nominal model.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::attribution::search::finish;
+use crate::attribution::starts::padded;
+use crate::effect::Effect;
+use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
+use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
+use crate::model::assembly::Assembly;
+use crate::records::campaign::Campaign;
+
+/// One effect of an explanation: which, and how its own parameters change the assembly.
+#[derive(Clone)]
+pub(crate) struct Part {
+    pub(crate) effect: Effect,
+    /// Which of the effect's laws.
+    pub(crate) law: usize,
+    pub(crate) apply: Apply,
+    pub(crate) sound: Sound,
+    /// Number of own parameters.
+    pub(crate) count: usize,
+    pub(crate) search: Search,
+    /// What the law adds to the deviance for its hidden freedom.
+    pub(crate) handicap: f64,
+}
+
+/// Rounds of a fit of one effect without the others.
+const ALONE: usize = 8;
+
+impl Part {
+    /// A law of an effect, given with its number.
+    pub(crate) fn of(effect: Effect, (law, variant): (usize, &Variant)) -> Self {
+        Self {
+            effect,
+            law,
+            apply: variant.apply.clone(),
+            sound: variant.sound,
+            count: variant.starts[0].len(),
+            search: variant.search,
+            handicap: variant.handicap,
+        }
+    }
+
+    /// Details of the borders: they are in the grid.
+    fn details() -> Self {
+        let apply: Apply = Arc::new(|_, _| {});
+        Self {
+            effect: Effect::BorderResolution,
+            law: 0,
+            apply,
+            sound: |_, _| true,
+            count: 0,
+            search: Search::Smooth,
+            handicap: 0.0,
+        }
+    }
+}
+
+impl fmt::Debug for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}({})", self.effect, self.count)
+    }
+}
+
+/// A nominal model with any number of effects, fitted together.
+#[derive(Debug, Clone)]
+pub(crate) struct Explanation {
+    pub(crate) parts: Vec<Part>,
+    pub(crate) fit: Fit,
+    /// Added to the deviance beside the handicaps of the laws: what the knots of another fit are worth.
+    pub(crate) set_back: f64,
+    /// Deviance lost on the held-out records against the nominal model.
+    pub(crate) held_out: f64,
+}
+
+impl Explanation {
+    /// The nominal model alone.
+    pub(crate) fn nominal(fit: Fit) -> Self {
+        Self { parts: Vec::new(), fit, set_back: 0.0, held_out: 0.0 }
+    }
+
+    /// The nominal model on a grid whose knots follow details of the borders.
+    pub(crate) fn detailed(fit: Fit) -> Self {
+        Self { parts: vec![Part::details()], fit, set_back: 0.0, held_out: 0.0 }
+    }
+
+    /// The same explanation and details of the borders beside it: knots placed anew are a part of their own.
+    pub(crate) fn with_details(self, campaign: &Campaign) -> Self {
+        let mut detailed = self.with_knots_refined(campaign);
+        detailed.parts.push(Part::details());
+        detailed
+    }
+
+    /// Penalised deviance: Bayesian information criterion plus the handicap.
+    pub(crate) fn bic(&self) -> f64 {
+        let handicap = self.parts.iter().map(|part| part.handicap).sum::<f64>() + self.set_back;
+        self.fit.deviance + handicap + self.fit.parameters * (self.fit.samples as f64).ln()
+    }
+
+    /// Penalised deviance and what the held-out records add to it.
+    pub(crate) fn evidence(&self) -> f64 {
+        self.bic() + self.held_out
+    }
+
+    /// Whether the own parameters of the law added last only weigh the samples.
+    pub(crate) fn only_weighs(&self) -> bool {
+        self.parts.last().is_some_and(|part| part.search == Search::Weights)
+    }
+
+    /// Whether the likelihood has corners in the own parameters of the law added last.
+    pub(crate) fn has_corners(&self) -> bool {
+        self.parts.last().is_some_and(|part| part.search.is_by_pattern())
+    }
+
+    /// The effects, in the order they were added.
+    pub(crate) fn effects(&self) -> Vec<Effect> {
+        self.parts.iter().map(|p| p.effect).collect()
+    }
+
+    /// Where the own parameters of one of the effects lie among those of all.
+    pub(crate) fn own_of(&self, number: usize) -> Range<usize> {
+        let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
+        from..from + self.parts[number].count
+    }
+
+    /// Whether it is what it says: neither the limit of another effect nor noise in disguise.
+    pub(crate) fn may_be_a_cause(&self) -> bool {
+        self.is_sound() && !self.disguises_noise()
+    }
+
+    /// Whether an effect of it is but the colour of the noise under another name.
+    pub(crate) fn disguises_noise(&self) -> bool {
+        self.parts.iter().any(|part| is_coloured_noise(part.effect, &self.fit))
+    }
+
+    /// Whether every law of it is still one of its effect, not the limit at which it is another one.
+    pub(crate) fn is_sound(&self) -> bool {
+        let values: Vec<f64> = self.fit.own.iter().map(|o| o.value).collect();
+        let mut rest = &values[..];
+        self.parts.iter().all(|part| {
+            let (own, later) = rest.split_at(part.count);
+            rest = later;
+            (part.sound)(own, &self.fit)
+        })
+    }
+
+    /// The same explanation, less likely.
+    pub(crate) fn set_back(mut self, by: f64) -> Self {
+        self.set_back += by;
+        self
+    }
+
+    /// One of the effects without the others, by the law and with the own parameters that it has beside them, the rest fitted
+    /// anew on the same knots.
+    pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
+        let own = &self.fit.own[self.own_of(number)];
+        let parts = vec![self.parts[number].clone()];
+        let fit = self.with_parts_replaced(&parts, own, campaign)?;
+        Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
+    }
+
+    /// The nominal model alone, fitted anew on the same knots from where it is beside the effects.
+    pub(crate) fn without_parts(&self, campaign: &Campaign) -> Option<Self> {
+        self.with_parts_replaced(&[], &[], campaign).map(Self::nominal)
+    }
+
+    fn with_parts_replaced(&self, parts: &[Part], own: &[Own], campaign: &Campaign) -> Option<Fit> {
+        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+        let mut linear = self.fit.linear.clone();
+        linear.b.truncate(linear.a.len());
+        linear.f.truncate(self.fit.grid.len());
+        linear.d.clear();
+        let start = padded(&linear, self.fit.grid.len(), &assembled(parts, &values));
+        let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
+        fit(ground, &|values| assembled(parts, values), own, &start, ALONE)
+    }
+
+    /// The same explanation with border knots placed anew, where that is better.
+    pub(crate) fn with_knots_refined(self, campaign: &Campaign) -> Self {
+        let refined = self
+            .on_knots(campaign, |free, build| Some(crate::nominal::knots::replace(campaign, free, build)));
+        match refined {
+            Some(refined) if refined.bic() < self.bic() => refined,
+            _ => self,
+        }
+    }
+
+    /// The same explanation without the knots that follow details of the borders here and there.
+    pub(crate) fn on_an_even_grid(&self, campaign: &Campaign) -> Option<Self> {
+        self.on_knots(campaign, |free, build| crate::nominal::knots::evenly(campaign, free, build))
+    }
+
+    /// The same, on a grid that follows no detail all along the borders either.
+    pub(crate) fn on_a_smooth_grid(&self, campaign: &Campaign) -> Option<Self> {
+        self.on_knots(campaign, |free, build| crate::nominal::knots::smoothly(campaign, free, build))
+    }
+
+    /// The same explanation on other knots: the own parameters stay while the knots move, then everything is fitted together.
+    /// Parameters with corners stay where their profile put them.
+    fn on_knots(&self, campaign: &Campaign, place: impl Fn(&Fit, &Build<'_>) -> Option<Fit>) -> Option<Self> {
+        let own = self.fit.own.clone();
+        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+        let mut free = self.fit.clone();
+        free.own.clear();
+        free.own_se.clear();
+        free.parameters -= own.len() as f64;
+        let assembly = assembled(&self.parts, &values);
+        let mut fit = place(&free, &|_| assembly.clone())?;
+        fit.parameters += own.len() as f64;
+        fit.own = own;
+        fit.own_se.clone_from(&self.fit.own_se);
+        let placed = Self { fit, ..self.clone() };
+        Some(if placed.fit.own.is_empty() { placed } else { finish(campaign, 0, &placed) })
+    }
+}
+
+/// The assembly of several parts, their own parameters one after the other.
+pub(crate) fn assembled(parts: &[Part], values: &[f64]) -> Assembly {
+    let mut assembly = Assembly::default();
+    let mut rest = values;
+    for part in parts {
+        let (own, later) = rest.split_at(part.count);
+        (part.apply)(own, &mut assembly);
+        rest = later;
+    }
+    assembly
+}

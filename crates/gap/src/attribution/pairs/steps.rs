@@ -1,0 +1,83 @@
+//! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
+
+use super::Firsts;
+use super::under_way::{PairSearch, RESTARTS};
+use crate::attribution::contest::Attribution;
+use crate::attribution::explain::Explanation;
+use crate::effect::Effect;
+use crate::workers::Workers;
+
+/// First effects that a second one is looked for on top of before the restarts, and the share of the best gain that a
+/// further one needs.
+const SEEDS: usize = 3;
+const SEED: f64 = 0.25;
+/// Further firsts while much is left.
+const TWINS: usize = 2;
+/// Single effects beside which details of the borders are looked for.
+const DETAILED: usize = 6;
+/// Share of the gap that the best pair may leave after the restarts: another law of its members seldom takes more.
+const FAR: f64 = 0.2;
+/// Times that laws and knots are sought in turn.
+const ROUNDS: usize = 2;
+
+impl<W: Workers> Attribution<'_, W> {
+    /// The best pair by a forward step and restarts.
+    ///
+    /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
+    /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
+    /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
+    /// then every law of both members and their twins, and border knots placed anew, with which another law may serve better. No
+    /// knot saves a hopeless pair.
+    pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
+        let serious = self.serious(singles);
+        let mut search = PairSearch::new(self, singles);
+        search.details(&serious[..serious.len().min(DETAILED)]);
+        for &effect in &serious {
+            let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
+            // A twin of what was tried finds the same seconds.
+            if search.tried.len() < SEEDS && !is_twin {
+                search.step(effect);
+            }
+        }
+        search.restart();
+        if search.leaves_much() || search.is_coloured() {
+            search.afresh();
+        }
+        if search.is_hopeless() {
+            return search.found.into_iter().next();
+        }
+        for &effect in &serious {
+            if search.tried.len() < SEEDS + RESTARTS + TWINS
+                && search.leaves_much()
+                && !search.tried.contains(&effect)
+            {
+                search.step(effect);
+            }
+        }
+        search.restart();
+        for _ in 0..ROUNDS {
+            let was_near = search.left_of_gap() < FAR;
+            if was_near {
+                search.every_law();
+            }
+            search.prefer_what_leaves_less();
+            search.place_knots_anew();
+            let may_gain = was_near || search.left_of_gap() < FAR;
+            if !may_gain || !search.leaves_much() {
+                break;
+            }
+        }
+        search.found.into_iter().next()
+    }
+
+    /// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they
+    /// are serious where nothing that may be the cause gains more.
+    fn serious(&self, singles: Firsts<'_>) -> Vec<Effect> {
+        let gained = |s: &Explanation| self.gain(Some(s));
+        let most = self.gain(singles.ranked.first());
+        let is_tails = |s: &&Explanation| s.parts[0].effect == Effect::Outliers;
+        let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
+        let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
+        tails.chain(others).map(|s| s.parts[0].effect).collect()
+    }
+}

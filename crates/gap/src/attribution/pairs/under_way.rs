@@ -1,0 +1,270 @@
+//! A search for two effects under way: its steps, and what they found.
+
+use super::Firsts;
+use crate::attribution::contest::{Attribution, Contest};
+use crate::attribution::explain::Explanation;
+use crate::attribution::search::{Question, from_scratch};
+use crate::attribution::starts::Known;
+use crate::effect::Effect;
+use crate::residuals::omnibus::omnibus;
+use crate::workers::Workers;
+
+/// Restarts from members of the best pair at most.
+pub(super) const RESTARTS: usize = 2;
+/// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
+const HOPELESS: f64 = 0.3;
+/// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
+const NEAR: f64 = 0.95;
+const NEARBY: usize = 3;
+/// Share of a first's gain that a second gains alone, from which its law is known.
+const CLEAR: f64 = 0.5;
+/// Share of the best pair's gain that is close to it, and how many such pairs are compared by what they leave.
+const CLOSE: f64 = 0.99;
+const RIVALS: usize = 6;
+/// Share of the gain by which a pair with large errors here and there must beat one without.
+const STOPGAP: f64 = 0.01;
+/// Pairs fitted to convergence on each first effect.
+const FINISHED: usize = 3;
+/// Times that a member of a pair is held as it is beside the other.
+const ROUNDS: usize = 2;
+
+/// A search for two effects under way.
+pub(super) struct PairSearch<'a, 'b, W> {
+    of: &'a Attribution<'b, W>,
+    singles: Firsts<'a>,
+    /// Firsts that seconds were looked for on.
+    pub(super) tried: Vec<Effect>,
+    /// Firsts that details of the borders were looked for on.
+    detailed: Vec<Effect>,
+    /// Pairs found, the best first: of every two laws the best.
+    pub(super) found: Vec<Explanation>,
+}
+
+impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
+    pub(super) fn new(of: &'a Attribution<'b, W>, singles: Firsts<'a>) -> Self {
+        Self { of, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() }
+    }
+
+    /// Looks for the best second beside a first.
+    pub(super) fn step(&mut self, first: Effect) {
+        self.tried.push(first);
+        let others = self.of.settings.effects.iter().filter(|e| is_another(first, **e));
+        let questions: Vec<Question> = others.map(|e| self.question(first, *e)).collect();
+        self.ask(first, &questions);
+        self.details(&[first]);
+    }
+
+    /// The law that served a second alone is asked after where it gained a share of what the first did: a weak trace is not told from
+    /// what the first leaves.
+    fn question(&self, first: Effect, second: Effect) -> Question {
+        let least = CLEAR * self.of.gain(self.single(first));
+        let is_clear = |s: &&Explanation| self.of.gain(Some(s)) > least;
+        self.single(second).filter(is_clear).map_or_else(|| Question::open(second), Question::after)
+    }
+
+    /// Details of the borders beside each first.
+    pub(super) fn details(&mut self, firsts: &[Effect]) {
+        let of = self.of;
+        let is_new = |e: &&Effect| !self.detailed.contains(e);
+        let firsts: Vec<Effect> = firsts.iter().filter(is_new).copied().collect();
+        let singles: Vec<&Explanation> = firsts.iter().filter_map(|e| self.single(*e)).collect();
+        let found = of.workers.map(&singles, |first| of.with_details(first));
+        self.detailed.extend(firsts);
+        self.consider(found.into_iter().flatten());
+    }
+
+    /// Adds to the pairs found. Large errors here and there take what a law misses now and then: by a little they gain more than the
+    /// cause itself.
+    fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
+        self.found.extend(pairs.into_iter().filter(Explanation::may_be_a_cause));
+        let of = self.of;
+        let rank = |pair: &Explanation| match members(pair).contains(&Effect::Outliers) {
+            true => pair.bic() + STOPGAP * of.gain(Some(pair)).max(0.0),
+            false => pair.bic(),
+        };
+        self.found.sort_by(|x, y| rank(x).total_cmp(&rank(y)));
+        let mut seen: Vec<[(Effect, usize); 2]> = Vec::new();
+        self.found.retain(|pair| {
+            let both = laws(pair);
+            let new = !seen.contains(&both);
+            seen.push(both);
+            new
+        });
+    }
+
+    /// The best pair found.
+    fn best(&self) -> Option<&Explanation> {
+        self.found.first()
+    }
+
+    /// Steps from members of the best pair that were no firsts yet.
+    pub(super) fn restart(&mut self) {
+        for _ in 0..RESTARTS {
+            let members = self.best().map_or_else(Vec::new, Explanation::effects);
+            let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
+            self.step(next);
+        }
+    }
+
+    /// Seconds beside each member of the best pair, as it is in that, with the dynamics identified anew: what rules the input or the
+    /// errors may hide behind an effect that does not.
+    pub(super) fn afresh(&mut self) {
+        let of = self.of;
+        for _ in 0..ROUNDS {
+            let Some(pair) = self.best().cloned() else { return };
+            let firsts = (0..2).filter_map(|number| pair.part(number, of.campaign));
+            let asked: Vec<(Explanation, Effect)> = firsts
+                .flat_map(|first| {
+                    self.seconds_afresh(&pair, &first).into_iter().map(move |e| (first.clone(), e))
+                })
+                .collect();
+            let found = of
+                .workers
+                .map(&asked, |(first, second)| from_scratch(&Known::new(of.campaign, first), *second));
+            self.consider(found.into_iter().flatten());
+            if self.best().is_none_or(|best| members(best) == members(&pair)) {
+                break;
+            }
+        }
+    }
+
+    /// The other member of a pair, and what else may rule the dynamics: behind coloured noise it would show by itself.
+    fn seconds_afresh(&self, pair: &Explanation, first: &Explanation) -> Vec<Effect> {
+        let present = first.parts[0].effect;
+        let rulers = self.of.rulers().filter(|_| present != Effect::ColouredNoise);
+        let mut seconds: Vec<Effect> =
+            members(pair).into_iter().chain(rulers).filter(|e| is_another(present, *e)).collect();
+        seconds.sort_unstable();
+        seconds.dedup();
+        seconds
+    }
+
+    /// Whether the best pair holds noise whose colour may stand in for what rules the dynamics.
+    pub(super) fn is_coloured(&self) -> bool {
+        self.best().is_some_and(|pair| members(pair).contains(&Effect::ColouredNoise))
+    }
+
+    /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it
+    /// was alone, then as it is beside the other.
+    pub(super) fn every_law(&mut self) {
+        let gain = |pair: &Explanation| self.of.gain(Some(pair));
+        let Some(most) = self.best().map(gain) else { return };
+        let mut near: Vec<[Effect; 2]> = Vec::new();
+        for both in self.found.iter().filter(|pair| gain(pair) > NEAR * most).map(members) {
+            if near.len() < NEARBY && !near.contains(&both) {
+                near.push(both);
+            }
+        }
+        for [one, other] in near {
+            for (member, moved) in [(one, other), (other, one)] {
+                for held in alike(member) {
+                    self.ask(held, &self.laws_of(held, moved));
+                }
+            }
+            for round in 0..ROUNDS {
+                let Some(pair) = self.found.iter().find(|pair| members(pair) == [one, other]).cloned() else {
+                    break;
+                };
+                let held = round % 2;
+                let Some(first) = pair.part(held, self.of.campaign) else { break };
+                let moved = pair.parts[1 - held].effect;
+                self.ask_beside(&first, &self.laws_of(first.parts[0].effect, moved));
+            }
+        }
+    }
+
+    /// Puts first, of the pairs that come close to the best, the one that with what it leaves to further causes costs least.
+    pub(super) fn prefer_what_leaves_less(&mut self) {
+        let gain = |pair: &Explanation| self.of.gain(Some(pair));
+        let Some(most) = self.best().map(gain) else { return };
+        let close = self.found.iter().take_while(|pair| gain(pair) > CLOSE * most).count().min(RIVALS);
+        let cost = |pair: &Explanation| {
+            pair.bic() + omnibus(self.of.campaign, &pair.fit).map_or(0.0, |tests| tests.excess())
+        };
+        let costs = self.of.workers.map(&self.found[..close], cost);
+        let least = (0..close).min_by(|&i, &j| costs[i].total_cmp(&costs[j])).unwrap_or(0);
+        self.found[..=least].rotate_right(1);
+    }
+
+    /// Border knots placed anew for the best pair.
+    pub(super) fn place_knots_anew(&mut self) {
+        if let Some(best) = self.found.first_mut() {
+            let anew = self.of.knots_refined(best.clone());
+            if anew.may_be_a_cause() {
+                *best = anew;
+            }
+        }
+    }
+
+    /// Questions after every law of an effect and of its twins beside another.
+    fn laws_of(&self, held: Effect, moved: Effect) -> Vec<Question> {
+        let considered = |e: &Effect| is_another(held, *e) && self.of.settings.effects.contains(e);
+        alike(moved).filter(considered).map(Question::open).collect()
+    }
+
+    /// Deviance left by the best pair; infinite where there is none.
+    fn left(&self) -> f64 {
+        let of_pair = |best: &Explanation| omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
+        self.best().map_or(f64::INFINITY, of_pair)
+    }
+
+    /// Whether the best pair is so far from the whole that none will be.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.left_of_gap() > HOPELESS
+    }
+
+    /// Share of the gap that the best pair leaves.
+    pub(super) fn left_of_gap(&self) -> f64 {
+        let Some(best) = self.best() else { return 1.0 };
+        let left = self.left();
+        left / (left + self.of.gain(Some(best)))
+    }
+
+    /// Whether so much is left that another first may find a better pair.
+    pub(super) fn leaves_much(&self) -> bool {
+        self.of.is_worth_a_look(self.left())
+    }
+
+    fn ask(&mut self, first: Effect, questions: &[Question]) {
+        if let Some(first) = self.single(first) {
+            self.ask_beside(first, questions);
+        }
+    }
+
+    fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
+        let to_beat = self.best().map(Explanation::bic);
+        let contest = Contest { finished: FINISHED, to_beat };
+        let seconds = self.of.on_top_of(first, questions, contest).into_iter();
+        self.consider(seconds.filter(Explanation::may_be_a_cause).take(FINISHED));
+    }
+
+    fn single(&self, effect: Effect) -> Option<&'a Explanation> {
+        self.singles.all.iter().find(|s| s.parts[0].effect == effect)
+    }
+}
+
+/// Both effects of a pair, in one order.
+fn members(pair: &Explanation) -> [Effect; 2] {
+    let mut both = [pair.parts[0].effect, pair.parts[1].effect];
+    both.sort_unstable();
+    both
+}
+
+/// Both effects of a pair with the numbers of their laws, in one order.
+fn laws(pair: &Explanation) -> [(Effect, usize); 2] {
+    let mut both = [0, 1].map(|i| (pair.parts[i].effect, pair.parts[i].law));
+    both.sort_unstable();
+    both
+}
+
+/// An effect and its twins.
+fn alike(effect: Effect) -> impl Iterator<Item = Effect> {
+    std::iter::once(effect).chain(effect.twins().iter().copied())
+}
+
+/// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact
+/// law leaves, and what a twin adds is the difference between two laws of one thing.
+fn is_another(first: Effect, second: Effect) -> bool {
+    let is_stopgap = matches!(second, Effect::BorderResolution | Effect::Outliers);
+    second != first && !first.twins().contains(&second) && !is_stopgap
+}

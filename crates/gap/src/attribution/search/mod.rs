@@ -1,0 +1,263 @@
+//! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
+
+mod course;
+mod looks;
+mod profile;
+mod prospects;
+mod scratch;
+
+pub(crate) use self::course::on_a_free_course;
+pub(crate) use self::looks::looks;
+pub(crate) use self::profile::profiled;
+use self::prospects::Prospect;
+pub(crate) use self::scratch::from_scratch;
+use crate::attribution::explain::{Explanation, assembled};
+use crate::attribution::starts::{Known, padded};
+use crate::effect::Effect;
+use crate::effects::{Search, Variant};
+use crate::likelihood::design::{Design, Linear, Whitener};
+use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
+use crate::model::assembly::Assembly;
+use crate::nominal::dynamics::dynamics_refitted;
+use crate::records::campaign::Campaign;
+
+/// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
+const LOOK: usize = 2;
+/// Starts of a look that go on after the first round.
+const AHEAD: usize = 2;
+const FINAL: usize = 14;
+const RACE: usize = 4;
+/// Rounds in which `A` and a noise filter that follows from it are solved for in turn (Steiglitz and McBride, 1965).
+const RELAXED: usize = 6;
+/// Points of a pattern search at most: to see whether a law may still win, and in the end.
+const SCOUTED: usize = 8;
+const TRIALS: usize = 30;
+
+/// An effect that may explain more, and what is known about it.
+#[derive(Debug, Clone)]
+pub(crate) struct Question {
+    pub(crate) effect: Effect,
+    /// The law that served it best alone, with the own parameters that it had; all laws from all their starts where none is
+    /// given.
+    pub(crate) alone: Option<(usize, Vec<Own>)>,
+}
+
+impl Question {
+    /// Every law of an effect.
+    pub(crate) fn open(effect: Effect) -> Self {
+        Self { effect, alone: None }
+    }
+
+    /// The law of an effect that was fitted alone, from where it ended.
+    pub(crate) fn after(single: &Explanation) -> Self {
+        let part = &single.parts[0];
+        Self { effect: part.effect, alone: Some((part.law, single.fit.own.clone())) }
+    }
+
+    /// The law, with fewer starts where something is known; none where another law is asked for.
+    fn narrowed(&self, number: usize, mut law: Variant) -> Option<Variant> {
+        let Some((known, own)) = &self.alone else { return Some(law) };
+        if *known != number {
+            return None;
+        }
+        // Where the likelihood has corners what was found alone may be far off: all starts are needed.
+        if !law.search.is_by_pattern() && own.len() == law.starts[0].len() {
+            let middle = law.starts.swap_remove(law.starts.len() / 2);
+            law.starts = vec![own.clone(), middle];
+        }
+        Some(law)
+    }
+}
+
+/// A sketch some rounds on: enough to see whether it may still win.
+pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
+    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+        true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
+        false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
+    })
+}
+
+/// A sketch fitted to convergence, which need not be [sound](Explanation::is_sound); where the likelihood has corners, the first
+/// `held` own parameters stay as they are.
+pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
+    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+        true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
+        false => task.settled(fit),
+    })
+}
+
+fn improved(
+    campaign: &Campaign,
+    held: usize,
+    sketch: &Explanation,
+    improve: impl Fn(&Task<'_>, Fit) -> Fit,
+) -> Explanation {
+    let build = |values: &[f64]| assembled(&sketch.parts, values);
+    let grid = sketch.fit.grid.clone();
+    let task = Task {
+        ground: Ground { campaign, grid: &grid, known: Some(&sketch.fit.design) },
+        build: &build,
+        held,
+    };
+    let fit = improve(&task, sketch.fit.clone());
+    Explanation { fit, ..sketch.clone() }
+}
+
+/// A cheap look at a law on top of what is known: near its best start.
+fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
+    let (campaign, known) = (known.campaign, known.explanation);
+    let (law, parts) = (&prospect.law, &prospect.parts);
+    let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
+    let build = |values: &[f64]| assembled(parts, values);
+    let base = match &law.grid {
+        Some(grid) => crate::nominal::knots::carried_over(&known.fit, grid),
+        None => known.fit.linear.clone(),
+    };
+    let ground = Ground { campaign, grid, known: Some(&known.fit.design) };
+    let task = Task { ground, build: &build, held: known.fit.own.len() };
+    // The own parameters of what is known, then those of the law.
+    let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
+    let starts = law.starts.iter().map(|own| joined(own));
+    let held = |own: Vec<Own>| {
+        let afresh = task.dynamics_refitted(&own, &base);
+        best([task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))].into_iter().flatten())
+    };
+    let fit = match law.search {
+        // Without own parameters there is one start, and nothing that a look could compare.
+        Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
+        Search::Smooth => ahead(starts.filter_map(|own| task.together(&own, &base, 1)), |fit| {
+            task.from(fit).together(&fit.own, &fit.linear, LOOK - 1)
+        }),
+        Search::Profile => {
+            ahead(starts.filter_map(held), |fit| task.from(fit).held(&fit.own, &fit.linear, LOOK - 1))
+        }
+        Search::Weights => best(starts.filter_map(|own| task.held(&own, &base, 0)))
+            .and_then(|best| task.held(&best.own, &best.linear, LOOK)),
+        Search::Conditional => {
+            let mut held: Vec<Fit> = starts.filter_map(held).collect();
+            held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
+            // The best start need not lead to the best point: B may have taken what a neighbour would explain.
+            best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
+        }
+    }?;
+    let set_back = known.set_back;
+    Some(Explanation { parts: parts.clone(), fit, set_back, held_out: 0.0 })
+}
+
+/// One law's search.
+struct Task<'a> {
+    ground: Ground<'a>,
+    build: &'a Build<'a>,
+    /// Own parameters that belong to effects already known.
+    held: usize,
+}
+
+impl Task<'_> {
+    /// The search from where a fit ended: what that built serves on.
+    fn from<'b>(&'b self, fit: &'b Fit) -> Task<'b> {
+        let ground = Ground { known: Some(&fit.design), ..self.ground };
+        Task { ground, build: self.build, held: self.held }
+    }
+
+    fn assembly(&self, own: &[Own]) -> Assembly {
+        (self.build)(&own.iter().map(|o| o.value).collect::<Vec<_>>())
+    }
+
+    /// Everything fitted together.
+    fn together(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
+        let start = self.padded(start, &self.assembly(own));
+        fit(self.ground, self.build, own, &start, rounds)
+    }
+
+    /// The fit with the own parameters held, which is a nearly linear problem.
+    fn held(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
+        let assembly = self.assembly(own);
+        let start = self.padded(start, &assembly);
+        let mut fitted = fit(self.ground, &|_| assembly.clone(), &[], &start, rounds)?;
+        fitted.own = own.to_vec();
+        fitted.own_se = vec![f64::NAN; own.len()];
+        fitted.parameters += own.len() as f64;
+        Some(fitted)
+    }
+
+    /// `A` and `B` by least squares; nothing without a filter. Where the filter of the noise follows from `A`, by some rounds.
+    fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
+        let assembly = self.assembly(own);
+        let noise = &assembly.noise;
+        let coloured = !noise.ar.is_empty() || !noise.ma.is_empty();
+        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured && noise.output_ratio == 0.0 {
+            return None;
+        }
+        let rounds = if noise.output_ratio > 0.0 { RELAXED } else { 1 };
+        let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
+        (0..rounds).try_fold(self.padded(start, &assembly), |p, _| {
+            dynamics_refitted(&design, &Whitener::new(noise, &p.a), &p)
+        })
+    }
+
+    /// Alternates between everything together and the own parameters held, until neither moves: where own parameters
+    /// and dynamics trade against each other, a joint step may stall far from the best point.
+    fn settled(&self, sketch: Fit) -> Fit {
+        let Some(mut top) = self.together(&sketch.own, &sketch.linear, FINAL) else { return sketch };
+        for _ in 0..3 {
+            let next = (self.from(&top))
+                .held(&top.own, &top.linear, 4)
+                .filter(|held| held.deviance < top.deviance - 1.0)
+                .and_then(|held| self.from(&held).together(&held.own, &held.linear, FINAL));
+            match next {
+                Some(next) if next.deviance < top.deviance - 1.0 => top = next,
+                _ => break,
+            }
+        }
+        top
+    }
+
+    /// A pattern search over own parameters whose likelihood has corners; steps start at each parameter's `step`.
+    /// Where they only weigh the samples, the rest need not follow at every step.
+    fn pattern(&self, sketch: Fit, only_weighs: bool, trials: usize, rounds: usize) -> Fit {
+        let follows = if only_weighs { 0 } else { 2 };
+        let mut top = sketch;
+        let mut share = 1.0;
+        let mut left = trials;
+        while share > 0.02 && left > 0 {
+            let mut improved = false;
+            for j in self.held..top.own.len() {
+                for direction in [-1.0, 1.0] {
+                    let mut own = top.own.clone();
+                    let o = &mut own[j];
+                    o.value = (o.value + direction * share * o.step).clamp(o.low, o.high);
+                    left = left.saturating_sub(1);
+                    if let Some(f) = self.held(&own, &top.linear, follows)
+                        && f.deviance < top.deviance
+                    {
+                        top = f;
+                        improved = true;
+                        break;
+                    }
+                }
+            }
+            if !improved {
+                share *= 0.4;
+            }
+        }
+        self.held(&top.own, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
+    }
+
+    fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
+        padded(start, self.ground.grid.len(), assembly)
+    }
+}
+
+/// The best of several fits after some rounds more for those that lead.
+fn ahead(fits: impl Iterator<Item = Fit>, further: impl Fn(&Fit) -> Option<Fit>) -> Option<Fit> {
+    let mut field: Vec<Fit> = fits.collect();
+    field.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
+    best(field.iter().take(AHEAD).filter_map(further))
+}
+
+fn best(fits: impl Iterator<Item = Fit>) -> Option<Fit> {
+    fits.min_by(|x, y| x.deviance.total_cmp(&y.deviance))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! An effect with the dynamics identified anew.
+//!
+//! Where an effect rules the input, or the errors, the nominal `A` and `B` are those of another system: a pole of `A` stands for a lag
+//! before the plant, or for errors that last; and no step leads from there to the right one.
+
+use super::{Task, advance, finish};
+use crate::attribution::explain::{Explanation, Part, assembled};
+use crate::attribution::starts::Known;
+use crate::effect::Effect;
+use crate::effects::{Scene, Variant, variants};
+use crate::likelihood::engine::{Ground, Own};
+use crate::model::assembly::{Assembly, EquationColumn, Slow};
+use crate::model::borders::Grid;
+use crate::nominal::identify::first_guess;
+use crate::nominal::knots::first_grid;
+
+/// Starts, over all laws and both grids, that go on after the first round.
+const RACED: usize = 4;
+
+/// An effect that may rule what the dynamics are identified from, on top of what is known, everything identified anew with it: of
+/// known effects the own parameters alone are taken over. The knots of what is known may follow the effect's trace, or a jump that is
+/// there: an even grid is tried beside them.
+pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
+    let (campaign, fit) = (known.campaign, &known.explanation.fit);
+    let scene = Scene { campaign, fit, innovations: &known.innovations };
+    let grids = [first_grid(campaign), fit.grid.clone()];
+    let laws = variants(effect, &scene);
+    // Where the likelihood has corners, a start that is a little off tells nothing about the rest.
+    let smooth = laws.iter().enumerate().filter(|(_, law)| !law.search.is_by_pattern());
+    let asked = smooth.flat_map(|law| grids.iter().map(move |grid| (law, grid)));
+    let guessed = asked.flat_map(|((number, law), grid)| {
+        let mut parts = known.explanation.parts.clone();
+        parts.push(Part::of(effect, (number, law)));
+        let joined = |own: &Vec<Own>| fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
+        let starts = one_of_each_valley(law).into_iter().chain(&law.afresh).map(joined);
+        starts.filter_map(move |own| guessed(known, &parts, grid, &own)).collect::<Vec<_>>()
+    });
+    let mut field: Vec<Explanation> = guessed.collect();
+    field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    let firsts = first_of_each_law(&field, |law| !laws[law].afresh.is_empty());
+    let refined: Vec<Explanation> =
+        firsts.into_iter().take(REFINED).map(|sketch| refined(known, sketch)).collect();
+    field.extend(refined);
+    field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    let mut raced: Vec<Explanation> =
+        field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch)).collect();
+    raced.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    raced.iter().map(|sketch| finish(campaign, 0, sketch)).find(Explanation::is_sound)
+}
+
+/// The middle start of every valley; all starts where none are known.
+fn one_of_each_valley(law: &Variant) -> Vec<&Vec<Own>> {
+    let Some(valley) = law.valley else { return law.starts.iter().collect() };
+    let groups = law.starts.chunk_by(|one, next| valley(one) == valley(next));
+    groups.map(|group| &group[group.len() / 2]).collect()
+}
+
+/// The first sketch of every law that is asked for.
+fn first_of_each_law(field: &[Explanation], is_asked: impl Fn(usize) -> bool) -> Vec<&Explanation> {
+    let added = |sketch: &Explanation| sketch.parts.last().map_or(0, |part| part.law);
+    let mut firsts: Vec<&Explanation> = Vec::new();
+    for sketch in field {
+        let law = added(sketch);
+        if is_asked(law) && firsts.iter().all(|first| added(first) != law) {
+            firsts.push(sketch);
+        }
+    }
+    firsts
+}
+
+/// Laws of which the likeliest sketch is refined, and by how many of its small steps a parameter is moved.
+const REFINED: usize = 3;
+const STEPS: [f64; 3] = [100.0, 50.0, 25.0];
+
+/// Own parameters moved one at a time, everything else identified anew each time: where `A` takes a drift for a slow pole unless
+/// nearly all of it is told, no joint step leads to the right one.
+fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
+    let moved = |from: &Explanation, j: usize, steps: f64| {
+        let mut own = from.fit.own.clone();
+        let o = &mut own[j];
+        o.value = (o.value + steps * o.step).clamp(o.low, o.high);
+        guessed(known, &sketch.parts, &sketch.fit.grid, &own)
+    };
+    let mut best = sketch.clone();
+    for (steps, j) in STEPS.into_iter().flat_map(|steps| (0..sketch.fit.own.len()).map(move |j| (steps, j))) {
+        let both = [-steps, steps].into_iter().filter_map(|steps| moved(&best, j, steps));
+        if let Some(better) = both.into_iter().find(|moved| moved.bic() < best.bic()) {
+            best = better;
+        }
+    }
+    best
+}
+
+/// What a law explains at a start of its own parameters, the rest identified anew: none where it rules nothing there.
+fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Option<Explanation> {
+    let campaign = known.campaign;
+    let build = |values: &[f64]| assembled(parts, values);
+    let task = Task { ground: Ground { campaign, grid, known: None }, build: &build, held: 0 };
+    let assembly = task.assembly(own);
+    let order = known.explanation.fit.linear.a.len();
+    let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
+    let fit = task.held(own, &start, 1)?;
+    let set_back = known.explanation.set_back;
+    Some(Explanation { parts: parts.to_vec(), fit, set_back, held_out: 0.0 }).filter(Explanation::is_sound)
+}
+
+/// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a gain that
+/// changes, a slow lag, a delay, errors that last, a line, a trend.
+fn may_rule(assembly: &Assembly) -> bool {
+    /// A polynomial's value at one, below which its slowest root is slow.
+    const SLOW: f64 = 0.25;
+    let closes = assembly.wear.as_ref().is_some_and(Slow::changes);
+    let changes = assembly.gain.as_ref().is_some_and(Slow::changes);
+    let lag: f64 = assembly.denominator.iter().sum();
+    let lags = assembly.denominator.len() > 1 && lag < SLOW;
+    let lasts = 1.0 + assembly.noise.ar.iter().sum::<f64>() < SLOW;
+    let of_time =
+        |c: &EquationColumn| matches!(c, EquationColumn::Line { .. } | EquationColumn::Trend { .. });
+    let follows_time = assembly.equation_columns.iter().any(of_time);
+    let delays = assembly.delay > 0.0;
+    !assembly.border_columns.is_empty() || closes || changes || lags || delays || lasts || follows_time
+}

@@ -1,0 +1,220 @@
+//! Which starts of which laws are worth a fit: a score test on top of a known model orders them.
+//!
+//! ```text
+//! w(θ, p) ≈ w₀ + X·δ + α·(w(θₛ, p₀) − w₀) + Z·ζ,    gain = N ln(RSS₀/RSS)
+//! ```
+//!
+//! `X` holds the known model's derivatives, computed once for all laws; the chord to the innovations at a start `θₛ` stands
+//! for the law's own parameters (where it is nothing, their derivatives do), `Z` for the linear parameters that the law adds.
+
+use crate::attribution::explain::Explanation;
+use crate::likelihood::design::{Design, Linear};
+use crate::likelihood::engine::{Build, Own};
+use crate::likelihood::gains::{Gains, Scored};
+use crate::likelihood::jacobian::Jacobian;
+use crate::likelihood::weights::{Weights, weigh};
+use crate::model::assembly::{Assembly, EquationColumn};
+use crate::nominal::dynamics::dynamics_refitted;
+use crate::records::campaign::Campaign;
+
+/// A known model with what score tests on top of it share.
+pub(crate) struct Known<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) explanation: &'a Explanation,
+    /// On the fit records, before weighting.
+    pub(crate) innovations: Vec<Vec<f64>>,
+    weights: Weights,
+    weighted: Vec<f64>,
+    jacobian: Jacobian,
+}
+
+impl<'a> Known<'a> {
+    pub(crate) fn new(campaign: &'a Campaign, explanation: &'a Explanation) -> Self {
+        let fit = &explanation.fit;
+        let (design, noise) = (&fit.design, &fit.assembly.noise);
+        let whitener = design.whitener(noise, &fit.linear.a);
+        let innovations = design.innovations(&fit.linear, &whitener);
+        let weights = weigh(design, noise, &fit.linear, &innovations);
+        let jacobian = Jacobian::new(design, &fit.linear, &whitener, &weights);
+        let weighted = weights.applied(&innovations);
+        Self { campaign, explanation, innovations, weights, weighted, jacobian }
+    }
+
+    /// The test itself; nothing where the known parameters are not determined.
+    pub(crate) fn test(&self) -> Option<ScoreTest<'_>> {
+        let fit = &self.explanation.fit;
+        let variance = fit.variance / fit.design.criterion.share();
+        Some(ScoreTest { known: self, gains: Gains::new(&self.jacobian, &self.weighted, variance)? })
+    }
+}
+
+/// A score test of laws added to a known model.
+pub(crate) struct ScoreTest<'a> {
+    known: &'a Known<'a>,
+    gains: Gains<'a>,
+}
+
+/// How promising a start is: approximate gains in deviance.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Score {
+    /// By the score test.
+    pub(crate) linear: f64,
+    /// With `A` and `B` solved for at the start itself, where a filter moves poles too far for a chord.
+    pub(crate) refitted: Option<f64>,
+}
+
+impl Score {
+    pub(crate) fn most(&self) -> f64 {
+        self.refitted.map_or(self.linear, |refitted| refitted.max(self.linear))
+    }
+}
+
+/// A change of the innovations smaller than this, in their standard deviations, is none.
+const NOTHING: f64 = 1e-9;
+
+impl ScoreTest<'_> {
+    /// How promising a law that changes the assembly to `build(known own parameters, own)` is.
+    pub(crate) fn score(&self, build: &Build<'_>, own: &[Own]) -> Score {
+        let fit = &self.known.explanation.fit;
+        let all: Vec<f64> = fit.own.iter().chain(own).map(|o| o.value).collect();
+        let assembly = build(&all);
+        let p = padded(&fit.linear, fit.grid.len(), &assembly);
+        let there = self.moved(&assembly, &p, &fit.design);
+        let mut columns = Vec::new();
+        let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
+        if own.is_empty() || energy(&chord) > NOTHING * fit.variance {
+            columns.push(chord);
+        } else {
+            for (j, o) in own.iter().enumerate() {
+                let h = if o.value + o.step > o.high { -o.step } else { o.step };
+                let mut values = all.clone();
+                values[fit.own.len() + j] += h;
+                let beside = self.moved(&build(&values), &p, &there.design);
+                columns.push(self.column(&there.innovations, &beside.innovations, 1.0 / h));
+            }
+        }
+        columns.extend(self.added(&assembly, &p, &there));
+        columns.retain(|c| energy(c) > NOTHING * fit.variance);
+        let scored: Vec<Scored> = columns.into_iter().map(|c| self.gains.score(c)).collect();
+        let n = fit.samples as f64;
+        let share = self.gains.of(&scored.iter().collect::<Vec<_>>()) / n;
+        let linear = -n * (1.0 - share.clamp(0.0, 0.999)).ln();
+        Score { linear, refitted: self.refitted(&assembly, &p, &there) }
+    }
+
+    /// Columns of the linear parameters that the assembly adds. What dies away at the start of a record orders nothing.
+    fn added(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Vec<Vec<f64>> {
+        let known = &self.known.explanation.fit.linear;
+        let whitener = there.design.whitener(&assembly.noise, &p.a);
+        let with = |set: &dyn Fn(&mut Linear)| {
+            let mut one = p.clone();
+            set(&mut one);
+            let moved = there.design.innovations(&one, &whitener);
+            self.column(&there.innovations, &moved, 1.0)
+        };
+        let b = (known.b.len()..p.b.len()).map(|j| with(&|p| p.b[j] = 1.0));
+        let f = (known.f.len()..p.f.len()).map(|j| with(&|p| p.f[j] = 1.0));
+        let lasts = |j: &usize| !matches!(assembly.equation_columns[*j], EquationColumn::Decay { .. });
+        let d = (known.d.len()..p.d.len())
+            .filter(lasts)
+            .map(|j| self.known.weights.applied(&there.design.disturbance(j, &whitener)));
+        b.chain(f).chain(d).collect()
+    }
+
+    /// Gain in deviance with `A` and `B` solved for, where the assembly filters.
+    fn refitted(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Option<f64> {
+        let fit = &self.known.explanation.fit;
+        let filter = |a: &Assembly| (a.denominator.clone(), a.numerator.clone(), a.delay, a.noise.ar.clone());
+        if filter(assembly) == filter(&fit.assembly) || fit.design.criterion.simulates() {
+            return None;
+        }
+        let whitener = there.design.whitener(&assembly.noise, &p.a);
+        let rss = |w: &[Vec<f64>]| energy(&self.known.weights.applied(w));
+        let afresh = dynamics_refitted(&there.design, &whitener, p)
+            .map(|p| rss(&there.design.innovations(&p, &whitener)));
+        let least = afresh.into_iter().chain([rss(&there.innovations)]).filter(|x| *x > 0.0);
+        let gain = |x: f64| fit.samples as f64 * (energy(&self.known.weighted) / x).ln();
+        least.min_by(f64::total_cmp).map(gain)
+    }
+
+    /// The innovations under another assembly, the other parameters as they are.
+    ///
+    /// The log slope of a sensor enters as a factor, as it does in the fit.
+    fn moved(&self, assembly: &Assembly, p: &Linear, like: &Design) -> Moved {
+        let fit = &self.known.explanation.fit;
+        let design = Design::like(Some(like), self.known.campaign, &fit.grid, assembly);
+        let whitener = design.whitener(&assembly.noise, &p.a);
+        let mut innovations = design.innovations(p, &whitener);
+        let slope = design.log_slope() - fit.design.log_slope();
+        if slope != 0.0 {
+            let factor = (-slope / design.samples() as f64).exp();
+            innovations.iter_mut().flatten().for_each(|w| *w *= factor);
+        }
+        Moved { design, innovations }
+    }
+
+    /// The weighted difference of innovations.
+    fn column(&self, from: &[Vec<f64>], to: &[Vec<f64>], scale: f64) -> Vec<f64> {
+        let difference = |(from, to): (&Vec<f64>, &Vec<f64>)| {
+            from.iter().zip(to).map(|(x, y)| scale * (y - x)).collect::<Vec<f64>>()
+        };
+        self.known.weights.applied(&from.iter().zip(to).map(difference).collect::<Vec<_>>())
+    }
+}
+
+struct Moved {
+    design: Design,
+    innovations: Vec<Vec<f64>>,
+}
+
+/// Mean square; nothing where it is no number, so that such a column counts as none.
+fn energy(column: &[f64]) -> f64 {
+    let sum = crate::least_squares::sums::energy(column) / column.len().max(1) as f64;
+    if sum.is_finite() { sum } else { 0.0 }
+}
+
+/// The linear parameters with zeros for what an assembly adds, the border values on a grid of the given size.
+pub(crate) fn padded(start: &Linear, grid: usize, assembly: &Assembly) -> Linear {
+    let mut p = start.clone();
+    p.b.resize(p.a.len() + assembly.extra_b, 0.0);
+    p.f.resize(grid + assembly.border_columns.len(), 0.0);
+    p.d.resize(assembly.equation_columns.len(), 0.0);
+    p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::likelihood::engine::{Ground, fit};
+    use crate::model::assembly::{BorderColumn, Clock};
+    use crate::testing::{small_campaign, small_model};
+
+    /// The oracle of the score: a fit. Added linear parameters leave the problem nearly linear.
+    #[test]
+    fn linear_parameters_gain_what_a_fit_says() {
+        let (campaign, grid) = small_campaign();
+        let start = small_model(&grid);
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 30).expect("a fit");
+        let explanation = Explanation::nominal(nominal);
+        let known = Known::new(&campaign, &explanation);
+        let test = known.test().expect("determined");
+        let trend = |_: &[f64]| Assembly {
+            equation_columns: vec![EquationColumn::Trend { clock: Clock::Record, degree: 1 }],
+            ..Assembly::default()
+        };
+        let since = |_: &[f64]| Assembly {
+            border_columns: vec![BorderColumn::ReversalLog { scale: 3.0 }],
+            ..Assembly::default()
+        };
+        let builds: [&Build<'_>; 2] = [&trend, &since];
+        for build in builds {
+            let start = padded(&explanation.fit.linear, grid.len(), &build(&[]));
+            let fitted = fit(ground, build, &[], &start, 30).expect("a fit");
+            let gain = explanation.fit.deviance - fitted.deviance;
+            let score = test.score(build, &[]);
+            assert!((score.linear - gain).abs() < 0.15 * gain.max(2.0), "{} {gain}", score.linear);
+            assert!(score.refitted.is_none());
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Normal equations of sparse and dense rows, summed up block by block, and their damped solution.
+
+pub(crate) mod dense_sums;
+pub(crate) mod mixed_sums;
+pub(crate) mod normal;
+pub(crate) mod sums;

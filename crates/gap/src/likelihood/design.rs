@@ -1,0 +1,367 @@
+//! From an assembly and the records to residuals and their derivatives.
+//!
+//! ```text
+//! e(t) = x(t) + Σ aᵢ x(t−i) − Σ b̃ⱼ ũ(t−j) − Σ d ψ(t),   ũ = u / den,   b̃ = b ∗ taps,   u = rows · f
+//! w(t) = s(t)·[e(t) + Σ dᵢ e(t−i)] − Σ cᵢ w(t−i)
+//! ```
+//!
+//! `x` is the sensor's characteristic undone, `w` the innovation. Everything is linear given the effects' own parameters,
+//! but for the product of `b` and `f`.
+
+use std::sync::Arc;
+
+use crate::likelihood::mask::{Mask, masked};
+use crate::likelihood::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
+use crate::model::assembly::{Assembly, EquationColumn, LEAST_VARIANCE, NoiseLaw, convolve};
+use crate::model::borders::Grid;
+use crate::records::campaign::{Campaign, Criterion, Track, WARM_UP};
+use crate::records::motion::{Motion, motions};
+
+pub(crate) use crate::likelihood::jacobian::filtered_rows;
+use crate::likelihood::whitener::add_lagged;
+pub(crate) use crate::likelihood::whitener::{LEAD, Whitener};
+pub(crate) use crate::model::linear::Linear;
+
+/// One track as the fit sees it. Its parts are shared among designs that differ elsewhere.
+#[derive(Debug, Clone)]
+pub(crate) struct DesignTrack {
+    /// How the input moves, behind the play.
+    pub(crate) moves: Arc<[Motion]>,
+    pub(crate) rows: Arc<Rows>,
+    pub(crate) columns: Arc<EquationColumns>,
+    /// The output with the sensor's characteristic undone.
+    pub(crate) x: Arc<[f64]>,
+    /// `ln dx/dy`, summed over the counted samples.
+    pub(crate) log_slope: f64,
+    /// First counted sample.
+    pub(crate) from: usize,
+    /// Change of `u` per change of `v` while moving and while resting, where input noise is modelled.
+    pub(crate) sensitivity: Option<Arc<[Rows; 2]>>,
+    /// Samples that have no say.
+    pub(crate) mask: Mask,
+}
+
+/// Errors that are known where those before them are not.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Unforetold {
+    count: usize,
+    energy: f64,
+}
+
+impl Unforetold {
+    /// The deviance of `n` samples with these among them; `foretold` is that of the others, stretched to all `n`.
+    pub(crate) fn among(self, n: f64, foretold: f64) -> f64 {
+        if self.count == 0 {
+            return foretold;
+        }
+        let count = self.count as f64;
+        foretold * (1.0 - count / n) + count * (self.energy / count).max(LEAST_VARIANCE).ln()
+    }
+}
+
+/// The chosen tracks under an assembly.
+#[derive(Debug, Clone)]
+pub(crate) struct Design {
+    pub(crate) tracks: Vec<DesignTrack>,
+    pub(crate) taps: Vec<f64>,
+    /// Denominator beyond its leading one.
+    pub(crate) poles: Vec<f64>,
+    pub(crate) criterion: Criterion,
+    /// What it was built from.
+    grid: Grid,
+    assembly: Assembly,
+}
+
+impl Design {
+    /// Builds the design of the tracks that `chosen` picks.
+    pub(crate) fn new(
+        campaign: &Campaign,
+        grid: &Grid,
+        assembly: &Assembly,
+        chosen: impl Fn(&Track) -> bool,
+    ) -> Self {
+        let numbered: Vec<(usize, &Track)> =
+            campaign.tracks.iter().enumerate().filter(|(_, t)| chosen(t)).collect();
+        Self::of(campaign, grid, assembly, &numbered)
+    }
+
+    /// The design of the fit records; what a design of the same records has in common with it is shared.
+    pub(crate) fn like(known: Option<&Self>, campaign: &Campaign, grid: &Grid, assembly: &Assembly) -> Self {
+        let numbered: Vec<(usize, &Track)> =
+            campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).collect();
+        let known = known.filter(|k| k.criterion == campaign.criterion && k.tracks.len() == numbered.len());
+        let common = known.map_or(Common::default(), |k| Common::between(k, grid, assembly));
+        Self::sharing(known.map(|k| (k, common)), campaign, (grid, assembly), &numbered)
+    }
+
+    /// Builds the design of tracks given with their numbers in the campaign.
+    pub(crate) fn of(
+        campaign: &Campaign,
+        grid: &Grid,
+        assembly: &Assembly,
+        tracks: &[(usize, &Track)],
+    ) -> Self {
+        Self::sharing(None, campaign, (grid, assembly), tracks)
+    }
+
+    fn sharing(
+        known: Option<(&Self, Common)>,
+        campaign: &Campaign,
+        (grid, assembly): (&Grid, &Assembly),
+        tracks: &[(usize, &Track)],
+    ) -> Self {
+        let tracks = tracks
+            .iter()
+            .enumerate()
+            .map(|(k, &(number, track))| {
+                let late = (assembly.late > 0.0).then(|| track.late(assembly.late, campaign.rule));
+                let track = late.as_ref().unwrap_or(track);
+                // The same track of the known design, where a part of it serves.
+                let same = |part: fn(&Common) -> bool| {
+                    known.filter(|(_, common)| part(common)).map(|(design, _)| &design.tracks[k])
+                };
+                let (x, log_slope) = match same(|c| c.output) {
+                    Some(t) => (Arc::clone(&t.x), t.log_slope),
+                    None => undo_sensor(track, assembly),
+                };
+                let moves = match same(|c| c.moves) {
+                    Some(t) => Arc::clone(&t.moves),
+                    None if assembly.play.is_none() => Arc::clone(&track.moves),
+                    None => motions(&track.v, assembly.play, campaign.rule).into(),
+                };
+                let sensitive = assembly.noise.input.is_some();
+                let mask = match same(|c| c.masked) {
+                    Some(t) => t.mask.clone(),
+                    None => masked(track, assembly, campaign.rule),
+                };
+                DesignTrack {
+                    rows: same(|c| c.rows).map_or_else(
+                        || rows((campaign, number, track), &moves, grid, assembly).into(),
+                        |t| Arc::clone(&t.rows),
+                    ),
+                    moves,
+                    columns: same(|c| c.columns).map_or_else(
+                        || equation_columns(campaign, (number, track), assembly).into(),
+                        |t| Arc::clone(&t.columns),
+                    ),
+                    x,
+                    log_slope,
+                    from: track.from,
+                    sensitivity: sensitive.then(|| {
+                        same(|c| c.sensitivity)
+                            .and_then(|t| t.sensitivity.clone())
+                            .unwrap_or_else(|| sensitivity_rows(track, grid, assembly.jitter).into())
+                    }),
+                    mask,
+                }
+            })
+            .collect();
+        let poles = assembly.denominator.get(1..).map(<[f64]>::to_vec).unwrap_or_default();
+        Self {
+            tracks,
+            taps: assembly.taps(),
+            poles,
+            criterion: campaign.criterion,
+            grid: grid.clone(),
+            assembly: assembly.clone(),
+        }
+    }
+
+    /// The filter from equation errors to what is counted: innovations, or the errors `e/A` of the simulation from the
+    /// measured state [`LEAD`] samples before the first counted one.
+    pub(crate) fn whitener(&self, law: &NoiseLaw, a: &[f64]) -> Whitener {
+        match self.criterion {
+            Criterion::OneStep => Whitener::new(law, a),
+            Criterion::Simulation { .. } => Whitener { ar: Vec::new(), ma: a.to_vec() },
+        }
+    }
+
+    /// Samples counted.
+    pub(crate) fn samples(&self) -> usize {
+        self.tracks.iter().map(|t| t.x.len() - t.from).sum()
+    }
+
+    /// Sum of `ln dx/dy` over the counted samples.
+    pub(crate) fn log_slope(&self) -> f64 {
+        self.tracks.iter().map(|t| t.log_slope).sum()
+    }
+
+    /// `ũ` of one track.
+    pub(crate) fn input(&self, track: &DesignTrack, f: &[f64]) -> Vec<f64> {
+        let mut u = track.rows.times(f);
+        if !self.poles.is_empty() {
+            let rest = 1.0 / (1.0 + self.poles.iter().sum::<f64>());
+            let before = u[0] * rest;
+            for t in 0..u.len() {
+                for (k, p) in self.poles.iter().enumerate() {
+                    let past = if t > k { u[t - k - 1] } else { before };
+                    u[t] -= p * past;
+                }
+            }
+        }
+        u
+    }
+
+    /// Equation errors `e(t)` of one track from sample `from − LEAD`.
+    pub(crate) fn errors(&self, track: &DesignTrack, p: &Linear) -> Vec<f64> {
+        self.errors_from(track, p, track.from.saturating_sub(LEAD))
+    }
+
+    /// Equation errors `e(t)` of one track from a sample that has a past.
+    pub(crate) fn errors_from(&self, track: &DesignTrack, p: &Linear, first: usize) -> Vec<f64> {
+        let u = self.input(track, &p.f);
+        let b = convolve(&p.b, &self.taps);
+        let mut e = track.x[first..].to_vec();
+        for (i, a) in p.a.iter().enumerate() {
+            add_lagged(&mut e, &track.x, first, (i + 1, *a));
+        }
+        for (j, b) in b.iter().enumerate() {
+            add_lagged(&mut e, &u, first, (j + 1, -b));
+        }
+        let d = track.columns.coefficients(&p.d);
+        if !d.is_empty() {
+            for (t, e) in e.iter_mut().enumerate() {
+                *e -= d.iter().zip(track.columns.row(first + t)).map(|(d, psi)| d * psi).sum::<f64>();
+            }
+        }
+        e
+    }
+
+    /// The derivative of the innovations with respect to the coefficient of an equation column.
+    pub(crate) fn disturbance(&self, column: usize, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let of_track = |track: &DesignTrack| {
+            let Some(at) = track.columns.numbers.iter().position(|&j| j == column) else {
+                return vec![0.0; track.x.len() - track.from];
+            };
+            let first = track.from.saturating_sub(LEAD);
+            let e = (first..track.x.len()).map(|t| -track.columns.row(t)[at]);
+            let mut w = whitener.apply(e.collect());
+            w.drain(..(track.from - first).min(w.len()));
+            w
+        };
+        self.tracks.iter().map(of_track).collect()
+    }
+
+    /// Innovations of every track on the counted samples, before weighting.
+    pub(crate) fn innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
+        self.whitened(self.all_errors(p), whitener)
+    }
+
+    /// The same, nothing where a sample has no say.
+    pub(crate) fn counted_innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let mut all = self.innovations(p, whitener);
+        for (track, w) in self.tracks.iter().zip(&mut all) {
+            let masked = track.mask.out.iter().flat_map(|masked| masked.iter());
+            w.iter_mut().zip(masked).filter(|(_, masked)| **masked).for_each(|(w, _)| *w = 0.0);
+        }
+        all
+    }
+
+    /// The errors, from sample `from − LEAD` of every track, that nothing foretells.
+    pub(crate) fn unforetold(&self, errors: &[Vec<f64>]) -> Unforetold {
+        let whitens = self.criterion == Criterion::OneStep;
+        let mut out = Unforetold::default();
+        for (track, e) in self.tracks.iter().zip(errors).filter(|_| whitens) {
+            let lead = track.from - track.from.saturating_sub(LEAD);
+            out.count += track.mask.unforetold.len();
+            out.energy += track.mask.unforetold.iter().map(|k| e[lead + k].powi(2)).sum::<f64>();
+        }
+        out
+    }
+
+    /// Equation errors of every track.
+    pub(crate) fn all_errors(&self, p: &Linear) -> Vec<Vec<f64>> {
+        self.tracks.iter().map(|track| self.errors(track, p)).collect()
+    }
+
+    /// Innovations from the equation errors of every track.
+    pub(crate) fn whitened(&self, errors: Vec<Vec<f64>>, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let of_track = |(track, e): (&DesignTrack, Vec<f64>)| {
+            let mut w = whitener.apply(e);
+            let skip = track.from - track.from.saturating_sub(LEAD);
+            w.drain(..skip.min(w.len()));
+            w
+        };
+        self.tracks.iter().zip(errors).map(of_track).collect()
+    }
+}
+
+const _: () = assert!(LEAD < WARM_UP);
+
+/// `x` of one track and its summed log slope.
+fn undo_sensor(track: &Track, assembly: &Assembly) -> (Arc<[f64]>, f64) {
+    let curve = &assembly.curve;
+    if curve.is_straight() {
+        return (track.y.as_slice().into(), 0.0);
+    }
+    let mut log_slope = 0.0;
+    let x = track
+        .y
+        .iter()
+        .enumerate()
+        .map(|(t, &y)| {
+            let (x, slope) = curve.undo(y);
+            if t >= track.from {
+                // A characteristic that folds back is no sensor: the floor makes it expensive, not undefined.
+                log_slope += slope.max(1e-3).ln();
+            }
+            x
+        })
+        .collect();
+    (x, log_slope)
+}
+
+/// Which parts of a design serve another assembly or grid unchanged.
+#[derive(Debug, Clone, Copy, Default)]
+struct Common {
+    moves: bool,
+    rows: bool,
+    columns: bool,
+    output: bool,
+    sensitivity: bool,
+    masked: bool,
+}
+
+impl Common {
+    fn between(known: &Design, grid: &Grid, assembly: &Assembly) -> Self {
+        let had = &known.assembly;
+        let moves = had.play == assembly.play && had.late == assembly.late;
+        let same_grid = known.grid == *grid;
+        let jitter = had.jitter == assembly.jitter;
+        Self {
+            moves,
+            rows: moves
+                && same_grid
+                && jitter
+                && had.transition == assembly.transition
+                && had.wear == assembly.wear
+                && had.widening == assembly.widening
+                && had.relaxation == assembly.relaxation
+                && had.gain == assembly.gain
+                && had.border_columns == assembly.border_columns,
+            columns: had.equation_columns == assembly.equation_columns
+                && (had.gain == assembly.gain || !had.equation_columns.contains(&EquationColumn::Gain)),
+            output: had.curve == assembly.curve,
+            sensitivity: moves && same_grid && jitter,
+            masked: moves
+                && had.saturation == assembly.saturation
+                && (had.saturation.is_none() || had.noise.reach() == assembly.noise.reach()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nothing_foretells_counts_by_itself() {
+        let white = 1000.0 * 0.25_f64.ln();
+        // As large as the others: as if it were foretold.
+        let alike = Unforetold { count: 40, energy: 40.0 * 0.25 };
+        assert!((alike.among(1000.0, white) - white).abs() < 1e-9);
+        // What a filter gained on the rest is not gained here.
+        let larger = Unforetold { count: 40, energy: 40.0 };
+        assert!((larger.among(1000.0, white) - 960.0 * 0.25_f64.ln()).abs() < 1e-9);
+    }
+}

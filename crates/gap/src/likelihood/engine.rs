@@ -1,0 +1,333 @@
+//! Maximum likelihood of a nominal model together with an assembly of effects.
+//!
+//! Gauss–Newton on everything at once; the effects' own parameters get numerical derivatives. With concentrated noise
+//! variance the deviance (minus twice the log-likelihood, constants dropped) is
+//!
+//! ```text
+//! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
+//! ```
+//!
+//! Samples without a say count as much as the others do in the mean; but those whose error is known, and only what foretells it is
+//! not, have the variance of their own errors: a filter gains nothing where it cannot be applied. The steps take no account of these few; whether
+//! one is taken does.
+
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+use crate::least_squares::normal::Normal;
+use crate::least_squares::sums::energy;
+use crate::likelihood::design::{Design, Linear, Whitener};
+use crate::likelihood::jacobian::normal_equations;
+use crate::likelihood::weights::{Weights, weigh};
+use crate::model::assembly::{Assembly, EquationColumn};
+use crate::model::borders::Grid;
+use crate::nominal::given::settles;
+use crate::records::campaign::Campaign;
+
+/// One own parameter of an effect: its value and how it may move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Own {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) value: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Step of the numerical derivative.
+    pub(crate) step: f64,
+}
+
+/// From own parameters to an assembly.
+pub(crate) type Build<'a> = dyn Fn(&[f64]) -> Assembly + 'a;
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    pub(crate) assembly: Assembly,
+    pub(crate) grid: Grid,
+    pub(crate) linear: Linear,
+    pub(crate) own: Vec<Own>,
+    /// Standard errors of the own parameters.
+    pub(crate) own_se: Vec<f64>,
+    pub(crate) deviance: f64,
+    /// Variance of the innovations, where they are weighted that of the weighted ones.
+    pub(crate) variance: f64,
+    /// Mean square of the counted innovations without weights.
+    pub(crate) power: f64,
+    pub(crate) samples: usize,
+    /// Effective number of parameters.
+    pub(crate) parameters: f64,
+    /// The fit records under it.
+    pub(crate) design: Arc<Design>,
+}
+
+/// Half-width of a 90 % interval in standard errors of a normal estimate.
+const Z90: f64 = 1.644_853_626_951_472_6;
+
+impl Fit {
+    /// 90 % intervals of the own parameters; NaN where the likelihood gives no standard error.
+    pub(crate) fn intervals(&self) -> Vec<[f64; 2]> {
+        let interval = |(o, se): (&Own, &f64)| [o.value - Z90 * se, o.value + Z90 * se];
+        self.own.iter().zip(&self.own_se).map(interval).collect()
+    }
+}
+
+/// Where the fit is done.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) grid: &'a Grid,
+    /// A design of the same records: what the fit has in common with it is not built again.
+    pub(crate) known: Option<&'a Design>,
+}
+
+/// Weight of the prior that ties border values nobody visits to their neighbours, in units of one sample's information.
+const SMOOTHNESS: f64 = 1e-3;
+
+/// Gain in deviance, of independent samples, below which a round is the last one; a step that foretells no more and fails is
+/// not tried again.
+const SETTLED: f64 = 0.2;
+/// Shares of a step that are tried where the whole of it leads uphill.
+const SHORTENED: [f64; 2] = [0.35, 0.12];
+const SHORTEST: f64 = 0.04;
+/// Relative damping after a failure: at least the first, by a factor more, never beyond the last. Weaker damping turns no step
+/// of a determined problem that failed into one that succeeds.
+const STRONG: f64 = 1e-3;
+const STRONGER: f64 = 1e3;
+const STRONGEST: f64 = 0.5;
+
+/// The state of a fit at given parameters.
+struct State {
+    assembly: Assembly,
+    whitener: Whitener,
+    innovations: Vec<Vec<f64>>,
+    weights: Weights,
+    deviance: f64,
+    variance: f64,
+}
+
+/// Evaluates the model; `None` where it is not finite.
+fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
+    if design.criterion.simulates() && !settles(&p.a) {
+        return None;
+    }
+    let whitener = design.whitener(&assembly.noise, &p.a);
+    let errors = design.all_errors(p);
+    let unforetold = design.unforetold(&errors);
+    let innovations = design.whitened(errors, &whitener);
+    let weights = weigh(design, &assembly.noise, p, &innovations);
+    let n = design.samples() as f64;
+    let sum: f64 = weights.by_track(&innovations).iter().map(|w| energy(w)).sum();
+    let variance = sum / (n - weights.left_out as f64).max(1.0);
+    let foretold = match weights.deviance {
+        Some(direct) => direct,
+        None => n * variance.ln() - 2.0 * weights.log_scale,
+    };
+    let deviance = unforetold.among(n, foretold) - 2.0 * design.log_slope();
+    let deviance = deviance * design.criterion.share();
+    deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
+}
+
+/// Fits everything from a start; at most `rounds` Gauss–Newton steps.
+pub(crate) fn fit(
+    ground: Ground<'_>,
+    build: &Build<'_>,
+    own: &[Own],
+    start: &Linear,
+    rounds: usize,
+) -> Option<Fit> {
+    let design_of = |assembly: &Assembly, known: Option<&Design>| {
+        Design::like(known, ground.campaign, ground.grid, assembly)
+    };
+    let mut own = own.to_vec();
+    let mut p = start.clone().gauged();
+    let values = |own: &[Own]| own.iter().map(|o| o.value).collect::<Vec<f64>>();
+    let assembly = build(&values(&own));
+    let mut design = design_of(&assembly, ground.known);
+    let mut state = evaluate(&design, assembly, &p)?;
+    let mut own_se = vec![f64::NAN; own.len()];
+    let mut damping = 1e-9;
+    for _ in 0..rounds {
+        let extra = derivatives(&ground, build, &own, &design, &state, &p);
+        let w = state.weights.applied(&state.innovations);
+        let mut normal = normal_equations(&design, &p, &state.whitener, &state.weights, (&w, &extra));
+        priors(&mut normal, ground.grid, &p, &state.assembly);
+        let mut better = None;
+        let mut step_norm = 0.0;
+        for _ in 0..4 {
+            let Some(factor) = normal.factor(damping) else {
+                damping = (damping * 100.0).max(1e-8);
+                continue;
+            };
+            let step = factor.solve(&normal.gradient);
+            for (j, se) in own_se.iter_mut().enumerate() {
+                *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance
+                    / design.criterion.share())
+                .sqrt();
+            }
+            if step.iter().any(|x| !x.is_finite()) {
+                damping = (damping * 100.0).max(1e-8);
+                continue;
+            }
+            let tried = |step: &[f64], share: f64| {
+                let moved = p.moved(step, -share);
+                let mut next = own.clone();
+                for (o, s) in next.iter_mut().zip(&step[p.len()..]) {
+                    o.value = (o.value - share * s).clamp(o.low, o.high);
+                }
+                let assembly = build(&values(&next));
+                let redesign =
+                    (!assembly.same_design(&state.assembly)).then(|| design_of(&assembly, Some(&design)));
+                let s = evaluate(redesign.as_ref().unwrap_or(&design), assembly, &moved)?;
+                (s.deviance < state.deviance).then_some((moved, next, redesign, s))
+            };
+            better = tried(&step, 1.0);
+            if better.is_none() {
+                let foretold: f64 = step.iter().zip(&normal.gradient).map(|(x, g)| x * g).sum();
+                if foretold < SETTLED * state.variance {
+                    break;
+                }
+                // Where b and f trade against each other the joint step overshoots; each block alone is exactly linear.
+                let borders = p.a.len() + p.b.len()..p.a.len() + p.b.len() + p.f.len();
+                let blocks = [
+                    normal.restricted(|i| !borders.contains(&i)),
+                    normal.restricted(|i| borders.contains(&i)),
+                ];
+                let alone = blocks
+                    .iter()
+                    .filter_map(|block| tried(&block.factor(damping)?.solve(&block.gradient), 1.0));
+                // Where the shortest step leads uphill, so do the longer ones.
+                let shortest = tried(&step, SHORTEST);
+                let shares: &[f64] = if shortest.is_some() { &SHORTENED } else { &[] };
+                better = alone
+                    .chain(shares.iter().filter_map(|share| tried(&step, *share)))
+                    .chain(shortest)
+                    .min_by(|x, y| x.3.deviance.total_cmp(&y.3.deviance));
+            }
+            if let Some(b) = &better {
+                step_norm = state.deviance - b.3.deviance;
+            }
+            if better.is_some() {
+                damping = (damping * 0.1).max(1e-9);
+                break;
+            }
+            damping = (damping * STRONGER).max(STRONG);
+            if damping > STRONGEST {
+                break;
+            }
+        }
+        let Some((moved, next, redesign, s)) = better else { break };
+        p = moved.gauged();
+        own = next;
+        if let Some(d) = redesign {
+            design = d;
+        }
+        state = s;
+        if step_norm < SETTLED * design.criterion.share() {
+            break;
+        }
+    }
+    // Coloured errors count for less than one sample each.
+    let samples = (design.samples() as f64 * design.criterion.share()).ceil() as usize;
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (number, w) in state.innovations.iter().enumerate() {
+        for (k, w) in w.iter().enumerate() {
+            if state.weights.counts(number, k) {
+                sum += w * w;
+                count += 1.0;
+            }
+        }
+    }
+    let power = sum / f64::max(count, 1.0);
+    // One direction of (b, f) is fixed by the gauge.
+    let parameters = p.len() as f64 - 1.0 + own.len() as f64;
+    let mut assembly = state.assembly;
+    if let Some(mixture) = state.weights.mixture {
+        assembly.noise.mixture = Some(mixture);
+    }
+    Some(Fit {
+        assembly,
+        grid: ground.grid.clone(),
+        linear: p,
+        own,
+        own_se,
+        deviance: state.deviance,
+        variance: state.variance,
+        power,
+        samples,
+        parameters,
+        design: Arc::new(design),
+    })
+}
+
+/// Numerical derivatives of the weighted innovations with respect to the own parameters, one column each.
+///
+/// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
+/// squares monotone in the deviance.
+fn derivatives(
+    ground: &Ground<'_>,
+    build: &Build<'_>,
+    own: &[Own],
+    design: &Design,
+    state: &State,
+    p: &Linear,
+) -> Vec<Vec<f64>> {
+    let n = design.samples() as f64;
+    // Where only the law of the noise moves, the errors stay.
+    let errors = OnceCell::new();
+    (0..own.len())
+        .map(|j| {
+            let mut values: Vec<f64> = own.iter().map(|o| o.value).collect();
+            let mut h = own[j].step;
+            if values[j] + h > own[j].high {
+                h = -h;
+            }
+            values[j] += h;
+            let assembly = build(&values);
+            let (moved, factor) = if assembly.same_design(&state.assembly) {
+                let errors = errors.get_or_init(|| design.all_errors(p)).clone();
+                (design.whitened(errors, &design.whitener(&assembly.noise, &p.a)), 1.0)
+            } else {
+                let there = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
+                let moved = there.innovations(p, &there.whitener(&assembly.noise, &p.a));
+                (moved, (-(there.log_slope() - design.log_slope()) / n).exp())
+            };
+            let slopes: Vec<Vec<f64>> = moved
+                .iter()
+                .zip(&state.innovations)
+                .map(|(m, w)| m.iter().zip(w).map(|(m, w)| (m * factor - w) / h).collect())
+                .collect();
+            state.weights.applied(&slopes)
+        })
+        .collect()
+}
+
+/// The prior on border values: neighbours on a straight line, jumps free.
+pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
+    let present = p.flat();
+    // The gauge: no step may trade the scale of b for that of f, which the data cannot see.
+    let gauge: Vec<(usize, f64)> = p.b.iter().enumerate().map(|(j, b)| (p.a.len() + j, *b)).collect();
+    let weight = gauge.iter().map(|&(i, _)| normal.entry(i, i)).sum::<f64>().max(1.0);
+    normal.hold(&gauge, weight);
+    let base = p.a.len() + p.b.len();
+    let mut offset = base;
+    for knots in &grid.knots {
+        for i in 1..knots.len().saturating_sub(1) {
+            let (l, r) = (knots[i] - knots[i - 1], knots[i + 1] - knots[i]);
+            if l > 0.0 && r > 0.0 {
+                let terms =
+                    [(offset + i - 1, r / (l + r)), (offset + i, -1.0), (offset + i + 1, l / (l + r))];
+                normal.add_prior(&terms, SMOOTHNESS, &present);
+            }
+        }
+        for i in 0..knots.len() - 1 {
+            normal.add_prior(&[(offset + i, 1.0), (offset + i + 1, -1.0)], 1e-2 * SMOOTHNESS, &present);
+        }
+        offset += knots.len();
+    }
+    let columns = assembly.equation_columns.iter().enumerate();
+    // A gain that does not change yet tells nothing of the output's zero.
+    let idle = columns.filter(|(_, c)| **c == EquationColumn::Gain).map(|(j, _)| base + p.f.len() + j);
+    for i in (0..assembly.border_columns.len()).map(|j| offset + j).chain(idle) {
+        normal.add_prior(&[(i, 1.0)], 1e-6, &present);
+    }
+}

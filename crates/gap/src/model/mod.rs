@@ -1,0 +1,7 @@
+//! What is fitted: two borders, a composition of effects as plain data, and the parameters linear given the effects' own.
+
+pub(crate) mod assembly;
+pub(crate) mod borders;
+pub(crate) mod forwards;
+pub(crate) mod linear;
+pub(crate) mod sensor;

@@ -1,0 +1,96 @@
+//! A model given by the user, in the campaign's dimensionless form.
+
+use crate::error::DiagnoseError;
+use crate::likelihood::design::{Design, Linear, Whitener};
+use crate::likelihood::engine::Fit;
+use crate::model::assembly::Assembly;
+use crate::model::borders::Grid;
+use crate::records::campaign::Campaign;
+use crate::settings::NominalModel;
+
+/// Checks a given model and scales it: `u' = u/s − A(1)·μ/(B(1)·s)` keeps `A y = B u` for `y' = (y − μ)/s`.
+pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, DiagnoseError> {
+    let bad = |reason: &str| Err(DiagnoseError::Model { reason: reason.into() });
+    if model.a.is_empty() || model.a.len() != model.b.len() {
+        return bad("a and b must have the same length, at least 1");
+    }
+    if model.a.iter().chain(&model.b).any(|x| !x.is_finite()) {
+        return bad("a and b must be finite");
+    }
+    let dc = model.b.iter().sum::<f64>();
+    if dc == 0.0 {
+        return bad("B(1) is zero, so the borders cannot be told from their level");
+    }
+    for border in [&model.descending, &model.ascending] {
+        if border.len() < 2 || border.windows(2).any(|w| w[1].0 < w[0].0) {
+            return bad("each border needs two or more points by increasing v");
+        }
+        if border.iter().any(|p| !p.0.is_finite() || !p.1.is_finite()) {
+            return bad("border points must be finite");
+        }
+    }
+    if !stable(&model.a) {
+        return bad("A is unstable");
+    }
+    let level = (1.0 + model.a.iter().sum::<f64>()) * campaign.y_mean / dc;
+    let knots = [&model.descending, &model.ascending]
+        .map(|b| b.iter().map(|p| (p.0 - campaign.v_low) / campaign.v_width).collect::<Vec<f64>>());
+    let f =
+        model.descending.iter().chain(&model.ascending).map(|p| (p.1 - level) / campaign.y_scale).collect();
+    let grid = Grid { knots };
+    let linear = Linear { a: model.a.clone(), b: model.b.clone(), f, d: Vec::new() };
+    let assembly = Assembly::default();
+    let design = Design::new(campaign, &grid, &assembly, |t| t.is_fit());
+    let w = design.innovations(&linear, &Whitener::default());
+    let samples = design.samples();
+    let variance = w.iter().flatten().map(|w| w * w).sum::<f64>() / samples.max(1) as f64;
+    Ok(Fit {
+        assembly,
+        grid,
+        linear,
+        own: Vec::new(),
+        own_se: Vec::new(),
+        deviance: samples as f64 * variance.max(1e-300).ln(),
+        variance,
+        power: variance,
+        samples,
+        parameters: 0.0,
+        design: design.into(),
+    })
+}
+
+/// Whether all roots of `zⁿ + a₁zⁿ⁻¹ + …` lie inside the unit circle (Schur–Cohn recursion).
+pub(crate) fn stable(a: &[f64]) -> bool {
+    let mut p: Vec<f64> = std::iter::once(1.0).chain(a.iter().copied()).collect();
+    while p.len() > 1 {
+        let n = p.len() - 1;
+        let k = p[n] / p[0];
+        if k.abs() >= 1.0 {
+            return false;
+        }
+        p = (0..n).map(|i| p[i] - k * p[n - i]).collect();
+    }
+    true
+}
+
+/// Largest radius of a pole with which a model still counts as a simulator.
+const SLOWEST: f64 = 0.9995;
+
+/// Whether all poles lie inside the unit circle by a margin.
+pub(crate) fn settles(a: &[f64]) -> bool {
+    let scaled: Vec<f64> = (1..).zip(a).map(|(i, a)| a / SLOWEST.powi(i)).collect();
+    stable(&scaled)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stable;
+
+    #[test]
+    fn stability_is_that_of_the_roots() {
+        assert!(stable(&[-1.2, 0.5]));
+        assert!(!stable(&[-1.01]));
+        assert!(!stable(&[-2.0, 1.01]));
+        assert!(stable(&[0.99]));
+    }
+}

@@ -1,0 +1,152 @@
+//! Border knots placed from the data.
+
+mod first;
+mod improve;
+mod jumps;
+mod passages;
+mod prune;
+mod rough;
+
+pub(crate) use self::first::first_grid;
+use self::first::{FEWEST, visited};
+use self::improve::{KNOT_GAIN, improved_grid};
+use self::jumps::{collapsed, polished};
+use self::passages::Passages;
+use self::prune::pruned;
+use self::rough::roughness;
+use crate::likelihood::engine::{Build, Fit, Ground, fit};
+use crate::model::borders::Grid;
+use crate::records::campaign::Campaign;
+
+/// Rounds of refinement.
+const ROUNDS: usize = 4;
+
+/// What knots are placed for.
+struct Model<'a> {
+    campaign: &'a Campaign,
+    build: &'a Build<'a>,
+    passages: &'a Passages,
+}
+
+impl Model<'_> {
+    fn refitted(&self, fitted: &Fit, grid: &Grid) -> Option<Fit> {
+        refitted(self.campaign, fitted, grid, self.build)
+    }
+}
+
+/// Adds knots and jumps while the data ask for them.
+pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
+    let passages = Passages::new(campaign, &best.design);
+    let model = Model { campaign, build, passages: &passages };
+    for _ in 0..ROUNDS {
+        let Some(grid) = improved_grid(campaign, &best) else { break };
+        let next = model.refitted(&best, &grid).and_then(|f| polished(&model, f));
+        let Some(next) = next else { break };
+        if next.deviance > best.deviance - 0.5 * KNOT_GAIN {
+            break;
+        }
+        best = next;
+    }
+    let placed = collapsed(&model, pruned(&model, best));
+    halved(campaign, placed, build)
+}
+
+/// The model on an even grid through the levels of the experiments, as fine as pays: no knot is placed to follow a detail.
+pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    Some(halved(campaign, on_first_grid(campaign, fitted, build)?, build))
+}
+
+/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a tenth a sample, which is a
+/// third of the noise's standard deviation. No grid is fine enough for every border, and knots that follow a bend or a small jump are
+/// the border's own.
+pub(crate) fn detail(campaign: &Campaign) -> f64 {
+    0.1 * campaign.fit_samples() as f64
+}
+
+/// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
+const ROUGH: f64 = 1.0 / 3.0;
+
+/// The same, as fine as smooth borders ask for: a finer grid may follow a detail all along the borders.
+pub(crate) fn smoothly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let first = on_first_grid(campaign, fitted, build)?;
+    let fine = halved(campaign, first.clone(), build);
+    let unforetold = roughness(&first.grid, &fine.grid, &fine.linear.f);
+    let is_detail = unforetold * (first.deviance - fine.deviance) > detail(campaign);
+    Some(if unforetold > ROUGH && is_detail { first } else { fine })
+}
+
+/// The first grid, with the jumps found where no experiment has set levels: a border may be discontinuous (Rochdi et al. 2009,
+/// Assumption 1), and only where it is tabulated at levels can a jump between them be finer than the table.
+fn on_first_grid(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let mut grid = first_grid(campaign);
+    if campaign.levels.is_empty() {
+        for side in 0..2 {
+            for jump in fitted.grid.jumps(side) {
+                grid.insert(side, jump, true);
+            }
+        }
+    }
+    refitted(campaign, fitted, &grid, build)
+}
+
+/// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
+const HALVING_GAIN: f64 = 9.5;
+/// Cells narrower than this are not halved, in strokes.
+const FINEST: f64 = 0.03;
+
+/// The grid with its cells halved, as long as that pays.
+fn halved(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
+    let visits = visited(campaign);
+    for _ in 0..2 {
+        let mut grid = best.grid.clone();
+        for s in 0..2 {
+            for cell in best.grid.knots[s].windows(2) {
+                let inside = visits[s].iter().filter(|v| **v > cell[0] && **v < cell[1]).count();
+                if cell[1] - cell[0] > FINEST && inside >= 3 * FEWEST {
+                    grid.insert(s, 0.5 * (cell[0] + cell[1]), false);
+                }
+            }
+        }
+        let added = (grid.len() - best.grid.len()) as f64;
+        match refitted(campaign, &best, &grid, build) {
+            Some(f) if added > 0.0 && f.deviance < best.deviance - HALVING_GAIN * added => best = f,
+            _ => break,
+        }
+    }
+    best
+}
+
+/// Knots placed anew from the first grid: those found with an effect missing from the model followed its trace.
+pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Fit {
+    let fresh = refitted(campaign, fitted, &first_grid(campaign), build).map(|f| refine(campaign, f, build));
+    let bic = |f: &Fit| f.deviance + f.parameters * (f.samples as f64).ln();
+    match fresh {
+        Some(f) if bic(&f) < bic(fitted) => f,
+        _ => refine(campaign, fitted.clone(), build),
+    }
+}
+
+/// The same model re-fitted on another grid.
+fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
+    let start = carried_over(fitted, grid);
+    let known = Some(&*fitted.design);
+    fit(Ground { campaign, grid, known }, build, &fitted.own, &start, 5)
+}
+
+/// The linear parameters on a finer grid: the same borders.
+pub(crate) fn carried_over(fit: &Fit, grid: &Grid) -> crate::likelihood::design::Linear {
+    let mut p = fit.linear.clone();
+    let old = fit.grid.len();
+    let mut f = Vec::with_capacity(grid.len() + p.f.len() - old);
+    for s in 0..2 {
+        let knots = &grid.knots[s];
+        for (i, &v) in knots.iter().enumerate() {
+            // The right end of a jump takes the value just above it.
+            let at = if i > 0 && knots[i - 1] == v { v + 1e-9 } else { v };
+            f.push(fit.grid.hat(s, at).iter().map(|&(j, w)| w * p.f[j]).sum());
+        }
+    }
+    f.extend(&p.f[old..]);
+    p.f = f;
+    p
+}

@@ -1,0 +1,274 @@
+//! The records of a rig in dimensionless form: what every fit works on.
+
+use std::sync::Arc;
+
+use switchback_estimator::rig::{Rig, Role, Usage};
+
+use crate::error::DiagnoseError;
+use crate::records::motion::{Begins, Motion, Play, ReversalRule, motions};
+
+/// One record in dimensionless form.
+#[derive(Debug, Clone)]
+pub(crate) struct Track {
+    pub(crate) name: String,
+    pub(crate) role: Role,
+    pub(crate) usage: Usage,
+    /// Input, 0 at the lower end of the working interval and 1 at the upper.
+    pub(crate) v: Vec<f64>,
+    /// Output, zero mean and unit standard deviation over the fit records.
+    pub(crate) y: Vec<f64>,
+    /// Sample of the campaign at which the record starts, counting the records in the order of the file.
+    pub(crate) clock: usize,
+    /// Records of the campaign before this one.
+    pub(crate) before: usize,
+    /// Travel of the campaign before the record starts, strokes.
+    pub(crate) travelled: f64,
+    /// Period of the input in samples, where it repeats exactly.
+    pub(crate) period: Option<usize>,
+    /// First sample from which residuals are counted.
+    pub(crate) from: usize,
+    /// How `v` moves, without play.
+    pub(crate) moves: Arc<[Motion]>,
+}
+
+impl Track {
+    pub(crate) fn is_fit(&self) -> bool {
+        self.usage == Usage::Fit
+    }
+
+    /// The track whose positions act a share of a sample late.
+    pub(crate) fn late(&self, share: f64, rule: ReversalRule) -> Self {
+        let before = self.v.iter().take(1).chain(&self.v);
+        let v: Vec<f64> =
+            self.v.iter().zip(before).map(|(now, before)| now + share * (before - now)).collect();
+        Self { moves: motions(&v, Play::default(), rule).into(), v, ..self.clone() }
+    }
+
+    /// Whether the input is a designed experiment with few levels.
+    pub(crate) fn is_pulsed(&self) -> bool {
+        self.role != Role::Free
+    }
+}
+
+/// The records, and the scales that lead back to physical units.
+#[derive(Debug, Clone)]
+pub(crate) struct Campaign {
+    pub(crate) tracks: Vec<Track>,
+    pub(crate) v_low: f64,
+    pub(crate) v_width: f64,
+    pub(crate) y_mean: f64,
+    pub(crate) y_scale: f64,
+    /// Levels that the designed experiments visit, ascending.
+    pub(crate) levels: Vec<f64>,
+    /// Samples of the whole campaign.
+    pub(crate) total: usize,
+    /// Travel of the whole campaign, strokes.
+    pub(crate) travel: f64,
+    /// What counts as a reversal.
+    pub(crate) rule: ReversalRule,
+    /// What a model is held against.
+    pub(crate) criterion: Criterion,
+}
+
+/// What a model is held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Criterion {
+    /// The next sample, given the measured ones before it: efficient where the equation error is what the model says.
+    OneStep,
+    /// The whole record, given its beginning: the output error of the free run.
+    Simulation {
+        /// Independent errors per sample: errors of simulation are coloured, and each counts for less than one.
+        share: f64,
+    },
+}
+
+impl Criterion {
+    pub(crate) fn simulates(self) -> bool {
+        matches!(self, Self::Simulation { .. })
+    }
+
+    /// Independent errors per sample.
+    pub(crate) fn share(self) -> f64 {
+        match self {
+            Self::OneStep => 1.0,
+            Self::Simulation { share } => share,
+        }
+    }
+}
+
+/// Samples left out at the start of each record, besides those before the input first moves: no candidate's memory
+/// reaches further back, so that all are scored on the same samples.
+pub(crate) const WARM_UP: usize = 12;
+
+/// Positions of the input closer than this are the same, in strokes; and readings, in standard deviations.
+const RESOLUTION: f64 = 1e-10;
+
+impl Campaign {
+    /// Scales the records of a rig.
+    ///
+    /// # Errors
+    /// [`DiagnoseError`] if nothing is marked for fitting, or input or output never move.
+    pub(crate) fn new(rig: &Rig) -> Result<Self, DiagnoseError> {
+        if rig.fit_records().next().is_none() {
+            return Err(DiagnoseError::NoFitRecord);
+        }
+        let (low, high) = range(rig.fit_records().flat_map(|r| r.record.v()));
+        if high <= low {
+            return Err(DiagnoseError::ConstantInput);
+        }
+        let (v_low, v_width) = match rig.interval {
+            Some(interval) => (interval.low(), interval.width()),
+            None => (low, high - low),
+        };
+        let count = rig.fit_records().map(|r| r.record.len()).sum::<usize>() as f64;
+        let y_mean = rig.fit_records().flat_map(|r| r.record.y()).sum::<f64>() / count;
+        let spread =
+            rig.fit_records().flat_map(|r| r.record.y()).map(|y| (y - y_mean).powi(2)).sum::<f64>() / count;
+        let (least, most) = range(rig.fit_records().flat_map(|r| r.record.y()));
+        if most <= least {
+            return Err(DiagnoseError::ConstantOutput);
+        }
+        let y_scale = spread.sqrt();
+        let mut tracks = Vec::with_capacity(rig.records.len());
+        let mut clock = 0;
+        for r in &rig.records {
+            // Rounded, so that a difference of rounding errors is no move and no reversal.
+            let v: Vec<f64> = r
+                .record
+                .v()
+                .iter()
+                .map(|v| ((v - v_low) / v_width / RESOLUTION).round() * RESOLUTION)
+                .collect();
+            // Rounded too, so that readings at the end of a sensor's range are equal.
+            let y = r
+                .record
+                .y()
+                .iter()
+                .map(|y| ((y - y_mean) / y_scale / RESOLUTION).round() * RESOLUTION)
+                .collect();
+            let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
+            let period = period_of(&v);
+            tracks.push(Track {
+                name: r.name.clone(),
+                role: r.role,
+                usage: r.usage,
+                from: (moves + WARM_UP).min(v.len()),
+                v,
+                y,
+                clock,
+                before: tracks.len(),
+                travelled: 0.0,
+                period,
+                moves: Arc::default(),
+            });
+            clock += r.record.len();
+        }
+        let rule = ReversalRule { threshold: reversal_threshold(&tracks), ..ReversalRule::default() };
+        let mut travel = 0.0;
+        for track in &mut tracks {
+            track.moves = motions(&track.v, Play::default(), rule).into();
+            track.travelled = travel;
+            travel += track.moves.last().map_or(0.0, |m| m.path);
+        }
+        let levels = levels(&tracks);
+        Ok(Self {
+            tracks,
+            v_low,
+            v_width,
+            y_mean,
+            y_scale,
+            levels,
+            total: clock,
+            travel,
+            rule,
+            criterion: Criterion::OneStep,
+        })
+    }
+
+    /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
+    /// input may act within its sample, and a record of the position may trail the force.
+    pub(crate) fn led_by(&self, lead: usize) -> Self {
+        let mut led = self.clone();
+        for track in &mut led.tracks {
+            let last = track.v[track.v.len() - 1];
+            track.v.drain(..lead.min(track.v.len() - 1));
+            track.v.resize(track.y.len(), last);
+            track.moves = motions(&track.v, Play::default(), self.rule).into();
+        }
+        led
+    }
+
+    /// The same records with branches that begin elsewhere.
+    pub(crate) fn with_branches_from(&self, begins: Begins) -> Self {
+        let mut other = self.clone();
+        other.rule.begins = begins;
+        for track in &mut other.tracks {
+            track.moves = motions(&track.v, Play::default(), other.rule).into();
+        }
+        other
+    }
+
+    /// The same records, models held against another criterion.
+    pub(crate) fn judged_by(&self, criterion: Criterion) -> Self {
+        Self { criterion, ..self.clone() }
+    }
+
+    pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {
+        self.tracks.iter().filter(|t| t.is_fit())
+    }
+
+    /// Samples on which residuals of the fit records are counted.
+    pub(crate) fn fit_samples(&self) -> usize {
+        self.fit().map(|t| t.v.len() - t.from).sum()
+    }
+}
+
+fn range<'a>(values: impl Iterator<Item = &'a f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)))
+}
+
+/// The period of a signal that repeats exactly at least three times after a start-up, at most a third of its length.
+fn period_of(v: &[f64]) -> Option<usize> {
+    let tail = &v[v.len().min(2)..];
+    let longest = tail.len() / 3;
+    if tail.windows(2).filter(|w| w[0] != w[1]).count() < 6 {
+        return None;
+    }
+    (3..=longest).find(|&p| (p..tail.len()).all(|t| tail[t] == tail[t - p]))
+}
+
+/// Levels of the designed experiments.
+fn levels(tracks: &[Track]) -> Vec<f64> {
+    let mut all: Vec<f64> =
+        tracks.iter().filter(|t| t.is_fit() && t.is_pulsed()).flat_map(|t| t.v.iter().copied()).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    if all.len() > 40 { Vec::new() } else { all }
+}
+
+/// Noise on `v` fakes reversals: where most reversals of the fit records are tiny against the stroke, the smallest
+/// move that counts is put above them.
+fn reversal_threshold(tracks: &[Track]) -> f64 {
+    let mut swings = Vec::new();
+    for track in tracks.iter().filter(|t| t.is_fit()) {
+        let mut turn = track.v[0];
+        let mut direction = 0.0;
+        for w in track.v.windows(2) {
+            let step = w[1] - w[0];
+            if step * direction < 0.0 {
+                swings.push((w[0] - turn).abs());
+                turn = w[0];
+            }
+            if step != 0.0 {
+                direction = step.signum();
+            }
+        }
+    }
+    let small: Vec<f64> = swings.iter().copied().filter(|&s| s < 0.01).collect();
+    if swings.len() < 10 || small.len() * 5 < swings.len() {
+        return 0.0;
+    }
+    let mut small = small;
+    small.sort_by(f64::total_cmp);
+    2.0 * small[(small.len() * 9 / 10).min(small.len() - 1)]
+}

@@ -1,0 +1,5 @@
+//! The records of a rig, in dimensionless form: what was commanded, how it moved, what repeats.
+
+pub(crate) mod campaign;
+pub(crate) mod motion;
+pub(crate) mod repeats;

@@ -1,0 +1,103 @@
+//! Log predictive scores and residual pictures.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use crate::attribution::starts::padded;
+use crate::diagnosis::ResidualPicture;
+use crate::least_squares::normal::Normal;
+use crate::least_squares::sums::energy;
+use crate::likelihood::design::{Design, Whitener};
+use crate::likelihood::engine::Fit;
+use crate::likelihood::weights::weigh;
+use crate::records::campaign::{Campaign, Track};
+use crate::simulation::beginnings::with_beginnings;
+
+/// Innovations of a fitted model on the chosen tracks.
+pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track) -> bool) -> Vec<Vec<f64>> {
+    let design = Design::new(campaign, &fit.grid, &fit.assembly, chosen);
+    design.innovations(&fit.linear, &design.whitener(&fit.assembly.noise, &fit.linear.a))
+}
+
+/// Mean log predictive density a sample on the hold-out records, dimensionless output. What died away when they began is no
+/// fault of the model: it is taken out.
+pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
+    let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
+    let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
+    let n = design.samples();
+    if n == 0 {
+        return None;
+    }
+    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
+    let p = padded(&fit.linear, fit.grid.len(), &assembly);
+    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts);
+    let variance = fit.variance;
+    if let Some((share, ratio)) = fit.assembly.noise.mixture {
+        let wide = variance * ratio * ratio;
+        let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
+        let sum: f64 = w
+            .iter()
+            .flatten()
+            .map(|&x| ((1.0 - share) * density(x, variance) + share * density(x, wide)).max(1e-300).ln())
+            .sum();
+        return Some(sum / n as f64);
+    }
+    let weights = weigh(&design, &fit.assembly.noise, &fit.linear, &w);
+    let mut sum = 0.0;
+    let mut count = 0.0_f64;
+    for (number, w) in weights.by_track(&w).iter().enumerate() {
+        for (k, x) in w.iter().enumerate() {
+            let s = weights.scale.as_ref().map_or(1.0, |s| s[number][k]);
+            if s > 0.0 {
+                sum += -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance + s.ln();
+                count += 1.0;
+            }
+        }
+    }
+    Some((sum + design.log_slope()) / count.max(1.0))
+}
+
+/// Innovations without what columns of the equation whose coefficients are unknown take of them, by least squares.
+fn without(
+    mut innovations: Vec<Vec<f64>>,
+    design: &Design,
+    whitener: &Whitener,
+    columns: Range<usize>,
+) -> Vec<Vec<f64>> {
+    let columns: Vec<Vec<Vec<f64>>> = columns.map(|j| design.disturbance(j, whitener)).collect();
+    for (number, w) in innovations.iter_mut().enumerate() {
+        let own: Vec<&Vec<f64>> =
+            columns.iter().map(|column| &column[number]).filter(|column| energy(column) > 0.0).collect();
+        let mut normal = Normal::new(own.len());
+        let row = |t: usize| own.iter().map(|column| column[t]).collect::<Vec<f64>>();
+        (0..w.len()).for_each(|t| normal.add(&row(t), w[t]));
+        let Some(factor) = normal.factor(1e-9).filter(|_| !own.is_empty()) else { continue };
+        let taken = factor.solve(&normal.gradient);
+        for (column, d) in own.iter().zip(taken) {
+            w.iter_mut().zip(*column).for_each(|(w, x)| *w -= d * x);
+        }
+    }
+    innovations
+}
+
+/// Autocorrelation and averaged spectrum of the innovations, physical units.
+pub(crate) fn picture(campaign: &Campaign, w: &[Vec<f64>]) -> ResidualPicture {
+    const LAGS: usize = 40;
+    const SEGMENT: usize = 256;
+    let count: usize = w.iter().map(Vec::len).sum();
+    let mut spectrum = vec![0.0; SEGMENT / 2 + 1];
+    let mut segments = 0.0;
+    for segment in w.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
+        for (s, p) in spectrum.iter_mut().zip(crate::residuals::spectrum::power(segment, SEGMENT)) {
+            *s += p / SEGMENT as f64 * campaign.y_scale * campaign.y_scale;
+        }
+        segments += 1.0;
+    }
+    spectrum.iter_mut().for_each(|s| *s /= f64::max(segments, 1.0));
+    ResidualPicture {
+        autocorrelation: crate::residuals::spectrum::autocorrelation(w, LAGS),
+        frequency: (0..=SEGMENT / 2).map(|k| k as f64 / SEGMENT as f64).collect(),
+        spectrum: if segments > 0.0 { spectrum } else { Vec::new() },
+        band: 1.96 / (count.max(1) as f64).sqrt(),
+    }
+}

@@ -1,0 +1,239 @@
+//! Periodograms and autocorrelations of residuals.
+
+use std::f64::consts::PI;
+
+use crate::least_squares::sums::{dot, energy};
+
+/// In-place radix-2 fast Fourier transform.
+///
+/// # Panics
+/// If the lengths differ or are no power of two.
+pub(crate) fn fft(re: &mut [f64], im: &mut [f64]) {
+    let n = re.len();
+    assert!(n.is_power_of_two() && im.len() == n, "the transform needs two arrays of one power of two");
+    let mut j = 0;
+    for i in 1..n {
+        let mut bit = n >> 1;
+        while j & bit != 0 {
+            j ^= bit;
+            bit >>= 1;
+        }
+        j |= bit;
+        if i < j {
+            re.swap(i, j);
+            im.swap(i, j);
+        }
+    }
+    let mut length = 2;
+    while length <= n {
+        let angle = -2.0 * PI / length as f64;
+        let half = length / 2;
+        let twiddles: Vec<(f64, f64)> = (0..half).map(|k| (angle * k as f64).sin_cos()).collect();
+        for start in (0..n).step_by(length) {
+            for (k, (sin, cos)) in twiddles.iter().enumerate() {
+                let (a, b) = (start + k, start + k + half);
+                let (x, y) = (re[b] * cos - im[b] * sin, re[b] * sin + im[b] * cos);
+                (re[b], im[b]) = (re[a] - x, im[a] - y);
+                (re[a], im[a]) = (re[a] + x, im[a] + y);
+            }
+        }
+        length *= 2;
+    }
+}
+
+/// Squared magnitudes of the transform of a zero-padded signal at frequencies `k/padded`, `k = 0…padded/2`.
+pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
+    let mut re = signal.to_vec();
+    re.resize(padded, 0.0);
+    let mut im = vec![0.0; padded];
+    fft(&mut re, &mut im);
+    (0..=padded / 2).map(|k| re[k] * re[k] + im[k] * im[k]).collect()
+}
+
+/// The strongest lines over all tracks, radians per sample: peaks of the summed periodograms, each over its own local level.
+pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64> {
+    let longest = innovations.iter().map(Vec::len).max().unwrap_or(0);
+    if longest < 64 {
+        return Vec::new();
+    }
+    let padded = (2 * longest).next_power_of_two();
+    let mut sum = vec![0.0; padded / 2 + 1];
+    for w in innovations.iter().filter(|w| w.len() >= 64) {
+        let mean = w.iter().sum::<f64>() / w.len() as f64;
+        let centred: Vec<f64> = w.iter().map(|x| x - mean).collect();
+        let energy: f64 = centred.iter().map(|x| x * x).sum::<f64>().max(1e-300);
+        for (s, p) in sum.iter_mut().zip(power(&centred, padded)) {
+            *s += p / energy * w.len() as f64;
+        }
+    }
+    let mut order: Vec<usize> = (2..sum.len() - 1).collect();
+    order.sort_by(|&i, &j| sum[j].total_cmp(&sum[i]));
+    let mut lines: Vec<f64> = Vec::new();
+    let apart = 4.0 * 2.0 * PI / longest as f64;
+    for k in order {
+        let omega = 2.0 * PI * k as f64 / padded as f64;
+        if lines.iter().all(|l| (l - omega).abs() > apart) {
+            lines.push(omega);
+            if lines.len() == count {
+                break;
+            }
+        }
+    }
+    lines
+}
+
+/// The frequency near `omega` at which a line through all tracks, phase and amplitude free in each, takes the most of them: what is
+/// strong leaves much even a hundredth of a bin beside it.
+pub(crate) fn sharpened(tracks: &[Vec<f64>], omega: f64) -> f64 {
+    /// Share of the larger part in a golden section, and sections: to a thousandth of where it began.
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    const SECTIONS: usize = 15;
+    let longest = tracks.iter().map(Vec::len).max().unwrap_or(0).max(1);
+    let taken = |omega: f64| energy_of_line(tracks, omega);
+    let bin = PI / longest as f64;
+    let (mut low, mut high) = (omega - bin, omega + bin);
+    for _ in 0..SECTIONS {
+        let part = GOLDEN * (high - low);
+        if taken(high - part) < taken(low + part) { low = high - part } else { high = low + part }
+    }
+    0.5 * (low + high)
+}
+
+/// Share of the energy of all tracks that a line takes.
+pub(crate) fn share_of_line(tracks: &[Vec<f64>], omega: f64) -> f64 {
+    energy_of_line(tracks, omega) / tracks.iter().map(|w| energy(w)).sum::<f64>().max(1e-300)
+}
+
+/// Energy that a line takes, phase and amplitude free in each track.
+fn energy_of_line(tracks: &[Vec<f64>], omega: f64) -> f64 {
+    tracks.iter().map(|w| 2.0 * ordinate(w, omega) / w.len().max(1) as f64).sum()
+}
+
+/// Squared magnitude of the transform at one frequency (Goertzel, Am. Math. Monthly 65, 1958).
+fn ordinate(signal: &[f64], omega: f64) -> f64 {
+    let turn = 2.0 * omega.cos();
+    let (now, before) = signal.iter().fold((0.0, 0.0), |(now, before), x| (x + turn * now - before, now));
+    now * now + before * before - turn * now * before
+}
+
+/// Autocorrelation at lags `0…most`, pooled over tracks.
+pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
+    let energy = tracks.iter().map(|w| energy(w)).sum::<f64>().max(1e-300);
+    (0..=most)
+        .map(|lag| tracks.iter().map(|w| dot(w, w.get(lag..).unwrap_or_default())).sum::<f64>() / energy)
+        .collect()
+}
+
+/// Portmanteau statistic of a white signal of `count` samples: `count·Σ r²` over the lags 1 to `most`.
+pub(crate) fn portmanteau(tracks: &[Vec<f64>], most: usize, count: f64) -> f64 {
+    autocorrelation(tracks, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
+}
+
+/// Mean square over all tracks.
+pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    signals.iter().flatten().map(|x| x * x).sum::<f64>() / count.max(1) as f64
+}
+
+/// Order of the autoregression behind [`unpredictable_variance`].
+const MEMORY: usize = 12;
+
+/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks.
+pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
+    let count: usize = signals.iter().map(Vec::len).sum();
+    let lagged = |lag: usize| -> f64 {
+        signals.iter().map(|x| x.iter().zip(x.iter().skip(lag)).map(|(a, b)| a * b).sum::<f64>()).sum()
+    };
+    let covariance: Vec<f64> = (0..=MEMORY).map(|lag| lagged(lag) / count.max(1) as f64).collect();
+    levinson(&covariance).1
+}
+
+/// The autoregression `1 + a₁ q⁻¹ + …` of covariances at lags 0, 1, …, and the variance of its innovations (Levinson's recursion).
+pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
+    let mut variance = covariance[0];
+    let mut a: Vec<f64> = Vec::new();
+    for order in 0..covariance.len() - 1 {
+        if variance <= 1e-12 * covariance[0] {
+            break;
+        }
+        let partial =
+            covariance[order + 1] + a.iter().enumerate().map(|(i, a)| a * covariance[order - i]).sum::<f64>();
+        let reflection = -partial / variance;
+        let mut next: Vec<f64> = (0..order).map(|i| a[i] + reflection * a[order - 1 - i]).collect();
+        next.push(reflection);
+        a = next;
+        variance *= 1.0 - reflection * reflection;
+    }
+    (a, variance.max(0.0))
+}
+
+/// Lags of the autoregression behind [`moving_average`].
+const LONG: usize = 40;
+
+/// The moving average `1 + c₁ q⁻¹ + …` of a degree, `c₁…` returned, of which signals are made (Durbin, Biometrika 46, 1959): the
+/// autoregression of the coefficients of a long autoregression. All zeros lie within the unit circle.
+pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
+    let mut long = vec![1.0];
+    long.extend(levinson(&autocorrelation(signals, LONG)).0);
+    let mut short = levinson(&autocorrelation(&[long], degree)).0;
+    short.resize(degree, 0.0);
+    short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::white;
+
+    #[test]
+    fn the_fast_transform_agrees_with_the_sum() {
+        let x: Vec<f64> = (0..16).map(|i| ((i * i) as f64 * 0.37).sin()).collect();
+        let p = power(&x, 16);
+        for (k, value) in p.iter().enumerate() {
+            let (mut re, mut im) = (0.0, 0.0);
+            for (t, x) in x.iter().enumerate() {
+                let angle = -2.0 * PI * (k * t) as f64 / 16.0;
+                re += x * angle.cos();
+                im += x * angle.sin();
+            }
+            assert!((value - (re * re + im * im)).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn a_line_is_sharpened_to_where_it_is() {
+        let track = |n: usize, phase: f64| (0..n).map(|t| (0.5741 * t as f64 + phase).sin()).collect();
+        let tracks: [Vec<f64>; 2] = [track(900, 0.3), track(400, 2.0)];
+        let found = strongest_lines(&tracks, 1)[0];
+        assert!((sharpened(&tracks, found) - 0.5741).abs() < 1e-5, "{found}");
+        assert!((share_of_line(&tracks, 0.5741) - 1.0).abs() < 0.01);
+        let p = power(&tracks[1][..256], 256);
+        let slow = ordinate(&tracks[1][..256], 2.0 * PI * 17.0 / 256.0);
+        assert!((p[17] - slow).abs() < 1e-9 * (1.0 + slow));
+    }
+
+    #[test]
+    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+        let mut white = white();
+        let mut x = vec![0.0, 0.0];
+        for t in 2..20_000 {
+            x.push(1.6 * x[t - 1] - 0.7 * x[t - 2] + white());
+        }
+        assert!((unpredictable_variance(&[x.clone()]) - 1.0).abs() < 0.05);
+        assert!(mean_square(&[x]) > 5.0);
+        assert!(unpredictable_variance(&[]).abs() < 1e-12);
+    }
+
+    /// The oracle: the coefficients that a signal was made with.
+    #[test]
+    fn a_moving_average_is_told_by_its_coefficients() {
+        let c = [0.9, 0.3, -0.4];
+        let mut white = white();
+        let w: Vec<f64> = (0..40_000).map(|_| white()).collect();
+        let past = |t: usize| c.iter().enumerate().map(|(k, c)| c * w[t - k - 1]).sum::<f64>();
+        let x: Vec<f64> = (3..w.len()).map(|t| w[t] + past(t)).collect();
+        let found = moving_average(&[x], 3);
+        assert!(found.iter().zip(c).all(|(found, c)| (found - c).abs() < 0.03), "{found:?}");
+        assert_eq!(moving_average(&[], 2), [0.0, 0.0]);
+    }
+}

@@ -1,0 +1,168 @@
+//! What dies away at the beginning of a record: the state of something slow, which nobody knows.
+//!
+//! Fitted records have a coefficient each. In held-out records it is estimated too: it says nothing about the model.
+
+use std::ops::Range;
+
+use crate::least_squares::normal::Normal;
+use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::engine::Fit;
+use crate::model::assembly::{Assembly, EquationColumn};
+use crate::model::linear::Linear;
+use crate::records::campaign::{Campaign, Track};
+
+/// Share of a record that is its beginning, and what is left there of something that has died away.
+const BEGINNING: f64 = 0.25;
+const GONE: f64 = 0.05;
+/// Squared standard errors a coefficient from which a beginning shows.
+const SHOWS: f64 = 25.0;
+
+/// The assembly and, where something dies away at the beginning of every fitted record, the same in the held-out ones; the numbers
+/// of the columns added.
+pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
+    let mut out = assembly.clone();
+    let known = &assembly.equation_columns;
+    let Some(track) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
+    for (number, held_out) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
+        // What dies away more slowly is a drift of its record, which the model ought to know.
+        let dies = |radius: f64| radius.powf(BEGINNING * held_out.v.len() as f64) < GONE;
+        for column in known {
+            if let EquationColumn::Decay { track: own, radius, frequency, sine } = *column
+                && own == track
+                && dies(radius)
+            {
+                let start = EquationColumn::Decay { track: number, radius, frequency, sine };
+                out.equation_columns.push(start);
+            }
+        }
+    }
+    let added = known.len()..out.equation_columns.len();
+    (out, added)
+}
+
+/// Sets the coefficients of added columns by the equation errors before the first counted sample, the only ones a simulation may look
+/// at, where these show a beginning above noise of the given variance.
+pub(crate) fn set_by_first_samples(
+    p: &mut Linear,
+    design: &Design,
+    track: &DesignTrack,
+    (added, variance): (Range<usize>, f64),
+) {
+    let own: Vec<usize> =
+        (0..track.columns.numbers.len()).filter(|&k| added.contains(&track.columns.numbers[k])).collect();
+    if own.is_empty() {
+        return;
+    }
+    let first = p.a.len().max(p.b.len() + design.taps.len());
+    let errors = design.errors_from(track, p, first);
+    let mut normal = Normal::new(own.len());
+    let mut row = vec![0.0; own.len()];
+    for (t, e) in (first..track.from).zip(errors) {
+        let psi = track.columns.row(t);
+        row.iter_mut().zip(&own).for_each(|(x, &k)| *x = psi[k]);
+        normal.add(&row, e);
+    }
+    let Some(factor) = normal.factor(1e-9) else { return };
+    let found = factor.solve(&normal.gradient);
+    let gain: f64 = found.iter().zip(&normal.gradient).map(|(d, g)| d * g).sum();
+    if gain > SHOWS * own.len() as f64 * variance {
+        for (&k, d) in own.iter().zip(found) {
+            p.d[track.columns.numbers[k]] = d;
+        }
+    }
+}
+
+/// Times the greatest input that a filter may hold, and standard errors beyond it, from which a beginning is none of the filter. A
+/// simulation begins at rest at one border, the record anywhere between them: twice. As much again for what is in series.
+const MOST_HELD: f64 = 4.0;
+const CERTAIN: f64 = 10.0;
+
+/// Whether what dies away with a pole at the beginnings of the records is what a filter may hold when they begin: not more than a past
+/// input between the borders leaves there.
+///
+/// ```text
+/// ũ = … + κ·(1−p)/(1−p q⁻¹) u,   A y = B ũ + d·pᵗ   ⟹   |d| ≤ |B(1/p)·κ|·2·max|u|
+/// ```
+///
+/// `share` is `κ`. Compared at the first counted sample: nothing is known of what has died away before.
+pub(crate) fn begins_as_a_filter(fit: &Fit, pole: f64, share: f64) -> bool {
+    let greatest = fit.linear.f[..fit.grid.len()].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let held = MOST_HELD * greatest * (share * value(&fit.linear.b, 1.0 / pole)).abs();
+    let of_this = |column: &EquationColumn| match *column {
+        EquationColumn::Decay { radius, frequency: 0.0, sine: false, .. } => radius == pole,
+        _ => false,
+    };
+    fit.design.tracks.iter().all(|track| {
+        let counted = (track.x.len() - track.from) as f64;
+        let energy = (1.0 - pole.powf(2.0 * counted)) / (1.0 - pole * pole);
+        let remains = pole.powi(track.from as i32);
+        let most = held * remains + CERTAIN * (fit.variance / energy).sqrt();
+        let columns = track.columns.numbers.iter();
+        columns
+            .filter(|&&j| of_this(&fit.assembly.equation_columns[j]))
+            .all(|&j| fit.linear.d[j].abs() * remains <= most)
+    })
+}
+
+/// A polynomial by increasing powers.
+fn value(coefficients: &[f64], z: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * z + c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::likelihood::engine::{Ground, fit};
+    use crate::testing::{noise_free, small_campaign, small_model};
+
+    /// The oracle: the coefficient that the record was made with.
+    #[test]
+    fn a_beginning_is_set_where_it_shows_above_the_noise() {
+        let (campaign, grid) = small_campaign();
+        let radius = 0.9;
+        let column = EquationColumn::Decay { track: 0, radius, frequency: 0.0, sine: false };
+        let assembly = Assembly { equation_columns: vec![column], ..Assembly::default() };
+        let truth = Linear { d: vec![0.7], ..small_model(&grid) };
+        let campaign = noise_free(campaign, &grid, &assembly, &truth);
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let found = |variance: f64| {
+            let mut p = Linear { d: vec![0.0], ..truth.clone() };
+            set_by_first_samples(&mut p, &design, &design.tracks[0], (0..1, variance));
+            p.d[0]
+        };
+        assert!((found(1e-6) - 0.7).abs() < 1e-6, "{}", found(1e-6));
+        assert_eq!(found(1.0), 0.0);
+    }
+
+    #[test]
+    fn a_filter_begins_with_what_a_past_input_left() {
+        let pole = 0.94;
+        let column = EquationColumn::Decay { track: 0, radius: pole, frequency: 0.0, sine: false };
+        let mut assembly = Assembly { equation_columns: vec![column], ..Assembly::default() };
+        assembly.filter(&[1.0 - pole], &[1.0, -pole]);
+        let sound = |d: f64, share: f64| {
+            let (campaign, grid) = small_campaign();
+            let truth = Linear { d: vec![d], ..small_model(&grid) };
+            let campaign = noise_free(campaign, &grid, &assembly, &truth);
+            let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+            let fit = fit(ground, &|_| assembly.clone(), &[], &truth, 1).expect("a fit");
+            begins_as_a_filter(&fit, pole, share)
+        };
+        // Inputs up to one, a gain of one.
+        assert!(sound(2.0, 1.0) && sound(-2.0, -1.0));
+        assert!(!sound(20.0, 1.0) && !sound(-2.0, 0.1));
+    }
+
+    #[test]
+    fn held_out_records_begin_with_what_dies_soon() {
+        let (mut campaign, _) = small_campaign();
+        let mut held_out = campaign.tracks[0].clone();
+        held_out.usage = switchback_estimator::rig::Usage::Holdout;
+        campaign.tracks.push(held_out);
+        let decay = |radius| EquationColumn::Decay { track: 0, radius, frequency: 0.0, sine: false };
+        let assembly = Assembly { equation_columns: vec![decay(0.5), decay(0.999)], ..Assembly::default() };
+        let (with, added) = with_beginnings(&campaign, &assembly);
+        assert_eq!(added, 2..3);
+        assert!(matches!(with.equation_columns[2], EquationColumn::Decay { track: 1, radius: 0.5, .. }));
+    }
+}

@@ -1,0 +1,5 @@
+//! Free runs of a fitted model: where they begin, and what its noise makes of the output.
+
+pub(crate) mod beginnings;
+pub(crate) mod noise_response;
+pub(crate) mod simulate;

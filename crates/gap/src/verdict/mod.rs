@@ -1,0 +1,5 @@
+//! From explanations to calibrated probabilities, and from these to a verdict.
+
+pub(crate) mod decide;
+pub(crate) mod odds;
+pub(crate) mod simulators;
