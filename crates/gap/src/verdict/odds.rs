@@ -45,10 +45,12 @@ mod calibration {
     /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
     /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
-    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, of outliers, and of a resonance.
+    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, of outliers, of a lag, and of a
+    /// resonance.
     pub(super) const MOST_LEFT: f64 = 0.45;
     pub(super) const MOST_LEFT_WITH_THE_GAP: f64 = 0.1;
     pub(super) const MOST_LEFT_BY_OUTLIERS: f64 = 0.02;
+    pub(super) const MOST_LEFT_BY_A_LAG: f64 = 0.02;
     pub(super) const MOST_LEFT_BY_RESONANCE: f64 = 0.21;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
@@ -99,6 +101,8 @@ fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
     match effect {
         // They come whatever the machine does: nothing of them hangs on its state.
         Effect::Outliers => calibration::MOST_LEFT_BY_OUTLIERS,
+        // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
+        Effect::ExtraPole => calibration::MOST_LEFT_BY_A_LAG,
         _ if moves_simulation && misses => calibration::MOST_LEFT_WITH_THE_GAP,
         // Two poles and a zero that are free follow the lines, lags and frictions of others a good part of the way.
         Effect::Resonance => calibration::MOST_LEFT_BY_RESONANCE,
@@ -349,6 +353,9 @@ mod tests {
         // A thirtieth and a hundredth.
         assert!(leaving(Effect::Outliers, 300.0, 1.0));
         assert!(!leaving(Effect::Outliers, 90.0, 1.0));
+        // A thirtieth and a sixtieth.
+        assert!(leaving(Effect::ExtraPole, 300.0, 0.01));
+        assert!(!leaving(Effect::ExtraPole, 150.0, 0.01));
     }
 
     #[test]
