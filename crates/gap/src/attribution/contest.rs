@@ -1,6 +1,7 @@
 //! Which effects explain what the nominal model misses: a cheap look at every law, then the promising ones to
 //! convergence, border knots placed anew, and a second effect where the first leaves much.
 
+use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
 use crate::attribution::search::{Question, advance, finish, from_scratch, looks};
 use crate::attribution::starts::Known;
@@ -8,7 +9,6 @@ use crate::effect::Effect;
 use crate::nominal::knots::detail;
 use crate::records::campaign::Campaign;
 use crate::settings::Settings;
-use crate::verdict::odds::SIGNIFICANT;
 use crate::workers::Workers;
 
 /// What is to be explained, and with what.

@@ -5,7 +5,6 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::attribution::search::finish;
-use crate::attribution::starts::padded;
 use crate::effect::Effect;
 use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
 use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
@@ -173,7 +172,7 @@ impl Explanation {
         linear.b.truncate(linear.a.len());
         linear.f.truncate(self.fit.grid.len());
         linear.d.clear();
-        let start = padded(&linear, self.fit.grid.len(), &assembled(parts, &values));
+        let start = linear.padded(self.fit.grid.len(), &assembled(parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
         fit(ground, &|values| assembled(parts, values), own, &start, ALONE)
     }

@@ -78,7 +78,7 @@ impl ScoreTest<'_> {
         let fit = &self.known.explanation.fit;
         let all: Vec<f64> = fit.own.iter().chain(own).map(|o| o.value).collect();
         let assembly = build(&all);
-        let p = padded(&fit.linear, fit.grid.len(), &assembly);
+        let p = fit.linear.padded(fit.grid.len(), &assembly);
         let there = self.moved(&assembly, &p, &fit.design);
         let mut columns = Vec::new();
         let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
@@ -173,15 +173,6 @@ fn energy(column: &[f64]) -> f64 {
     if sum.is_finite() { sum } else { 0.0 }
 }
 
-/// The linear parameters with zeros for what an assembly adds, the border values on a grid of the given size.
-pub(crate) fn padded(start: &Linear, grid: usize, assembly: &Assembly) -> Linear {
-    let mut p = start.clone();
-    p.b.resize(p.a.len() + assembly.extra_b, 0.0);
-    p.f.resize(grid + assembly.border_columns.len(), 0.0);
-    p.d.resize(assembly.equation_columns.len(), 0.0);
-    p
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,7 +200,7 @@ mod tests {
         };
         let builds: [&Build<'_>; 2] = [&trend, &since];
         for build in builds {
-            let start = padded(&explanation.fit.linear, grid.len(), &build(&[]));
+            let start = explanation.fit.linear.padded(grid.len(), &build(&[]));
             let fitted = fit(ground, build, &[], &start, 30).expect("a fit");
             let gain = explanation.fit.deviance - fitted.deviance;
             let score = test.score(build, &[]);

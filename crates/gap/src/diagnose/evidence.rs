@@ -1,13 +1,14 @@
 //! What the fits say before anything is weighed.
 
 use super::Plan;
+use crate::attribution::SIGNIFICANT;
 use crate::attribution::contest::Attribution;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::{Firsts, Pair};
 use crate::attribution::search::on_a_free_course;
 use crate::effect::Effect;
 use crate::residuals::omnibus::{Omnibus, omnibus};
-use crate::verdict::odds::{IMMATERIAL, SIGNIFICANT};
+use crate::verdict::odds::IMMATERIAL;
 use crate::workers::Workers;
 
 /// Single effects and the best pair of them.

@@ -14,6 +14,7 @@ use self::evidence::Evidence;
 use self::foreign::Foreign;
 use self::nominal::Nominal;
 use self::report::Conclusion;
+use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
 use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
@@ -23,7 +24,7 @@ use crate::records::campaign::Campaign;
 use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
 use crate::verdict::decide::verdict;
-use crate::verdict::odds::{Leavings, SIGNIFICANT, holds_together, odds, odds_together};
+use crate::verdict::odds::{Leavings, holds_together, odds, odds_together};
 use crate::verdict::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
 

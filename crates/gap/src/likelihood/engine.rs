@@ -21,7 +21,7 @@ use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::{Weights, weigh};
 use crate::model::assembly::{Assembly, EquationColumn};
 use crate::model::borders::Grid;
-use crate::nominal::given::settles;
+use crate::model::stability::settles;
 use crate::records::campaign::Campaign;
 
 /// One own parameter of an effect: its value and how it may move.

@@ -2,6 +2,8 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use crate::model::assembly::Assembly;
+
 /// `a`, `b`, border values and disturbance coefficients.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Linear {
@@ -31,6 +33,15 @@ impl Linear {
             *x += step * d;
         }
         out
+    }
+
+    /// The same with zeros for what an assembly adds, the border values on a grid of the given size.
+    pub(crate) fn padded(&self, grid: usize, assembly: &Assembly) -> Self {
+        let mut p = self.clone();
+        p.b.resize(p.a.len() + assembly.extra_b, 0.0);
+        p.f.resize(grid + assembly.border_columns.len(), 0.0);
+        p.d.resize(assembly.equation_columns.len(), 0.0);
+        p
     }
 
     /// What innovations of white equation errors make of the output: each track through `1/A`.

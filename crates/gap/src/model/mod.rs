@@ -5,3 +5,4 @@ pub(crate) mod borders;
 pub(crate) mod forwards;
 pub(crate) mod linear;
 pub(crate) mod sensor;
+pub(crate) mod stability;

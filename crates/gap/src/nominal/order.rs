@@ -8,7 +8,7 @@ use crate::error::DiagnoseError;
 use crate::likelihood::engine::{Fit, Ground, fit};
 use crate::likelihood::weights::weigh;
 use crate::model::assembly::Assembly;
-use crate::nominal::given::settles;
+use crate::model::stability::settles;
 use crate::nominal::identify::{first_fit, identify};
 use crate::nominal::knots::{first_grid, refine};
 use crate::records::campaign::{Campaign, Criterion, Track};

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use crate::attribution::starts::padded;
 use crate::diagnosis::ResidualPicture;
 use crate::least_squares::normal::Normal;
 use crate::least_squares::sums::energy;
@@ -29,7 +28,7 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
         return None;
     }
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
-    let p = padded(&fit.linear, fit.grid.len(), &assembly);
+    let p = fit.linear.padded(fit.grid.len(), &assembly);
     let w = without(design.innovations(&p, &whitener), &design, &whitener, starts);
     let variance = fit.variance;
     if let Some((share, ratio)) = fit.assembly.noise.mixture {

@@ -1,6 +1,5 @@
 //! Free-run simulation of a fitted model over a record.
 
-use crate::attribution::starts::padded;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{Assembly, BorderColumn, convolve};
@@ -19,7 +18,7 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
         start(&mut u, &design, fit);
     }
     let b = convolve(&fit.linear.b, &design.taps);
-    let mut p = padded(&fit.linear, fit.grid.len(), &assembly);
+    let mut p = fit.linear.padded(fit.grid.len(), &assembly);
     set_by_first_samples(&mut p, &design, part, (added, fit.variance));
     let d = part.columns.coefficients(&p.d);
     let mut x = part.x[..part.from].to_vec();

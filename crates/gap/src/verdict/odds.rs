@@ -1,11 +1,8 @@
 //! Calibrated probabilities of explanations, of none and of none of these.
 
+use crate::attribution::SIGNIFICANT;
 use crate::attribution::pairs::{Causes, Pair};
 use crate::effect::Effect;
-
-/// Penalised deviance that an effect must gain before anything is missing at all: covers the search over twenty effects,
-/// their laws and their own parameters.
-pub(crate) const SIGNIFICANT: f64 = 40.0;
 
 /// Probability of "none of these" from which no candidate is offered.
 pub(crate) const UNEXPLAINED: f64 = 0.5 * calibration::ALL_FAIL;

@@ -2,10 +2,10 @@
 
 use super::prospects::{Prospect, are_tested, keep_likeliest, prospects};
 use super::{Question, look};
+use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
-use crate::verdict::odds::SIGNIFICANT;
 use crate::workers::Workers;
 
 /// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.

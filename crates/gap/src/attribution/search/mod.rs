@@ -12,7 +12,7 @@ pub(crate) use self::profile::profiled;
 use self::prospects::Prospect;
 pub(crate) use self::scratch::from_scratch;
 use crate::attribution::explain::{Explanation, assembled};
-use crate::attribution::starts::{Known, padded};
+use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::effects::{Search, Variant};
 use crate::likelihood::design::{Design, Linear, Whitener};
@@ -244,7 +244,7 @@ impl Task<'_> {
     }
 
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
-        padded(start, self.ground.grid.len(), assembly)
+        start.padded(self.ground.grid.len(), assembly)
     }
 }
 
