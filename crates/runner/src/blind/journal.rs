@@ -1,8 +1,8 @@
 //! What is judged already, on disk while an examination runs: one that was interrupted is taken up where it stood.
 //!
-//! A line a rig: `{"program": …, "rig": …, "case": {…}}`, the first two the SHA-256 of the executable that judged and of the
-//! rig's line in the key file. Only the same executable's judgement of the same rig counts. A line once keys are sealed:
-//! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same executable found need not be searched for again.
+//! A line a rig: `{"program": …, "rig": …, "case": {…}}`, the first two the SHA-256 of the sources that judged and of the
+//! rig's line in the key file. Only the same sources' judgement of the same rig counts. A line once keys are sealed:
+//! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same sources found need not be searched for again.
 
 use super::case::Case;
 use super::seal::{Sealed, WrittenKeys, sha256};
@@ -52,7 +52,7 @@ struct KeysLine<'a> {
 pub const KEY_FILE: &str = "key.jsonl";
 
 impl Journal {
-    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells executables apart.
+    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells the sources that judge apart.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
@@ -86,7 +86,7 @@ impl Journal {
         Ok(Self { path, file, program: program.to_owned(), known, keys })
     }
 
-    /// The keys beside the journal, if the same executable sealed them; else none.
+    /// The keys beside the journal, if the same sources sealed them; else none.
     pub fn keys(&self) -> WrittenKeys {
         let text = fs::read_to_string(self.path.with_file_name(KEY_FILE)).unwrap_or_default();
         match &self.keys {

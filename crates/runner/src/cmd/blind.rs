@@ -37,7 +37,7 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     let tickets = blind::design(&study).map_err(StudyError)?;
     let meter = Meter::counting("rigs made", quiet);
     meter.planned(tickets.len() as u64);
-    let mut journal = Journal::open(out, &this_program())?;
+    let mut journal = Journal::open(out, JUDGING_SOURCES)?;
     let sealed = blind::seal(tickets, &journal.keys(), &|| meter.advanced(1)).map_err(StudyError)?;
     meter.finish();
     let key = blind::key_file(&sealed);
@@ -80,11 +80,8 @@ fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Re
     Ok(cases)
 }
 
-/// What tells this executable from others; one that cannot be read is like no other, and takes nothing up.
-fn this_program() -> String {
-    let unique = |_| std::process::id().to_string().into_bytes();
-    blind::sha256(std::env::current_exe().and_then(std::fs::read).unwrap_or_else(unique))
-}
+/// The SHA-256 of the sources that make, diagnose and judge: the program may be built anew meanwhile, or elsewhere.
+const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 
 fn conclude(study: &Study, hash: &str, cases: &[Case], out: &Path, page: Page) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
