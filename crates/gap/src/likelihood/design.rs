@@ -68,8 +68,8 @@ pub(crate) struct Design {
     pub(crate) poles: Vec<f64>,
     pub(crate) criterion: Criterion,
     /// What it was built from.
-    grid: Grid,
-    assembly: Assembly,
+    pub(crate) grid: Grid,
+    pub(crate) assembly: Assembly,
 }
 
 impl Design {

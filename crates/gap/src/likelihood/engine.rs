@@ -174,7 +174,9 @@ pub(crate) fn fit(
                 for (o, s) in next.iter_mut().zip(&step[p.len()..]) {
                     o.value = (o.value - share * s).clamp(o.low, o.high);
                 }
-                let assembly = build(&values(&next));
+                let mut assembly = build(&values(&next));
+                // A mixture goes on from the one before: expectation–maximisation ends after fewer rounds.
+                assembly.noise.mixture = state.weights.mixture.or(assembly.noise.mixture);
                 let redesign =
                     (!assembly.same_design(&state.assembly)).then(|| design_of(&assembly, Some(&design)));
                 let s = evaluate(redesign.as_ref().unwrap_or(&design), assembly, &moved)?;

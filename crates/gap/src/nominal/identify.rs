@@ -10,9 +10,8 @@ use crate::least_squares::normal::Normal;
 use crate::likelihood::design::{Design, Linear, filtered_rows};
 use crate::likelihood::engine::{Fit, Ground, fit};
 use crate::model::assembly::Assembly;
-use crate::model::borders::Grid;
 use crate::nominal::knots::{first_grid, refine};
-use crate::records::campaign::Campaign;
+use crate::records::campaign::{Campaign, Track};
 
 /// Identifies the nominal model of a given order and places the border knots.
 pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
@@ -31,8 +30,9 @@ pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, Diagno
             needed,
         });
     }
-    let start = first_guess(campaign, &grid, order, &Assembly::default())?;
-    let ground = Ground { campaign, grid: &grid, known: None };
+    let design = Design::new(campaign, &grid, &Assembly::default(), Track::is_fit);
+    let start = first_guess(&design, order)?;
+    let ground = Ground { campaign, grid: &grid, known: Some(&design) };
     fit(ground, &|_| Assembly::default(), &[], &start, 12)
         .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })
 }
@@ -41,14 +41,9 @@ pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, Diagno
 ///
 /// `h` are the hats of the borders and the columns beside them. The hats of a row sum to one, so each lag's `g` is known up to
 /// a constant shared among lags: their part of the rows of `g` is centred before the decomposition. (Bai, Automatica 1998.)
-pub(crate) fn first_guess(
-    campaign: &Campaign,
-    grid: &Grid,
-    n: usize,
-    assembly: &Assembly,
-) -> Result<Linear, DiagnoseError> {
-    let design = Design::new(campaign, grid, assembly, |t| t.is_fit());
-    let hats = grid.len();
+pub(crate) fn first_guess(design: &Design, n: usize) -> Result<Linear, DiagnoseError> {
+    let assembly = &design.assembly;
+    let hats = design.grid.len();
     let k = hats + assembly.border_columns.len();
     let nb = n + assembly.extra_b;
     let columns = n + nb * k;
@@ -59,7 +54,7 @@ pub(crate) fn first_guess(
     let mut sums = is_dense.then(|| DenseSums::new((0..size).collect()));
     let mut row = vec![0.0; size];
     for track in &design.tracks {
-        let dense = (!design.poles.is_empty()).then(|| filtered_rows(&design, track, k));
+        let dense = (!design.poles.is_empty()).then(|| filtered_rows(design, track, k));
         // What the errors remember is taken from every term of the equation.
         let mut whitened = Remembering::new(&assembly.noise.ar);
         for t in track.from.saturating_sub(assembly.noise.ar.len()).max(n)..track.x.len() {
@@ -182,7 +177,8 @@ mod tests {
         // Centred, as the guess is.
         truth.f = vec![-0.3, 0.0, 0.3, -0.2, -0.1, 0.1, 0.2, 2.0];
         let campaign = noise_free(campaign, &grid, &assembly, &truth);
-        let guess = first_guess(&campaign, &grid, 2, &assembly).expect("a guess");
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let guess = first_guess(&design, 2).expect("a guess");
         for (guess, a) in guess.a.iter().zip(&truth.a) {
             assert!((guess - a).abs() < 1e-4, "{:?}", guess);
         }
@@ -221,7 +217,8 @@ mod tests {
         let mut truth = Linear { a: vec![-0.9, 0.3], b: vec![0.8, 0.6], f: Vec::new(), d: vec![0.5] };
         truth.f = vec![-0.3, 0.0, 0.3, -0.2, -0.1, 0.1, 0.2];
         let campaign = noise_free(campaign, &grid, &assembly, &truth);
-        let guess = first_guess(&campaign, &grid, 2, &assembly).expect("a guess");
+        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let guess = first_guess(&design, 2).expect("a guess");
         // Hats behind a lag are hardly told apart: the damping of the solution shows in the third figure.
         for (found, a) in guess.a.iter().zip(&truth.a) {
             assert!((found - a).abs() < 5e-3, "{guess:?}");

@@ -17,8 +17,9 @@ const TWINS: usize = 2;
 const DETAILED: usize = 6;
 /// Share of the gap that the best pair may leave after the restarts: another law of its members seldom takes more.
 const FAR: f64 = 0.2;
-/// Times that laws and knots are sought in turn.
+/// Times that laws and knots are sought in turn, and the share of what was left from which on another time finds the same.
 const ROUNDS: usize = 2;
+const UNMOVED: f64 = 0.9;
 
 impl<W: Workers> Attribution<'_, W> {
     /// The best pair by a forward step and restarts.
@@ -56,14 +57,15 @@ impl<W: Workers> Attribution<'_, W> {
         }
         search.restart();
         for _ in 0..ROUNDS {
-            let was_near = search.left_of_gap() < FAR;
+            let before = search.left_of_gap();
+            let was_near = before < FAR;
             if was_near {
                 search.every_law();
             }
             search.prefer_what_leaves_less();
             search.place_knots_anew();
-            let may_gain = was_near || search.left_of_gap() < FAR;
-            if !may_gain || !search.leaves_much() {
+            let left = search.left_of_gap();
+            if left >= FAR || left > UNMOVED * before || !search.leaves_much() {
                 break;
             }
         }

@@ -36,13 +36,16 @@ pub(super) struct PairSearch<'a, 'b, W> {
     pub(super) tried: Vec<Effect>,
     /// Firsts that details of the borders were looked for on.
     detailed: Vec<Effect>,
+    /// Firsts as they were alone, and the seconds of which every law was tried on them.
+    exhausted: Vec<[Effect; 2]>,
     /// Pairs found, the best first: of every two laws the best.
     pub(super) found: Vec<Explanation>,
 }
 
 impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     pub(super) fn new(of: &'a Attribution<'b, W>, singles: Firsts<'a>) -> Self {
-        Self { of, singles, tried: Vec::new(), detailed: Vec::new(), found: Vec::new() }
+        let (tried, detailed, exhausted, found) = Default::default();
+        Self { of, singles, tried, detailed, exhausted, found }
     }
 
     /// Looks for the best second beside a first.
@@ -158,7 +161,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         for [one, other] in near {
             for (member, moved) in [(one, other), (other, one)] {
                 for held in alike(member) {
-                    self.ask(held, &self.laws_of(held, moved));
+                    self.exhaust(held, moved);
                 }
             }
             for round in 0..ROUNDS {
@@ -193,6 +196,16 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
             if anew.may_be_a_cause() {
                 *best = anew;
             }
+        }
+    }
+
+    /// Every law of an effect and of its twins beside a first as it was alone, which is the same however often it is asked.
+    fn exhaust(&mut self, held: Effect, moved: Effect) {
+        let mut questions = self.laws_of(held, moved);
+        questions.retain(|question| !self.exhausted.contains(&[held, question.effect]));
+        if !questions.is_empty() {
+            self.exhausted.extend(questions.iter().map(|question| [held, question.effect]));
+            self.ask(held, &questions);
         }
     }
 

@@ -119,8 +119,11 @@ fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
     let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
     let starts = law.starts.iter().map(|own| joined(own));
     let held = |own: Vec<Own>| {
-        let afresh = task.dynamics_refitted(&own, &base);
-        best([task.held(&own, &base, 1), afresh.and_then(|p| task.held(&own, &p, 1))].into_iter().flatten())
+        let design = Design::like(ground.known, campaign, grid, &task.assembly(&own));
+        let there = task.on(&design);
+        let afresh = there.dynamics_refitted(&own, &base).and_then(|p| there.held(&own, &p, 0));
+        let nearer = best([there.held(&own, &base, 0), afresh].into_iter().flatten())?;
+        there.held(&own, &nearer.linear, 1)
     };
     let fit = match law.search {
         // Without own parameters there is one start, and nothing that a look could compare.
@@ -153,9 +156,14 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The search from where a fit ended: what that built serves on.
+    /// The search from where a fit ended.
     fn from<'b>(&'b self, fit: &'b Fit) -> Task<'b> {
-        let ground = Ground { known: Some(&fit.design), ..self.ground };
+        self.on(&fit.design)
+    }
+
+    /// The search where something is built already: it serves on.
+    fn on<'b>(&'b self, design: &'b Design) -> Task<'b> {
+        let ground = Ground { known: Some(design), ..self.ground };
         Task { ground, build: self.build, held: self.held }
     }
 

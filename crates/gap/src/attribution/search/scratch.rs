@@ -8,6 +8,7 @@ use crate::attribution::explain::{Explanation, Part, assembled};
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::effects::{Scene, Variant, variants};
+use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Ground, Own};
 use crate::model::assembly::{Assembly, EquationColumn, Slow};
 use crate::model::borders::Grid;
@@ -95,10 +96,11 @@ fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
 fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Option<Explanation> {
     let campaign = known.campaign;
     let build = |values: &[f64]| assembled(parts, values);
-    let task = Task { ground: Ground { campaign, grid, known: None }, build: &build, held: 0 };
-    let assembly = task.assembly(own);
-    let order = known.explanation.fit.linear.a.len();
-    let start = may_rule(&assembly).then(|| first_guess(campaign, grid, order, &assembly).ok())??;
+    let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+    let assembly = Some(build(&values)).filter(may_rule)?;
+    let design = Design::like(Some(&known.explanation.fit.design), campaign, grid, &assembly);
+    let start = first_guess(&design, known.explanation.fit.linear.a.len()).ok()?;
+    let task = Task { ground: Ground { campaign, grid, known: Some(&design) }, build: &build, held: 0 };
     let fit = task.held(own, &start, 1)?;
     let set_back = known.explanation.set_back;
     Some(Explanation { parts: parts.to_vec(), fit, set_back, held_out: 0.0 }).filter(Explanation::is_sound)
