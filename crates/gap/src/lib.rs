@@ -32,6 +32,7 @@ mod likelihood;
 mod localise;
 mod model;
 mod nominal;
+mod phase;
 mod records;
 mod residuals;
 mod settings;
@@ -49,5 +50,6 @@ pub use diagnosis::{
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
+pub use phase::Phase;
 pub use settings::{Model, NominalModel, Settings};
 pub use workers::{Serial, Workers};

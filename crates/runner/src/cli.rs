@@ -5,11 +5,17 @@
 
 use crate::cmd;
 use crate::failure::CommandResult;
-use clap::{Parser, Subcommand};
+use crate::input::closest;
+use clap::{CommandFactory, Parser, Subcommand};
+use miette::Diagnostic;
+use std::ffi::OsString;
+use std::path::Path;
+use thiserror::Error;
 
 /// Identify switched-hysteresis systems, benchmark their estimators' consistency, diagnose the sim-to-real gap.
 ///
-/// Exit codes: 0 done; 1 an expectation or comparison failed; 2 bad input, nothing written.
+/// Exit codes: 0 done; 1 an expectation or comparison failed; 2 bad input, nothing written; 3 stopped by a signal, what was finished
+/// is kept.
 #[derive(Debug, Parser)]
 #[command(
     version,
@@ -28,9 +34,47 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Compare(cmd::compare::Args),
+    Completions(cmd::completions::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
+    Man(cmd::man::Args),
     Rig(cmd::rig::Args),
+}
+
+/// Runs what the words of a command line ask for, the program's own name first. Help, version and what cannot be understood
+/// end the process here.
+///
+/// # Errors
+/// The report of an input that could not be used.
+pub fn run(words: Vec<OsString>) -> CommandResult {
+    if let Some(word) = words.get(1).and_then(|word| word.to_str()) {
+        refuse_misspelt_verb(word)?;
+    }
+    Cli::parse_from(words).run()
+}
+
+/// The first word is neither a verb nor a file.
+#[derive(Debug, Error, Diagnostic)]
+#[error("`{word}` is no verb, and no scenario file has that name")]
+#[diagnostic(help("{help}"))]
+struct NoVerb {
+    word: String,
+    help: String,
+}
+
+/// A misspelt verb would be taken for the name of a scenario file. What looks like a path is one.
+fn refuse_misspelt_verb(word: &str) -> Result<(), NoVerb> {
+    let cli = Cli::command();
+    let verbs: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
+    let may_be_right = word.starts_with('-') || word.contains(['.', '/', '\\']) || verbs.contains(&word);
+    if may_be_right || word.is_empty() || Path::new(word).exists() {
+        return Ok(());
+    }
+    let help = match closest(word, verbs.iter().copied()) {
+        Some(verb) => format!("did you mean `switchback {verb}`?"),
+        None => format!("the verbs are {}; a scenario is named by its path", verbs.join(", ")),
+    };
+    Err(NoVerb { word: word.to_owned(), help })
 }
 
 impl Cli {
@@ -41,8 +85,10 @@ impl Cli {
     pub fn run(self) -> CommandResult {
         match (self.verb, self.study) {
             (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
+            (Some(Verb::Completions(args)), _) => cmd::completions::run(&args),
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
+            (Some(Verb::Man(args)), _) => cmd::man::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {

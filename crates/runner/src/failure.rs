@@ -15,6 +15,9 @@ pub enum Outcome {
     Unmet,
 }
 
+/// Exit code of a process that a signal stopped: what was finished is kept.
+pub const STOPPED: i32 = 3;
+
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
 pub type CommandResult = Result<Outcome, miette::Report>;
 

@@ -8,6 +8,8 @@ pub mod diagnosis;
 pub mod failure;
 pub mod identification;
 pub mod input;
+pub mod interrupt;
+pub mod options;
 pub mod output;
 pub mod plots;
 pub mod progress;

@@ -1,13 +1,13 @@
 //! The `switchback` binary.
 
-use clap::Parser;
 use std::hint::black_box;
 use std::process::ExitCode;
-use switchback::{cli::Cli, failure};
+use switchback::{cli, failure, interrupt};
 
 fn main() -> ExitCode {
     keep_memory();
-    failure::exit_code(Cli::parse().run())
+    interrupt::install();
+    failure::exit_code(cli::run(std::env::args_os().collect()))
 }
 
 /// A diagnosis takes and leaves thousands of blocks of some ten thousand bytes. The GNU C library hands them back to the system and

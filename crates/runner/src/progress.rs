@@ -1,5 +1,10 @@
-//! How far a study has come: a bar on a terminal, plain lines elsewhere.
+//! How far a command has come: a bar on a terminal; elsewhere plain lines for a study, nothing for a diagnosis.
 
+mod watch;
+
+pub use watch::Watch;
+
+use crate::options::Quiet;
 use crate::study::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -19,13 +24,14 @@ pub struct Meter {
 const LINES: u64 = 10;
 
 impl Meter {
-    /// A meter of replicates at zero; `quiet` shows nothing.
-    pub fn new(quiet: bool) -> Self {
+    /// A meter of replicates at zero.
+    pub fn new(quiet: Quiet) -> Self {
         Self::counting("replicates", quiet)
     }
 
     /// A meter of anything else.
-    pub fn counting(what: &'static str, quiet: bool) -> Self {
+    pub fn counting(what: &'static str, quiet: Quiet) -> Self {
+        let quiet = quiet.quiet;
         let terminal = std::io::stderr().is_terminal();
         let target =
             if quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use switchback::blind::{self, Expect, Journal, KEY_FILE, Kind, Sealed, Study, WrittenKeys};
+use switchback::output::sha256;
 use switchback_estimator::rig::Rig;
 use switchback_gap::{DiagnoseError, Diagnosis, Figure, Gap, ResidualPicture, Settings, Status, Verdict};
 use switchback_maker::Plan;
@@ -74,7 +75,7 @@ fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
         let key = blind::key_file(&sealed);
         let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
         let scores = blind::score(&cases, &study.expect);
-        let files = blind::artefacts(&study, &blind::sha256(&key), &cases, &scores).unwrap();
+        let files = blind::artefacts(&study, &sha256(&key), &cases, &scores).unwrap();
         (key, files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect())
     })
 }
@@ -88,7 +89,7 @@ fn key_and_report_are_the_same_at_any_thread_count() {
 fn the_report_carries_the_hash_of_the_key() {
     let (key, files) = run(2);
     let results: serde_json::Value = serde_json::from_slice(&files["results.json"]).unwrap();
-    assert_eq!(results["key_sha256"], blind::sha256(&key));
+    assert_eq!(results["key_sha256"], sha256(&key));
     assert_eq!(key.lines().count(), 30);
 }
 
@@ -181,7 +182,7 @@ fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
     let is_known = |program: &str| !Journal::open(&folder, program).unwrap().keys().is_empty();
     // A file that nobody vouches for.
     assert!(!is_known("one"));
-    Journal::open(&folder, "one").unwrap().keep_keys(&blind::sha256(&file)).unwrap();
+    Journal::open(&folder, "one").unwrap().keep_keys(&sha256(&file)).unwrap();
     assert_eq!([is_known("one"), is_known("another")], [true, false]);
     let keys = Journal::open(&folder, "one").unwrap().keys();
     let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();

@@ -7,6 +7,7 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::{Firsts, Pair};
 use crate::attribution::search::on_a_free_course;
 use crate::effect::Effect;
+use crate::phase::Phase;
 use crate::residuals::omnibus::{Omnibus, omnibus};
 use crate::verdict::odds::IMMATERIAL;
 use crate::workers::Workers;
@@ -31,6 +32,7 @@ impl Plan {
     /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
     /// counts from then on.
     pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
+        workers.begin(Phase::Effects);
         let attribution = &Attribution {
             campaign: &self.campaign,
             settings: &self.settings,
@@ -82,6 +84,7 @@ impl Plan {
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
         let tests = evidence.tests().filter(|_| self.settings.max_effects > 1)?;
+        attribution.workers.begin(Phase::Pairs);
         attribution.pair(Firsts { ranked: &evidence.singles, all: &evidence.all }, tests)
     }
 }

@@ -20,6 +20,7 @@ use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::nominal::order::{Choice, Chosen, declared, structure};
+use crate::phase::Phase;
 use crate::records::campaign::Campaign;
 use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
@@ -50,6 +51,7 @@ pub fn diagnose_with(
     model: Model,
     settings: &Settings,
 ) -> Result<Diagnosis, DiagnoseError> {
+    workers.begin(Phase::Nominal);
     let records = Campaign::new(rig)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let conclude = |mut plan: Plan| {

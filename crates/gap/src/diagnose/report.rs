@@ -11,6 +11,7 @@ use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, S
 use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
+use crate::phase::Phase;
 use crate::residuals::score::{innovations, picture};
 use crate::verdict::odds::Odds;
 use crate::workers::Workers;
@@ -27,6 +28,7 @@ pub(super) struct Conclusion {
 
 impl Plan {
     pub(super) fn report(self, workers: &impl Workers, c: Conclusion) -> Diagnosis {
+        workers.begin(Phase::Report);
         let campaign = &self.campaign;
         let floor = self.noise_floor(&c.augmented.fit);
         let runs = self.simulations(&c.augmented.fit);

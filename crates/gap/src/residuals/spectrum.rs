@@ -2,52 +2,22 @@
 
 use std::f64::consts::PI;
 
+use realfft::RealFftPlanner;
+
 use crate::least_squares::sums::{dot, energy};
 
-/// In-place radix-2 fast Fourier transform.
+/// Squared magnitudes of the transform of a zero-padded signal at frequencies `k/padded`, `k = 0…padded/2`.
 ///
 /// # Panics
-/// If the lengths differ or are no power of two.
-pub(crate) fn fft(re: &mut [f64], im: &mut [f64]) {
-    let n = re.len();
-    assert!(n.is_power_of_two() && im.len() == n, "the transform needs two arrays of one power of two");
-    let mut j = 0;
-    for i in 1..n {
-        let mut bit = n >> 1;
-        while j & bit != 0 {
-            j ^= bit;
-            bit >>= 1;
-        }
-        j |= bit;
-        if i < j {
-            re.swap(i, j);
-            im.swap(i, j);
-        }
-    }
-    let mut length = 2;
-    while length <= n {
-        let angle = -2.0 * PI / length as f64;
-        let half = length / 2;
-        let twiddles: Vec<(f64, f64)> = (0..half).map(|k| (angle * k as f64).sin_cos()).collect();
-        for start in (0..n).step_by(length) {
-            for (k, (sin, cos)) in twiddles.iter().enumerate() {
-                let (a, b) = (start + k, start + k + half);
-                let (x, y) = (re[b] * cos - im[b] * sin, re[b] * sin + im[b] * cos);
-                (re[b], im[b]) = (re[a] - x, im[a] - y);
-                (re[a], im[a]) = (re[a] + x, im[a] + y);
-            }
-        }
-        length *= 2;
-    }
-}
-
-/// Squared magnitudes of the transform of a zero-padded signal at frequencies `k/padded`, `k = 0…padded/2`.
+/// If the signal is longer than `padded`.
 pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
-    let mut re = signal.to_vec();
-    re.resize(padded, 0.0);
-    let mut im = vec![0.0; padded];
-    fft(&mut re, &mut im);
-    (0..=padded / 2).map(|k| re[k] * re[k] + im[k] * im[k]).collect()
+    assert!(signal.len() <= padded, "a transform of {padded} points cannot hold {} samples", signal.len());
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(padded);
+    let mut padded_signal = transform.make_input_vec();
+    padded_signal[..signal.len()].copy_from_slice(signal);
+    let mut spectrum = transform.make_output_vec();
+    transform.process(&mut padded_signal, &mut spectrum).expect("the lengths are the plan's");
+    spectrum.iter().map(|line| line.norm_sqr()).collect()
 }
 
 /// The strongest lines over all tracks, radians per sample: peaks of the summed periodograms, each over its own local level.
@@ -184,19 +154,43 @@ pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::testing::white;
+    use proptest::prelude::*;
 
-    #[test]
-    fn the_fast_transform_agrees_with_the_sum() {
-        let x: Vec<f64> = (0..16).map(|i| ((i * i) as f64 * 0.37).sin()).collect();
-        let p = power(&x, 16);
-        for (k, value) in p.iter().enumerate() {
+    /// The oracle: the sum that defines the transform.
+    fn power_by_definition(signal: &[f64], padded: usize) -> Vec<f64> {
+        let line = |k: usize| {
             let (mut re, mut im) = (0.0, 0.0);
-            for (t, x) in x.iter().enumerate() {
-                let angle = -2.0 * PI * (k * t) as f64 / 16.0;
+            for (t, x) in signal.iter().enumerate() {
+                let angle = -2.0 * PI * (k * t % padded) as f64 / padded as f64;
                 re += x * angle.cos();
                 im += x * angle.sin();
             }
-            assert!((value - (re * re + im * im)).abs() < 1e-10);
+            re * re + im * im
+        };
+        (0..=padded / 2).map(line).collect()
+    }
+
+    #[test]
+    fn the_definition_puts_a_cosine_in_its_own_line() {
+        let x: Vec<f64> = (0..32).map(|t| (2.0 * PI * 5.0 * t as f64 / 32.0).cos()).collect();
+        let p = power_by_definition(&x, 32);
+        assert!((p[5] - 256.0).abs() < 1e-9, "(N/2)² = 256, found {}", p[5]);
+        assert!(p.iter().enumerate().all(|(k, p)| k == 5 || *p < 1e-9), "{p:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn the_fast_transform_agrees_with_the_sum(
+            signal in prop::collection::vec(-1e3..1e3_f64, 1..200),
+            more in 0..100_usize,
+        ) {
+            let padded = (signal.len() + more).next_multiple_of(2);
+            let (fast, slow) = (power(&signal, padded), power_by_definition(&signal, padded));
+            prop_assert_eq!(fast.len(), slow.len());
+            let largest: f64 = slow.iter().copied().fold(0.0, f64::max);
+            for (fast, slow) in fast.iter().zip(&slow) {
+                prop_assert!((fast - slow).abs() <= 1e-11 * largest, "{} for {}", fast, slow);
+            }
         }
     }
 

@@ -5,7 +5,8 @@
 //! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same sources found need not be searched for again.
 
 use super::case::Case;
-use super::seal::{Sealed, WrittenKeys, sha256};
+use super::seal::{Sealed, WrittenKeys};
+use crate::output::sha256;
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -28,7 +29,7 @@ pub struct Journal {
 /// The journal could not be read or written.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{path}: cannot keep what is judged there: {source}")]
-#[diagnostic(help("give a folder that you may write to, on a disk with space left; what it holds is kept"))]
+#[diagnostic(help("give a folder that you may write to, on a disk with space left; what is there is kept"))]
 pub struct JournalError {
     path: String,
     source: io::Error,
@@ -48,6 +49,9 @@ struct KeysLine<'a> {
     keys: String,
 }
 
+/// What a journal begins with, even one that was interrupted within its first line.
+const BEGINNING: &[u8] = b"{\"program\":";
+
 /// The key file of a report folder.
 pub const KEY_FILE: &str = "key.jsonl";
 
@@ -64,6 +68,9 @@ impl Journal {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             other => other.map_err(fails)?,
         };
+        if !text.trim_ascii_start().is_empty() && !text.trim_ascii_start().starts_with(BEGINNING) {
+            return Err(fails(io::Error::other("something else wrote it")));
+        }
         let mut file = OpenOptions::new().create(true).append(true).open(&path).map_err(fails)?;
         if text.last().is_some_and(|last| *last != b'\n') {
             // Interrupted within a line.

@@ -30,5 +30,5 @@ pub use score::{
     AbstentionRow, AccuracyRow, BaselineRow, Bound, Calibration, CalibrationBin, ClosureRow, Confusion,
     Measure, PlaceRow, Scores, Share, SizeRow, TARGETS, score,
 };
-pub use seal::{Sealed, WrittenKeys, key_file, seal, sha256};
+pub use seal::{Sealed, WrittenKeys, key_file, seal};
 pub use twins::{class_of, same_class};

@@ -3,9 +3,7 @@
 use super::design::Ticket;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::collections::HashMap;
-use std::fmt::Write;
 use switchback_estimator::rig::Rig;
 use switchback_maker::{Key, MadeRig, MakeError};
 
@@ -167,15 +165,6 @@ pub fn key_file(sealed: &[Sealed]) -> String {
     all.into_iter().fold(String::new(), |text, one| text + &one.key_line() + "\n")
 }
 
-/// SHA-256 of a text or of bytes, in hexadecimal as `sha256sum` prints it.
-pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().fold(String::new(), |mut hex, byte| {
-        let _ = write!(hex, "{byte:02x}");
-        hex
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -196,11 +185,5 @@ mod tests {
         assert_eq!(reopened(&file.replace("\"id\":3", "\"id\":4")), None);
         assert_eq!(reopened(&file.replace("\"seed\":7", "\"seed\":8")), None);
         assert_eq!(reopened("{\"id\":3}"), None);
-    }
-
-    #[test]
-    fn the_hash_is_the_standards() {
-        // FIPS 180-4, example "abc".
-        assert_eq!(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::blind::{self, Case, Examiner, Journal, KEY_FILE, Sealed, Study};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet};
+use crate::output::{Artefacts, sha256};
 use crate::progress::Meter;
 use crate::study::Progress;
 use miette::Diagnostic;
@@ -11,6 +12,9 @@ use std::time::Instant;
 use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
 use thiserror::Error;
+
+/// What the folder gets besides the other tables and figures.
+const FILES: [&str; 4] = [KEY_FILE, "results.json", "summary.txt", "answers.csv"];
 
 /// Why a study stopped.
 #[derive(Debug, Error, Diagnostic)]
@@ -26,22 +30,21 @@ pub struct StudyError(#[from] MakeError);
 ///
 /// # Errors
 /// A scenario that cannot be used, or a folder that cannot be written.
-pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
+pub fn run(scenario: &Path, out: Option<&Path>, page: Page, force: Force) -> CommandResult {
     let study = blind::read(scenario)?;
     let default = Path::new("reports").join(&study.name);
     let out = out.unwrap_or(&default);
-    let page = Page { quiet };
-    let folder = OutputFolder::claim(out)?;
+    let folder = force.claim(out, &FILES)?;
     page.say(&format!("{}: {}", study.name, study.question))?;
 
     let tickets = blind::design(&study).map_err(StudyError)?;
-    let meter = Meter::counting("rigs made", quiet);
+    let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
     let mut journal = Journal::open(out, JUDGING_SOURCES)?;
     let sealed = blind::seal(tickets, &journal.keys(), &|| meter.advanced(1)).map_err(StudyError)?;
     meter.finish();
     let key = blind::key_file(&sealed);
-    let hash = blind::sha256(&key);
+    let hash = sha256(&key);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
     folder.commit(&only(KEY_FILE, key))?;
     journal.keep_keys(&hash)?;
@@ -49,7 +52,7 @@ pub fn run(scenario: &Path, out: Option<&Path>, quiet: bool) -> CommandResult {
     page.say(&format!("SHA-256 {hash}"))?;
 
     let cases = examine(sealed, &mut journal, page)?;
-    let outcome = conclude(&study, &hash, &cases, out, page)?;
+    let outcome = conclude(&study, &hash, &cases, (out, force), page)?;
     journal.close()?;
     Ok(outcome)
 }
@@ -83,10 +86,18 @@ fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Re
 /// The SHA-256 of the sources that make, diagnose and judge: the program may be built anew meanwhile, or elsewhere.
 const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 
-fn conclude(study: &Study, hash: &str, cases: &[Case], out: &Path, page: Page) -> CommandResult {
+fn conclude(
+    study: &Study,
+    hash: &str,
+    cases: &[Case],
+    (out, force): (&Path, Force),
+    page: Page,
+) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
-    OutputFolder::claim(out)?.commit(&blind::artefacts(study, hash, cases, &scores)?)?;
-    page.say(&format!("{}\nwritten to {}", blind::summary(&scores), out.display()))?;
+    let report = blind::artefacts(study, hash, cases, &scores)?;
+    force.claim(out, &[])?.commit(&report)?;
+    let words = || format!("{}\nwritten to {}\n", blind::summary(&scores), out.display());
+    page.quiet.tell_or(page.json, || report.text("results.json"), words)?;
     let broken = scores.measures.iter().any(blind::Measure::is_unexpected);
     Ok(if broken { Outcome::Unmet } else { Outcome::Done })
 }
@@ -97,14 +108,17 @@ fn only(name: &str, contents: String) -> Artefacts {
     artefacts
 }
 
-/// Standard output, or silence.
-#[derive(Clone, Copy)]
-struct Page {
-    quiet: bool,
+/// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Page {
+    /// Whether results.json is printed.
+    pub json: bool,
+    /// Whether words are not.
+    pub quiet: Quiet,
 }
 
 impl Page {
     fn say(self, line: &str) -> miette::Result<()> {
-        if self.quiet { Ok(()) } else { print(&format!("{line}\n")) }
+        if self.json { Ok(()) } else { self.quiet.tell(&format!("{line}\n")) }
     }
 }

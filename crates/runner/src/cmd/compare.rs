@@ -2,7 +2,8 @@
 
 use crate::compare::{self, Comparison};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet};
+use crate::output::Artefacts;
 use crate::plots;
 use crate::results::{self, Results};
 use std::path::PathBuf;
@@ -19,6 +20,16 @@ pub struct Args {
     /// Also write comparison.txt, comparison.svg and overlays of the curves into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Print one JSON object instead of words.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Reads both, compares, prints, and writes the folder if one was asked for.
@@ -28,13 +39,13 @@ pub struct Args {
 pub fn run(args: &Args) -> CommandResult {
     let baseline = results::read(&args.baseline)?;
     let new = results::read(&args.new)?;
-    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &["comparison.txt", "comparison.svg"])?;
     let comparison = compare::compare(&baseline, &new);
     let summary = compare::summary(&comparison, &baseline, &new);
     if let Some(folder) = folder {
         folder.commit(&artefacts(&comparison, &summary, (&baseline, &new)))?;
     }
-    print(&summary)?;
+    args.quiet.tell_or(args.json, || compare::json(&comparison, &baseline, &new), || summary.clone())?;
     Ok(if comparison.agrees() { Outcome::Done } else { Outcome::Unmet })
 }
 

@@ -2,8 +2,10 @@
 
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet, Threads};
+use crate::output::Artefacts;
 use crate::plots;
+use crate::progress::Watch;
 use crate::rig;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -31,7 +33,19 @@ pub struct Args {
     /// Also write the verdict, gap.json, the figures and the next experiment into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
+
+/// What the folder gets, whatever the records are called.
+const FILES: [&str; 5] = ["gap.json", "verdict.txt", "where.svg", "candidates.svg", "residuals.svg"];
 
 /// Reads, diagnoses, prints, and writes the folder if one was asked for.
 ///
@@ -40,16 +54,16 @@ pub struct Args {
 pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let subject = Subject::choose(rig, args.model.as_deref())?;
-    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
-    let report = diagnosis::examine(subject, &args.without).map_err(|error| error.in_file(&args.rig))?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
+    let watch = Watch::new(args.quiet);
+    let report = args.threads.install(|| diagnosis::examine(subject, &args.without, &watch))?;
+    watch.finish();
+    let report = report.map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }
-    print(&if args.json {
-        diagnosis::json(&report)
-    } else {
-        diagnosis::words(&report, args.out.as_deref())
-    })?;
+    let words = || diagnosis::words(&report, args.out.as_deref());
+    args.quiet.tell_or(args.json, || diagnosis::json(&report), words)?;
     Ok(Outcome::Done)
 }
 

@@ -2,9 +2,12 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::{self, Identification, Method};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet, Threads};
+use crate::output::Artefacts;
 use crate::plots;
+use crate::progress::Watch;
 use crate::rig;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 use switchback_estimator::rig::Rig;
 
@@ -16,7 +19,7 @@ pub struct Args {
 
     /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
     /// records allow]
-    #[arg(long, value_parser = method_by_name)]
+    #[arg(long, value_parser = method(), hide_possible_values = true)]
     method: Option<Method>,
 
     /// Print one JSON object instead of tables.
@@ -26,6 +29,15 @@ pub struct Args {
     /// Also write estimate.json and the plots into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Reads, identifies, prints, and writes the folder if one was asked for.
@@ -34,24 +46,24 @@ pub struct Args {
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
-    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &["estimate.json"])?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let identification = identification::identify(&rig, method).map_err(|error| error.in_file(&args.rig))?;
+    let watch = Watch::new(args.quiet);
+    watch.begin("identifying");
+    let identification = args.threads.install(|| identification::identify(&rig, method))?;
+    watch.finish();
+    let identification = identification.map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
-    let page = if args.json {
-        identification::json(&rig, &identification)
-    } else {
-        identification::table(&rig, &identification)
-    };
-    print(&page)?;
+    let json = || identification::json(&rig, &identification);
+    args.quiet.tell_or(args.json, json, || identification::table(&rig, &identification))?;
     Ok(Outcome::Done)
 }
 
-fn method_by_name(name: &str) -> Result<Method, String> {
-    let known = || Method::ALL.map(Method::name).join(", ");
-    Method::from_name(name).ok_or_else(|| format!("the methods are {}", known()))
+fn method() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(Method::ALL.map(Method::name))
+        .map(|name| Method::from_name(&name).expect("only names of methods are possible values"))
 }
 
 fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {

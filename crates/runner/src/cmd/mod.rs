@@ -2,7 +2,9 @@
 
 pub mod blind;
 pub mod compare;
+pub mod completions;
 pub mod gap;
 pub mod identify;
+pub mod man;
 pub mod rig;
 pub mod study;

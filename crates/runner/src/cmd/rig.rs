@@ -1,9 +1,11 @@
 //! `switchback rig --effect EFFECT --size 2 --seed 7 --out DIR`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{OutputFolder, print};
+use crate::input::closest;
+use crate::options::{Force, Quiet};
+use crate::output::print;
 use crate::rig;
-use miette::{Diagnostic, IntoDiagnostic};
+use miette::Diagnostic;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use switchback_maker::{EFFECTS, FOREIGN, Family, Ingredient, Key, MakeError, MakeRig, laws_of};
@@ -36,20 +38,40 @@ pub struct Args {
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
 
-    /// Print what was put in as JSON.
+    /// Print what was put in, or the list, as JSON.
     #[arg(long)]
     json: bool,
 
     /// List effects and laws instead.
     #[arg(long)]
     list: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Why no rig was made.
 #[derive(Debug, Error, Diagnostic)]
-#[error(transparent)]
-#[diagnostic(help("`switchback rig --list` shows every effect with its laws"))]
-pub struct RigCommandError(#[from] MakeError);
+#[error("{error}")]
+#[diagnostic(help("{guess}`switchback rig --list` shows every effect with its laws"))]
+pub struct RigCommandError {
+    error: MakeError,
+    guess: String,
+}
+
+impl From<MakeError> for RigCommandError {
+    fn from(error: MakeError) -> Self {
+        let meant = match &error {
+            MakeError::UnknownEffect { name, .. } => closest(name, EFFECTS.into_iter().chain(FOREIGN)),
+            _ => None,
+        };
+        let guess = meant.map_or_else(String::new, |effect| format!("did you mean `{effect}`? "));
+        Self { error, guess }
+    }
+}
 
 /// Makes the rig, writes its folder, prints its key.
 ///
@@ -57,21 +79,16 @@ pub struct RigCommandError(#[from] MakeError);
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     if args.list {
-        print(&list())?;
+        print(&if args.json { pretty(&list_json()) } else { list() })?;
         return Ok(Outcome::Done);
     }
-    let recipe = recipe(args).map_err(RigCommandError)?;
-    let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
-    let made = recipe.make().map_err(RigCommandError)?;
+    let recipe = recipe(args).map_err(RigCommandError::from)?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let made = recipe.make().map_err(RigCommandError::from)?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    let page = if args.json {
-        serde_json::to_string_pretty(&key_json(&made.key)).into_diagnostic()? + "\n"
-    } else {
-        told(&made.key)
-    };
-    print(&page)?;
+    args.quiet.tell_or(args.json, || pretty(&key_json(&made.key)), || told(&made.key))?;
     Ok(Outcome::Done)
 }
 
@@ -138,4 +155,16 @@ fn list() -> String {
         }
     }
     text
+}
+
+fn list_json() -> serde_json::Value {
+    let laws = |names: &[&'static str]| -> Vec<serde_json::Value> {
+        let laws = |name| laws_of(name).iter().map(|law| law.name()).collect::<Vec<_>>();
+        names.iter().map(|name| serde_json::json!({ "effect": name, "laws": laws(name) })).collect()
+    };
+    serde_json::json!({ "schema": 1, "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
+}
+
+fn pretty(json: &serde_json::Value) -> String {
+    format!("{json:#}\n")
 }

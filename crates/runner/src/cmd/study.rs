@@ -1,8 +1,9 @@
 //! `switchback SCENARIO.toml`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{OutputFolder, print};
+use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
+use crate::results::to_json;
 use crate::scenario::{Engine, Scenario};
 use crate::{blind, report, study};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -19,34 +20,40 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Worker threads [default: one a core]; results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-
     /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
     engine: Option<Engine>,
 
-    /// Neither progress nor table, only errors.
+    /// Print results.json instead of words.
     #[arg(long)]
-    quiet: bool,
+    json: bool,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
+
+/// What the folder gets, whatever is studied.
+const FILES: [&str; 3] = ["results.json", "table.csv", "report.md"];
 
 /// Reads, claims the folder, runs, writes, prints.
 ///
 /// # Errors
 /// A scenario that cannot be read or run, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let workers = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()
-        .into_diagnostic()?;
     if blind::is_blind(&args.scenario) {
         if args.engine.is_some() {
             let path = args.scenario.display();
             return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
         }
-        return workers.install(|| super::blind::run(&args.scenario, args.out.as_deref(), args.quiet));
+        let page = super::blind::Page { json: args.json, quiet: args.quiet };
+        let run = || super::blind::run(&args.scenario, args.out.as_deref(), page, args.force);
+        return args.threads.install(run)?;
     }
     let read = Scenario::read(&args.scenario)?;
     let scenario = match args.engine {
@@ -54,16 +61,15 @@ pub fn run(args: &Args) -> CommandResult {
         None => read,
     };
     let default = || Path::new("reports").join(scenario.name());
-    let folder = OutputFolder::claim(&args.out.clone().unwrap_or_else(default))?;
+    let folder = args.force.claim(&args.out.clone().unwrap_or_else(default), &FILES)?;
     let meter = Meter::new(args.quiet);
-    let results = workers.install(|| study::run(&scenario, command(args), &meter));
+    let results = args.threads.install(|| study::run(&scenario, command(args), &meter))?;
     meter.finish();
     let results = results.into_diagnostic()?;
     let place = folder.path().display().to_string();
-    folder.commit(&workers.install(|| report::artefacts(&results)))?;
-    if !args.quiet {
-        print(&format!("{}\nwritten to {place}\n", report::table(&results).trim_end()))?;
-    }
+    folder.commit(&args.threads.install(|| report::artefacts(&results))?)?;
+    let words = || format!("{}\nwritten to {place}\n", report::table(&results).trim_end());
+    args.quiet.tell_or(args.json, || to_json(&results), words)?;
     Ok(if results.as_expected() { Outcome::Done } else { Outcome::Unmet })
 }
 

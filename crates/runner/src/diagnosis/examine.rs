@@ -1,9 +1,10 @@
 //! The diagnosis, its independent pieces on all cores.
 
 use super::{DiagnosisError, Source, Subject};
+use crate::progress::Watch;
 use rayon::prelude::*;
 use switchback_estimator::rig::Rig;
-use switchback_gap::{Diagnosis, Effect, Settings, Workers, diagnose_with};
+use switchback_gap::{Diagnosis, Effect, Phase, Settings, Workers, diagnose_with};
 
 /// A diagnosis with the rig it is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,25 +17,35 @@ pub struct Report {
     pub diagnosis: Diagnosis,
 }
 
-/// Pieces of a diagnosis as tasks of the thread pool.
-struct Pool;
+/// Pieces of a diagnosis as tasks of the thread pool, counted as they are done.
+struct Pool<'a>(&'a Watch);
 
-impl Workers for Pool {
+impl Workers for Pool<'_> {
     fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+        self.0.found(items.len());
+        let counted = |item: &T| {
+            let result = work(item);
+            self.0.did_one();
+            result
+        };
         // Pieces differ much in size: each is a task of its own.
-        items.par_iter().with_max_len(1).map(work).collect()
+        items.par_iter().with_max_len(1).map(counted).collect()
+    }
+
+    fn begin(&self, phase: Phase) {
+        self.0.begin(phase.name());
     }
 }
 
 /// Diagnoses with the default settings on all cores, some effects left out; the result does not depend on how many cores there
-/// are.
+/// are. `watch` shows how far it has come.
 ///
 /// # Errors
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
-pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, DiagnosisError> {
+pub fn examine(subject: Subject, without: &[Effect], watch: &Watch) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
     let settings = Settings::default().without(without);
-    let mut diagnosis = diagnose_with(&Pool, &rig, model, &settings)
+    let mut diagnosis = diagnose_with(&Pool(watch), &rig, model, &settings)
         .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
     diagnosis.limitations.extend(notes);
     diagnosis.limitations.extend(left_out(without));

@@ -20,6 +20,11 @@ impl Artefacts {
         assert!(displaced.is_none(), "two artefacts are called `{name}`");
     }
 
+    /// A file's text, empty where there is no such file.
+    pub fn text(&self, name: &str) -> String {
+        self.files.get(name).map_or_else(String::new, |bytes| String::from_utf8_lossy(bytes).into_owned())
+    }
+
     /// Names and contents, by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[u8])> {
         self.files.iter().map(|(name, contents)| (name.as_str(), contents.as_slice()))

@@ -1,7 +1,8 @@
 //! The folder that artefacts go to.
 
 use super::Artefacts;
-use super::staging::Staging;
+use super::staging::{Staging, Uninterrupted};
+use super::written::{Owner, SUMS, Written};
 use miette::Diagnostic;
 use std::fs;
 use std::io;
@@ -12,11 +13,17 @@ use thiserror::Error;
 ///
 /// [`claim`](Self::claim) comes before the computation, so that a wrong path costs no time; [`commit`](Self::commit)
 /// after it. Files are first written whole to a staging folder on the same disk and then renamed into place. A
-/// claim that is dropped leaves nothing behind; a commit that fails leaves the folder as it was.
+/// claim that is dropped leaves nothing behind; a commit that fails leaves the folder as it was, and a signal waits until it is done.
+///
+/// Only files that the program wrote itself are replaced. It knows them by a hidden list beside them, `.switchback.sha256`, of names
+/// and SHA-256: a file that is not listed there was written by someone else, and one whose hash differs was changed by
+/// someone else. Both are refused unless the folder is [`forced`](Self::forced), at once where the names are known
+/// ([`expecting`](Self::expecting)), else on commit. `sha256sum -c .switchback.sha256` checks a folder by the same list.
 #[derive(Debug)]
 pub struct OutputFolder {
     target: PathBuf,
     staging: Staging,
+    forced: bool,
 }
 
 /// Why results could not be written.
@@ -40,6 +47,29 @@ pub enum OutputError {
         target: String,
         /// The artefact's name.
         name: String,
+    },
+    /// A folder stands where a file is wanted.
+    #[error("{target}: is a folder, not a file")]
+    #[diagnostic(help("give the name of a file, in this folder or elsewhere"))]
+    IsFolder {
+        /// The file as given.
+        target: String,
+    },
+    /// A file stands already where one is to be written.
+    #[error("{target}: is there already")]
+    #[diagnostic(help("give another name, or --force to replace it"))]
+    Exists {
+        /// The file as given.
+        target: String,
+    },
+    /// A file that someone else wrote or changed would be replaced.
+    #[error("{target}: {files} would be lost there")]
+    #[diagnostic(help("give another folder, or --force to replace what is there"))]
+    Foreign {
+        /// The folder as given.
+        target: String,
+        /// The files with what makes them someone else's.
+        files: String,
     },
     /// The system refused to write.
     #[error("{target}: cannot write to this output folder: {source}")]
@@ -70,7 +100,21 @@ impl OutputFolder {
         }
         let staging =
             Staging::inside(nearest).map_err(|source| OutputError::Unwritable { target: shown, source })?;
-        Ok(Self { target: target.to_owned(), staging })
+        Ok(Self { target: target.to_owned(), staging, forced: false })
+    }
+
+    /// Whether files that someone else wrote or changed may be replaced; not so unless it is said.
+    pub fn forced(self, forced: bool) -> Self {
+        Self { forced, ..self }
+    }
+
+    /// Makes sure that files of these names can be written; for names that are known before the computation.
+    ///
+    /// # Errors
+    /// [`OutputError`] if a file of such a name is someone else's, or a folder has the name.
+    pub fn expecting<'a>(self, names: impl IntoIterator<Item = &'a str>) -> Result<Self, OutputError> {
+        self.refuse_what_is_not_ours(names)?;
+        Ok(self)
     }
 
     /// The folder, as it was given.
@@ -78,16 +122,44 @@ impl OutputFolder {
         &self.target
     }
 
-    /// Writes all artefacts. Files of the same names are replaced, others are left alone.
+    /// Writes all artefacts. The program's own files of the same names are replaced, others are left alone.
     ///
     /// # Errors
-    /// [`OutputError`] if the system refuses; the folder then holds what it held before.
+    /// [`OutputError`] if a file of such a name is someone else's, or the system refuses; the folder then holds what it held before.
     pub fn commit(self, artefacts: &Artefacts) -> Result<(), OutputError> {
-        let shown = || self.target.display().to_string();
-        if let Some((name, _)) = artefacts.iter().find(|(name, _)| self.target.join(name).is_dir()) {
-            return Err(OutputError::FileIsFolder { target: shown(), name: name.to_owned() });
+        let _until_done = Uninterrupted::new();
+        let written = self.refuse_what_is_not_ours(artefacts.iter().map(|(name, _)| name))?;
+        let mut files = artefacts.clone();
+        files.add(SUMS, written.with(artefacts).text());
+        self.stage_and_rename(&files).map_err(|source| self.unwritable(source))
+    }
+
+    /// The list of the program's own files, if every file of these names is one of them.
+    fn refuse_what_is_not_ours<'a>(
+        &self,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Written, OutputError> {
+        let target = || self.target.display().to_string();
+        let written = Written::in_folder(&self.target).map_err(|source| self.unwritable(source))?;
+        let mut foreign = Vec::new();
+        for name in names {
+            if self.target.join(name).is_dir() {
+                return Err(OutputError::FileIsFolder { target: target(), name: name.to_owned() });
+            }
+            match written.owner(&self.target, name).map_err(|source| self.unwritable(source))? {
+                Owner::Program => {}
+                Owner::Editor => foreign.push(format!("{name} (changed since it was written)")),
+                Owner::Stranger => foreign.push(format!("{name} (not written by this program)")),
+            }
         }
-        self.stage_and_rename(artefacts).map_err(|source| OutputError::Unwritable { target: shown(), source })
+        if foreign.is_empty() || self.forced {
+            return Ok(written);
+        }
+        Err(OutputError::Foreign { target: target(), files: foreign.join(", ") })
+    }
+
+    fn unwritable(&self, source: io::Error) -> OutputError {
+        OutputError::Unwritable { target: self.target.display().to_string(), source }
     }
 
     fn stage_and_rename(&self, artefacts: &Artefacts) -> io::Result<()> {
@@ -96,13 +168,18 @@ impl OutputFolder {
             fs::write(fresh.join(name), contents)?;
         }
         fs::create_dir_all(&self.target)?;
+        self.exchange_all(artefacts, &fresh, &replaced)
+    }
+
+    /// Moves every file to its place, or after a failure every one back.
+    fn exchange_all(&self, artefacts: &Artefacts, fresh: &Path, replaced: &Path) -> io::Result<()> {
         let mut moved = Vec::new();
         for (name, _) in artefacts.iter() {
-            moved.push(name);
-            if let Err(error) = exchange(&self.target.join(name), &fresh.join(name), &replaced.join(name)) {
-                for name in moved {
-                    undo(&self.target.join(name), &replaced.join(name));
-                }
+            let paths = [self.target.as_path(), fresh, replaced].map(|folder| folder.join(name));
+            let exchanged = exchange(&paths);
+            moved.push(paths);
+            if let Err(error) = exchanged {
+                moved.iter().for_each(undo);
                 return Err(error);
             }
         }
@@ -111,88 +188,22 @@ impl OutputFolder {
 }
 
 /// Moves the file at `place`, if any, to `old`, and the one at `new` to `place`.
-fn exchange(place: &Path, new: &Path, old: &Path) -> io::Result<()> {
-    if place.exists() {
+fn exchange([place, new, old]: &[PathBuf; 3]) -> io::Result<()> {
+    if fs::symlink_metadata(place).is_ok() {
         fs::rename(place, old)?;
     }
     fs::rename(new, place)
 }
 
 /// Takes back an exchange as far as it went. Runs after a failure that is reported already, so its own are not.
-fn undo(place: &Path, old: &Path) {
-    if old.exists() {
+fn undo([place, new, old]: &[PathBuf; 3]) {
+    if !new.exists() {
+        let _ = fs::rename(place, new);
+    }
+    if !place.exists() && fs::symlink_metadata(old).is_ok() {
         let _ = fs::rename(old, place);
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use tempfile::tempdir;
-
-    fn artefacts(files: &[(&str, &str)]) -> Artefacts {
-        let mut artefacts = Artefacts::default();
-        for (name, contents) in files {
-            artefacts.add(*name, *contents);
-        }
-        artefacts
-    }
-
-    fn names(folder: &Path) -> Vec<String> {
-        let mut names: Vec<_> = fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn a_new_folder_appears_with_all_its_files_and_nothing_else() {
-        let root = tempdir().unwrap();
-        let target = root.path().join("deep/new");
-        OutputFolder::claim(&target).unwrap().commit(&artefacts(&[("a", "1"), ("b", "2")])).unwrap();
-        assert_eq!(names(&target), ["a", "b"]);
-        assert_eq!(names(root.path()), ["deep"]);
-    }
-
-    #[test]
-    fn files_of_the_same_name_are_replaced_and_others_are_kept() {
-        let root = tempdir().unwrap();
-        fs::write(root.path().join("a"), "old").unwrap();
-        fs::write(root.path().join("other"), "kept").unwrap();
-        OutputFolder::claim(root.path()).unwrap().commit(&artefacts(&[("a", "new")])).unwrap();
-        assert_eq!(fs::read_to_string(root.path().join("a")).unwrap(), "new");
-        assert_eq!(fs::read_to_string(root.path().join("other")).unwrap(), "kept");
-        assert_eq!(names(root.path()), ["a", "other"]);
-    }
-
-    #[test]
-    fn a_dropped_claim_leaves_nothing() {
-        let root = tempdir().unwrap();
-        drop(OutputFolder::claim(&root.path().join("deep/new")).unwrap());
-        assert!(names(root.path()).is_empty());
-    }
-
-    #[test]
-    fn a_path_below_a_file_is_refused_at_once() {
-        let root = tempdir().unwrap();
-        let file = root.path().join("file");
-        fs::write(&file, "kept").unwrap();
-        let error = OutputFolder::claim(&file.join("reports")).unwrap_err();
-        assert!(matches!(error, OutputError::NotAFolder { .. }), "{error}");
-        assert_eq!(fs::read_to_string(file).unwrap(), "kept");
-    }
-
-    #[test]
-    fn a_commit_that_cannot_finish_keeps_what_was_there() {
-        let root = tempdir().unwrap();
-        fs::write(root.path().join("a"), "old").unwrap();
-        fs::create_dir(root.path().join("b")).unwrap();
-        let claim = OutputFolder::claim(root.path()).unwrap();
-        let error = claim.commit(&artefacts(&[("a", "new"), ("b", "new")])).unwrap_err();
-        assert!(matches!(error, OutputError::FileIsFolder { .. }), "{error}");
-        assert_eq!(fs::read_to_string(root.path().join("a")).unwrap(), "old");
-        assert_eq!(names(root.path()), ["a", "b"]);
-    }
-}
+mod tests;

@@ -4,9 +4,15 @@ mod artefacts;
 mod columns;
 mod folder;
 mod page;
+mod sha256;
+mod single;
 mod staging;
+mod written;
 
 pub use artefacts::Artefacts;
 pub use columns::columns;
 pub use folder::{OutputError, OutputFolder};
 pub use page::print;
+pub use sha256::sha256;
+pub use single::OutputFile;
+pub(crate) use staging::abandon;

@@ -1,13 +1,46 @@
 //! A place to write in before anything is shown.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A hidden folder that is removed with everything in it when dropped.
+/// Every staging folder of this process. Who holds the lock keeps [`abandon`] waiting.
+static STAGED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// A hidden folder that is removed with everything in it when dropped, or by [`abandon`] where the process is stopped.
 #[derive(Debug)]
 pub(super) struct Staging {
     path: PathBuf,
+}
+
+/// While it lives the process is not stopped by a signal.
+pub(super) struct Uninterrupted {
+    _staged: MutexGuard<'static, BTreeSet<PathBuf>>,
+}
+
+impl Uninterrupted {
+    /// Waits for others who replace files.
+    pub(super) fn new() -> Self {
+        Self { _staged: staged() }
+    }
+}
+
+/// Waits until nothing is half replaced, and removes all staging folders. Whoever begins to write while the result lives
+/// waits for ever: the process is to end meanwhile.
+#[must_use]
+pub(crate) fn abandon() -> impl Sized {
+    let staged = staged();
+    for path in staged.iter() {
+        let _ = fs::remove_dir_all(path);
+    }
+    staged
+}
+
+/// A thread that panicked while it held the lock left a set of paths all the same.
+fn staged() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    STAGED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Staging {
@@ -15,10 +48,14 @@ impl Staging {
     pub(super) fn inside(parent: &Path) -> io::Result<Self> {
         let process = std::process::id();
         let mut attempt = 0;
+        let mut staged = staged();
         loop {
             let path = parent.join(format!(".switchback-{process}-{attempt}"));
             match fs::create_dir(&path) {
-                Ok(()) => return Ok(Self { path }),
+                Ok(()) => {
+                    staged.insert(path.clone());
+                    return Ok(Self { path });
+                }
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => attempt += 1,
                 Err(error) => return Err(error),
             }
@@ -37,5 +74,6 @@ impl Drop for Staging {
     fn drop(&mut self) {
         // Nothing can be done about a folder that will not go, and the results do not depend on it.
         let _ = fs::remove_dir_all(&self.path);
+        staged().remove(&self.path);
     }
 }

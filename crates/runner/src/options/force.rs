@@ -1,0 +1,34 @@
+//! `--force`
+
+use crate::output::{OutputError, OutputFolder};
+use std::path::Path;
+
+/// Whether files that someone else wrote may be replaced.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
+pub struct Force {
+    /// Replace files even if something else wrote or changed them
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl Force {
+    /// Claims a folder, `names` being files that will be written there for certain.
+    ///
+    /// # Errors
+    /// [`OutputError`] if the folder cannot be written, or one of those files is someone else's and not given up.
+    pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, OutputError> {
+        OutputFolder::claim(folder)?.forced(self.force).expecting(names.iter().copied())
+    }
+
+    /// The same where a folder need not be asked for.
+    ///
+    /// # Errors
+    /// As [`claim`](Self::claim).
+    pub fn claim_if_asked(
+        self,
+        folder: Option<&Path>,
+        names: &[&str],
+    ) -> Result<Option<OutputFolder>, OutputError> {
+        folder.map(|folder| self.claim(folder, names)).transpose()
+    }
+}

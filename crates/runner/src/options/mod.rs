@@ -1,0 +1,9 @@
+//! Options that several verbs share, to be flattened into their arguments.
+
+mod force;
+mod quiet;
+mod threads;
+
+pub use force::Force;
+pub use quiet::Quiet;
+pub use threads::Threads;

@@ -1,0 +1,38 @@
+//! `--quiet`
+
+use crate::output::print;
+
+/// Whether anything but errors is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
+pub struct Quiet {
+    /// Neither progress nor words or tables, only errors and what --json asks for
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl Quiet {
+    /// Prints words, or keeps silent.
+    ///
+    /// # Errors
+    /// If stdout cannot be written.
+    pub fn tell(self, words: &str) -> miette::Result<()> {
+        if self.quiet { Ok(()) } else { print(words) }
+    }
+
+    /// Prints the JSON that was asked for, or else tells the words.
+    ///
+    /// # Errors
+    /// If stdout cannot be written.
+    pub fn tell_or(
+        self,
+        is_json: bool,
+        json: impl FnOnce() -> String,
+        words: impl FnOnce() -> String,
+    ) -> miette::Result<()> {
+        match (is_json, self.quiet) {
+            (true, _) => print(&json()),
+            (false, true) => Ok(()),
+            (false, false) => print(&words()),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What the command line understands, and what it says to what it does not.
+
+mod common;
+
+use assert_cmd::Command;
+use common::{Folder, listing};
+use serde_json::Value;
+
+fn switchback(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("switchback").expect("the binary is built");
+    command.args(arguments);
+    command
+}
+
+/// Exit code 2, nothing on stdout, and all the words on stderr.
+#[track_caller]
+fn refused(arguments: &[&str], words: &[&str]) {
+    let output = switchback(arguments).output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(output.stdout.is_empty());
+    for word in words {
+        assert!(told.contains(word), "`{word}` is not in: {told}");
+    }
+}
+
+fn printed(command: &mut Command) -> String {
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn json(command: &mut Command) -> Value {
+    serde_json::from_str(&printed(command)).expect("one JSON object")
+}
+
+#[test]
+fn a_misspelt_verb_is_not_taken_for_a_scenario() {
+    refused(&["idenify"], &["`idenify` is no verb", "did you mean `switchback identify`?"]);
+    refused(&["idenify", "rig.toml"], &["did you mean `switchback identify`?"]);
+    refused(&["gapp", "rig.toml", "--json"], &["did you mean `switchback gap`?"]);
+    refused(&["complitions", "bash"], &["did you mean `switchback completions`?"]);
+    refused(&["nonsense"], &["the verbs are", "gap", "a scenario is named by its path"]);
+}
+
+#[test]
+fn what_looks_like_a_path_is_one() {
+    refused(&["scenarios/gapp"], &["scenarios/gapp: no such file"]);
+    refused(&["gapp.toml"], &["gapp.toml: no such file"]);
+}
+
+#[test]
+fn misspelt_methods_effects_and_options_get_a_suggestion() {
+    refused(&["identify", "rig.toml", "--method", "eficient"], &["efficient"]);
+    refused(&["gap", "rig.toml", "--without", "blacklash"], &["similar", "backlash"]);
+    refused(&["rig", "--out", "x", "--effect", "blacklash"], &["did you mean `backlash`?", "--list"]);
+    refused(&["rig", "--out", "x", "--effect", "amplitude_dampin"], &["did you mean `amplitude_damping`?"]);
+    refused(&["gap", "rig.toml", "--jsn"], &["--json"]);
+}
+
+#[test]
+fn quiet_verbs_say_nothing_but_the_json_that_was_asked_for() {
+    let folder = Folder::with_good_rig();
+    for verb in ["gap", "identify"] {
+        let run = |more: &[&str]| printed(folder.switchback(&[verb, "rig.toml", "--quiet"]).args(more));
+        assert_eq!(run(&[]), "", "{verb}");
+        assert!(serde_json::from_str::<Value>(&run(&["--json"])).is_ok(), "{verb}");
+    }
+    assert_eq!(printed(&mut folder.switchback(&["rig", "--quiet", "--out", "made"])), "");
+}
+
+#[test]
+fn threads_change_no_diagnosis() {
+    let folder = Folder::with_good_rig();
+    let gap = |threads| printed(&mut folder.switchback(&["gap", "rig.toml", "--json", "--threads", threads]));
+    assert_eq!(gap("1"), gap("3"));
+    refused(&["gap", "rig.toml", "--threads", "0"], &["0", "--threads"]);
+}
+
+#[test]
+fn the_list_of_effects_is_json_too() {
+    let page = json(&mut switchback(&["rig", "--list", "--json"]));
+    let effects = page["effects"].as_array().expect("a list");
+    let backlash = effects.iter().find(|e| e["effect"] == "backlash").expect("it is known");
+    assert!(backlash["laws"].as_array().is_some_and(|laws| !laws.is_empty()));
+    assert!(page["foreign"].to_string().contains("amplitude_damping"));
+}
+
+#[test]
+fn completions_know_verbs_and_options_in_every_shell() {
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = printed(&mut switchback(&["completions", shell]));
+        for word in ["identify", "compare", "without"] {
+            assert!(script.contains(word), "{shell} does not know {word}");
+        }
+    }
+    refused(&["completions", "bsh"], &["bash"]);
+}
+
+#[test]
+fn there_is_a_manual_page_for_the_program_and_for_every_verb() {
+    let page = printed(&mut switchback(&["man"]));
+    assert!(page.contains(".TH switchback 1") && page.contains("stopped by a signal"), "{page}");
+    let folder = Folder::with_good_rig();
+    printed(&mut folder.switchback(&["man", "--out", "man1"]));
+    let pages = listing(&folder.path("man1"));
+    for verb in ["", "-compare", "-completions", "-gap", "-identify", "-man", "-rig"] {
+        assert!(pages.contains(&format!("switchback{verb}.1")), "{verb} is missing in {pages:?}");
+    }
+    let gap = std::fs::read_to_string(folder.path("man1/switchback-gap.1")).expect("a page");
+    assert!(gap.contains("without") && gap.contains("JSON"), "{gap}");
+}

@@ -1,0 +1,127 @@
+//! A process that is stopped leaves nothing half-written. Signals are sent by `kill`.
+#![cfg(unix)]
+
+mod common;
+
+use common::{Folder, listing};
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A study that would take minutes.
+const LONG: &str = r#"study = "consistency"
+question = "?"
+seed = 3
+replicates = 1000000
+[system]
+a = [-0.7]
+b = [0.3]
+interval = [-1.0, 1.0]
+[[border]]
+name = "spring"
+kind = "leaf_spring"
+stiffness = 1.0
+friction = 0.3
+[sweep]
+noise = [0.1]
+samples = [1000, 100000]
+points = [3]
+methods = ["efficient"]
+"#;
+
+/// An examination that would take hours.
+const BLIND: &str = r#"study = "blind"
+question = "?"
+seed = 4
+systems = 1
+sizes = [1.0]
+seeds = 20
+none = 300
+outside = 0
+pairs = 0
+"#;
+
+fn start(folder: &Folder, arguments: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_switchback"))
+        .current_dir(folder.path("."))
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts")
+}
+
+/// Waits until something holds.
+fn until(what: &str, holds: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(start.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn is_staging(folder: &Path) -> bool {
+    folder.exists() && listing(folder).iter().any(|name| name.starts_with(".switchback-"))
+}
+
+/// Sends a signal: the exit code, and what is told.
+fn stop(mut process: Child, signal: &str) -> (Option<i32>, String) {
+    let sent = Command::new("kill").args([signal, &process.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    let code = process.wait().expect("it ends").code();
+    let mut told = String::new();
+    process.stderr.take().expect("piped").read_to_string(&mut told).expect("UTF-8");
+    (code, told)
+}
+
+#[test]
+fn a_stopped_study_leaves_the_old_report_as_it_was() {
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        let folder = Folder::with_good_rig();
+        folder.write("study.toml", &LONG.replace("1000000", "10").replace("100000", "2000"));
+        folder.switchback(&["study.toml", "--quiet", "--out", "out"]).assert().success();
+        folder.write("study.toml", LONG);
+        let out = folder.path("out");
+        let before: Vec<_> =
+            listing(&out).iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
+        let names = listing(&out);
+        let process = start(&folder, &["study.toml", "--quiet", "--out", "out"]);
+        until("a staging folder", || is_staging(&out));
+        let (code, told) = stop(process, signal);
+        assert_eq!(code, Some(3), "{signal}: {told}");
+        assert!(told.contains("stopped"), "{told}");
+        assert_eq!(listing(&out), names, "{signal}");
+        let after: Vec<_> = names.iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
+        assert!(before == after, "{signal} changed the old report");
+    }
+}
+
+#[test]
+fn a_stopped_diagnosis_leaves_no_trace() {
+    let folder = Folder::with_good_rig();
+    folder.switchback(&["rig", "--seed", "3", "--effect", "creep", "--out", "made"]).assert().success();
+    let before = folder.listing();
+    let process = start(&folder, &["gap", "made/rig.toml", "--out", "deep/new"]);
+    until("a staging folder", || is_staging(&folder.path(".")));
+    let (code, told) = stop(process, "-INT");
+    assert_eq!(code, Some(3), "{told}");
+    assert_eq!(folder.listing(), before);
+}
+
+#[test]
+fn a_stopped_examination_keeps_its_keys_and_goes_on_from_them() {
+    let folder = Folder::with_good_rig();
+    folder.write("blind.toml", &BLIND.replace("none = 300", "none = 300\nslice = 2"));
+    let process = start(&folder, &["blind.toml", "--quiet", "--out", "out"]);
+    let key = folder.path("out/key.jsonl");
+    until("the keys", || key.exists() && !is_staging(&folder.path("out")) && !is_staging(&folder.path(".")));
+    let (code, told) = stop(process, "-TERM");
+    assert_eq!(code, Some(3), "{told}");
+    let sealed = fs::read(&key).expect("the keys");
+    assert_eq!(listing(&folder.path("out")), [".switchback.sha256", "key.jsonl", "unfinished.jsonl"]);
+    folder.switchback(&["blind.toml", "--quiet", "--out", "out"]).assert().success();
+    assert_eq!(fs::read(&key).expect("the keys"), sealed);
+    assert!(!folder.path("out/unfinished.jsonl").exists());
+}

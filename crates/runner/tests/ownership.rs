@@ -1,0 +1,141 @@
+//! No verb overwrites what someone else wrote, unless it is told to.
+
+mod common;
+
+use common::{Folder, listing};
+use std::fs;
+
+/// A study that runs in a moment.
+const STUDY: &str = r#"study = "consistency"
+question = "?"
+seed = 3
+replicates = 10
+[system]
+a = [-0.7]
+b = [0.3]
+interval = [-1.0, 1.0]
+[[border]]
+name = "spring"
+kind = "leaf_spring"
+stiffness = 1.0
+friction = 0.3
+[sweep]
+noise = [0.1]
+samples = [200, 400]
+points = [3]
+methods = ["efficient"]
+"#;
+
+/// An examination of two rigs.
+const BLIND: &str = r#"study = "blind"
+question = "?"
+seed = 4
+systems = 1
+sizes = [1.0]
+seeds = 1
+none = 2
+outside = 0
+pairs = 0
+slice = 1
+"#;
+
+const FOREIGN: &str = "measured for three weeks\n";
+
+/// Runs a verb into `out` while a file of one of its names lies there, then by force, then again, then after an edit.
+#[track_caller]
+fn respects(arguments: &[&str], name: &str) {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", STUDY);
+    let run = |more: &[&str]| {
+        let output =
+            folder.switchback(arguments).args(["--out", "out"]).args(more).output().expect("it runs");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    fs::create_dir(folder.path("out")).expect("a new folder");
+    folder.write(&format!("out/{name}"), FOREIGN);
+    folder.write("out/notes.txt", "mine");
+
+    let (code, told) = run(&[]);
+    assert_eq!(code, Some(2), "{told}");
+    assert!(told.contains(&format!("{name} (not written by this program)")), "{told}");
+    assert!(told.contains("help: give another folder, or --force"), "{told}");
+    assert_eq!(listing(&folder.path("out")).len(), 2, "nothing is written, nothing staged is left");
+    assert_eq!(fs::read_to_string(folder.path(&format!("out/{name}"))).expect("kept"), FOREIGN);
+
+    let (code, told) = run(&["--force"]);
+    assert!(matches!(code, Some(0 | 1)), "{told}");
+    assert_ne!(fs::read(folder.path(&format!("out/{name}"))).expect("replaced"), FOREIGN.as_bytes());
+    assert_eq!(fs::read_to_string(folder.path("out/notes.txt")).expect("kept"), "mine");
+
+    let (code, told) = run(&[]);
+    assert!(matches!(code, Some(0 | 1)), "its own files may be replaced: {told}");
+    folder.edit(&format!("out/{name}"), |text| format!("{text} edited"));
+    let (code, told) = run(&[]);
+    assert_eq!(code, Some(2), "{told}");
+    assert!(told.contains(&format!("{name} (changed since it was written)")), "{told}");
+}
+
+#[test]
+fn a_study_respects_what_is_there() {
+    respects(&["study.toml", "--quiet"], "table.csv");
+    respects(&["study.toml", "--quiet"], "bias-efficient.svg");
+}
+
+#[test]
+fn gap_respects_what_is_there() {
+    respects(&["gap", "rig.toml"], "verdict.txt");
+}
+
+#[test]
+fn identify_respects_what_is_there() {
+    respects(&["identify", "rig.toml"], "estimate.json");
+    respects(&["identify", "rig.toml"], "borders.svg");
+}
+
+#[test]
+fn rig_respects_measurements() {
+    respects(&["rig", "--seed", "7"], "rig.toml");
+    respects(&["rig", "--seed", "7"], "drive.csv");
+}
+
+#[test]
+fn man_respects_what_is_there() {
+    respects(&["man"], "switchback.1");
+}
+
+#[test]
+fn compare_respects_what_is_there() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", STUDY);
+    folder.switchback(&["study.toml", "--quiet", "--out", "report"]).assert().success();
+    fs::create_dir(folder.path("out")).expect("a new folder");
+    folder.write("out/comparison.txt", FOREIGN);
+    let compare = |more: &[&str]| {
+        folder.switchback(&["compare", "report", "report", "--quiet", "--out", "out"]).args(more).assert()
+    };
+    let told = compare(&[]).code(2).get_output().stderr.clone();
+    assert!(String::from_utf8_lossy(&told).contains("comparison.txt (not written by this program)"));
+    assert_eq!(fs::read_to_string(folder.path("out/comparison.txt")).expect("kept"), FOREIGN);
+    compare(&["--force"]).success();
+    compare(&[]).success();
+}
+
+/// Nothing is diagnosed: what is there is refused before.
+#[test]
+fn an_examination_respects_reports_keys_and_journals_of_others() {
+    let folder = Folder::with_good_rig();
+    folder.write("blind.toml", BLIND);
+    for (name, told) in [
+        ("answers.csv", "answers.csv (not written by this program)"),
+        ("key.jsonl", "key.jsonl (not written by this program)"),
+        ("unfinished.jsonl", "something else wrote it"),
+    ] {
+        fs::create_dir(folder.path(name)).expect("a new folder");
+        folder.write(&format!("{name}/{name}"), FOREIGN);
+        let run = folder.switchback(&["blind.toml", "--quiet", "--out", name]).assert().code(2);
+        let stderr = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        assert!(stderr.contains(told) && stderr.contains("help: "), "{stderr}");
+        assert_eq!(listing(&folder.path(name)), [name]);
+        assert_eq!(fs::read_to_string(folder.path(&format!("{name}/{name}"))).expect("kept"), FOREIGN);
+    }
+}
