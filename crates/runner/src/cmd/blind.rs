@@ -13,8 +13,20 @@ use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
 use thiserror::Error;
 
-/// What the folder gets besides the other tables and figures.
-const FILES: [&str; 4] = [KEY_FILE, "results.json", "summary.txt", "answers.csv"];
+/// What the folder gets.
+const FILES: [&str; 11] = [
+    KEY_FILE,
+    "results.json",
+    "summary.txt",
+    "answers.csv",
+    "confusion.*",
+    "accuracy.*",
+    "calibration.*",
+    "abstention.*",
+    "closure.*",
+    "baselines.*",
+    "where.csv",
+];
 
 /// Why a study stopped.
 #[derive(Debug, Error, Diagnostic)]

@@ -32,6 +32,9 @@ pub struct Args {
     force: Force,
 }
 
+/// What the folder gets.
+const FILES: [&str; 3] = ["comparison.txt", "comparison.svg", "overlay-*.svg"];
+
 /// Reads both, compares, prints, and writes the folder if one was asked for.
 ///
 /// # Errors
@@ -39,7 +42,7 @@ pub struct Args {
 pub fn run(args: &Args) -> CommandResult {
     let baseline = results::read(&args.baseline)?;
     let new = results::read(&args.new)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &["comparison.txt", "comparison.svg"])?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let comparison = compare::compare(&baseline, &new);
     let summary = compare::summary(&comparison, &baseline, &new);
     if let Some(folder) = folder {

@@ -44,8 +44,16 @@ pub struct Args {
     force: Force,
 }
 
-/// What the folder gets, whatever the records are called.
-const FILES: [&str; 5] = ["gap.json", "verdict.txt", "where.svg", "candidates.svg", "residuals.svg"];
+/// What the folder gets.
+const FILES: [&str; 7] = [
+    "gap.json",
+    "verdict.txt",
+    "where.svg",
+    "candidates.svg",
+    "residuals.svg",
+    "outputs_*.svg",
+    diagnosis::NEXT_EXPERIMENT,
+];
 
 /// Reads, diagnoses, prints, and writes the folder if one was asked for.
 ///

@@ -40,13 +40,16 @@ pub struct Args {
     force: Force,
 }
 
+/// What the folder gets.
+const FILES: [&str; 3] = ["estimate.json", "borders.svg", "measured_and_simulated_*.svg"];
+
 /// Reads, identifies, prints, and writes the folder if one was asked for.
 ///
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &["estimate.json"])?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
     let watch = Watch::new(args.quiet);
     watch.begin("identifying");

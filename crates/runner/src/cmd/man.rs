@@ -32,7 +32,7 @@ pub fn run(args: &Args) -> CommandResult {
         print(&page(program)?.1)?;
         return Ok(Outcome::Done);
     };
-    let folder = args.force.claim(out, &["switchback.1"])?;
+    let folder = args.force.claim(out, &["switchback*.1"])?;
     let mut pages = Artefacts::default();
     let verbs: Vec<Command> = program.get_subcommands().cloned().collect();
     for command in verbs.into_iter().chain([program]) {

@@ -38,8 +38,9 @@ pub struct Args {
     force: Force,
 }
 
-/// What the folder gets, whatever is studied.
-const FILES: [&str; 3] = ["results.json", "table.csv", "report.md"];
+/// What the folder gets.
+const FILES: [&str; 7] =
+    ["results.json", "table.csv", "report.md", "bias-*.svg", "sd-*.svg", "borders-*.svg", "paired-*.svg"];
 
 /// Reads, claims the folder, runs, writes, prints.
 ///

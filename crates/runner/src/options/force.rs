@@ -12,12 +12,12 @@ pub struct Force {
 }
 
 impl Force {
-    /// Claims a folder, `names` being files that will be written there for certain.
+    /// Claims a folder, `names` being files that will be written there, a `*` standing for what is not known of one yet.
     ///
     /// # Errors
     /// [`OutputError`] if the folder cannot be written, or one of those files is someone else's and not given up.
     pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, OutputError> {
-        OutputFolder::claim(folder)?.forced(self.force).expecting(names.iter().copied())
+        OutputFolder::claim(folder)?.forced(self.force).expecting(names)
     }
 
     /// The same where a folder need not be asked for.

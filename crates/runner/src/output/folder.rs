@@ -1,13 +1,11 @@
 //! The folder that artefacts go to.
 
-use super::Artefacts;
 use super::staging::{Staging, Uninterrupted};
 use super::written::{Owner, SUMS, Written};
-use miette::Diagnostic;
+use super::{Artefacts, OutputError};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// A folder that has been found writable, to be filled in one go.
 ///
@@ -24,62 +22,6 @@ pub struct OutputFolder {
     target: PathBuf,
     staging: Staging,
     forced: bool,
-}
-
-/// Why results could not be written.
-#[derive(Debug, Error, Diagnostic)]
-#[non_exhaustive]
-pub enum OutputError {
-    /// A file stands where a folder is wanted.
-    #[error("{target}: cannot be an output folder: {obstacle} is a file")]
-    #[diagnostic(help("give the path of a folder, existing or new"))]
-    NotAFolder {
-        /// The folder as given.
-        target: String,
-        /// The part of its path that is a file.
-        obstacle: String,
-    },
-    /// A folder stands where a result file is to go.
-    #[error("{target}: cannot write the file {name} there: a folder has that name")]
-    #[diagnostic(help("move that folder away or give another output folder"))]
-    FileIsFolder {
-        /// The folder as given.
-        target: String,
-        /// The artefact's name.
-        name: String,
-    },
-    /// A folder stands where a file is wanted.
-    #[error("{target}: is a folder, not a file")]
-    #[diagnostic(help("give the name of a file, in this folder or elsewhere"))]
-    IsFolder {
-        /// The file as given.
-        target: String,
-    },
-    /// A file stands already where one is to be written.
-    #[error("{target}: is there already")]
-    #[diagnostic(help("give another name, or --force to replace it"))]
-    Exists {
-        /// The file as given.
-        target: String,
-    },
-    /// A file that someone else wrote or changed would be replaced.
-    #[error("{target}: {files} would be lost there")]
-    #[diagnostic(help("give another folder, or --force to replace what is there"))]
-    Foreign {
-        /// The folder as given.
-        target: String,
-        /// The files with what makes them someone else's.
-        files: String,
-    },
-    /// The system refused to write.
-    #[error("{target}: cannot write to this output folder: {source}")]
-    #[diagnostic(help("give a folder that you may write to, on a disk with space left"))]
-    Unwritable {
-        /// The folder as given.
-        target: String,
-        /// What the system said.
-        source: io::Error,
-    },
 }
 
 impl OutputFolder {
@@ -108,12 +50,22 @@ impl OutputFolder {
         Self { forced, ..self }
     }
 
-    /// Makes sure that files of these names can be written; for names that are known before the computation.
+    /// Makes sure that files of these names can be written, as far as names are known before the computation: a `*` stands for
+    /// any part of one.
     ///
     /// # Errors
     /// [`OutputError`] if a file of such a name is someone else's, or a folder has the name.
-    pub fn expecting<'a>(self, names: impl IntoIterator<Item = &'a str>) -> Result<Self, OutputError> {
-        self.refuse_what_is_not_ours(names)?;
+    pub fn expecting(self, names: &[&str]) -> Result<Self, OutputError> {
+        let there = match fs::read_dir(&self.target) {
+            Ok(entries) => {
+                entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect()
+            }
+            Err(_) => Vec::new(),
+        };
+        let mut expected: Vec<&str> =
+            there.iter().map(String::as_str).filter(|name| fits(name, names)).collect();
+        expected.sort_unstable();
+        self.refuse_what_is_not_ours(expected)?;
         Ok(self)
     }
 
@@ -185,6 +137,16 @@ impl OutputFolder {
         }
         Ok(())
     }
+}
+
+/// Whether a name is one of these, where a `*` stands for any part of it.
+fn fits(name: &str, expected: &[&str]) -> bool {
+    expected.iter().any(|expected| match expected.split_once('*') {
+        None => name == *expected,
+        Some((before, after)) => {
+            name.strip_prefix(before).is_some_and(|rest| rest.len() >= after.len() && rest.ends_with(after))
+        }
+    })
 }
 
 /// Moves the file at `place`, if any, to `old`, and the one at `new` to `place`.

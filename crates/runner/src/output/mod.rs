@@ -2,6 +2,7 @@
 
 mod artefacts;
 mod columns;
+mod error;
 mod folder;
 mod page;
 mod sha256;
@@ -11,7 +12,8 @@ mod written;
 
 pub use artefacts::Artefacts;
 pub use columns::columns;
-pub use folder::{OutputError, OutputFolder};
+pub use error::OutputError;
+pub use folder::OutputFolder;
 pub use page::print;
 pub use sha256::sha256;
 pub use single::OutputFile;

@@ -69,9 +69,11 @@ fn names_known_beforehand_are_refused_before_the_computation() {
     let root = tempdir().unwrap();
     fs::write(root.path().join("drive.csv"), "measured").unwrap();
     let claim = || OutputFolder::claim(root.path()).unwrap();
-    assert!(matches!(claim().expecting(["drive.csv"]), Err(OutputError::Foreign { .. })));
-    assert!(claim().expecting(["rig.toml"]).is_ok());
-    assert!(claim().forced(true).expecting(["drive.csv"]).is_ok());
+    assert!(matches!(claim().expecting(&["drive.csv"]), Err(OutputError::Foreign { .. })));
+    assert!(claim().expecting(&["rig.toml"]).is_ok());
+    assert!(matches!(claim().expecting(&["rig.toml", "d*.csv"]), Err(OutputError::Foreign { .. })));
+    assert!(claim().expecting(&["drive*.svg", "x*.csv", "drive.csv*v"]).is_ok());
+    assert!(claim().forced(true).expecting(&["drive.csv"]).is_ok());
 }
 
 #[test]

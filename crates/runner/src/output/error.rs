@@ -1,0 +1,61 @@
+//! Why nothing was written.
+
+use miette::Diagnostic;
+use std::io;
+use thiserror::Error;
+
+/// Why results could not be written.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// A file stands where a folder is wanted.
+    #[error("{target}: cannot be an output folder: {obstacle} is a file")]
+    #[diagnostic(help("give the path of a folder, existing or new"))]
+    NotAFolder {
+        /// The folder as given.
+        target: String,
+        /// The part of its path that is a file.
+        obstacle: String,
+    },
+    /// A folder stands where a result file is to go.
+    #[error("{target}: cannot write the file {name} there: a folder has that name")]
+    #[diagnostic(help("move that folder away or give another output folder"))]
+    FileIsFolder {
+        /// The folder as given.
+        target: String,
+        /// The artefact's name.
+        name: String,
+    },
+    /// A folder stands where a file is wanted.
+    #[error("{target}: is a folder, not a file")]
+    #[diagnostic(help("give the name of a file, in this folder or elsewhere"))]
+    IsFolder {
+        /// The file as given.
+        target: String,
+    },
+    /// A file stands already where one is to be written.
+    #[error("{target}: is there already")]
+    #[diagnostic(help("give another name, or --force to replace it"))]
+    Exists {
+        /// The file as given.
+        target: String,
+    },
+    /// A file that someone else wrote or changed would be replaced.
+    #[error("{target}: {files} would be lost there")]
+    #[diagnostic(help("give another folder, or --force to replace what is there"))]
+    Foreign {
+        /// The folder as given.
+        target: String,
+        /// The files with what makes them someone else's.
+        files: String,
+    },
+    /// The system refused to write.
+    #[error("{target}: cannot write to this output folder: {source}")]
+    #[diagnostic(help("give a folder that you may write to, on a disk with space left"))]
+    Unwritable {
+        /// The folder as given.
+        target: String,
+        /// What the system said.
+        source: io::Error,
+    },
+}
