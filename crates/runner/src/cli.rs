@@ -28,6 +28,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Compare(cmd::compare::Args),
+    Design(cmd::design::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
     Rig(cmd::rig::Args),
@@ -41,6 +42,7 @@ impl Cli {
     pub fn run(self) -> CommandResult {
         match (self.verb, self.study) {
             (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
+            (Some(Verb::Design(args)), _) => cmd::design::run(&args),
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),

@@ -2,6 +2,7 @@
 
 pub mod blind;
 pub mod compare;
+pub mod design;
 pub mod gap;
 pub mod identify;
 pub mod rig;
