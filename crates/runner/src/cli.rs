@@ -35,6 +35,7 @@ pub struct Cli {
 enum Verb {
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
+    Design(cmd::design::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
     Man(cmd::man::Args),
@@ -86,6 +87,7 @@ impl Cli {
         match (self.verb, self.study) {
             (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
             (Some(Verb::Completions(args)), _) => cmd::completions::run(&args),
+            (Some(Verb::Design(args)), _) => cmd::design::run(&args),
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
             (Some(Verb::Man(args)), _) => cmd::man::run(&args),

@@ -3,6 +3,7 @@
 pub mod blind;
 pub mod compare;
 pub mod completions;
+pub mod design;
 pub mod gap;
 pub mod identify;
 pub mod man;

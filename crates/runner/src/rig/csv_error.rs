@@ -24,6 +24,8 @@ pub enum CsvProblem {
     Empty,
     #[error("there is no column `{column}`; the header reads `{header}`")]
     MissingColumn { column: &'static str, header: String },
+    #[error("column y is missing: play v and add the measured y")]
+    NotMeasured,
     #[error("the column `{column}` stands twice in the header")]
     DuplicateColumn { column: &'static str },
     #[error("the column `{found}` is not known, but looks like `{meant}`")]
@@ -57,6 +59,10 @@ impl CsvProblem {
     pub fn remedy(&self) -> String {
         match self {
             Self::Empty => "a record starts with the header `t,v,y` and has one row a sample".to_owned(),
+            Self::NotMeasured => {
+                "this is an input to be played: write the output measured at each sample into a third column, `t,v,y`"
+                    .to_owned()
+            }
             Self::MissingColumn { header, .. } if header.contains([';', '\t']) => {
                 "separate the columns by commas, and write decimals with a point".to_owned()
             }

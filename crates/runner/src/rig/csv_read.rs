@@ -73,6 +73,9 @@ fn columns(header: &StringRecord) -> Result<[Option<usize>; 4], CsvProblem> {
             return Err(CsvProblem::DuplicateColumn { column: name });
         }
     }
+    if header.iter().eq(["t", "v"]) {
+        return Err(CsvProblem::NotMeasured);
+    }
     if let Some(missing) = (0..3).find(|&column| positions[column].is_none()) {
         let header = header.iter().collect::<Vec<_>>().join(",");
         return Err(CsvProblem::MissingColumn { column: NAMES[missing], header });
