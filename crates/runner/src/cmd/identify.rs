@@ -1,7 +1,7 @@
 //! `switchback identify RIG.toml`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::identification::{self, Identification, Method};
+use crate::identification::{self, Identification, Method, Request};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::rig;
@@ -18,6 +18,10 @@ pub struct Args {
     /// records allow]
     #[arg(long, value_parser = method_by_name)]
     method: Option<Method>,
+
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    #[arg(long)]
+    causal: bool,
 
     /// Print one JSON object instead of tables.
     #[arg(long)]
@@ -36,7 +40,8 @@ pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let identification = identification::identify(&rig, method).map_err(|error| error.in_file(&args.rig))?;
+    let request = Request { method, causal: args.causal };
+    let identification = identification::examined(&rig, request).map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }

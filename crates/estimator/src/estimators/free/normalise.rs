@@ -22,23 +22,8 @@ pub(super) struct Covariance {
 impl Covariance {
     /// From the information matrix per unit noise variance; `None` if a parameter has no information.
     pub(super) fn new(information: &DMatrix<f64>, theta: &Parameters, noise_variance: f64) -> Option<Self> {
-        let p = information.nrows();
-        let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
-        if !scale.iter().all(|&s| s > 0.0) {
-            return None;
-        }
-        let mut gauge = DVector::zeros(p);
-        let (n, nb) = (theta.a.len(), theta.b.len());
-        for (i, b) in theta.b.iter().enumerate() {
-            gauge[n + i] = b * scale[n + i];
-        }
-        for (k, f) in theta.f.iter().enumerate() {
-            gauge[n + nb + k] = -f * scale[n + nb + k];
-        }
-        let gauge = gauge.normalize();
-        let mut scaled = DMatrix::from_fn(p, p, |i, j| information[(i, j)] / (scale[i] * scale[j]));
-        scaled.ger(1.0, &gauge, &gauge, 1.0);
-        for i in 0..p {
+        let (mut scaled, scale) = scaled_information(information, theta)?;
+        for i in 0..scale.len() {
             scaled[(i, i)] += 1e-13;
         }
         Some(Self { factor: scaled.cholesky()?, scale, noise_variance, meat: None })
@@ -69,6 +54,31 @@ impl Covariance {
         let coloured = self.meat.as_ref().map_or(0.0, |m| x.dot(&(m * &x)));
         white.max(coloured).max(0.0).sqrt()
     }
+}
+
+/// The information matrix with columns scaled to unit information and the null direction filled, and the scale; `None` if a parameter has
+/// no information.
+pub(super) fn scaled_information(
+    information: &DMatrix<f64>,
+    theta: &Parameters,
+) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let p = information.nrows();
+    let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
+    if !scale.iter().all(|&s| s > 0.0) {
+        return None;
+    }
+    let mut gauge = DVector::zeros(p);
+    let (n, nb) = (theta.a.len(), theta.b.len());
+    for (i, b) in theta.b.iter().enumerate() {
+        gauge[n + i] = b * scale[n + i];
+    }
+    for (k, f) in theta.f.iter().enumerate() {
+        gauge[n + nb + k] = -f * scale[n + nb + k];
+    }
+    let gauge = gauge.normalize();
+    let mut scaled = DMatrix::from_fn(p, p, |i, j| information[(i, j)] / (scale[i] * scale[j]));
+    scaled.ger(1.0, &gauge, &gauge, 1.0);
+    Some((scaled, scale))
 }
 
 /// Which difference of knot values is set to one.
