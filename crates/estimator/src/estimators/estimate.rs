@@ -49,6 +49,17 @@ pub struct Estimate {
     pub samples: usize,
 }
 
+/// Standard errors of what follows from the coefficients and the borders together, output units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelErrors {
+    /// Of [`Estimate::gain`].
+    pub gain: f64,
+    /// Of [`Estimate::y_high`].
+    pub y_high: f64,
+    /// Of [`Estimate::y_low`].
+    pub y_low: f64,
+}
+
 /// A coefficient of `A` or `B` with its name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficient {

@@ -7,5 +7,5 @@ mod plus_minus;
 pub mod pulse;
 
 pub use border_distance::{BorderDistance, BorderGap};
-pub use estimate::{BorderPoint, Coefficient, Estimate};
+pub use estimate::{BorderPoint, Coefficient, Estimate, LevelErrors};
 pub use plus_minus::PlusMinus;

@@ -1,6 +1,7 @@
 //! What a model costs that could run in real time.
 
 use super::{Flag, Identification, Yardstick};
+use switchback_estimator::estimators::PlusMinus;
 use switchback_estimator::estimators::free::{LookAhead, Model};
 
 /// The best model that could run in real time, beside one that could not.
@@ -12,8 +13,8 @@ pub struct CausalAlternative {
     pub held_out: Option<Yardstick>,
 }
 
-/// Why a model could not run in real time; empty if it could.
-pub(super) fn obstacles(model: &Model) -> Vec<String> {
+/// Why a model could not run in real time, with the unit of its input; empty if it could.
+pub(super) fn obstacles(model: &Model, unit: &str) -> Vec<String> {
     if model.is_causal() {
         return Vec::new();
     }
@@ -30,8 +31,8 @@ pub(super) fn obstacles(model: &Model) -> Vec<String> {
                 reasons.push("the sample after a reversal tells when between samples it falls".to_owned());
             }
             LookAhead::UntilConfirmed => reasons.push(format!(
-                "it dates a reversal back once the input has moved by {:.3e}",
-                model.rule().threshold
+                "it dates a reversal back once the input has moved by {}",
+                format!("{} {unit}", PlusMinus::new(model.rule().threshold, f64::NAN).value).trim()
             )),
         }
     }

@@ -72,24 +72,20 @@ fn others(rig: &Rig, request: Request, found: &Identification) -> Vec<(Request, 
     identified.collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// Every reservation, weightiest first: runs that are useless, simpler models that do as well, what the errors and the records say, innovations
-/// that are not white, and what real time would cost.
+/// Every reservation, weightiest first: runs that are useless, simpler models that do better, what the errors say, innovations that are not white, what
+/// real time would cost, and what was found by the way.
 fn flags(rig: &Rig, found: &Identification, examination: &Examination, useless: Vec<Flag>) -> Vec<Flag> {
-    let mut flags = useless;
-    if lacks_holdout(rig) {
-        flags.push(Flag {
-            kind: "no_holdout",
-            figure: None,
-            text: "no record is held out, so the fit is only a fit to what was fitted".to_owned(),
-        });
-    }
-    flags.extend(preferable(examination).and_then(|yardstick| yardstick.flag(found.method)));
-    flags.extend(found.flags.iter().cloned());
-    flags.extend(examination.innovations.as_ref().and_then(residuals::colour));
-    if let Some(causal) = &examination.causal {
-        flags.push(causal.flag(&found.obstacles));
-    }
-    flags
+    let no_holdout = lacks_holdout(rig).then(|| Flag {
+        kind: "no_holdout",
+        figure: None,
+        text: "no record is held out, so the fit is only a fit to what was fitted".to_owned(),
+    });
+    let yardstick = preferable(examination).and_then(|yardstick| yardstick.flag(found.method));
+    let colour = examination.innovations.as_ref().and_then(residuals::colour);
+    let causal = examination.causal.as_ref().map(|causal| causal.flag(&found.obstacles));
+    let (notes, doubts): (Vec<Flag>, Vec<Flag>) = found.flags.iter().cloned().partition(Flag::is_a_note);
+    let before = useless.into_iter().chain(no_holdout).chain(yardstick);
+    before.chain(doubts).chain(colour).chain(causal).chain(notes).collect()
 }
 
 /// The yardstick that comes nearest to the identification, or surpasses it most.

@@ -14,6 +14,12 @@ pub struct Flag {
 }
 
 impl Flag {
+    /// Whether it says how the records were read rather than what is wrong with the result.
+    pub(super) fn is_a_note(&self) -> bool {
+        ["sensor_noise", "few_reversals", "steep_cell", "rarely_visited", "order_chosen", "one_border"]
+            .contains(&self.kind)
+    }
+
     /// A flag with its figure.
     pub(super) fn new(kind: &'static str, figure: f64, text: String) -> Self {
         Self { kind, figure: Some(figure), text }

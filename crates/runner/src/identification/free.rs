@@ -1,6 +1,6 @@
 //! Methods for any record of a rig, and the yardsticks.
 
-use super::{Examination, Flag, FreeRun, Identification, IdentificationError, Request, causal};
+use super::{Examination, Flag, FreeRun, Identification, IdentificationError, Request, causal, unit};
 use switchback_estimator::Record;
 use switchback_estimator::estimators::free::{FreeError, InputMap, Model, Settings, identify as estimate};
 use switchback_estimator::rig::Rig;
@@ -23,8 +23,9 @@ pub(super) fn identify(
         method,
         estimate: identified.estimate,
         runs: rig.records.iter().map(|record| run(&identified.model, &record.record)).collect(),
+        level_errors: identified.level_errors,
         distance: identified.distance,
-        obstacles: causal::obstacles(&identified.model),
+        obstacles: causal::obstacles(&identified.model, unit(&rig.input_label)),
         flags: identified.warnings.iter().map(Flag::from).collect(),
         examination: Examination::default(),
     })

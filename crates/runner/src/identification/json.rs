@@ -19,8 +19,11 @@ struct Page<'a> {
     b_se: &'a [f64],
     noise_sd: f64,
     gain: f64,
+    gain_se: Option<f64>,
     y_high: f64,
+    y_high_se: Option<f64>,
     y_low: f64,
+    y_low_se: Option<f64>,
     descendant: Vec<Point>,
     ascendant: Vec<Point>,
     fit_percent: FitByRecord<'a>,
@@ -140,7 +143,7 @@ impl Serialize for FitByRecord<'_> {
 
 /// One JSON object, indented, with a newline at its end.
 pub fn json(rig: &Rig, identification: &Identification) -> String {
-    let Identification { estimate, examination, .. } = identification;
+    let Identification { estimate, level_errors, examination, .. } = identification;
     let records = || -> Vec<RecordFit<'_>> {
         rig.records
             .iter()
@@ -168,8 +171,11 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
         b_se: &estimate.b_se,
         noise_sd: estimate.noise_sd,
         gain: estimate.gain,
+        gain_se: level_errors.map(|e| e.gain),
         y_high: estimate.y_high,
+        y_high_se: level_errors.map(|e| e.y_high),
         y_low: estimate.y_low,
+        y_low_se: level_errors.map(|e| e.y_low),
         descendant: points(&estimate.descending),
         ascendant: points(&estimate.ascending),
         fit_percent: FitByRecord(&by_record),

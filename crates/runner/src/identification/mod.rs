@@ -31,7 +31,7 @@ pub(crate) use simulate::EstimatedSystem;
 pub use table::table;
 pub use yardstick::Yardstick;
 
-use switchback_estimator::estimators::{BorderDistance, Estimate};
+use switchback_estimator::estimators::{BorderDistance, Estimate, LevelErrors};
 use switchback_estimator::rig::Rig;
 
 /// What a method made of a rig.
@@ -41,6 +41,8 @@ pub struct Identification {
     pub method: Method,
     /// The system it found.
     pub estimate: Estimate,
+    /// Standard errors of the gain and the stationary outputs; none if a parameter has no information.
+    pub level_errors: Option<LevelErrors>,
     /// Free-run simulation of every record, in the order of the rig; none where the record needs a border that the method
     /// does not see.
     pub runs: Vec<Option<FreeRun>>,

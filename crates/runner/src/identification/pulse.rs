@@ -67,7 +67,9 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
         })?;
     let runs = rig.records.iter().map(|record| system.run(&record.record)).collect();
     let examination = Examination::default();
-    Ok(Identification { method, estimate, runs, distance, obstacles: Vec::new(), flags, examination })
+    let level_errors = Some(fit.level_errors);
+    let obstacles = Vec::new();
+    Ok(Identification { method, estimate, level_errors, runs, distance, obstacles, flags, examination })
 }
 
 /// What the errors of an estimate say against it.

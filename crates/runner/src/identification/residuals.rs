@@ -9,12 +9,13 @@ use switchback_estimator::statistics::{MeanInterval, Whiteness};
 /// Behavioral Sciences", 2nd ed. 1988, §9.2.1.
 const LARGE: f64 = 0.35 / 1.35;
 
-/// How white the innovations over the fit records are; `None` where they are too few.
+/// How white the innovations are over the records that the method was fitted to; `None` where they are too few.
 ///
 /// The noise may enter as equation error, and then the one-step residuals `ε = A(q⁻¹)(y − ŷ)` of an exact model are white, or behind the
 /// system, and then its free-run errors `y − ŷ` are. Either is no fault of the model, so the whiter of the two is taken.
 pub(super) fn innovations(rig: &Rig, identification: &Identification) -> Option<Whiteness> {
-    let runs = RunErrors::of(rig, identification, Usage::Fit);
+    let mut runs = RunErrors::of(rig, identification, Usage::Fit);
+    runs.retain(|run| identification.method.is_fitted_to(run.record.role));
     let a = &identification.estimate.a;
     let one_step = |e: &[f64]| -> Vec<f64> {
         let past = |t: usize| a.iter().enumerate().map(move |(i, a)| a * e[t - 1 - i]).sum::<f64>();
@@ -37,7 +38,7 @@ pub(super) fn colour(whiteness: &Whiteness) -> Option<Flag> {
             "coloured_innovations",
             foretold,
             format!(
-                "the innovations are far from white: their past foretells {:.0} % of their variance (Ljung–Box {ljung_box:.0} over {lags} lags), so something is left that the model misses and the 95 % intervals assume too little; `switchback gap` looks for its cause",
+                "the innovations are far from white: their past foretells {:.0} % of their variance (Ljung–Box {ljung_box:.0} over {lags} lags), so something is left that the model does not explain; `switchback gap` looks for its cause",
                 100.0 * foretold
             ),
         )

@@ -3,7 +3,7 @@
 use super::{Identification, unit};
 use crate::output::columns;
 use std::fmt::Write;
-use switchback_estimator::estimators::{BorderPoint, Coefficient, Estimate, PlusMinus};
+use switchback_estimator::estimators::{BorderPoint, Coefficient, LevelErrors, PlusMinus};
 use switchback_estimator::rig::{Rig, Usage};
 
 /// Half-width of a 95 % interval in standard errors of a normal estimate.
@@ -19,7 +19,7 @@ pub fn table(rig: &Rig, identification: &Identification) -> String {
         page.push('\n');
     }
     page.push_str(&headline(rig, identification));
-    for part in [parameters(rig, &identification.estimate), fits(rig, identification)] {
+    for part in [parameters(rig, identification), fits(rig, identification)] {
         page.push('\n');
         page.push_str(&part);
     }
@@ -51,7 +51,10 @@ fn headline(rig: &Rig, identification: &Identification) -> String {
     )
 }
 
-fn parameters(rig: &Rig, estimate: &Estimate) -> String {
+fn parameters(rig: &Rig, identification: &Identification) -> String {
+    let estimate = &identification.estimate;
+    let unknown = LevelErrors { gain: f64::NAN, y_high: f64::NAN, y_low: f64::NAN };
+    let errors = identification.level_errors.unwrap_or(unknown);
     let output = unit(&rig.output_label);
     let mut rows = vec![["parameter", "estimate", "95 % interval", "unit"].map(str::to_owned)];
     for coefficient in estimate.a_coefficients().chain(estimate.b_coefficients()) {
@@ -63,9 +66,9 @@ fn parameters(rig: &Rig, estimate: &Estimate) -> String {
     // The error of a standard deviation, as of normal noise.
     let of_noise = Z95 * estimate.noise_sd / (2.0 * estimate.samples as f64).sqrt();
     for (name, value, half) in [
-        ("gain B(1)/A(1)", estimate.gain, f64::NAN),
-        ("y_high", estimate.y_high, f64::NAN),
-        ("y_low", estimate.y_low, f64::NAN),
+        ("gain B(1)/A(1)", estimate.gain, Z95 * errors.gain),
+        ("y_high", estimate.y_high, Z95 * errors.y_high),
+        ("y_low", estimate.y_low, Z95 * errors.y_low),
         ("noise sd", estimate.noise_sd, of_noise),
     ] {
         let [value, half] = rounded(value, half);

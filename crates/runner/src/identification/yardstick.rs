@@ -58,31 +58,31 @@ impl Yardstick {
         self.own_fit_percent - self.fit_percent
     }
 
-    /// Speaks up where the identification does not simulate better than this beyond chance.
+    /// Speaks up where the identification simulates worse than this, and says whether beyond chance.
     pub(super) fn flag(&self, own: Method) -> Option<Flag> {
+        if self.lead() >= 0.0 {
+            return None;
+        }
         let Self { method, fit_percent, own_fit_percent, .. } = self;
-        let fits =
-            format!("{fit_percent:.1} % of fit on the held-out records against {own_fit_percent:.1} %");
         let (kind, verdict) = match self.excess {
-            Some(excess) if excess.high < 0.0 => return None,
             Some(excess) if excess.low > 0.0 => (
                 "worse_than_yardstick",
-                format!("beyond chance (95 % block bootstrap); prefer it to `{own}`: `--method {method}`"),
+                format!("beyond chance (block bootstrap, 95 %): prefer `--method {method}`"),
             ),
             Some(_) => (
                 "no_better_than_yardstick",
                 format!(
-                    "a difference within chance (95 % block bootstrap): nothing held out speaks for `{own}`, so prefer the simpler `--method {method}`"
+                    "within chance (block bootstrap, 95 %): nothing held out speaks for `{own}`, so prefer the simpler `--method {method}`"
                 ),
             ),
-            // Too little is held out to tell chance; only a fit below the yardstick's is then worth a word.
-            None if self.lead() >= 0.0 => return None,
             None => (
                 "no_better_than_yardstick",
-                "too little is held out to say whether by chance; hold out more".to_owned(),
+                "but too little is held out to say whether by chance: hold out more".to_owned(),
             ),
         };
-        Some(Flag::new(kind, self.lead(), format!("`{method}` reaches {fits}, {verdict}")))
+        let fits =
+            format!("{own_fit_percent:.1} % of fit on the held-out records against {fit_percent:.1} %");
+        Some(Flag::new(kind, self.lead(), format!("`{own}` reaches {fits} by `{method}`, {verdict}")))
     }
 }
 

@@ -8,14 +8,14 @@ use super::error::FreeError;
 use super::examination::Examination;
 use super::fit::{Effort, Ladder};
 use super::model::Model;
-use super::normalise::{Covariance, Figures, normalise};
+use super::normalise::{Covariance, Figures, level_errors, normalise};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{information, residual_energy};
 use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
 use super::simulation_error::{cost, linearise};
 use super::warning::Warning;
-use crate::estimators::{BorderDistance, Estimate};
+use crate::estimators::{BorderDistance, Estimate, LevelErrors};
 use crate::record::Record;
 use nalgebra::DMatrix;
 
@@ -24,6 +24,8 @@ use nalgebra::DMatrix;
 pub struct Identified {
     /// Coefficients and borders with their standard errors, in the paper's normalisation.
     pub estimate: Estimate,
+    /// Standard errors of the gain and the stationary outputs; none if a parameter has no information.
+    pub level_errors: Option<LevelErrors>,
     /// The same system as a simulator.
     pub model: Model,
     /// How order, delay and knots were chosen.
@@ -78,8 +80,9 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     let examined = examine(&data, featured, structure, &theta, &segments);
     let warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
+    let level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
     let model = Model { basis: basis.clone(), structure, parameters: theta, rule: data.rule };
-    Ok(Identified { estimate, model, selection, distance, warnings })
+    Ok(Identified { estimate, level_errors, model, selection, distance, warnings })
 }
 
 /// What a fit knows of its own errors.

@@ -2,7 +2,7 @@
 
 use super::basis::Basis;
 use super::problem::{Parameters, Structure};
-use crate::estimators::{BorderPoint, Estimate};
+use crate::estimators::{BorderPoint, Estimate, LevelErrors};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Covariance of `(a, b, f, c)` in the fit's own scale.
@@ -174,6 +174,30 @@ pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
         Quantity { value, derivative }
     });
     a.chain(b).chain(points).collect()
+}
+
+/// Standard errors of the gain and of both stationary outputs, by the delta method.
+pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance) -> LevelErrors {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let (a_one, b_one) = (1.0 + theta.a.iter().sum::<f64>(), theta.b.iter().sum::<f64>());
+    let span = Span::of(&theta.f);
+    // `(B(1)·u + constant·c)/A(1)`, where `u` is a sum of knot values with signs.
+    let error = |u: f64, knots: &[(usize, f64)], constant: f64| {
+        let y = (b_one * u + constant * theta.c) / a_one;
+        let mut derivative = DVector::zeros(n + nb + m + 1);
+        derivative.rows_mut(0, n).fill(-y / a_one);
+        derivative.rows_mut(n, nb).fill(u / a_one);
+        for &(k, sign) in knots.iter().filter(|(k, _)| *k > 0) {
+            derivative[n + nb + k - 1] += sign * b_one / a_one;
+        }
+        derivative[n + nb + m] = constant / a_one;
+        covariance.standard_error(&derivative)
+    };
+    LevelErrors {
+        gain: error(span.value, &[(span.high, 1.0), (span.low, -1.0)], 0.0),
+        y_high: error(theta.f[m - 1], &[(m, 1.0)], 1.0),
+        y_low: error(0.0, &[], 1.0),
+    }
 }
 
 /// The fit as an [`Estimate`], standard errors by the delta method.
