@@ -1,7 +1,7 @@
 //! `switchback identify RIG.toml`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::identification::{self, Identification, Method};
+use crate::identification::{self, Identification, Method, Request};
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
@@ -21,6 +21,10 @@ pub struct Args {
     /// records allow]
     #[arg(long, value_parser = method(), hide_possible_values = true)]
     method: Option<Method>,
+
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    #[arg(long)]
+    causal: bool,
 
     /// Print one JSON object instead of tables.
     #[arg(long)]
@@ -51,9 +55,10 @@ pub fn run(args: &Args) -> CommandResult {
     let rig = rig::read(&args.rig)?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
+    let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);
     watch.begin("identifying");
-    let identification = args.threads.install(|| identification::identify(&rig, method))?;
+    let identification = args.threads.install(|| identification::examined(&rig, request))?;
     watch.finish();
     let identification = identification.map_err(|error| error.in_file(&args.rig))?;
     if let Some(folder) = folder {

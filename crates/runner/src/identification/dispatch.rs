@@ -1,6 +1,6 @@
 //! Which estimator a method is.
 
-use super::{Identification, IdentificationError, Method, free, pulse};
+use super::{Identification, IdentificationError, Method, Request, free, pulse};
 use switchback_estimator::estimators::free::InputMap;
 use switchback_estimator::rig::Rig;
 
@@ -8,13 +8,15 @@ use switchback_estimator::rig::Rig;
 ///
 /// # Errors
 /// [`IdentificationError`] if the rig lacks what the method needs, or its records do not determine a system.
-pub fn identify(rig: &Rig, method: Method) -> Result<Identification, IdentificationError> {
-    match method {
+pub fn identify(rig: &Rig, request: impl Into<Request>) -> Result<Identification, IdentificationError> {
+    let request = request.into();
+    match request.method {
+        // Their switch is (2.3) and their B begins at b₁: they can always run in real time.
         Method::PaperDescendant | Method::PaperAscendant | Method::Joint | Method::Efficient => {
-            pulse::identify(rig, method)
+            pulse::identify(rig, request.method)
         }
-        Method::Free => free::identify(rig, method, InputMap::Borders),
-        Method::LinearArx => free::identify(rig, method, InputMap::Linear),
-        Method::Memoryless => free::identify(rig, method, InputMap::Static),
+        Method::Free => free::identify(rig, request, InputMap::Borders),
+        Method::LinearArx => free::identify(rig, request, InputMap::Linear),
+        Method::Memoryless => free::identify(rig, request, InputMap::Static),
     }
 }

@@ -53,7 +53,8 @@ pub struct Selection {
 /// smaller ones travel better to records that the fit has not seen.
 pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, FreeError> {
     let orders: Vec<usize> = settings.order.map_or(ORDERS.collect(), |n| vec![n]);
-    let delays: Vec<isize> = settings.delay.map_or(DELAYS.collect(), |d| vec![d]);
+    let delays: Vec<isize> =
+        settings.delay.map_or(DELAYS.filter(|&d| settings.allows(d)).collect(), |d| vec![d]);
     let knots: Vec<usize> = match (settings.input_map, settings.knots) {
         (InputMap::Linear, _) => vec![2],
         (_, Some(k)) => vec![k],
@@ -101,7 +102,7 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
 /// The rules have the same parameters, so the fit itself decides; a middling structure shows the difference. All are judged
 /// over the same samples but for a few at the very start.
 pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
-    let rules = data.noise.rules(settings.threshold, settings.timing);
+    let rules = data.noise.rules(settings);
     if rules.len() == 1 || settings.input_map != InputMap::Borders {
         return data;
     }
