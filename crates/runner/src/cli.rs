@@ -30,6 +30,7 @@ enum Verb {
     Compare(cmd::compare::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
+    Init(cmd::init::Args),
     Rig(cmd::rig::Args),
 }
 
@@ -43,6 +44,7 @@ impl Cli {
             (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
+            (Some(Verb::Init(args)), _) => cmd::init::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {

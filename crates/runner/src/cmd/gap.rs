@@ -1,10 +1,10 @@
-//! `switchback gap RIG.toml`
+//! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
+use super::data_args::DataArgs;
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
-use crate::rig;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 use switchback_gap::Effect;
@@ -12,8 +12,8 @@ use switchback_gap::Effect;
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The rig file; the CSV files it names lie beside it.
-    rig: PathBuf,
+    #[command(flatten)]
+    data: DataArgs,
 
     /// Diagnose this model, the output of `switchback identify --json` [default: the columns y_sim if the records have
     /// them, else the model identified from the fit records]
@@ -38,10 +38,11 @@ pub struct Args {
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = rig::read(&args.rig)?;
+    let rig = args.data.load("gap", false)?.rig;
     let subject = Subject::choose(rig, args.model.as_deref())?;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
-    let report = diagnosis::examine(subject, &args.without).map_err(|error| error.in_file(&args.rig))?;
+    let report =
+        diagnosis::examine(subject, &args.without).map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }

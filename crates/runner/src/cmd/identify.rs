@@ -1,18 +1,18 @@
-//! `switchback identify RIG.toml`
+//! `switchback identify DATA.csv …` or `switchback identify RIG.toml`
 
+use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::{self, Identification, Method};
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
-use crate::rig;
 use std::path::PathBuf;
 use switchback_estimator::rig::Rig;
 
 /// Identify the linear part and both borders from a rig's records.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The rig file; the CSV files it names lie beside it.
-    rig: PathBuf,
+    #[command(flatten)]
+    data: DataArgs,
 
     /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
     /// records allow]
@@ -33,10 +33,11 @@ pub struct Args {
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = rig::read(&args.rig)?;
+    let rig = args.data.load("identify", false)?.rig;
     let folder = args.out.as_deref().map(OutputFolder::claim).transpose()?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let identification = identification::identify(&rig, method).map_err(|error| error.in_file(&args.rig))?;
+    let identification =
+        identification::identify(&rig, method).map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }

@@ -2,7 +2,9 @@
 
 pub mod blind;
 pub mod compare;
+pub mod data_args;
 pub mod gap;
 pub mod identify;
+pub mod init;
 pub mod rig;
 pub mod study;
