@@ -39,6 +39,7 @@ enum Verb {
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
     Man(cmd::man::Args),
+    Init(cmd::init::Args),
     Rig(cmd::rig::Args),
 }
 
@@ -91,6 +92,7 @@ impl Cli {
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
             (Some(Verb::Man(args)), _) => cmd::man::run(&args),
+            (Some(Verb::Init(args)), _) => cmd::init::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {
