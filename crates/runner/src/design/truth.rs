@@ -36,8 +36,8 @@ impl Truth {
         let method = identification::default_method(rig);
         let found = identification::identify(rig, method).map_err(|error| error.in_file(file))?;
         let refused = |reason: String| DesignError::NoSystem { rig: file.display().to_string(), reason };
-        let Identification { estimate, warnings, .. } = &found;
-        let mut notes = warnings.clone();
+        let Identification { estimate, flags, .. } = &found;
+        let mut notes: Vec<String> = flags.iter().map(|flag| flag.text.clone()).collect();
         let interval = interval(rig).map_err(|error| refused(error.to_string()))?;
         let known = EstimatedSystem::new(estimate, interval).map_err(|reason| refused(reason.to_owned()))?;
         let [descending, ascending] = completed(known.borders(), interval, estimate, &mut notes);
