@@ -1,8 +1,9 @@
 //! Where the gap lies: excess energy of the one-step residuals over cells of several axes.
 
-use statrs::distribution::{ContinuousCDF, Normal};
+mod energy;
 
-use crate::diagnosis::Cell;
+use self::energy::{Blocks, Portion, false_discovery_rates, portions, upper_tail};
+use crate::diagnosis::{Cell, CellInterval, CellUnit};
 use crate::likelihood::engine::Fit;
 use crate::records::campaign::Campaign;
 use crate::records::motion::Motion;
@@ -34,21 +35,56 @@ impl Residuals {
     }
 }
 
+/// Samples of one block; the square of a normal deviate of variance one has variance two.
+const BLOCKS: Blocks = Blocks { length: 25, variance: 2.0 };
+/// Samples that a cell must hold.
+const FEWEST: usize = 10;
+
 /// The map of residuals over a noise floor `variance`.
 ///
-/// A cell's statistic is its sum of `w²/σ² − 1` over the standard deviation of that sum, taken from sums over short blocks of
-/// time so that neighbours may be dependent, and no smaller than white normal noise gives. q-values are Benjamini–Hochberg
-/// over all cells of all axes.
+/// Two questions a cell: whether there is energy beyond the floor, `w²/σ² − 1` summed, and whether it is denser there than elsewhere
+/// ([`portions`]). q-values are Benjamini–Hochberg over all cells of all axes, for each question by itself.
 pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64) -> Vec<Cell> {
+    let mut map = Map { samples: samples(campaign, residuals, variance), cells: Vec::new() };
+    map.kinds("record", campaign.tracks.iter().map(|t| t.name.clone()), |s| s.record);
+    let branches = ["descending", "ascending", "holding"].map(String::from);
+    map.kinds("branch", branches.into_iter(), |s| {
+        if s.motion.step == 0.0 { 2 } else { usize::from(s.motion.branch > 0.0) }
+    });
+    let stroke = Scale { unit: CellUnit::Input, zero: 0.0, one: campaign.v_width };
+    let tenths: Vec<f64> = (0..=10).map(|i| i as f64 / 10.0).collect();
+    map.intervals("v", &tenths, Scale { zero: campaign.v_low, ..stroke }, |s| s.v);
+    let since = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, f64::INFINITY];
+    map.intervals("rest_samples", &since, Scale::plain(CellUnit::Samples), |s| s.motion.rest as f64);
+    let travel = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, f64::INFINITY];
+    map.intervals("travel_since_reversal", &travel, stroke, |s| s.motion.travel);
+    let sizes = [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, f64::INFINITY];
+    map.intervals("loop_size", &sizes, stroke, |s| s.motion.loop_size);
+    // A rest has no speed.
+    let speeds = [1e-12, 0.01, 0.02, 0.05, 0.1, 0.2, f64::INFINITY];
+    let per_second = campaign.v_width / campaign.sample_time;
+    let scale = Scale { unit: CellUnit::InputPerSecond, one: per_second, ..stroke };
+    map.intervals("speed", &speeds, scale, |s| s.motion.step.abs());
+    map.intervals("time", &tenths, Scale::plain(CellUnit::ShareOfCampaign), |s| s.time);
+    let outputs = [f64::NEG_INFINITY, -1.5, -0.75, 0.0, 0.75, 1.5, f64::INFINITY];
+    let scale = Scale { unit: CellUnit::Output, zero: campaign.y_mean, one: campaign.y_scale };
+    map.intervals("y", &outputs, scale, |s| s.y);
+    if !residuals.simulated {
+        map.cells.extend(spectrum_cells(&residuals.series, variance, campaign.sample_time));
+    }
+    map.judged()
+}
+
+/// The counted samples, with their energy beyond the floor.
+fn samples(campaign: &Campaign, residuals: &Residuals, variance: f64) -> Vec<Sample> {
     let mut samples = Vec::new();
     for (record, (track, w)) in campaign.tracks.iter().zip(&residuals.series).enumerate() {
-        let moves = &track.moves;
         for (k, w) in w.iter().enumerate() {
             // The innovation at t answers to the input one sample before.
             let t = track.from + k - 1;
             samples.push(Sample {
                 record,
-                motion: moves[t],
+                motion: track.moves[t],
                 v: track.v[t],
                 y: track.y[t],
                 time: (track.clock + t) as f64 / campaign.total as f64,
@@ -56,49 +92,123 @@ pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64
             });
         }
     }
-    let mut cells = Vec::new();
-    let names: Vec<String> = campaign.tracks.iter().map(|t| t.name.clone()).collect();
-    map(&mut cells, &samples, "record", &names, |s| Some(s.record));
-    let branches = ["descending", "ascending", "holding"].map(String::from);
-    map(&mut cells, &samples, "branch", &branches, |s| {
-        Some(if s.motion.step == 0.0 { 2 } else { usize::from(s.motion.branch > 0.0) })
-    });
-    let low = campaign.v_low;
-    let ends: Vec<f64> = (0..=10).map(|i| i as f64 / 10.0).collect();
-    let levels = labels(&ends.iter().map(|e| low + e * campaign.v_width).collect::<Vec<_>>());
-    map(&mut cells, &samples, "v", &levels, |s| bin(&ends, s.v));
-    let since = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, f64::INFINITY];
-    map(&mut cells, &samples, "rest_samples", &labels(&since), |s| bin(&since, s.motion.rest as f64));
-    let travel = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, f64::INFINITY];
-    let scaled: Vec<f64> = travel.iter().map(|x| x * campaign.v_width).collect();
-    map(&mut cells, &samples, "travel_since_reversal", &labels(&scaled), |s| bin(&travel, s.motion.travel));
-    let sizes = [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, f64::INFINITY];
-    let scaled: Vec<f64> = sizes.iter().map(|x| x * campaign.v_width).collect();
-    map(&mut cells, &samples, "loop_size", &labels(&scaled), |s| bin(&sizes, s.motion.loop_size));
-    let speeds = [1e-12, 0.01, 0.02, 0.05, 0.1, 0.2, f64::INFINITY];
-    let scaled: Vec<f64> =
-        speeds.iter().map(|x| if *x < 1e-9 { 0.0 } else { x * campaign.v_width }).collect();
-    map(&mut cells, &samples, "speed", &labels(&scaled), |s| bin(&speeds, s.motion.step.abs()));
-    map(&mut cells, &samples, "time", &labels(&ends), |s| bin(&ends, s.time));
-    let outputs = [f64::NEG_INFINITY, -1.5, -0.75, 0.0, 0.75, 1.5, f64::INFINITY];
-    let scaled: Vec<f64> = outputs.iter().map(|x| campaign.y_mean + x * campaign.y_scale).collect();
-    map(&mut cells, &samples, "y", &labels(&scaled), |s| bin(&outputs, s.y));
-    if !residuals.simulated {
-        spectrum_cells(&mut cells, &residuals.series, variance);
+    samples
+}
+
+/// From the map's own axis to that of the user.
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    unit: CellUnit,
+    /// What zero and the distance from zero to one are there.
+    zero: f64,
+    one: f64,
+}
+
+impl Scale {
+    fn plain(unit: CellUnit) -> Self {
+        Self { unit, zero: 0.0, one: 1.0 }
     }
-    control_false_discoveries(&mut cells);
-    cells
+
+    fn of(self, x: f64) -> f64 {
+        self.zero + self.one * x
+    }
+}
+
+/// A cell that has not been judged among all others.
+struct Found {
+    axis: &'static str,
+    cell: String,
+    interval: Option<CellInterval>,
+    portion: Portion,
+}
+
+/// A map under way.
+struct Map {
+    samples: Vec<Sample>,
+    cells: Vec<Found>,
+}
+
+impl Map {
+    /// Adds the cells of an axis of kinds.
+    fn kinds(
+        &mut self,
+        axis: &'static str,
+        names: impl Iterator<Item = String>,
+        cell_of: impl Fn(&Sample) -> usize,
+    ) {
+        let names: Vec<(String, Option<CellInterval>)> = names.map(|name| (name, None)).collect();
+        self.add(axis, names, |s| Some(cell_of(s)));
+    }
+
+    /// Adds the cells of an axis of intervals, given by their edges; what lies below the first edge is in none.
+    fn intervals(
+        &mut self,
+        axis: &'static str,
+        edges: &[f64],
+        scale: Scale,
+        property: impl Fn(&Sample) -> f64,
+    ) {
+        // An edge that only keeps zero out is zero for the user.
+        let told = |x: &f64| if *x < 1e-9 && *x > 0.0 { scale.of(0.0) } else { scale.of(*x) };
+        let names = labels(&edges.iter().map(told).collect::<Vec<_>>(), scale.unit);
+        self.add(axis, names, |s| bin(edges, property(s)));
+    }
+
+    fn add(
+        &mut self,
+        axis: &'static str,
+        names: Vec<(String, Option<CellInterval>)>,
+        cell_of: impl Fn(&Sample) -> Option<usize>,
+    ) {
+        let samples: Vec<(f64, Option<usize>)> =
+            self.samples.iter().map(|s| (s.excess, cell_of(s))).collect();
+        let found = names.iter().zip(portions(&samples, names.len(), BLOCKS));
+        let found = found.filter(|(_, portion)| portion.count >= FEWEST);
+        self.cells.extend(found.map(|((cell, interval), portion)| Found {
+            axis,
+            cell: cell.clone(),
+            interval: *interval,
+            portion,
+        }));
+    }
+
+    /// The cells, each judged among all.
+    fn judged(self) -> Vec<Cell> {
+        let rates = |p: fn(&Portion) -> f64| {
+            false_discovery_rates(&self.cells.iter().map(|found| p(&found.portion)).collect::<Vec<_>>())
+        };
+        let (excess, density) = (rates(|p| p.excess), rates(|p| p.density));
+        let judged = self.cells.into_iter().zip(excess).zip(density);
+        let cell = |((found, q_value), enrichment_q_value): ((Found, f64), f64)| Cell {
+            axis: found.axis,
+            cell: found.cell,
+            interval: found.interval,
+            share: found.portion.share,
+            exposure: found.portion.exposure,
+            enrichment: found.portion.share / found.portion.exposure,
+            q_value,
+            enrichment_q_value,
+        };
+        judged.map(cell).collect()
+    }
 }
 
 /// Cells by their edges, with as many decimals as tell the closest edges apart.
-fn labels(edges: &[f64]) -> Vec<String> {
+fn labels(edges: &[f64], unit: CellUnit) -> Vec<(String, Option<CellInterval>)> {
     let widths = edges.windows(2).map(|w| w[1] - w[0]);
     let narrowest = widths.filter(|x| *x > 0.0 && x.is_finite()).fold(f64::INFINITY, f64::min);
     let decimals = match narrowest.is_finite() {
         true => (3.0 - narrowest.log10().floor()).clamp(4.0, 300.0) as usize,
         false => 4,
     };
-    edges.windows(2).map(|w| format!("{:.decimals$}..{:.decimals$}", w[0], w[1])).collect()
+    let told = |x: f64| format!("{x:.decimals$}");
+    // Label and figures say the same.
+    let figure = |x: f64| told(x).parse().unwrap_or(x);
+    let cell = |w: &[f64]| {
+        let interval = CellInterval { low: figure(w[0]), high: figure(w[1]), unit };
+        (format!("{}..{}", told(w[0]), told(w[1])), Some(interval))
+    };
+    edges.windows(2).map(cell).collect()
 }
 
 fn bin(edges: &[f64], x: f64) -> Option<usize> {
@@ -106,115 +216,64 @@ fn bin(edges: &[f64], x: f64) -> Option<usize> {
     (at > 0).then(|| (at - 1).min(edges.len() - 2))
 }
 
-/// Samples of one block.
-const BLOCK: usize = 25;
-
-/// Adds the cells of one axis.
-fn map(
-    cells: &mut Vec<Cell>,
-    samples: &[Sample],
-    axis: &'static str,
-    names: &[String],
-    cell_of: impl Fn(&Sample) -> Option<usize>,
-) {
-    let mut sums = vec![0.0; names.len()];
-    let mut counts = vec![0usize; names.len()];
-    let mut spreads = vec![0.0; names.len()];
-    for block in samples.chunks(BLOCK) {
-        let mut here = vec![(0.0, 0usize); names.len()];
-        for s in block {
-            if let Some(k) = cell_of(s) {
-                here[k].0 += s.excess;
-                here[k].1 += 1;
-            }
-        }
-        for (k, (sum, count)) in here.iter().enumerate() {
-            sums[k] += sum;
-            counts[k] += count;
-            spreads[k] += sum * sum;
-        }
-    }
-    let total: f64 = sums.iter().filter(|s| **s > 0.0).sum::<f64>().max(1e-12);
-    for (k, name) in names.iter().enumerate() {
-        if counts[k] < 10 {
-            continue;
-        }
-        let spread = spreads[k].max(2.0 * counts[k] as f64).sqrt();
-        cells.push(Cell {
-            axis,
-            cell: name.clone(),
-            share: sums[k].max(0.0) / total,
-            q_value: upper_tail(sums[k] / spread),
-        });
-    }
-}
-
-/// Excess power of the residuals by frequency, cycles per sample.
-fn spectrum_cells(cells: &mut Vec<Cell>, innovations: &[Vec<f64>], variance: f64) {
+/// Excess power of the residuals by frequency.
+///
+/// A periodogram's ordinates are independent and exponential: of variance one where their mean is one.
+fn spectrum_cells(innovations: &[Vec<f64>], variance: f64, sample_time: f64) -> Vec<Found> {
     const SEGMENT: usize = 256;
     const BANDS: usize = 8;
-    let mut sums = [0.0; BANDS];
-    let mut count = 0.0;
+    let mut ordinates = Vec::new();
     for segment in innovations.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
         let power = crate::residuals::spectrum::power(segment, SEGMENT);
-        for (k, p) in power.iter().enumerate().skip(1).take(SEGMENT / 2 - 1) {
-            sums[k * BANDS / (SEGMENT / 2)] += p / (SEGMENT as f64 * variance) - 1.0;
-        }
-        count += 1.0;
+        let used = power.iter().enumerate().skip(1).take(SEGMENT / 2 - 1);
+        ordinates.extend(
+            used.map(|(k, p)| (p / (SEGMENT as f64 * variance) - 1.0, Some(k * BANDS / (SEGMENT / 2)))),
+        );
     }
-    if count < 1.0 {
-        return;
+    if ordinates.is_empty() {
+        return Vec::new();
     }
-    let total: f64 = sums.iter().filter(|s| **s > 0.0).sum::<f64>().max(1e-12);
-    let ordinates = count * (SEGMENT / 2 / BANDS) as f64;
-    for (band, sum) in sums.iter().enumerate() {
-        let edge = |k: usize| k as f64 * 0.5 / BANDS as f64;
-        cells.push(Cell {
+    let segments = (ordinates.len() / (SEGMENT / 2 - 1)) as f64;
+    let edges: Vec<f64> = (0..=BANDS).map(|k| 0.5 * k as f64 / BANDS as f64 / sample_time).collect();
+    let bands = portions(&ordinates, BANDS, Blocks { length: SEGMENT / 2 - 1, variance: 1.0 });
+    let found = |(band, ((cell, interval), portion)): (usize, ((String, Option<CellInterval>), Portion))| {
+        let energy: f64 = ordinates.iter().filter(|o| o.1 == Some(band)).map(|o| o.0).sum();
+        // White noise tells the bands' variance; segments are too few to do so.
+        let excess = upper_tail(energy, segments * (SEGMENT / 2 / BANDS) as f64);
+        Found {
             axis: "frequency",
-            cell: format!("{:.4}..{:.4}", edge(band), edge(band + 1)),
-            share: sum.max(0.0) / total,
-            q_value: upper_tail(sum / ordinates.sqrt()),
-        });
-    }
-}
-
-fn upper_tail(z: f64) -> f64 {
-    Normal::standard().sf(z)
-}
-
-/// Benjamini–Hochberg: p-values in `q_value` become q-values.
-fn control_false_discoveries(cells: &mut [Cell]) {
-    let m = cells.len() as f64;
-    let mut order: Vec<usize> = (0..cells.len()).collect();
-    order.sort_by(|&i, &j| cells[j].q_value.total_cmp(&cells[i].q_value));
-    let mut least = 1.0_f64;
-    for (k, &i) in order.iter().enumerate() {
-        least = least.min(cells[i].q_value * m / (m - k as f64));
-        cells[i].q_value = least;
-    }
+            cell,
+            interval,
+            portion: Portion { excess, exposure: 1.0 / BANDS as f64, ..portion },
+        }
+    };
+    labels(&edges, CellUnit::Hertz).into_iter().zip(bands).enumerate().map(found).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The oracle: `min_{j ≥ i} p(j)·m/j` of the ordered p-values (Benjamini and Hochberg, 1995).
-    #[test]
-    fn q_values_are_the_least_rate_at_which_a_cell_is_found() {
-        let cell = |p: f64| Cell { axis: "v", cell: String::new(), share: 0.0, q_value: p };
-        let mut cells: Vec<Cell> = [0.02, 0.04, 0.041, 0.005, 0.9].map(cell).into();
-        control_false_discoveries(&mut cells);
-        let expected = [0.05, 0.051_25, 0.051_25, 0.025, 0.9];
-        for (cell, q) in cells.iter().zip(expected) {
-            assert!((cell.q_value - q).abs() < 1e-12, "{cells:?}");
-        }
-    }
-
     #[test]
     fn cells_close_together_are_told_apart() {
+        let labels =
+            |edges: &[f64]| labels(edges, CellUnit::Input).into_iter().map(|l| l.0).collect::<Vec<_>>();
         assert_eq!(labels(&[0.0, 0.1, 0.25]), ["0.0000..0.1000", "0.1000..0.2500"]);
         let close = labels(&[0.5, 0.500_001, 0.500_002, 0.500_004]);
         assert!(close.windows(2).all(|w| w[0] != w[1]));
         assert_eq!(labels(&[1.0, 1.0]), ["1.0000..1.0000"]);
+    }
+
+    #[test]
+    fn a_label_and_its_figures_say_the_same() {
+        let [(label, Some(interval))] = &labels(&[-0.2, 1.0 / 3.0], CellUnit::Output)[..] else {
+            panic!("one cell")
+        };
+        assert_eq!(*label, format!("{:.4}..{:.4}", interval.low, interval.high));
+        assert_eq!((interval.low, interval.high), (-0.2, 0.3333));
+        let [_, (open, Some(interval))] = &labels(&[0.0, 1.0, f64::INFINITY], CellUnit::Input)[..] else {
+            panic!("two cells")
+        };
+        assert_eq!((open.as_str(), interval.high), ("1.0000..inf", f64::INFINITY));
     }
 }

@@ -1,10 +1,14 @@
 //! The identification as one JSON object.
 
 use super::Identification;
+use crate::output::stamped;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use switchback_estimator::estimators::BorderPoint;
 use switchback_estimator::rig::{Rig, Usage};
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/identify/1";
 
 /// The object that `identify --json` prints; figures that do not exist are null.
 #[derive(Serialize)]
@@ -100,7 +104,7 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
         warnings: &identification.warnings,
         version: env!("CARGO_PKG_VERSION"),
     };
-    serde_json::to_string_pretty(&page).expect("numbers, strings and lists of them are JSON") + "\n"
+    stamped(SCHEMA, &page)
 }
 
 fn points(border: &[BorderPoint]) -> Vec<Point> {
