@@ -194,3 +194,6 @@ fn fitted_tracks(campaign: &Campaign) -> Vec<usize> {
 fn own(name: &'static str, unit: &'static str, value: f64, bounds: (f64, f64), step: f64) -> Own {
     Own { name, unit, value, low: bounds.0, high: bounds.1, step }
 }
+
+#[cfg(test)]
+mod tests;
