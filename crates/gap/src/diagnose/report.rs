@@ -13,6 +13,7 @@ use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::phase::Phase;
 use crate::residuals::score::{innovations, picture};
+use crate::simulation::simulate::runs_away;
 use crate::verdict::odds::Odds;
 use crate::workers::Workers;
 
@@ -64,7 +65,9 @@ impl Plan {
         for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
             candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
         }
-        candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
+        candidates.sort_by(|x, y| {
+            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
+        });
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
@@ -110,15 +113,18 @@ impl Plan {
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
             measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
-        let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
+        let unstable = runs_away(&s.fit, runs.iter().map(|run| &run.after[..]));
+        let closure = closure.filter(|_| !unstable).map(|_| 1.0 - after.estimate / before.estimate);
         Candidate {
             effect,
             stage: effect.stage(),
             probability: p,
             parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
-            bic: s.bic() - self.nominal.plain.bic(),
+            bic: s.bic(),
+            delta_bic: self.nominal.plain.bic() - s.bic(),
             heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
+            unstable,
         }
     }
 

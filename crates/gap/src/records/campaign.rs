@@ -54,6 +54,8 @@ impl Track {
 #[derive(Debug, Clone)]
 pub(crate) struct Campaign {
     pub(crate) tracks: Vec<Track>,
+    /// Seconds between samples.
+    pub(crate) sample_time: f64,
     pub(crate) v_low: f64,
     pub(crate) v_width: f64,
     pub(crate) y_mean: f64,
@@ -173,6 +175,7 @@ impl Campaign {
         let levels = levels(&tracks);
         Ok(Self {
             tracks,
+            sample_time: rig.sample_time,
             v_low,
             v_width,
             y_mean,

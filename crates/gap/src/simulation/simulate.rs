@@ -3,6 +3,7 @@
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{Assembly, BorderColumn, convolve};
+use crate::model::stability::stable;
 use crate::records::campaign::{Campaign, Track};
 use crate::simulation::beginnings::{set_by_first_samples, with_beginnings};
 
@@ -22,7 +23,6 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
     set_by_first_samples(&mut p, &design, part, (added, fit.variance));
     let d = part.columns.coefficients(&p.d);
     let mut x = part.x[..part.from].to_vec();
-    let limit = 1e6;
     for t in part.from..track.v.len() {
         let mut now = 0.0;
         for (i, a) in fit.linear.a.iter().enumerate() {
@@ -34,8 +34,7 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
         for (d, psi) in d.iter().zip(part.columns.row(t)) {
             now += d * psi;
         }
-        // An unstable model leaves every range; the bound keeps its error finite.
-        x.push(now.clamp(-limit, limit));
+        x.push(now.clamp(-BOUND, BOUND));
     }
     let sensed = |x: f64| {
         let y = fit.assembly.curve.read(x);
@@ -47,6 +46,15 @@ pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Tr
     let mut y = track.y[..part.from].to_vec();
     y.extend(x[part.from..].iter().map(|x| sensed(*x)));
     y
+}
+
+/// An unstable model leaves every range; this bound, in standard deviations of the output, keeps its error finite.
+const BOUND: f64 = 1e6;
+
+/// Whether a model has no free run: its `A` is unstable, or its output has come to the bound, or is no number.
+pub(crate) fn runs_away<'a>(fit: &Fit, runs: impl IntoIterator<Item = &'a [f64]>) -> bool {
+    let leaves = |y: &f64| !y.is_finite() || y.abs() >= BOUND;
+    !stable(&fit.linear.a) || runs.into_iter().any(|run| run.iter().any(leaves))
 }
 
 /// The assembly with an unknown start of the working point for a track that was not fitted, where fitted tracks have one.

@@ -7,6 +7,7 @@ mod folder;
 mod page;
 mod sha256;
 mod single;
+mod schema;
 mod staging;
 mod written;
 
@@ -18,3 +19,4 @@ pub use page::print;
 pub use sha256::sha256;
 pub use single::OutputFile;
 pub(crate) use staging::abandon;
+pub use schema::stamped;
