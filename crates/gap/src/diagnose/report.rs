@@ -9,6 +9,7 @@ use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, Status, Together, Verdict};
 use crate::effect::Effect;
+use crate::export::PortableModel;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::residuals::score::{innovations, picture};
@@ -82,6 +83,16 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
+            nominal: self.nominal_model(),
+            augmented: self.exporter.fitted(campaign, &c.augmented),
+        }
+    }
+
+    /// The model under diagnosis; nothing where only its predictions are known.
+    fn nominal_model(&self) -> Option<PortableModel> {
+        match &self.foreign {
+            Some(foreign) => foreign.given.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
+            None => Some(self.exporter.fitted(&self.campaign, &self.nominal.plain)),
         }
     }
 

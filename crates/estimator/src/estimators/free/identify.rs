@@ -28,6 +28,8 @@ pub struct Identified {
     pub selection: Selection,
     /// Weak points.
     pub warnings: Vec<Warning>,
+    /// Covariance of the model's coefficients `(a, b, f, c)`, row by row; absent where the records leave one of them open.
+    pub covariance: Option<Vec<Vec<f64>>>,
 }
 
 /// Identifies a Hammerstein system from any records.
@@ -60,13 +62,14 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     let theta = fitted.ok_or(FreeError::Unstable { order: structure.order })?.theta;
     let warnings = examine(&data, featured, structure, &theta, &segments);
     let moments = Moments::of(structure, featured.basis.features(), &segments);
-    let estimate = if settings.refine {
+    let (estimate, covariance) = if settings.refine {
         simulation_error_estimate(&moments, &featured.basis, &theta, &segments)
     } else {
         equation_error_estimate(&moments, &featured.basis, &theta)
     };
+    let covariance = covariance.map(|c| c.matrix().row_iter().map(|row| row.iter().copied().collect()).collect());
     let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
-    Ok(Identified { estimate, model, selection, warnings })
+    Ok(Identified { estimate, model, selection, warnings, covariance })
 }
 
 /// Normalised parameters of a refined fit and their standard errors.
@@ -75,20 +78,24 @@ fn simulation_error_estimate(
     basis: &Basis,
     theta: &Parameters,
     segments: &[Segment],
-) -> Estimate {
+) -> (Estimate, Option<Covariance>) {
     let structure = moments.structure;
     let model = linearise(structure, theta, segments);
     let variance = cost(structure, theta, segments) / freedom(moments, theta);
     let covariance =
         Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
-    normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance))
+    (normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance)), covariance)
 }
 
 /// Normalised parameters of an equation-error fit and their standard errors.
-pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
+pub(super) fn equation_error_estimate(
+    moments: &Moments,
+    basis: &Basis,
+    theta: &Parameters,
+) -> (Estimate, Option<Covariance>) {
     let variance = residual_energy(moments, theta) / freedom(moments, theta);
     let covariance = Covariance::new(&information(moments, theta), theta, variance);
-    normalise(theta, moments.structure, basis, covariance.as_ref(), figures(moments, variance))
+    (normalise(theta, moments.structure, basis, covariance.as_ref(), figures(moments, variance)), covariance)
 }
 
 /// Samples less free parameters, at least 1; one parameter in `b` and `f` is the scale that they share.

@@ -75,5 +75,5 @@ pub fn one_shot(records: &[&Record], grid: &Grid) -> Result<Estimate, FreeError>
     basis.check_length(structure, &segments)?;
     let moments = Moments::of(structure, basis.features(), &segments);
     let theta = equation_error_fit(&moments).ok_or(FreeError::Unstable { order: structure.order })?;
-    Ok(equation_error_estimate(&moments, basis, &theta))
+    Ok(equation_error_estimate(&moments, basis, &theta).0)
 }

@@ -135,7 +135,7 @@ impl Regression {
     pub fn estimate(&self, moments: &Moments) -> Result<Estimate, FreeError> {
         let order = self.grid.structure.order;
         let theta = quick_equation_error_fit(moments).ok_or(FreeError::Unstable { order })?;
-        Ok(equation_error_estimate(moments, &self.grid.basis, &theta))
+        Ok(equation_error_estimate(moments, &self.grid.basis, &theta).0)
     }
 
     /// The grid.

@@ -129,13 +129,7 @@ impl Solution {
     /// The estimate with its standard errors.
     pub(crate) fn fit(&self) -> PulseFit {
         let n = self.order;
-        let step_variance = match self.level {
-            Level::Constant => 0.0,
-            Level::Step(step) => {
-                let a_at_one = 1.0 + self.fit.core.rows(0, n).sum();
-                self.fit.variance / (a_at_one * a_at_one * step.samples)
-            }
-        };
+        let step_variance = self.step_variance();
         let mut estimated = self.quantities.iter().map(|quantity| {
             let through_step = quantity.step_slope * quantity.step_slope * step_variance;
             Estimated {
@@ -149,6 +143,30 @@ impl Solution {
             borders: self.points.iter().map(|&m| estimated.by_ref().take(m).collect()).collect(),
             noise_sd: self.fit.variance.sqrt(),
             u_low: self.u_low,
+        }
+    }
+
+    /// Covariance of `a`, `b`, then the borders' points, row by row.
+    pub(crate) fn covariance(&self) -> Vec<Vec<f64>> {
+        let gradients: Vec<&Gradient> = self.quantities.iter().map(|q| &q.gradient).collect();
+        let mut rows = self.fit.covariances_of(&gradients);
+        let step_variance = self.step_variance();
+        for (row, one) in rows.iter_mut().zip(&self.quantities) {
+            for (entry, other) in row.iter_mut().zip(&self.quantities) {
+                *entry += one.step_slope * other.step_slope * step_variance;
+            }
+        }
+        rows
+    }
+
+    /// Variance of `ŷ₀`.
+    fn step_variance(&self) -> f64 {
+        match self.level {
+            Level::Constant => 0.0,
+            Level::Step(step) => {
+                let a_at_one = 1.0 + self.fit.core.rows(0, self.order).sum();
+                self.fit.variance / (a_at_one * a_at_one * step.samples)
+            }
         }
     }
 
