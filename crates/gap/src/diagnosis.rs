@@ -269,4 +269,6 @@ pub struct Diagnosis {
     pub nominal: Option<PortableModel>,
     /// The same with what was found added; without effects it is the nominal model.
     pub augmented: PortableModel,
+    /// The effects in the augmented model, with their parameters there.
+    pub added: Vec<(Effect, Vec<FittedParameter>)>,
 }

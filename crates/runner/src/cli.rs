@@ -31,6 +31,7 @@ enum Verb {
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
     Rig(cmd::rig::Args),
+    Simulate(cmd::simulate::Args),
 }
 
 impl Cli {
@@ -44,6 +45,7 @@ impl Cli {
             (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
             (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
+            (Some(Verb::Simulate(args)), _) => cmd::simulate::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {
                 Err(miette::miette!("nothing to do; name a scenario file, or see `switchback --help`"))

@@ -8,6 +8,7 @@ pub mod diagnosis;
 pub mod failure;
 pub mod identification;
 pub mod input;
+pub mod model;
 pub mod output;
 pub mod plots;
 pub mod progress;

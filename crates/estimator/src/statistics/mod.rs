@@ -4,11 +4,13 @@ mod error_sums;
 mod jackknife;
 mod lane_errors;
 mod line;
+mod propagation;
 
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};
+pub use propagation::propagated;
 
 /// A measured number with its Monte-Carlo standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

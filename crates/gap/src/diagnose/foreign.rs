@@ -51,7 +51,12 @@ impl Foreign {
                 let known = predicted(rig, campaign);
                 let series = campaign.tracks.iter().zip(known).map(errors).collect();
                 let residuals = Residuals { series, simulated: true };
-                Some(Self { given: None, runs: predictions(rig, campaign, judged)?, residuals, is_output: true })
+                Some(Self {
+                    given: None,
+                    runs: predictions(rig, campaign, judged)?,
+                    residuals,
+                    is_output: true,
+                })
             }
         })
     }

@@ -3,12 +3,14 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::lasting::notes;
 use super::place::Known;
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
 use crate::records::campaign::{Criterion, WARM_UP};
 use crate::records::motion::ReversalRule;
+use crate::settings::NominalModel;
 
 /// A fitted model as plain data: all that its free runs depend on, to the last bit.
 ///
@@ -106,6 +108,45 @@ pub enum PortableError {
 /// Longest delay and filter that a file may ask for, samples: what is longer is a mistake in the file.
 const LONGEST: f64 = 1e5;
 
+impl PortableModel {
+    /// Its linear part and borders in physical units, without effects.
+    ///
+    /// The level of the borders is that at which a rest of `y` is `B(1)/A(1)·u`; it is lost where `B(1)` is zero.
+    pub fn system(&self) -> NominalModel {
+        let Wire { scales, linear, grid, .. } = &self.0;
+        let dc = linear.b.iter().sum::<f64>();
+        let level = (1.0 + linear.a.iter().sum::<f64>()) * scales.y_mean / dc;
+        let level = if level.is_finite() { level } else { 0.0 };
+        let mut values = linear.f.iter();
+        let [descending, ascending] = [0, 1].map(|side: usize| {
+            let knots = grid.knots[side].iter().zip(values.by_ref());
+            knots.map(|(v, f)| (scales.v_low + scales.v_width * v, scales.y_scale * f + level)).collect()
+        });
+        NominalModel { a: linear.a.clone(), b: linear.b.clone(), descending, ascending }
+    }
+
+    /// Whether [`Self::system`] is all of it: no effects, no lead, fitted to predictions one step ahead.
+    pub fn is_plain(&self) -> bool {
+        let Wire { assembly, lead, criterion, .. } = &self.0;
+        *assembly == Assembly::default() && *lead == 0 && !criterion.simulates()
+    }
+
+    /// Samples by which the output follows the input sooner than in the paper.
+    pub fn lead(&self) -> usize {
+        self.0.lead
+    }
+
+    /// Whether anything in it changes with the campaign's clock or belongs to single records, so that a run depends on its place there.
+    pub fn follows_clock(&self) -> bool {
+        !notes(&self.0.assembly).is_empty()
+    }
+
+    /// A move against the branch below this is no reversal, input units.
+    pub fn reversal_threshold(&self) -> f64 {
+        self.0.rule.threshold * self.0.scales.v_width
+    }
+}
+
 impl TryFrom<Wire> for PortableModel {
     type Error = PortableError;
 
@@ -141,7 +182,9 @@ impl Wire {
                 let expected = "at least 0 and below 100000 samples";
                 return Err(PortableError::Range { part: "delay", found: assembly.delay, expected });
             }
-            if let Some(s) = assembly.saturation.filter(|s| s.low > s.high || s.low.is_nan() || s.high.is_nan()) {
+            if let Some(s) =
+                assembly.saturation.filter(|s| s.low > s.high || s.low.is_nan() || s.high.is_nan())
+            {
                 return Err(PortableError::Range { part: "low", found: s.low, expected: "at most `high`" });
             }
         }

@@ -78,12 +78,14 @@ impl PortableModel {
         let input = model.input(v, y, record);
         let campaign = model.campaign(&input);
         let is_new = record.is_none();
-        let linear = if is_new { without_waves(&model.linear, &model.assembly) } else { model.linear.clone() };
+        let linear =
+            if is_new { without_waves(&model.linear, &model.assembly) } else { model.linear.clone() };
         let begins = match y {
             Some(_) => Begins::Measured { variance: model.variance },
             None => Begins::Rest,
         };
-        let prepared = |assembly| Prepared::new(&campaign, (&model.grid, assembly), input.number, &input.track);
+        let prepared =
+            |assembly| Prepared::new(&campaign, (&model.grid, assembly), input.number, &input.track);
         let fitted = prepared(&model.assembly);
         let x = fitted.run(&linear, begins);
         let y_run = fitted.read(&input.track, &x);
@@ -93,7 +95,7 @@ impl PortableModel {
             let noise = model.output_noise + waves;
             let moved = |j: usize| prepared(&model.moved[j].assembly).run(&linear, begins);
             let errors = variances(model, &linear, |p| fitted.run(p, begins), moved);
-            let errors = errors.unwrap_or_else(|| vec![0.0; x.len()]);
+            let errors = errors.filter(|e| e.len() == x.len()).unwrap_or_else(|| vec![0.0; x.len()]);
             errors.iter().map(|error| Z95 * (error + noise).sqrt()).collect()
         } else {
             vec![0.0; x.len()]

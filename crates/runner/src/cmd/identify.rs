@@ -2,6 +2,7 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::{self, Identification, Method};
+use crate::model;
 use crate::output::{Artefacts, OutputFolder, print};
 use crate::plots;
 use crate::rig;
@@ -23,7 +24,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write estimate.json and the plots into this folder.
+    /// Also write estimate.json, model.json, series.csv and the plots into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -57,6 +58,10 @@ fn method_by_name(name: &str) -> Result<Method, String> {
 fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
     let mut artefacts = Artefacts::default();
     artefacts.add("estimate.json", identification::json(rig, identification));
+    if let Some(model) = model::identified(rig, identification) {
+        artefacts.add("model.json", model.text());
+    }
+    artefacts.add("series.csv", model::identified_series(rig, identification));
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
         let name = format!("measured_and_simulated_{}.svg", record.name);

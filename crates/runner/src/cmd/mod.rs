@@ -5,4 +5,5 @@ pub mod compare;
 pub mod gap;
 pub mod identify;
 pub mod rig;
+pub mod simulate;
 pub mod study;

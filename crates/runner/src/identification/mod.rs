@@ -19,8 +19,18 @@ pub use method::default_method;
 pub(crate) use simulate::EstimatedSystem;
 pub use table::table;
 
+use crate::model::{Curves, Points};
 use switchback_estimator::estimators::Estimate;
 use switchback_estimator::rig::Rig;
+
+/// A model by the kind of its method.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// Of the methods for any record.
+    Curves(Curves),
+    /// Of the methods for pulse experiments.
+    Points(Points),
+}
 
 /// What a method made of a rig.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +42,8 @@ pub struct Identification {
     /// Free-run simulation of every record, in the order of the rig; none where the record needs a border that the method
     /// does not see.
     pub runs: Vec<Option<FreeRun>>,
+    /// The same system as a model that runs on its own; none where it cannot run.
+    pub model: Option<Found>,
     /// What the reader must know before trusting the figures, one sentence each.
     pub warnings: Vec<String>,
 }

@@ -1,7 +1,8 @@
 //! Methods for the designed experiments of a rig.
 
 use super::simulate::EstimatedSystem;
-use super::{Identification, IdentificationError, Method};
+use super::{Found, Identification, IdentificationError, Method};
+use crate::model::Points;
 use switchback_estimator::estimators::pulse::{PulseData, PulseDataError, PulseFit, PulseMethod, StepMean};
 use switchback_estimator::hysteresis::{Branch, Interval};
 use switchback_estimator::linear::{is_stable, settling_samples};
@@ -29,8 +30,9 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
     };
     let data = read(rig, method, &records, order)?;
     let data: Vec<&PulseData> = data.iter().collect();
-    let fit = fit(rig, method, &data)?;
+    let (fit, covariance) = fit(rig, method, &data)?;
     let estimate = fit.estimate(&data);
+    let covariance = by_position(covariance, &data);
     if method != Method::Joint && data.len() == 1 {
         warnings.push(format!(
             "one experiment shows the {} border only; records that run on the other cannot be simulated",
@@ -55,7 +57,20 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
             vec![None; rig.records.len()]
         }
     };
-    Ok(Identification { method, estimate, runs, warnings })
+    let model = Points::of(&estimate, interval, Some(covariance)).ok().map(Found::Points);
+    Ok(Identification { method, estimate, runs, warnings, model })
+}
+
+/// The covariance of `a`, `b` and the points in the order of the experiments as that of `a`, `b` and the points by border, the descending
+/// one first, and by increasing `v`: the order of an [`Estimate`](switchback_estimator::estimators::Estimate).
+fn by_position(covariance: Vec<Vec<f64>>, data: &[&PulseData]) -> Vec<Vec<f64>> {
+    let points: Vec<(bool, f64)> =
+        data.iter().flat_map(|d| d.levels.iter().map(move |&v| (d.branch == Branch::Ascending, v))).collect();
+    let coefficients = covariance.len() - points.len();
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&i, &j| points[i].0.cmp(&points[j].0).then(points[i].1.total_cmp(&points[j].1)));
+    let order: Vec<usize> = (0..coefficients).chain(order.into_iter().map(|k| coefficients + k)).collect();
+    order.iter().map(|&i| order.iter().map(|&j| covariance[i][j]).collect()).collect()
 }
 
 /// The fit records that the method works on: the longest of each role it needs.
@@ -134,7 +149,11 @@ fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usi
     }
 }
 
-fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, IdentificationError> {
+fn fit(
+    rig: &Rig,
+    method: Method,
+    data: &[&PulseData],
+) -> Result<(PulseFit, Vec<Vec<f64>>), IdentificationError> {
     let refused = |reason: String| IdentificationError::Refused {
         rig: rig.name.clone(),
         method,
@@ -146,10 +165,11 @@ fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, Ident
             // Any mean serves for a first a, which then says how long the step takes to settle.
             let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
             let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
-            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }.fit()
+            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }
+                .fit_with_covariance()
         }
-        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit(),
-        _ => PulseMethod::Efficient(data).fit(),
+        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit_with_covariance(),
+        _ => PulseMethod::Efficient(data).fit_with_covariance(),
     };
     fitted.map_err(|error| refused(error.to_string()))
 }

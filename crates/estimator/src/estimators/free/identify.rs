@@ -67,7 +67,8 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     } else {
         equation_error_estimate(&moments, &featured.basis, &theta)
     };
-    let covariance = covariance.map(|c| c.matrix().row_iter().map(|row| row.iter().copied().collect()).collect());
+    let covariance =
+        covariance.map(|c| c.matrix().row_iter().map(|row| row.iter().copied().collect()).collect());
     let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
     Ok(Identified { estimate, model, selection, warnings, covariance })
 }

@@ -89,7 +89,8 @@ impl Model {
             return Err(ModelError::Order);
         }
         let Coefficients { a, b, f, c } = coefficients;
-        let lists = [("a", &a, structure.order), ("b", &b, structure.numerator()), ("f", &f, basis.features())];
+        let lists =
+            [("a", &a, structure.order), ("b", &b, structure.numerator()), ("f", &f, basis.features())];
         for (part, list, expected) in lists {
             if list.len() != expected {
                 return Err(ModelError::Length { part, found: list.len(), expected });

@@ -155,7 +155,8 @@ impl ArrowFit {
         };
         let row = |i: usize| {
             let solved = self.factor.solve(&through[i]);
-            let entry = |j: usize| self.variance * (own(gradients[i], gradients[j]) + through[j].dot(&solved));
+            let entry =
+                |j: usize| self.variance * (own(gradients[i], gradients[j]) + through[j].dot(&solved));
             (0..gradients.len()).map(entry).collect()
         };
         (0..gradients.len()).map(row).collect()
