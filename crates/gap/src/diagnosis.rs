@@ -1,6 +1,7 @@
 //! What a diagnosis says, field by field as the JSON contract has it.
 
 use crate::effect::{Effect, Stage};
+use crate::export::PortableModel;
 
 /// How far the verdict goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -304,4 +305,10 @@ pub struct Diagnosis {
     pub residuals_after: ResidualPicture,
     /// What could not be judged, and why.
     pub limitations: Vec<String>,
+    /// The model as it was, the one under diagnosis; absent where only its predictions are known.
+    pub nominal: Option<PortableModel>,
+    /// The same with what was found added; without effects it is the nominal model.
+    pub augmented: PortableModel,
+    /// The effects in the augmented model, with their parameters there.
+    pub added: Vec<(Effect, Vec<FittedParameter>)>,
 }

@@ -41,6 +41,7 @@ enum Verb {
     Man(cmd::man::Args),
     Init(cmd::init::Args),
     Rig(cmd::rig::Args),
+    Simulate(cmd::simulate::Args),
 }
 
 /// Runs what the words of a command line ask for, the program's own name first. Help, version and what cannot be understood
@@ -94,6 +95,7 @@ impl Cli {
             (Some(Verb::Man(args)), _) => cmd::man::run(&args),
             (Some(Verb::Init(args)), _) => cmd::init::run(&args),
             (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
+            (Some(Verb::Simulate(args)), _) => cmd::simulate::run(&args),
             (None, Some(args)) => cmd::study::run(&args),
             (None, None) => {
                 Err(miette::miette!("nothing to do; name a scenario file, or see `switchback --help`"))

@@ -19,6 +19,7 @@ use crate::attribution::explain::Explanation;
 use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
+use crate::export::Exporter;
 use crate::nominal::order::{Choice, Chosen, declared, structure};
 use crate::phase::Phase;
 use crate::records::campaign::Campaign;
@@ -90,6 +91,7 @@ struct Plan {
     judged: Vec<usize>,
     runs: Vec<Vec<f64>>,
     limitations: Vec<String>,
+    exporter: Exporter,
 }
 
 impl Plan {
@@ -110,7 +112,8 @@ impl Plan {
             Some(foreign) => foreign.runs.clone(),
             None => nominal.runs(&campaign, &judged),
         };
-        Ok(Self { settings, campaign, nominal, foreign, judged, runs, limitations })
+        let exporter = Exporter::new(rig);
+        Ok(Self { settings, campaign, nominal, foreign, judged, runs, limitations, exporter })
     }
 
     /// Founds the diagnosis on another optimum of the nominal model.

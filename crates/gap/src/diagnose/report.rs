@@ -7,8 +7,11 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
-use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, Status, Together, Verdict};
+use crate::diagnosis::{
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
+};
 use crate::effect::Effect;
+use crate::export::PortableModel;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::phase::Phase;
@@ -71,6 +74,7 @@ impl Plan {
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
+        let added = self.added(&c.augmented, &candidates, c.together.as_ref());
         let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
         Diagnosis {
             where_,
@@ -87,6 +91,39 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
+            nominal: self.nominal_model(),
+            augmented: self.exporter.fitted(campaign, &c.augmented),
+            added,
+        }
+    }
+
+    /// The effects of the augmented model; parameters with the intervals that they are told with elsewhere, where they are.
+    fn added(
+        &self,
+        augmented: &Explanation,
+        candidates: &[Candidate],
+        together: Option<&Together>,
+    ) -> Vec<(Effect, Vec<FittedParameter>)> {
+        let effects = augmented.effects();
+        let told = match effects[..] {
+            [only] => candidates.iter().find(|c| c.effect == only).map(|c| vec![c.parameters.clone()]),
+            _ => together.filter(|pair| pair.effects == effects).map(|pair| pair.parameters.clone()),
+        };
+        let intervals = augmented.fit.intervals();
+        let own = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
+        let all: Vec<_> = (0..effects.len()).map(own).collect();
+        let values =
+            |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
+        // An explanation on other knots has other estimates.
+        let told = told.filter(|told| values(told) == values(&all));
+        effects.into_iter().zip(told.unwrap_or(all)).collect()
+    }
+
+    /// The model under diagnosis; nothing where only its predictions are known.
+    fn nominal_model(&self) -> Option<PortableModel> {
+        match &self.foreign {
+            Some(foreign) => foreign.given.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
+            None => Some(self.exporter.fitted(&self.campaign, &self.nominal.plain)),
         }
     }
 

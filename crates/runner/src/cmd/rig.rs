@@ -83,7 +83,7 @@ impl From<MakeError> for RigCommandError {
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     if args.list {
-        print(&if args.json { pretty(&list_json()) } else { list() })?;
+        print(&if args.json { stamped(LIST_SCHEMA, &list_json()) } else { list() })?;
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
@@ -107,6 +107,9 @@ fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
 
 /// Name and version of the layout of what was put in.
 const SCHEMA: &str = "switchback/rig/1";
+
+/// The same of the list of effects.
+const LIST_SCHEMA: &str = "switchback/rig-list/1";
 
 /// The magnitude of an effect and its unit: lengths along the input in the input's own.
 fn measured(effect: &TrueEffect, rig: &Rig) -> (f64, String) {
@@ -179,9 +182,5 @@ fn list_json() -> serde_json::Value {
         let laws = |name| laws_of(name).iter().map(|law| law.name()).collect::<Vec<_>>();
         names.iter().map(|name| serde_json::json!({ "effect": name, "laws": laws(name) })).collect()
     };
-    serde_json::json!({ "schema": 1, "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
-}
-
-fn pretty(json: &serde_json::Value) -> String {
-    format!("{json:#}\n")
+    serde_json::json!({ "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
 }

@@ -15,11 +15,11 @@ mod subject;
 mod units;
 mod words;
 
+pub use crate::model::ModelError;
 pub use error::DiagnosisError;
 pub use examine::{Report, examine};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use json::json;
-pub use model_file::ModelError;
 pub use number::{closed_percent, digits, fit_percent};
 pub use parameter::{Told, told};
 pub use place::SIGNIFICANT;

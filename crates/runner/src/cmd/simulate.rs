@@ -1,0 +1,148 @@
+//! `switchback simulate MODEL.json INPUT.csv`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::identification::unit;
+use crate::model::{self, Input, ModelFile, Run};
+use crate::output::{Artefacts, OutputFolder, print};
+use miette::Diagnostic;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
+    model: PathBuf,
+
+    /// The input: a CSV with the columns t and v. With a column y, measured, the run begins where the record does, and the fit is told.
+    input: PathBuf,
+
+    /// Write the columns t,v,y,y_low,y_high into this file instead of printing them.
+    #[arg(long, value_name = "CSV")]
+    out: Option<PathBuf>,
+}
+
+/// Why a model did not run.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum SimulateError {
+    /// The model knows no border for the input.
+    #[error("{input}: the input never moves, or it runs along a border that the model does not know")]
+    #[diagnostic(help(
+        "drive the input, and identify the model from records that run on both borders, or with `--method free`"
+    ))]
+    NoRun {
+        /// The input file.
+        input: String,
+    },
+    /// No sample is left to simulate.
+    #[error(
+        "{input}: the {samples} samples end before the simulation starts: they are all part of the initial state"
+    )]
+    #[diagnostic(help("give a longer input that moves, or leave the column `y` out to begin at rest"))]
+    TooShort {
+        /// The input file.
+        input: String,
+        /// Its samples.
+        samples: usize,
+    },
+    /// Something else stands where the output is to go.
+    #[error("{path}: is there already, and was not written by `switchback simulate`")]
+    #[diagnostic(help("give another file, or move that one away"))]
+    Occupied {
+        /// The output file.
+        path: String,
+    },
+    /// The output has no name.
+    #[error("{path}: is no file to write to")]
+    #[diagnostic(help("give the name of a CSV file, in a folder or without"))]
+    NoFile {
+        /// The path as given.
+        path: String,
+    },
+}
+
+/// The header of the output, by which a file that may be replaced is known.
+const HEADER: &str = "t,v,y,y_low,y_high";
+
+/// Reads both, runs, writes or prints.
+///
+/// # Errors
+/// A file that is no model or no input, an input that cannot be run, or an output that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let file = model::read(&args.model)?;
+    let input = model::read_input(&args.input, file.header.sample_time)?;
+    let target = args.out.as_deref().map(claim).transpose()?;
+    let shown = || args.input.display().to_string();
+    let run =
+        file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;
+    if run.start >= input.v.len() {
+        return Err(SimulateError::TooShort { input: shown(), samples: input.v.len() }.into());
+    }
+    let (told, csv) = (summary(&file, &input, &run), table(&input, &run));
+    match target {
+        Some((folder, name)) => {
+            let mut artefacts = Artefacts::default();
+            artefacts.add(name, csv);
+            folder.commit(&artefacts)?;
+            print(&told)?;
+        }
+        None => {
+            eprint!("{told}");
+            print(&csv)?;
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+/// The folder and the name of the output; only a file that this command wrote is replaced.
+fn claim(path: &Path) -> miette::Result<(OutputFolder, String)> {
+    let shown = || path.display().to_string();
+    let name = path.file_name().and_then(|name| name.to_str()).filter(|_| !path.is_dir());
+    let name = name.ok_or_else(|| SimulateError::NoFile { path: shown() })?;
+    if path.exists() {
+        let is_own = std::fs::read_to_string(path).is_ok_and(|text| text.lines().next() == Some(HEADER));
+        if !is_own {
+            return Err(SimulateError::Occupied { path: shown() }.into());
+        }
+    }
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Ok((OutputFolder::claim(folder)?, name.to_owned()))
+}
+
+fn table(input: &Input, run: &Run) -> String {
+    let mut text = format!("{HEADER}\n");
+    for (k, (t, v)) in input.t.iter().zip(&input.v).enumerate() {
+        let _ = writeln!(text, "{t},{v},{},{},{}", run.y[k], run.low[k], run.high[k]);
+    }
+    text
+}
+
+/// What ran, how well, and what to beware of.
+fn summary(file: &ModelFile, input: &Input, run: &Run) -> String {
+    let header = &file.header;
+    let effects: Vec<&str> = header.effects.iter().map(|added| added.effect.as_str()).collect();
+    let with = if effects.is_empty() { String::new() } else { format!(" with {}", effects.join(" and ")) };
+    let mut text = format!(
+        "{} model of {}{with}: {} samples simulated",
+        header.part,
+        header.rig,
+        input.v.len() - run.start
+    );
+    match (run.fit_percent, &input.y) {
+        (Some(fit), Some(y)) => {
+            let covered = 100.0 * run.covered(y);
+            let _ = writeln!(text, ", fit {fit:.2} %, {covered:.1} % of the measured y within the 95 % band");
+        }
+        _ => text.push('\n'),
+    }
+    let warnings = header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input));
+    for warning in &warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    for note in &run.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    text
+}
