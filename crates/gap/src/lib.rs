@@ -45,7 +45,7 @@ mod workers;
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
-    RecordGap, ResidualPicture, Status, Together, Verdict,
+    RecordGap, Refit, ResidualPicture, Status, Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;

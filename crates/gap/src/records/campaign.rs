@@ -186,13 +186,13 @@ impl Campaign {
     }
 
     /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
-    /// input may act within its sample, and a record of the position may trail the force.
-    pub(crate) fn led_by(&self, lead: usize) -> Self {
+    /// input may act within its sample, and a record of the position may trail the force. A negative lead is a delay.
+    pub(crate) fn led_by(&self, lead: isize) -> Self {
         let mut led = self.clone();
         for track in &mut led.tracks {
-            let last = track.v[track.v.len() - 1];
-            track.v.drain(..lead.min(track.v.len() - 1));
-            track.v.resize(track.y.len(), last);
+            let last = track.v.len() - 1;
+            let sooner = |t: usize| track.v[t.saturating_add_signed(lead).min(last)];
+            track.v = (0..=last).map(sooner).collect();
             track.moves = motions(&track.v, Play::default(), self.rule).into();
         }
         led
