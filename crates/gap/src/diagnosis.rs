@@ -6,8 +6,10 @@ use crate::export::PortableModel;
 /// How far the verdict goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Status {
-    /// Nothing significant.
+    /// Nothing significant, or no gap that the judged records resolve.
     None,
+    /// The parameters of the model under diagnosis are off, or its order: identifying it anew closes the gap.
+    Refit,
     /// The effects found.
     Named,
     /// One of several twins that no record here separates.
@@ -23,6 +25,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::Refit => "refit",
             Self::Named => "named",
             Self::Class => "class",
             Self::Ambiguous => "ambiguous",
@@ -44,8 +47,24 @@ pub struct Verdict {
     pub stage: Option<Stage>,
     /// Probability that the verdict holds (for `class`: that one of its members is the cause).
     pub probability: f64,
+    /// Whether the probability was calibrated for records like these: an order declared, models identified here and compared one step
+    /// ahead, a record held out. Elsewhere it only ranks.
+    pub calibrated: bool,
     /// An effect in the augmented model that is no cause of its own: it takes the little that the law of the one named leaves.
     pub corrected_by: Option<Effect>,
+    /// The model identified anew (status `refit`).
+    pub refit: Option<Refit>,
+}
+
+/// A model of the same kind, identified anew, that closes the gap without any cause.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refit {
+    /// Its order.
+    pub order: usize,
+    /// Samples by which its output follows the input later than in the paper; −1 where it follows within the sample.
+    pub delay: isize,
+    /// Share of the gap on the judged records that it closes.
+    pub closure: Figure,
 }
 
 /// A figure with its 90 % interval.

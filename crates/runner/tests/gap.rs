@@ -192,17 +192,18 @@ fn a_given_model_of_another_gain_lacks_nothing_but_that() {
     (model["b"], model["gain"]) = (b.into(), gain);
     folder.write("model.json", &model.to_string());
     let page = diagnosed(&folder, &["--model", "model.json"]);
-    assert_eq!(page["verdict"]["status"], "none");
+    assert_eq!(page["verdict"]["status"], "refit");
+    assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(0));
+    let refit = &page["verdict"]["refit"];
+    assert_eq!((&refit["order"], &refit["delay"]), (&Value::from(2), &Value::from(0)));
+    assert!(refit["closure"]["estimate"].as_f64().expect("a number") > 0.99, "{refit:#}");
+    assert_eq!(page["verdict"]["calibrated"], false);
     let figure = |key: &str| page["gap"][key]["estimate"].as_f64().expect("a number");
     assert!(figure("before") > 0.01, "{page:#}");
     assert!(figure("identified_anew").abs() < 1e-3 * figure("before"), "{page:#}");
     let output = folder.switchback(&["gap", "rig.toml", "--model", "model.json"]).output().expect("it runs");
     let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
-    assert!(told.contains("missing from the model but the right parameters"), "{told}");
-    assert!(
-        told.contains("Identified anew from the fit records, a model without any cause closes"),
-        "{told}"
-    );
+    assert!(told.contains("The model's parameters (its order) are off: identified anew"), "{told}");
 }
 
 #[test]

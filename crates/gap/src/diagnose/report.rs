@@ -8,12 +8,13 @@ use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Status, Together, Verdict,
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Refit, Status, Together, Verdict,
 };
 use crate::effect::Effect;
 use crate::export::PortableModel;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
+use crate::nominal::order::Structure;
 use crate::phase::Phase;
 use crate::residuals::score::{innovations, picture};
 use crate::simulation::simulate::runs_away;
@@ -28,14 +29,28 @@ pub(super) struct Conclusion {
     pub(super) augmented: Explanation,
     pub(super) left: f64,
     pub(super) together: Option<Together>,
+    /// The nominal model of another structure that is the answer: order, delay, its runs of the judged records and the noise that it
+    /// leaves in these.
+    pub(super) other: Option<Other>,
+}
+
+/// A nominal model of another structure.
+pub(super) struct Other {
+    pub(super) structure: Structure,
+    pub(super) runs: Vec<Vec<f64>>,
+    pub(super) floor: (f64, f64),
 }
 
 impl Plan {
     pub(super) fn report(self, workers: &impl Workers, c: Conclusion) -> Diagnosis {
         workers.begin(Phase::Report);
         let campaign = &self.campaign;
-        let floor = self.noise_floor(&c.augmented.fit);
-        let runs = self.simulations(&c.augmented.fit);
+        let mut floor = self.noise_floor(&c.augmented.fit);
+        let mut runs = self.simulations(&c.augmented.fit);
+        if let Some(other) = &c.other {
+            floor = other.floor;
+            runs.iter_mut().zip(&other.runs).for_each(|(run, other)| run.after.clone_from(other));
+        }
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
         gap.identified_anew = self.identified_anew(floor);
@@ -59,12 +74,19 @@ impl Plan {
                     .into(),
             );
         }
-        if matches!(c.verdict.status, Status::None) {
-            gap.closure = None;
+        let mut verdict = c.verdict;
+        match verdict.status {
+            Status::None => gap.closure = None,
+            Status::Refit => {
+                let structure = c.other.as_ref().map_or(self.structure, |other| other.structure);
+                let told = |closure| Refit { order: structure.order, delay: -structure.lead, closure };
+                verdict.refit = gap.closure.map(told);
+            }
+            _ => {}
         }
         let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
         let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, floor, nominal_score));
-        let is_told = |effect| c.verdict.effects.contains(&effect) || c.verdict.class.contains(&effect);
+        let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
         for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
             candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
         }
@@ -75,10 +97,10 @@ impl Plan {
         let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
         let added = self.added(&c.augmented, &candidates, c.together.as_ref());
-        let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
+        let next_experiment = crate::experiments::propose(campaign, &verdict, &c.singles, floor.0);
         Diagnosis {
             where_,
-            verdict: c.verdict,
+            verdict,
             gap,
             candidates,
             probability_none: c.odds.none,

@@ -45,7 +45,7 @@ pub struct PortableModel(pub(super) Wire);
 #[serde(deny_unknown_fields)]
 pub(super) struct Wire {
     pub(super) scales: Scales,
-    pub(super) lead: usize,
+    pub(super) lead: isize,
     pub(super) rule: ReversalRule,
     pub(super) criterion: Criterion,
     pub(super) clock: Known,
@@ -131,8 +131,8 @@ impl PortableModel {
         *assembly == Assembly::default() && *lead == 0 && !criterion.simulates()
     }
 
-    /// Samples by which the output follows the input sooner than in the paper.
-    pub fn lead(&self) -> usize {
+    /// Samples by which the output follows the input sooner than in the paper; negative where it follows later.
+    pub fn lead(&self) -> isize {
         self.0.lead
     }
 

@@ -7,7 +7,7 @@ use switchback_estimator::rig::{Role, Usage};
 use super::band::variances;
 use super::lasting::{notes, power_of_waves, without_waves};
 use super::portable::{PortableModel, Wire};
-use crate::records::campaign::{Campaign, Track, WARM_UP, dimensionless, first_counted, lead_by};
+use crate::records::campaign::{Campaign, Track, WARM_UP, dimensionless, first_counted, led};
 use crate::records::motion::{Play, motions};
 use crate::simulation::simulate::{Begins, Prepared, sensed};
 
@@ -139,9 +139,7 @@ impl Wire {
         scaled.splice(0..0, vec![scaled[0]; before]);
         let from = if y.is_some() { first_counted(&scaled) } else { before };
         let measured = y.map_or_else(|| vec![0.0; scaled.len()], |y| dimensionless(y, s.y_mean, s.y_scale));
-        if self.lead > 0 {
-            lead_by(&mut scaled, self.lead);
-        }
+        scaled = led(&scaled, self.lead);
         let placed = record.map(|number| &self.clock.records[number]);
         let track = Track {
             name: placed.map_or_else(|| "input".to_owned(), |placed| placed.name.clone()),

@@ -74,7 +74,7 @@ pub(crate) struct Campaign {
     /// What a model is held against.
     pub(crate) criterion: Criterion,
     /// Samples by which the input was [led](Self::led_by).
-    pub(crate) lead: usize,
+    pub(crate) lead: isize,
 }
 
 /// What a model is held against.
@@ -184,15 +184,15 @@ impl Campaign {
     }
 
     /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
-    /// input may act within its sample, and a record of the position may trail the force.
-    pub(crate) fn led_by(&self, lead: usize) -> Self {
-        let mut led = self.clone();
-        led.lead += lead;
-        for track in &mut led.tracks {
-            lead_by(&mut track.v, lead);
+    /// input may act within its sample, and a record of the position may trail the force. A negative lead is a delay.
+    pub(crate) fn led_by(&self, lead: isize) -> Self {
+        let mut sooner = self.clone();
+        sooner.lead += lead;
+        for track in &mut sooner.tracks {
+            track.v = led(&track.v, lead);
             track.moves = motions(&track.v, Play::default(), self.rule).into();
         }
-        led
+        sooner
     }
 
     /// The same records with branches that begin elsewhere.
@@ -232,11 +232,10 @@ pub(crate) fn first_counted(v: &[f64]) -> usize {
     (moves + WARM_UP).min(v.len())
 }
 
-/// An input so many samples sooner; it rests where it ends.
-pub(crate) fn lead_by(v: &mut Vec<f64>, lead: usize) {
-    let (length, last) = (v.len(), v[v.len() - 1]);
-    v.drain(..lead.min(length - 1));
-    v.resize(length, last);
+/// An input so many samples sooner, or later where that is negative; before its beginning and after its end it rests.
+pub(crate) fn led(v: &[f64], lead: isize) -> Vec<f64> {
+    let last = v.len() - 1;
+    (0..=last).map(|t| v[t.saturating_add_signed(lead).min(last)]).collect()
 }
 
 fn range<'a>(values: impl Iterator<Item = &'a f64>) -> (f64, f64) {

@@ -34,7 +34,16 @@ struct Verdict {
     class: Vec<&'static str>,
     stage: Option<&'static str>,
     probability: f64,
+    calibrated: bool,
     corrected_by: Option<&'static str>,
+    refit: Option<Refit>,
+}
+
+#[derive(Serialize)]
+struct Refit {
+    order: usize,
+    delay: isize,
+    closure: Interval,
 }
 
 #[derive(Serialize)]
@@ -132,7 +141,8 @@ struct Next<'a> {
 /// which is none of the candidates; with the candidates' probabilities both sum to one. `together` is the best pair of effects: `parameters` those of each, fitted beside the other,
 /// `gain` in penalised deviance over the best single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
-/// the augmented model that is no cause of its own.
+/// the augmented model that is no cause of its own; `calibrated` tells whether the probability was calibrated for such records; `refit`
+/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -169,7 +179,13 @@ fn verdict(diagnosis: &Diagnosis) -> Verdict {
         class: names(&verdict.class),
         stage: verdict.stage.map(|stage| stage.name()),
         probability: verdict.probability,
+        calibrated: verdict.calibrated,
         corrected_by: verdict.corrected_by.map(|effect| effect.name()),
+        refit: verdict.refit.map(|refit| Refit {
+            order: refit.order,
+            delay: refit.delay,
+            closure: interval(&refit.closure),
+        }),
     }
 }
 

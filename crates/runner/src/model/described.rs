@@ -19,7 +19,7 @@ impl Described {
         match system {
             System::Switched(model) => {
                 let switchback_gap::NominalModel { a, b, descending, ascending } = model.system();
-                Self { order: a.len(), delay: -(model.lead() as isize), a, b, descending, ascending }
+                Self { order: a.len(), delay: -model.lead(), a, b, descending, ascending }
             }
             System::Curves(curves) => {
                 let (a, b) = curves.linear();
