@@ -35,8 +35,10 @@ pub struct Cli {
 enum Verb {
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
+    Design(cmd::design::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
+    Init(cmd::init::Args),
     Man(cmd::man::Args),
     Rig(cmd::rig::Args),
 }
@@ -86,8 +88,10 @@ impl Cli {
         match self.verb {
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
             Some(Verb::Completions(args)) => cmd::completions::run(&args),
+            Some(Verb::Design(args)) => cmd::design::run(&args),
             Some(Verb::Gap(args)) => cmd::gap::run(&args),
             Some(Verb::Identify(args)) => cmd::identify::run(&args),
+            Some(Verb::Init(args)) => cmd::init::run(&args),
             Some(Verb::Man(args)) => cmd::man::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
             None => cmd::study::run(&self.study),

@@ -52,8 +52,19 @@ fn framed(diagnostic: &dyn Diagnostic) -> String {
 ///     | ^^^^
 /// help: did you mean `order`?
 /// ```
+///
+/// Where several things are wrong, each follows in this form, numbered.
 pub fn plain(diagnostic: &dyn Diagnostic) -> String {
-    let mut told = format!("error: {diagnostic}\n");
+    let mut told = format!("error: {}", told(diagnostic));
+    for (k, related) in diagnostic.related().into_iter().flatten().enumerate() {
+        let _ = write!(told, "{}. {}", k + 1, self::told(related));
+    }
+    told
+}
+
+/// One message with its place and remedy.
+fn told(diagnostic: &dyn Diagnostic) -> String {
+    let mut told = format!("{diagnostic}\n");
     if let (Some(code), Some(label)) =
         (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
     {

@@ -4,6 +4,7 @@ pub mod blind;
 pub mod cli;
 pub mod cmd;
 pub mod compare;
+pub mod design;
 pub mod diagnosis;
 pub mod failure;
 pub mod identification;

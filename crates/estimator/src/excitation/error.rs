@@ -108,4 +108,15 @@ pub enum ExcitationError {
         /// What would be accepted.
         remedy: &'static str,
     },
+    /// A pulse experiment of too few periods.
+    #[error(
+        "periods = {periods}: one period settles the output and every level must come back at least once more; use at \
+         least {minimum}"
+    )]
+    TooFewPeriods {
+        /// Periods given.
+        periods: usize,
+        /// The fewest allowed.
+        minimum: usize,
+    },
 }

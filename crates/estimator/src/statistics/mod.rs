@@ -1,14 +1,18 @@
-//! Performance measures of estimators, each with its Monte-Carlo standard error.
+//! Performance measures of estimators, each with its Monte-Carlo standard error, and what residuals say of a model.
 
+mod block_bootstrap;
 mod error_sums;
 mod jackknife;
 mod lane_errors;
 mod line;
+mod whiteness;
 
+pub use block_bootstrap::MeanInterval;
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};
+pub use whiteness::Whiteness;
 
 /// A measured number with its Monte-Carlo standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,12 @@
-//! `switchback gap RIG.toml`
+//! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
+use super::data_args::DataArgs;
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
 use crate::progress::Watch;
-use crate::rig;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 use switchback_gap::Effect;
@@ -14,8 +14,8 @@ use switchback_gap::Effect;
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The rig file; the CSV files it names lie beside it.
-    rig: PathBuf,
+    #[command(flatten)]
+    data: DataArgs,
 
     /// Diagnose this model, the output of `switchback identify --json` [default: the columns y_sim if the records have
     /// them, else the model identified from the fit records]
@@ -60,13 +60,13 @@ const FILES: [&str; 7] = [
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = rig::read(&args.rig)?;
+    let rig = args.data.load("gap", args.quiet)?.rig;
     let subject = Subject::choose(rig, args.model.as_deref())?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let watch = Watch::new(args.quiet);
     let report = args.threads.install(|| diagnosis::examine(subject, &args.without, &watch))?;
     watch.finish();
-    let report = report.map_err(|error| error.in_file(&args.rig))?;
+    let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }

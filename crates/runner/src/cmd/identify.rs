@@ -1,12 +1,12 @@
-//! `switchback identify RIG.toml`
+//! `switchback identify DATA.csv …` or `switchback identify RIG.toml`
 
+use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
-use crate::identification::{self, Identification, Method};
+use crate::identification::{self, Identification, Method, Request};
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
 use crate::progress::Watch;
-use crate::rig;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 use switchback_estimator::rig::Rig;
@@ -14,13 +14,17 @@ use switchback_estimator::rig::Rig;
 /// Identify the linear part and both borders from a rig's records.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The rig file; the CSV files it names lie beside it.
-    rig: PathBuf,
+    #[command(flatten)]
+    data: DataArgs,
 
     /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
     /// records allow]
     #[arg(long, value_parser = method(), hide_possible_values = true)]
     method: Option<Method>,
+
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    #[arg(long)]
+    causal: bool,
 
     /// Print one JSON object instead of tables.
     #[arg(long)]
@@ -48,14 +52,14 @@ const FILES: [&str; 3] = ["estimate.json", "borders.svg", "measured_and_simulate
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = rig::read(&args.rig)?;
+    let rig = args.data.load("identify", args.quiet)?.rig;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
+    let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);
-    watch.begin("identifying");
-    let identification = args.threads.install(|| identification::identify(&rig, method))?;
+    let identification = args.threads.install(|| identification::examined(&rig, request, &watch))?;
     watch.finish();
-    let identification = identification.map_err(|error| error.in_file(&args.rig))?;
+    let identification = identification.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }

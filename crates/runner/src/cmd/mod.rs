@@ -3,8 +3,11 @@
 pub mod blind;
 pub mod compare;
 pub mod completions;
+pub mod data_args;
+pub mod design;
 pub mod gap;
 pub mod identify;
+pub mod init;
 pub mod man;
 pub mod rig;
 pub mod study;

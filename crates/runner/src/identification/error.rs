@@ -35,12 +35,26 @@ pub enum IdentificationError {
         /// What to try.
         remedy: String,
     },
+    /// The result simulates every record worse than a constant would.
+    #[error("{rig}: what the method {method} found is of no use: {told}")]
+    #[diagnostic(help(
+        "check that the columns hold the input and the output of one machine, look for drift between the records, or set another `order`"
+    ))]
+    Useless {
+        /// The rig's name, or its file where that is known.
+        rig: String,
+        /// The method used.
+        method: Method,
+        /// What the free runs came to.
+        told: String,
+    },
 }
 
 impl IdentificationError {
     /// Names the rig by its file, which a message should lead to.
     pub fn in_file(mut self, file: &Path) -> Self {
-        let (Self::MissingExperiment { rig, .. } | Self::Refused { rig, .. }) = &mut self;
+        let (Self::MissingExperiment { rig, .. } | Self::Refused { rig, .. } | Self::Useless { rig, .. }) =
+            &mut self;
         *rig = file.display().to_string();
         self
     }

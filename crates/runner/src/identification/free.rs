@@ -1,29 +1,37 @@
 //! Methods for any record of a rig, and the yardsticks.
 
-use super::{FreeRun, Identification, IdentificationError, Method};
+use super::{Examination, Flag, FreeRun, Identification, IdentificationError, Request, causal, unit};
 use switchback_estimator::Record;
-use switchback_estimator::estimators::free::{FreeError, InputMap, Model, Settings, identify as estimate};
+use switchback_estimator::estimators::free::{
+    FreeError, InputMap, Model, Progress, Settings, identify_watched as estimate,
+};
 use switchback_estimator::rig::Rig;
 
 /// Identifies from all fit records, whatever drove them.
 pub(super) fn identify(
     rig: &Rig,
-    method: Method,
+    Request { method, causal }: Request,
     input_map: InputMap,
+    progress: &dyn Progress,
 ) -> Result<Identification, IdentificationError> {
     let records: Vec<&Record> = rig.fit_records().map(|record| &record.record).collect();
-    let settings = Settings { order: rig.order, interval: rig.interval, ..Settings::new(input_map) };
-    let identified = estimate(&records, &settings).map_err(|error| IdentificationError::Refused {
-        rig: rig.name.clone(),
-        method,
-        remedy: remedy(&error).to_owned(),
-        reason: error.to_string(),
-    })?;
+    let settings = Settings { order: rig.order, interval: rig.interval, causal, ..Settings::new(input_map) };
+    let identified =
+        estimate(&records, &settings, progress).map_err(|error| IdentificationError::Refused {
+            rig: rig.name.clone(),
+            method,
+            remedy: remedy(&error).to_owned(),
+            reason: error.to_string(),
+        })?;
     Ok(Identification {
         method,
         estimate: identified.estimate,
         runs: rig.records.iter().map(|record| run(&identified.model, &record.record)).collect(),
-        warnings: identified.warnings.iter().map(ToString::to_string).collect(),
+        level_errors: identified.level_errors,
+        distance: identified.distance,
+        obstacles: causal::obstacles(&identified.model, unit(&rig.input_label)),
+        flags: identified.warnings.iter().map(Flag::from).collect(),
+        examination: Examination::default(),
     })
 }
 

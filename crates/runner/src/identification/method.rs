@@ -17,6 +17,18 @@ pub fn default_method(rig: &Rig) -> Method {
     }
 }
 
+impl Method {
+    /// Whether the method is fitted to records of this role where they are there; the others are simulated only, or give a mean.
+    pub(super) fn is_fitted_to(self, role: Role) -> bool {
+        match self {
+            Self::PaperDescendant => role == Role::Descendant,
+            Self::PaperAscendant => role == Role::Ascendant,
+            Self::Joint | Self::Efficient => matches!(role, Role::Descendant | Role::Ascendant),
+            Self::Free | Self::LinearArx | Self::Memoryless => true,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,25 +1,37 @@
 //! Identification of a rig: which method, what it found, how well that simulates every record.
 
+mod causal;
 mod dispatch;
 mod error;
+mod errors_of_run;
+mod examine;
 mod fit;
+mod flag;
 mod free;
 mod json;
 mod method;
 mod pulse;
+mod request;
+mod residuals;
 mod simulate;
 mod table;
+mod yardstick;
 
 pub use crate::scenario::Method;
-pub use dispatch::identify;
+pub use causal::CausalAlternative;
+pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
+pub use examine::{Examination, examined};
 pub use fit::fit_percent;
+pub use flag::Flag;
 pub use json::json;
 pub use method::default_method;
+pub use request::Request;
 pub(crate) use simulate::EstimatedSystem;
 pub use table::table;
+pub use yardstick::Yardstick;
 
-use switchback_estimator::estimators::Estimate;
+use switchback_estimator::estimators::{BorderDistance, Estimate, LevelErrors};
 use switchback_estimator::rig::Rig;
 
 /// What a method made of a rig.
@@ -29,11 +41,19 @@ pub struct Identification {
     pub method: Method,
     /// The system it found.
     pub estimate: Estimate,
+    /// Standard errors of the gain and the stationary outputs; none if a parameter has no information.
+    pub level_errors: Option<LevelErrors>,
     /// Free-run simulation of every record, in the order of the rig; none where the record needs a border that the method
     /// does not see.
     pub runs: Vec<Option<FreeRun>>,
-    /// What the reader must know before trusting the figures, one sentence each.
-    pub warnings: Vec<String>,
+    /// How far the borders lie apart against their errors; none where the method does not see both.
+    pub distance: Option<BorderDistance>,
+    /// Why the model could not run in real time; empty if it could.
+    pub obstacles: Vec<String>,
+    /// What the reader must know before trusting the figures, weightiest first.
+    pub flags: Vec<Flag>,
+    /// What other models and the residuals say, once it was asked for.
+    pub examination: Examination,
 }
 
 impl Identification {

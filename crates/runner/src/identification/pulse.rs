@@ -1,10 +1,12 @@
 //! Methods for the designed experiments of a rig.
 
 use super::simulate::EstimatedSystem;
-use super::{Identification, IdentificationError, Method};
+use super::{Examination, Flag, Identification, IdentificationError, Method};
+use switchback_estimator::estimators::free::Warning;
 use switchback_estimator::estimators::pulse::{PulseData, PulseDataError, PulseFit, PulseMethod, StepMean};
+use switchback_estimator::estimators::{BorderDistance, Estimate};
 use switchback_estimator::hysteresis::{Branch, Interval};
-use switchback_estimator::linear::{is_stable, settling_samples};
+use switchback_estimator::linear::{is_stable, settling_samples, spectral_radius};
 use switchback_estimator::rig::{Rig, RigRecord, Role};
 
 /// Orders tried where the rig file names none.
@@ -16,14 +18,15 @@ const SETTLED: f64 = 1e-4;
 /// Identifies from the pulse experiments among the fit records.
 pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, IdentificationError> {
     let records = experiments(rig, method)?;
-    let mut warnings = Vec::new();
+    let mut flags = Vec::new();
     let order = match rig.order {
         Some(order) => order,
         None => {
             let order = chosen_order(rig, method, &records)?;
-            warnings.push(format!(
+            let text = format!(
                 "order {order} was chosen from the data (least BIC); set `order` in the rig file if it is known"
-            ));
+            );
+            flags.push(Flag::new("order_chosen", order as f64, text));
             order
         }
     };
@@ -32,14 +35,18 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
     let fit = fit(rig, method, &data)?;
     let estimate = fit.estimate(&data);
     if method != Method::Joint && data.len() == 1 {
-        warnings.push(format!(
-            "one experiment shows the {} border only; records that run on the other cannot be simulated",
-            match data[0].branch {
-                Branch::Descending => "descending",
-                Branch::Ascending => "ascending",
-            }
-        ));
+        let border = match data[0].branch {
+            Branch::Descending => "descending",
+            Branch::Ascending => "ascending",
+        };
+        flags.push(Flag {
+            kind: "one_border",
+            figure: None,
+            text: format!("one experiment shows the {border} border only; records that run on the other cannot be simulated"),
+        });
     }
+    let distance = estimate.distance_at_common_points();
+    flags.extend(doubts(&estimate, distance).iter().map(Flag::from));
     let (one, other) = (data[0].satellite, data[0].levels[0]);
     let interval =
         Interval::new(one.min(other), one.max(other)).map_err(|error| IdentificationError::Refused {
@@ -48,14 +55,29 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
             reason: error.to_string(),
             remedy: "check the column `v`".to_owned(),
         })?;
-    let runs = match EstimatedSystem::new(&estimate, interval) {
-        Ok(system) => rig.records.iter().map(|record| system.run(&record.record)).collect(),
-        Err(reason) => {
-            warnings.push(format!("no record was simulated: {reason}"));
-            vec![None; rig.records.len()]
-        }
-    };
-    Ok(Identification { method, estimate, runs, warnings })
+    let system =
+        EstimatedSystem::new(&estimate, interval).map_err(|reason| IdentificationError::Refused {
+            rig: rig.name.clone(),
+            method,
+            reason: format!(
+                "{reason} (largest pole {:.3}), so every free run diverges",
+                spectral_radius(&estimate.a)
+            ),
+            remedy: "try a lower `order`, a longer record, or `--method free`".to_owned(),
+        })?;
+    let runs = rig.records.iter().map(|record| system.run(&record.record)).collect();
+    let examination = Examination::default();
+    let level_errors = Some(fit.level_errors);
+    let obstacles = Vec::new();
+    Ok(Identification { method, estimate, level_errors, runs, distance, obstacles, flags, examination })
+}
+
+/// What the errors of an estimate say against it.
+fn doubts(estimate: &Estimate, distance: Option<BorderDistance>) -> Vec<Warning> {
+    let vanished = distance.filter(BorderDistance::has_vanished);
+    let hollow = estimate.hollow_coefficients();
+    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum });
+    vanished.map(|distance| Warning::LoopVanished { distance }).into_iter().chain(hollow).collect()
 }
 
 /// The fit records that the method works on: the longest of each role it needs.

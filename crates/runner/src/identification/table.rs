@@ -1,33 +1,31 @@
 //! The identification as a page for a person.
 
-use super::{Identification, lacks_holdout, unit};
+use super::{Identification, unit};
 use crate::output::columns;
 use std::fmt::Write;
-use switchback_estimator::estimators::{BorderPoint, Estimate};
+use switchback_estimator::estimators::{BorderPoint, Coefficient, LevelErrors, PlusMinus};
 use switchback_estimator::rig::{Rig, Usage};
 
 /// Half-width of a 95 % interval in standard errors of a normal estimate.
 const Z95: f64 = 1.959_963_984_540_054;
 
-/// Parameters with 95 % intervals, the fit of every record, the borders, and what to beware of.
+/// What to beware of, then parameters with 95 % intervals, the fit of every record, and the borders.
 pub fn table(rig: &Rig, identification: &Identification) -> String {
-    let mut page = headline(rig, identification);
-    for part in [parameters(rig, &identification.estimate), fits(rig, identification)] {
+    let mut page = String::new();
+    for flag in &identification.flags {
+        let _ = writeln!(page, "warning: {}", flag.text);
+    }
+    if !identification.flags.is_empty() {
+        page.push('\n');
+    }
+    page.push_str(&headline(rig, identification));
+    for part in [parameters(rig, identification), fits(rig, identification)] {
         page.push('\n');
         page.push_str(&part);
     }
     if identification.has_borders() {
         page.push('\n');
         page.push_str(&borders(rig, identification));
-    }
-    if !identification.warnings.is_empty() || lacks_holdout(rig) {
-        page.push('\n');
-    }
-    if lacks_holdout(rig) {
-        page.push_str("warning: no record is held out, so the fit above is only a fit to what was fitted\n");
-    }
-    for warning in &identification.warnings {
-        let _ = writeln!(page, "warning: {warning}");
     }
     page
 }
@@ -53,27 +51,35 @@ fn headline(rig: &Rig, identification: &Identification) -> String {
     )
 }
 
-fn parameters(rig: &Rig, estimate: &Estimate) -> String {
+fn parameters(rig: &Rig, identification: &Identification) -> String {
+    let estimate = &identification.estimate;
+    let unknown = LevelErrors { gain: f64::NAN, y_high: f64::NAN, y_low: f64::NAN };
+    let errors = identification.level_errors.unwrap_or(unknown);
     let output = unit(&rig.output_label);
     let mut rows = vec![["parameter", "estimate", "95 % interval", "unit"].map(str::to_owned)];
-    // A negative delay starts B at b₀ or before; a positive one shifts the whole of B and leaves its names alone.
-    let first_b = 1 + estimate.delay.min(0);
-    for (letter, first, values, errors, unit) in
-        [("a", 1, &estimate.a, &estimate.a_se, ""), ("b", first_b, &estimate.b, &estimate.b_se, output)]
-    {
-        for (lag, (value, se)) in (first..).zip(values.iter().zip(errors)) {
-            rows.push([format!("{letter}{lag}"), number(*value), plus_minus(*se), unit.to_owned()]);
-        }
+    for coefficient in estimate.a_coefficients().chain(estimate.b_coefficients()) {
+        let Coefficient { letter, lag, value, se } = coefficient;
+        let [value, half] = rounded(value, Z95 * se);
+        let unit = if letter == 'b' { output } else { "" };
+        rows.push([format!("{letter}{lag}"), value, half, unit.to_owned()]);
     }
-    for (name, value) in [
-        ("gain B(1)/A(1)", estimate.gain),
-        ("y_high", estimate.y_high),
-        ("y_low", estimate.y_low),
-        ("noise sd", estimate.noise_sd),
+    // The error of a standard deviation, as of normal noise.
+    let of_noise = Z95 * estimate.noise_sd / (2.0 * estimate.samples as f64).sqrt();
+    for (name, value, half) in [
+        ("gain B(1)/A(1)", estimate.gain, Z95 * errors.gain),
+        ("y_high", estimate.y_high, Z95 * errors.y_high),
+        ("y_low", estimate.y_low, Z95 * errors.y_low),
+        ("noise sd", estimate.noise_sd, of_noise),
     ] {
-        rows.push([name.to_owned(), number(value), String::new(), output.to_owned()]);
+        let [value, half] = rounded(value, half);
+        rows.push([name.to_owned(), value, half, output.to_owned()]);
     }
-    rows.push(["excitation λ_min".to_owned(), number(estimate.excitation), String::new(), String::new()]);
+    rows.push([
+        "excitation λ_min".to_owned(),
+        format!("{:.1e}", estimate.excitation),
+        String::new(),
+        String::new(),
+    ]);
     columns(&rows)
 }
 
@@ -101,7 +107,10 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
         unit => format!("v [{unit}]"),
     };
     let table = if identification.has_one_curve() {
-        let points = estimate.descending.iter().map(|p| [number(p.v), number(p.f), plus_minus(p.se)]);
+        let points = estimate.descending.iter().map(|p| {
+            let [f, half] = rounded(p.f, Z95 * p.se);
+            [number(p.v), f, half]
+        });
         let header = [v, "static curve".to_owned(), "95 %".to_owned()];
         columns(&std::iter::once(header).chain(points).collect::<Vec<_>>())
     } else {
@@ -111,7 +120,7 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
         positions.dedup();
         let at = |border: &[BorderPoint], v: f64| {
             let point = border.iter().find(|point| point.v == v);
-            point.map_or([String::new(), String::new()], |point| [number(point.f), plus_minus(point.se)])
+            point.map_or([String::new(), String::new()], |point| rounded(point.f, Z95 * point.se))
         };
         let mut rows =
             vec![[v, "descending border".into(), "95 %".into(), "ascending border".into(), "95 %".into()]];
@@ -122,31 +131,22 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
         }
         columns(&rows)
     };
-    format!("{table}in units of u_M − u_m; times the gain these are stationary outputs\n")
+    let apart = identification.distance.map_or(String::new(), |distance| {
+        format!(
+            "the borders differ beyond their errors over {:.0} % of the stroke\n",
+            100.0 * distance.told_apart
+        )
+    });
+    format!("{table}in units of u_M − u_m; times the gain these are stationary outputs\n{apart}")
 }
 
-/// Five significant digits: more than any record supports, few enough to compare by eye.
+/// A known position: five significant digits.
 fn number(x: f64) -> String {
-    if !x.is_finite() {
-        return "–".to_owned();
-    }
-    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
-    if (-4..=6).contains(&magnitude) {
-        format!("{x:.*}", usize::try_from(4 - magnitude).unwrap_or(0))
-    } else {
-        format!("{x:.4e}")
-    }
+    PlusMinus::new(x, f64::NAN).value
 }
 
-fn plus_minus(se: f64) -> String {
-    if !se.is_finite() {
-        return "–".to_owned();
-    }
-    let half = Z95 * se;
-    let magnitude = if half == 0.0 { 0 } else { half.log10().floor() as i32 };
-    if (-4..=6).contains(&magnitude) {
-        format!("± {half:.*}", usize::try_from(1 - magnitude).unwrap_or(0))
-    } else {
-        format!("± {half:.1e}")
-    }
+/// An estimate and the half-width of its 95 % interval, with no digits that the error does not leave; empty where there is no error.
+fn rounded(value: f64, half: f64) -> [String; 2] {
+    let PlusMinus { value, half } = PlusMinus::new(value, half);
+    [value, if half == "–" { half } else { format!("± {half}") }]
 }

@@ -1,9 +1,14 @@
-//! Reading what users write: text files, and TOML whose errors point into the file.
+//! Reading what users write: measurements in any dialect, text files, and TOML whose errors point into the file.
 
 mod closest;
+mod decode;
+mod mat;
+mod table;
 mod text_file;
 mod toml_file;
 
 pub(crate) use closest::closest;
+pub(crate) use table::{Column, Kind, Table, TableError, unit};
+pub use table::{DataError, DataProblem, Place};
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};

@@ -50,14 +50,7 @@ pub enum FileError {
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, cannot be read, or is no UTF-8.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
-    let shown = path.display().to_string();
-    if path.is_dir() {
-        return Err(FileError::Directory { help: instead_of_folder(path), path: shown });
-    }
-    let bytes = std::fs::read(path).map_err(|source| match source.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown.clone() },
-        _ => FileError::Unreadable { path: shown.clone(), source },
-    })?;
+    let bytes = read_bytes(path)?;
     match String::from_utf8(bytes) {
         Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
             Some(rest) => rest.to_owned(),
@@ -66,22 +59,40 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
         Err(error) => {
             let valid = error.utf8_error().valid_up_to();
             let line = 1 + error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count();
-            Err(FileError::NotUtf8 { path: shown, line })
+            Err(FileError::NotUtf8 { path: path.display().to_string(), line })
         }
     }
 }
 
-/// Names the one TOML file of a folder, where there is exactly one.
+/// Reads a file's bytes.
+///
+/// # Errors
+/// [`FileError`] if there is no file, it is a folder, or cannot be read.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    let shown = path.display().to_string();
+    if path.is_dir() {
+        return Err(FileError::Directory { help: instead_of_folder(path), path: shown });
+    }
+    std::fs::read(path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown.clone() },
+        _ => FileError::Unreadable { path: shown.clone(), source },
+    })
+}
+
+/// Names the one rig file of a folder, or its files of measurements.
 fn instead_of_folder(folder: &Path) -> String {
-    let mut files: Vec<_> = std::fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
-    match (files.pop(), files.is_empty()) {
-        (Some(only), true) => format!("give the file in it: {}", only.display()),
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    files.sort();
+    let ending = |path: &Path, wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
+    let manifests: Vec<_> = files.iter().filter(|path| ending(path, "toml")).collect();
+    let tables: Vec<_> = files.iter().filter(|path| ending(path, "csv")).collect();
+    match (&manifests[..], &tables[..]) {
+        ([only], _) => format!("give the file in it: {}", only.display()),
+        ([], [only]) => format!("give the file in it: {}", only.display()),
+        ([], [_, _, ..]) => {
+            format!("give the {} CSV files in it: {}", tables.len(), folder.join("*.csv").display())
+        }
         _ => "give the path of a file in it".to_owned(),
     }
 }

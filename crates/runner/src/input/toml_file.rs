@@ -72,6 +72,32 @@ impl TomlFile {
         })
     }
 
+    /// The same, going on after what is wrong: a line that does not fit is told, taken out, and the rest read again, so that all such lines
+    /// are told at once. The value lacks what stood in them; it is none where the file is no TOML.
+    pub(crate) fn parse_all<T: DeserializeOwned>(&self) -> (Option<T>, Vec<TomlError>) {
+        let mut rest = self.text.clone();
+        let mut problems = Vec::new();
+        loop {
+            let error = match toml::from_str(&rest) {
+                Ok(value) => return (Some(value), problems),
+                Err(error) => error,
+            };
+            let (message, remedy) = self.explain(&error);
+            let span = error.span().unwrap_or(0..0);
+            problems.push(self.error(span.clone(), message, remedy));
+            let start = rest[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+            let end =
+                rest[span.end.max(span.start)..].find('\n').map_or(rest.len(), |newline| span.end + newline);
+            let taken = &rest[start..end];
+            if rest.parse::<toml::Table>().is_err() || !taken.contains('=') || taken.contains("[[") {
+                return (None, problems);
+            }
+            // Blanks keep all other places where they were; a letter may be of several bytes.
+            let blank = " ".repeat(taken.len());
+            rest.replace_range(start..end, &blank);
+        }
+    }
+
     /// What the TOML reader's error means to the file's writer, and what to do about it.
     pub(crate) fn explain(&self, error: &toml::de::Error) -> (String, String) {
         (in_toml_terms(error.message()), self.remedy(error.message()))

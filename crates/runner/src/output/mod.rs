@@ -6,7 +6,6 @@ mod error;
 mod folder;
 mod page;
 mod sha256;
-mod single;
 mod staging;
 mod written;
 
@@ -16,5 +15,4 @@ pub use error::OutputError;
 pub use folder::OutputFolder;
 pub use page::print;
 pub use sha256::sha256;
-pub use single::OutputFile;
 pub(crate) use staging::abandon;

@@ -1,26 +1,44 @@
-//! Rig files: a campaign's `rig.toml` and one CSV a record, read and written.
+//! Rigs: a campaign's files of measurements, described by a `rig.toml` or by the command line, read and written.
 //!
 //! ```toml
 //! name = "seal"
-//! sample_time = 0.01           # s
+//! sample_time = 0.01           # s; may be left out where a time column tells it
 //! order = 2                    # optional, else chosen from the data
 //! interval = [-1.0, 1.0]       # optional, h_m and h_M, else the range of the records
-//! input = "stroke [mm]"        # optional label and unit
+//! input = "stroke [mm]"        # optional label and unit, else those of the column
 //! output = "force [N]"
+//! columns = { time = "time", input = "stroke", output = "force" }   # optional, else guessed from the header
+//! resample = false             # optional: interpolate uneven rows linearly to even ones
 //!
 //! [[record]]
-//! file = "first.csv"           # beside rig.toml; columns t, v, y and optionally y_sim
+//! file = "first.csv"           # beside rig.toml
 //! role = "free"                # step_high | step_low | descendant | ascendant | free (the default)
 //! use = "fit"                  # fit | holdout
+//! holdout = 0.3                # optional: this share of it, at its end, is held out
 //! ```
 
-mod csv_error;
-mod csv_read;
+mod assemble;
+mod cut;
+mod guess;
+mod manifest;
+mod measured;
+mod plan;
+mod problem;
 mod read;
+mod resample;
 mod sampling;
+mod select;
+mod series;
+mod told;
 mod wire;
 mod write;
 
-pub use csv_error::{CsvError, CsvProblem};
-pub use read::{RigError, read};
+pub use assemble::Loaded;
+pub use manifest::manifest;
+pub(crate) use plan::in_shell;
+pub use plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling, Voice};
+pub use problem::{RigError, RigProblem};
+pub use read::{load, load_plan, read};
+pub use series::{InputSeries, read_input};
+pub use told::Told;
 pub use write::{RIG_FILE, artefacts};

@@ -1,50 +1,188 @@
-//! Are the time stamps those of even sampling?
+//! Are the time stamps those of even sampling, and of which sample time?
 
-use super::csv_error::CsvProblem;
+use crate::input::DataProblem;
 
-/// Checks that `t` increases in steps of `sample_time`; `Err` holds the index of the offending sample, or none where
-/// the record as a whole is at fault.
-///
-/// Two tolerances, because stamps are rounded when written and jitter when taken, but neither adds up:
-/// - a single step may be off by less than half a sample. A lost sample makes a step of two, a doubled one a step of
-///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass. Where the typical step is
-///   off too, it is not a gap but another sample time.
-/// - the whole record may be off by 1 % of its length or half a sample, whichever is more: beyond that the sample time is
-///   another one, and every frequency and time constant would be wrong by as much.
-///
-/// Where the record starts does not matter.
-pub(super) fn check(t: &[f64], sample_time: f64) -> Result<(), (Option<usize>, CsvProblem)> {
-    for k in 1..t.len() {
-        if t[k] <= t[k - 1] {
-            return Err((Some(k), CsvProblem::NotIncreasing { before: t[k - 1], now: t[k] }));
+/// What the stamps of a record tell.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Timing {
+    /// Seconds between samples.
+    pub(super) sample_time: f64,
+    /// The largest difference of a step from the sample time, as a share of it; steps over dropouts not counted.
+    pub(super) jitter: f64,
+    /// Samples before which others are missing.
+    pub(super) dropouts: Vec<usize>,
+}
+
+/// Share of the sample time that a step may be off where the stamps themselves tell it.
+const JITTER: f64 = 0.01;
+
+/// The stamps of a record that nobody has judged yet: its time column in seconds and how finely it is written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stamps<'a> {
+    /// What messages call the column.
+    pub(super) column: &'a str,
+    /// Seconds, one a sample that was measured.
+    pub(super) t: &'a [f64],
+    /// Seconds that the last digit of each stamp is worth.
+    pub(super) resolution: &'a [f64],
+}
+
+/// Where in a record something is wrong (none: everywhere), and what.
+pub(super) type Fault = (Option<usize>, DataProblem);
+
+impl Stamps<'_> {
+    /// Checks that time increases in even steps, which dropouts may interrupt: steps of one and a half sample times or more.
+    ///
+    /// Without a declared sample time a step may be off by 1 % of it and by what rounding of the stamps explains, though never by half
+    /// a sample. With one, stamps only have to show that no sample is missing or doubled:
+    /// - a single step may be off by less than half a sample. A lost sample makes a step of two, a doubled one a step of
+    ///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass. Where the typical step is
+    ///   off too, it is no dropout but another sample time.
+    /// - a whole piece may be off by 1 % of its length or half a sample, whichever is more: beyond that the sample time is
+    ///   another one, and every frequency and time constant would be wrong by as much.
+    ///
+    /// Where the record starts does not matter.
+    pub(super) fn judge(&self, declared: Option<f64>) -> Result<Timing, Fault> {
+        self.check_order()?;
+        let Some(typical) = self.typical_step() else {
+            let sample_time = declared.unwrap_or(f64::NAN);
+            return Ok(Timing { sample_time, jitter: 0.0, dropouts: Vec::new() });
+        };
+        let sample_time = declared.unwrap_or_else(|| self.mean_step(typical));
+        if (typical - sample_time).abs() >= 0.3 * sample_time {
+            return Err((None, self.other_sample_time(typical, sample_time)));
+        }
+        let mut timing = Timing { sample_time, jitter: 0.0, dropouts: Vec::new() };
+        for (k, step) in self.steps() {
+            let off = (step - sample_time).abs() / sample_time;
+            let rounding = self.rounding(k) / sample_time;
+            let allowed = if declared.is_some() { 0.5 } else { (JITTER + rounding).min(0.499) };
+            if step >= 1.5 * sample_time {
+                timing.dropouts.push(k);
+            } else if off > allowed {
+                return Err((Some(k), self.uneven(k, sample_time)));
+            } else {
+                timing.jitter = timing.jitter.max(off - rounding);
+            }
+        }
+        if declared.is_some() {
+            self.check_lengths(&timing)?;
+        }
+        Ok(timing)
+    }
+
+    /// Time must increase, resampled or not.
+    pub(super) fn check_order(&self) -> Result<(), Fault> {
+        match self.steps().find(|(_, step)| *step <= 0.0) {
+            Some((k, _)) => Err((
+                Some(k),
+                DataProblem::NotIncreasing {
+                    column: self.column.to_owned(),
+                    before: rounded(self.t[k - 1]),
+                    now: rounded(self.t[k]),
+                },
+            )),
+            None => Ok(()),
         }
     }
-    let Some(typical) = median_step(t) else { return Ok(()) };
-    let is_off = |step: f64, share: f64| (step - sample_time).abs() >= share * sample_time;
-    if is_off(typical, 0.3) {
-        return Err((None, CsvProblem::OtherSampleTime { mean_step: rounded(typical), sample_time }));
+
+    /// The median step, without the digits that the stamps do not carry.
+    pub(super) fn typical_step(&self) -> Option<f64> {
+        let mut steps: Vec<f64> = self.steps().map(|(_, step)| step).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).map(|step| shortest(*step, 1e-9 * step))
     }
-    if let Some(k) = (1..t.len()).find(|&k| is_off(t[k] - t[k - 1], 0.5)) {
-        let (before, now) = (t[k - 1], t[k]);
-        return Err((Some(k), CsvProblem::Gap { before, now, step: rounded(now - before), sample_time }));
+
+    /// The step into the `k`-th gap, a gap of a designed experiment.
+    pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
+        let (before, now) = (self.t[k - 1], self.t[k]);
+        DataProblem::Gap {
+            column: self.column.to_owned(),
+            before: rounded(before),
+            now: rounded(now),
+            step: rounded(now - before),
+            sample_time,
+        }
     }
-    let steps = (t.len() - 1) as f64;
-    let length = t[t.len() - 1] - t[0];
-    if (length - steps * sample_time).abs() > (0.01 * steps * sample_time).max(0.5 * sample_time) {
-        return Err((None, CsvProblem::OtherSampleTime { mean_step: rounded(length / steps), sample_time }));
+
+    fn steps(&self) -> impl Iterator<Item = (usize, f64)> {
+        (1..self.t.len()).map(|k| (k, self.t[k] - self.t[k - 1]))
     }
-    Ok(())
+
+    /// What rounding may add to the step that ends at `k`. Writers drop zeros at the end of a number, and some keep a fixed number of
+    /// digits, so the finest stamp nearby tells how finely they write there.
+    fn rounding(&self, k: usize) -> f64 {
+        let near = &self.resolution[k.saturating_sub(8)..(k + 8).min(self.resolution.len())];
+        // Twice half a last digit, and what the differences of large numbers lose.
+        near.iter().copied().fold(f64::INFINITY, f64::min) + 4.0 * f64::EPSILON * self.t[k].abs()
+    }
+
+    /// The mean of the steps that are not over dropouts, with no more digits than it is known to.
+    fn mean_step(&self, typical: f64) -> f64 {
+        let plain: Vec<f64> =
+            self.steps().map(|(_, step)| step).filter(|step| *step < 1.5 * typical).collect();
+        let mean = plain.iter().sum::<f64>() / plain.len() as f64;
+        let largest = plain.iter().map(|step| (step - mean).abs()).fold(0.0, f64::max);
+        // Errors of the stamps in between cancel: only those at the two ends of the record matter.
+        shortest(mean, largest.max(1e-9 * mean) / plain.len() as f64)
+    }
+
+    fn check_lengths(&self, timing: &Timing) -> Result<(), Fault> {
+        let sample_time = timing.sample_time;
+        let mut ends = timing.dropouts.clone();
+        ends.push(self.t.len());
+        let mut start = 0;
+        for end in ends {
+            let steps = (end - 1 - start) as f64;
+            let length = self.t[end - 1] - self.t[start];
+            if (length - steps * sample_time).abs() > (0.01 * steps * sample_time).max(0.5 * sample_time) {
+                return Err((None, self.other_sample_time(length / steps, sample_time)));
+            }
+            start = end;
+        }
+        Ok(())
+    }
+
+    fn other_sample_time(&self, mean_step: f64, sample_time: f64) -> DataProblem {
+        DataProblem::OtherSampleTime {
+            column: self.column.to_owned(),
+            mean_step: rounded(mean_step),
+            sample_time,
+        }
+    }
+
+    fn uneven(&self, k: usize, sample_time: f64) -> DataProblem {
+        let (before, now) = (self.t[k - 1], self.t[k]);
+        DataProblem::Uneven {
+            column: self.column.to_owned(),
+            before: rounded(before),
+            now: rounded(now),
+            step: rounded(now - before),
+            sample_time: rounded(sample_time),
+        }
+    }
 }
 
-fn median_step(t: &[f64]) -> Option<f64> {
-    let mut steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied()
+/// Seconds that the last digit of a stamp is worth, as it was written in units of `unit` seconds.
+pub(super) fn resolution(stamp: f64, unit: f64) -> f64 {
+    let written = format!("{stamp:e}");
+    let (digits, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    unit * 10f64.powi(exponent - decimals as i32)
 }
 
-/// Six significant digits: differences of stamps carry rounding errors that nobody wants to read.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
+/// The number with the fewest digits within `tolerance`.
+fn shortest(x: f64, tolerance: f64) -> f64 {
+    (0..17)
+        .filter_map(|digits| format!("{x:.digits$e}").parse().ok())
+        .find(|short: &f64| (short - x).abs() <= tolerance)
+        .unwrap_or(x)
+}
+
+/// Eight significant digits: differences of stamps carry rounding errors that nobody wants to read.
+pub(super) fn rounded(x: f64) -> f64 {
+    format!("{x:.7e}").parse().unwrap_or(x)
 }
 
 #[cfg(test)]
@@ -55,34 +193,67 @@ mod tests {
         (0..n).map(|k| start + k as f64 * step).collect()
     }
 
+    fn judged(t: &[f64], declared: Option<f64>) -> Result<Timing, Fault> {
+        let resolution: Vec<f64> = t.iter().map(|t| resolution(*t, 1.0)).collect();
+        Stamps { column: "t", t, resolution: &resolution }.judge(declared)
+    }
+
+    #[test]
+    fn the_last_digit_of_a_stamp_is_known() {
+        for (stamp, worth) in [(0.25, 0.01), (12.0, 1.0), (1e-5, 1e-5), (1234.5, 0.1)] {
+            let found = resolution(stamp, 1.0);
+            assert!((found / worth - 1.0).abs() < 1e-12, "{stamp}: {found}");
+        }
+    }
+
     #[test]
     fn even_stamps_pass_wherever_they_start() {
-        assert_eq!(check(&even(5000, 0.004, 20.004), 0.004), Ok(()));
+        for declared in [None, Some(0.004)] {
+            let timing = judged(&even(5000, 0.004, 20.004), declared).unwrap();
+            assert_eq!((timing.sample_time, timing.dropouts), (0.004, vec![]));
+            assert!(timing.jitter < 1e-6, "{}", timing.jitter);
+        }
     }
 
     #[test]
-    fn rounded_and_jittering_stamps_pass() {
-        let thirds: Vec<f64> =
-            even(300, 1.0 / 30.0, 5.0).iter().map(|t| (t * 100.0).round() / 100.0).collect();
-        assert_eq!(check(&thirds, 1.0 / 30.0), Ok(()));
+    fn rounded_stamps_pass_and_their_mean_step_is_found() {
+        let hundredths = |t: &f64| (t * 100.0).round() / 100.0;
+        let thirds: Vec<f64> = even(3001, 1.0 / 30.0, 5.0).iter().map(hundredths).collect();
+        assert!(judged(&thirds, Some(1.0 / 30.0)).is_ok());
+        let found = judged(&thirds, None).unwrap().sample_time;
+        assert!((found * 30.0 - 1.0).abs() < 1e-3, "{found}");
     }
 
     #[test]
-    fn a_lost_sample_is_a_gap_at_its_place() {
-        let mut t = even(100, 0.01, 0.0);
-        t.remove(40);
-        let (index, problem) = check(&t, 0.01).unwrap_err();
-        assert_eq!(index, Some(40));
-        assert!(matches!(problem, CsvProblem::Gap { step, .. } if step == 0.02), "{problem}");
+    fn jitter_below_one_percent_is_measured_and_beyond_it_is_refused() {
+        let shaken = |share: f64| -> Vec<f64> {
+            let shake = |k: usize| share * 0.01 * (k as f64 * 1.7).sin();
+            (0..500).map(|k| 0.01 * k as f64 + 0.5 * shake(k)).collect()
+        };
+        let timing = judged(&shaken(0.009), None).unwrap();
+        assert!(timing.jitter > 0.004 && timing.jitter < 0.01, "{}", timing.jitter);
+        let (index, problem) = judged(&shaken(0.05), None).unwrap_err();
+        assert!(matches!(problem, DataProblem::Uneven { .. }) && index.is_some(), "{problem}");
+        assert!(judged(&shaken(0.05), Some(0.01)).is_ok(), "a declared sample time forgives it");
+    }
+
+    #[test]
+    fn lost_samples_are_dropouts_at_their_places() {
+        for declared in [None, Some(0.01)] {
+            let mut t = even(100, 0.01, 0.0);
+            t.drain(60..75);
+            t.remove(40);
+            assert_eq!(judged(&t, declared).unwrap().dropouts, [40, 59]);
+        }
     }
 
     #[test]
     fn another_sample_time_is_named() {
         for step in [0.012, 0.02, 0.005] {
-            let (index, problem) = check(&even(100, step, 0.0), 0.01).unwrap_err();
+            let (index, problem) = judged(&even(100, step, 0.0), Some(0.01)).unwrap_err();
             assert_eq!(index, None);
             assert!(
-                matches!(problem, CsvProblem::OtherSampleTime { mean_step, .. } if mean_step == step),
+                matches!(problem, DataProblem::OtherSampleTime { mean_step, .. } if mean_step == step),
                 "{problem}"
             );
         }
@@ -91,7 +262,7 @@ mod tests {
     #[test]
     fn time_never_stands_still_or_runs_back() {
         for t in [[0.0, 0.01, 0.01], [0.0, 0.01, 0.005]] {
-            assert!(matches!(check(&t, 0.01), Err((Some(2), CsvProblem::NotIncreasing { .. }))));
+            assert!(matches!(judged(&t, None), Err((Some(2), DataProblem::NotIncreasing { .. }))));
         }
     }
 }

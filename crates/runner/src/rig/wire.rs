@@ -4,27 +4,41 @@ use serde::{Deserialize, Serialize};
 use switchback_estimator::rig::{Role, Usage};
 use toml::Spanned;
 
+/// Every key may be missing here, so that all missing ones can be told at once.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireRig {
-    pub(super) name: Spanned<String>,
-    pub(super) sample_time: Spanned<f64>,
+    pub(super) name: Option<Spanned<String>>,
+    pub(super) sample_time: Option<Spanned<f64>>,
     pub(super) order: Option<Spanned<i64>>,
     pub(super) interval: Option<Spanned<Vec<f64>>>,
     pub(super) input: Option<String>,
     pub(super) output: Option<String>,
     #[serde(default)]
-    pub(super) record: Vec<WireRecord>,
+    pub(super) columns: WireColumns,
+    #[serde(default)]
+    pub(super) resample: bool,
+    #[serde(default)]
+    pub(super) record: Vec<Spanned<WireRecord>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireColumns {
+    pub(super) time: Option<String>,
+    pub(super) input: Option<String>,
+    pub(super) output: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireRecord {
-    pub(super) file: Spanned<String>,
+    pub(super) file: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) role: WireRole,
     #[serde(rename = "use")]
-    pub(super) usage: WireUse,
+    pub(super) usage: Option<WireUse>,
+    pub(super) holdout: Option<Spanned<f64>>,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize, Serialize)]

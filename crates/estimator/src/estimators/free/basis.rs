@@ -43,6 +43,11 @@ impl Place {
         left.into_iter().chain([(self.knot, share * self.weight)])
     }
 
+    /// The two hats as (knot, height).
+    pub(super) fn hats(self) -> [(usize, f64); 2] {
+        [(self.knot, 1.0 - self.weight), (self.knot + 1, self.weight)]
+    }
+
     /// `u` here, for knot values `f₁…`, relative to the reference knot.
     pub(super) fn value(self, f: &[f64]) -> f64 {
         let left = if self.knot == 0 { 0.0 } else { (1.0 - self.weight) * f[self.knot - 1] };

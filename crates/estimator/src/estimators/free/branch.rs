@@ -11,6 +11,9 @@ pub enum Timing {
     /// time spent within the band (on a noisy input the extremum itself is a poor mark). The sample there is shared between the
     /// borders, by the part of its interval `[t−½, t+½]` that follows: what a rig that knows no samples does.
     BetweenSamples,
+    /// At the sample that confirms it, the first one that has moved back by more than the threshold: all that a simulation in real
+    /// time can know. Until then the old border stays in force. Without a threshold this is [`Self::AtSamples`].
+    AtConfirmation,
 }
 
 /// What counts as a reversal, and when it takes effect.
@@ -27,6 +30,27 @@ pub struct ReversalRule {
 impl ReversalRule {
     /// Exactly (2.3): every move counts, at its sample.
     pub const EXACT: Self = Self { threshold: 0.0, band: 0.0, timing: Timing::AtSamples };
+
+    /// Samples of `v` after `t` that decide the branch of `t`: none, one, or as many as a move beyond the threshold takes.
+    pub fn looks_ahead(&self) -> LookAhead {
+        match self.timing {
+            Timing::AtConfirmation => LookAhead::Never,
+            _ if self.threshold > 0.0 => LookAhead::UntilConfirmed,
+            Timing::AtSamples => LookAhead::Never,
+            Timing::BetweenSamples => LookAhead::OneSample,
+        }
+    }
+}
+
+/// How much of the future a reversal rule needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LookAhead {
+    /// The branch is known as soon as its sample is.
+    Never,
+    /// The sample after a reversal tells how the turning sample is shared.
+    OneSample,
+    /// A reversal is dated back once `v` has moved by the threshold, which takes as long as it takes.
+    UntilConfirmed,
 }
 
 /// The branch of every sample of an input.
@@ -35,8 +59,8 @@ impl ReversalRule {
 /// zigzag, rule), and then takes effect *retroactively*: every sample after the turning sample is on the new
 /// branch. The turning sample is the last one within the band of the extremum, so that the whole of a noisy rest at an
 /// extremum stays on the border it was reached on, as (2.3) has it. The rule looks ahead, which is no
-/// obstacle: the input of a record, or of a simulation, is known as a whole. A causal rule would put the samples between the
-/// turn and its confirmation on the wrong border.
+/// obstacle: the input of a record, or of a simulation, is known as a whole. In real time it is not, and
+/// [`Timing::AtConfirmation`] is the rule that remains: it leaves the samples between the turn and its confirmation on the old border.
 ///
 /// With [`ReversalRule::EXACT`] this is (2.3): rising, falling, and holding at a rest.
 ///
@@ -106,6 +130,9 @@ impl Branches {
                     let instant = if band > 0.0 { middle_of_rest(v, last, rule) } else { vertex(v, last) };
                     turn = instant.round() as usize;
                     shares.push((turn, 0.5 - (instant - turn as f64)));
+                }
+                if timing == Timing::AtConfirmation {
+                    turn = t - 1;
                 }
                 let from = if direction.is_some() { turn + 1 } else { 0 };
                 labels[from..].fill(branch);

@@ -37,7 +37,7 @@ impl<'a> Data<'a> {
             .map(|r| SensorNoise::of(r.v()))
             .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let rule = noise.rules(settings.threshold, settings.timing)[0];
+        let rule = noise.rules(settings)[0];
         let records: Vec<_> =
             records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());

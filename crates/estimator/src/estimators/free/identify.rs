@@ -2,18 +2,21 @@
 
 use super::basis::Basis;
 use super::data::{Data, Featured};
+use super::doubt::Doubt;
 use super::equation_error::Moments;
 use super::error::FreeError;
+use super::examination::Examination;
 use super::fit::{Effort, Ladder};
 use super::model::Model;
-use super::normalise::{Covariance, Figures, normalise};
+use super::normalise::{Covariance, Figures, level_errors, normalise};
 use super::problem::{Parameters, Segment, Structure};
+use super::progress::Progress;
 use super::rank_one::{information, residual_energy};
 use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
 use super::simulation_error::{cost, linearise};
-use super::warning::{Examination, Warning};
-use crate::estimators::Estimate;
+use super::warning::Warning;
+use crate::estimators::{BorderDistance, Estimate, LevelErrors};
 use crate::record::Record;
 use nalgebra::DMatrix;
 
@@ -22,10 +25,14 @@ use nalgebra::DMatrix;
 pub struct Identified {
     /// Coefficients and borders with their standard errors, in the paper's normalisation.
     pub estimate: Estimate,
+    /// Standard errors of the gain and the stationary outputs; none if a parameter has no information.
+    pub level_errors: Option<LevelErrors>,
     /// The same system as a simulator.
     pub model: Model,
     /// How order, delay and knots were chosen.
     pub selection: Selection,
+    /// How far the two borders lie apart against their errors; none for a model of one curve.
+    pub distance: Option<BorderDistance>,
     /// Weak points.
     pub warnings: Vec<Warning>,
 }
@@ -44,9 +51,21 @@ pub struct Identified {
 /// # Errors
 /// [`FreeError`] if there is nothing to identify from, or too little for the settings.
 pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, FreeError> {
+    identify_watched(records, settings, &())
+}
+
+/// [`identify`], which tells how far it has come; the result does not depend on who hears.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_watched(
+    records: &[&Record],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Identified, FreeError> {
     settings.check()?;
     let data = with_best_rule(Data::new(records, settings)?, settings);
-    let selection = select(&data, settings)?;
+    let selection = select(&data, settings, progress)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
     let featured = ladder.top();
@@ -58,37 +77,62 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
         ladder.one_shot(structure, &segments)
     };
     let theta = fitted.ok_or(FreeError::Unstable { order: structure.order })?.theta;
-    let warnings = examine(&data, featured, structure, &theta, &segments);
     let moments = Moments::of(structure, featured.basis.features(), &segments);
-    let estimate = if settings.refine {
-        simulation_error_estimate(&moments, &featured.basis, &theta, &segments)
+    let errors = if settings.refine {
+        Errors::of_simulation(&moments, &theta, &segments)
     } else {
-        equation_error_estimate(&moments, &featured.basis, &theta)
+        Errors::of_equation(&moments, &theta)
     };
-    let model = Model { basis: featured.basis.clone(), structure, parameters: theta, rule: data.rule };
-    Ok(Identified { estimate, model, selection, warnings })
+    let basis = &featured.basis;
+    let figures = figures(&moments, errors.variance);
+    let estimate = normalise(&theta, structure, basis, errors.covariance.as_ref(), figures);
+    let (information, covariance) = (&errors.information, errors.covariance.as_ref());
+    let doubt = Doubt { structure, basis, theta: &theta, information, covariance };
+    let hollow = estimate.hollow_coefficients();
+    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum }).collect();
+    let examined = examine(&data, featured, structure, &theta, &segments);
+    let warnings = [doubt.warnings(), hollow, examined].concat();
+    let distance = doubt.distance();
+    let level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
+    let model = Model { basis: basis.clone(), structure, parameters: theta, rule: data.rule };
+    Ok(Identified { estimate, level_errors, model, selection, distance, warnings })
 }
 
-/// Normalised parameters of a refined fit and their standard errors.
-fn simulation_error_estimate(
-    moments: &Moments,
-    basis: &Basis,
-    theta: &Parameters,
-    segments: &[Segment],
-) -> Estimate {
-    let structure = moments.structure;
-    let model = linearise(structure, theta, segments);
-    let variance = cost(structure, theta, segments) / freedom(moments, theta);
-    let covariance =
-        Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
-    normalise(theta, structure, basis, covariance.as_ref(), figures(moments, variance))
+/// What a fit knows of its own errors.
+struct Errors {
+    /// Of the noise, squared output units.
+    variance: f64,
+    /// Per unit noise variance.
+    information: DMatrix<f64>,
+    /// None if a parameter has no information.
+    covariance: Option<Covariance>,
+}
+
+impl Errors {
+    /// Of a fit of least simulation error.
+    fn of_simulation(moments: &Moments, theta: &Parameters, segments: &[Segment]) -> Self {
+        let structure = moments.structure;
+        let model = linearise(structure, theta, segments);
+        let variance = cost(structure, theta, segments) / freedom(moments, theta);
+        let covariance =
+            Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
+        Self { variance, information: model.information, covariance }
+    }
+
+    /// Of a fit of least equation error.
+    fn of_equation(moments: &Moments, theta: &Parameters) -> Self {
+        let variance = residual_energy(moments, theta) / freedom(moments, theta);
+        let information = information(moments, theta);
+        let covariance = Covariance::new(&information, theta, variance);
+        Self { variance, information, covariance }
+    }
 }
 
 /// Normalised parameters of an equation-error fit and their standard errors.
 pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
-    let variance = residual_energy(moments, theta) / freedom(moments, theta);
-    let covariance = Covariance::new(&information(moments, theta), theta, variance);
-    normalise(theta, moments.structure, basis, covariance.as_ref(), figures(moments, variance))
+    let errors = Errors::of_equation(moments, theta);
+    let figures = figures(moments, errors.variance);
+    normalise(theta, moments.structure, basis, errors.covariance.as_ref(), figures)
 }
 
 /// Samples less free parameters, at least 1; one parameter in `b` and `f` is the scale that they share.

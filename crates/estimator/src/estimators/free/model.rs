@@ -1,7 +1,7 @@
 //! An identified system that runs on its own.
 
 use super::basis::{Basis, Cell};
-use super::branch::{Branches, ReversalRule};
+use super::branch::{Branches, LookAhead, ReversalRule};
 use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::free_run;
 use crate::hysteresis::Branch;
@@ -45,6 +45,19 @@ impl Model {
     /// What counts as a reversal.
     pub fn rule(&self) -> ReversalRule {
         self.rule
+    }
+
+    /// Whether `y(t)` follows from `v` up to `t` alone, so that the model could run in real time.
+    ///
+    /// No coefficient may weigh a sample ahead, and the branch of every sample that has weight must be known by then. A turning sample shared
+    /// between the borders is known one sample later, which a model without a direct term can wait for.
+    pub fn is_causal(&self) -> bool {
+        let known_in_time = match self.rule.looks_ahead() {
+            LookAhead::Never => true,
+            LookAhead::OneSample => self.structure.delay >= 0,
+            LookAhead::UntilConfirmed => false,
+        };
+        self.structure.ahead() == 0 && (known_in_time || !self.basis.is_switched())
     }
 
     /// The output for an input, given the outputs measured before the simulation starts.

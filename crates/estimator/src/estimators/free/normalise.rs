@@ -2,7 +2,7 @@
 
 use super::basis::Basis;
 use super::problem::{Parameters, Structure};
-use crate::estimators::{BorderPoint, Estimate};
+use crate::estimators::{BorderPoint, Estimate, LevelErrors};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Covariance of `(a, b, f, c)` in the fit's own scale.
@@ -22,23 +22,8 @@ pub(super) struct Covariance {
 impl Covariance {
     /// From the information matrix per unit noise variance; `None` if a parameter has no information.
     pub(super) fn new(information: &DMatrix<f64>, theta: &Parameters, noise_variance: f64) -> Option<Self> {
-        let p = information.nrows();
-        let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
-        if !scale.iter().all(|&s| s > 0.0) {
-            return None;
-        }
-        let mut gauge = DVector::zeros(p);
-        let (n, nb) = (theta.a.len(), theta.b.len());
-        for (i, b) in theta.b.iter().enumerate() {
-            gauge[n + i] = b * scale[n + i];
-        }
-        for (k, f) in theta.f.iter().enumerate() {
-            gauge[n + nb + k] = -f * scale[n + nb + k];
-        }
-        let gauge = gauge.normalize();
-        let mut scaled = DMatrix::from_fn(p, p, |i, j| information[(i, j)] / (scale[i] * scale[j]));
-        scaled.ger(1.0, &gauge, &gauge, 1.0);
-        for i in 0..p {
+        let (mut scaled, scale) = scaled_information(information, theta)?;
+        for i in 0..scale.len() {
             scaled[(i, i)] += 1e-13;
         }
         Some(Self { factor: scaled.cholesky()?, scale, noise_variance, meat: None })
@@ -69,6 +54,31 @@ impl Covariance {
         let coloured = self.meat.as_ref().map_or(0.0, |m| x.dot(&(m * &x)));
         white.max(coloured).max(0.0).sqrt()
     }
+}
+
+/// The information matrix with columns scaled to unit information and the null direction filled, and the scale; `None` if a parameter has
+/// no information.
+pub(super) fn scaled_information(
+    information: &DMatrix<f64>,
+    theta: &Parameters,
+) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let p = information.nrows();
+    let scale = DVector::from_fn(p, |i, _| information[(i, i)].sqrt());
+    if !scale.iter().all(|&s| s > 0.0) {
+        return None;
+    }
+    let mut gauge = DVector::zeros(p);
+    let (n, nb) = (theta.a.len(), theta.b.len());
+    for (i, b) in theta.b.iter().enumerate() {
+        gauge[n + i] = b * scale[n + i];
+    }
+    for (k, f) in theta.f.iter().enumerate() {
+        gauge[n + nb + k] = -f * scale[n + nb + k];
+    }
+    let gauge = gauge.normalize();
+    let mut scaled = DMatrix::from_fn(p, p, |i, j| information[(i, j)] / (scale[i] * scale[j]));
+    scaled.ger(1.0, &gauge, &gauge, 1.0);
+    Some((scaled, scale))
 }
 
 /// Which difference of knot values is set to one.
@@ -164,6 +174,30 @@ pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
         Quantity { value, derivative }
     });
     a.chain(b).chain(points).collect()
+}
+
+/// Standard errors of the gain and of both stationary outputs, by the delta method.
+pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance) -> LevelErrors {
+    let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
+    let (a_one, b_one) = (1.0 + theta.a.iter().sum::<f64>(), theta.b.iter().sum::<f64>());
+    let span = Span::of(&theta.f);
+    // `(B(1)·u + constant·c)/A(1)`, where `u` is a sum of knot values with signs.
+    let error = |u: f64, knots: &[(usize, f64)], constant: f64| {
+        let y = (b_one * u + constant * theta.c) / a_one;
+        let mut derivative = DVector::zeros(n + nb + m + 1);
+        derivative.rows_mut(0, n).fill(-y / a_one);
+        derivative.rows_mut(n, nb).fill(u / a_one);
+        for &(k, sign) in knots.iter().filter(|(k, _)| *k > 0) {
+            derivative[n + nb + k - 1] += sign * b_one / a_one;
+        }
+        derivative[n + nb + m] = constant / a_one;
+        covariance.standard_error(&derivative)
+    };
+    LevelErrors {
+        gain: error(span.value, &[(span.high, 1.0), (span.low, -1.0)], 0.0),
+        y_high: error(theta.f[m - 1], &[(m, 1.0)], 1.0),
+        y_low: error(0.0, &[], 1.0),
+    }
 }
 
 /// The fit as an [`Estimate`], standard errors by the delta method.

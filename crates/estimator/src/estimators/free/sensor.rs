@@ -1,6 +1,7 @@
 //! Sensor noise on the input, and the reversal threshold that it calls for.
 
 use super::branch::{ReversalRule, Timing};
+use super::settings::Settings;
 
 /// What the sensor of `v` adds to it, and what a move must exceed to count as a reversal.
 ///
@@ -53,19 +54,24 @@ impl SensorNoise {
         Self { sd, small_pairs, threshold }
     }
 
-    /// The rules worth trying, simplest first; a threshold or timing that the user gives is kept.
+    /// The rules worth trying, simplest first; a threshold or timing that the settings give is kept.
     ///
     /// On a noisy input the extremum of a rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
-    /// Beside the safe threshold a lower one is tried, since real loops may be small.
-    pub(super) fn rules(&self, threshold: Option<f64>, timing: Option<Timing>) -> Vec<ReversalRule> {
-        let thresholds = match threshold {
+    /// Beside the safe threshold a lower one is tried, since real loops may be small. A causal model has no choice but to switch
+    /// at the sample that confirms the reversal.
+    pub(super) fn rules(&self, settings: &Settings) -> Vec<ReversalRule> {
+        let thresholds = match settings.threshold {
             Some(threshold) => vec![threshold],
             None if self.small_pairs == 0.0 && self.sd > 0.0 => {
                 vec![self.threshold, LOW_THRESHOLD_IN_SD * self.sd]
             }
             None => vec![self.threshold],
         };
-        let timings = timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
+        if settings.causal {
+            let rule = |threshold| ReversalRule { threshold, band: 0.0, timing: Timing::AtConfirmation };
+            return thresholds.into_iter().map(rule).collect();
+        }
+        let timings = settings.timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
         let mut rules = Vec::new();
         for &threshold in &thresholds {
             for &timing in &timings {

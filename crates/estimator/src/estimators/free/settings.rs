@@ -32,6 +32,9 @@ pub struct Settings {
     pub timing: Option<Timing>,
     /// Working interval; the range of the records otherwise.
     pub interval: Option<Interval>,
+    /// Whether the model must be able to run in real time: `y(t)` from `v` up to `t` alone. A direct term (delay −1) may stay, no lag may
+    /// be negative, and a reversal takes effect once it is confirmed ([`Timing::AtConfirmation`], whatever `timing` says).
+    pub causal: bool,
     /// Whether to minimise the simulation error after the equation error.
     pub refine: bool,
 }
@@ -47,8 +50,14 @@ impl Settings {
             threshold: None,
             timing: None,
             interval: None,
+            causal: false,
             refine: true,
         }
+    }
+
+    /// Whether a model of this delay may be chosen: a delay below −1 weighs samples of `v` that lie ahead.
+    pub(super) fn allows(&self, delay: isize) -> bool {
+        !self.causal || delay >= -1
     }
 
     /// Refuses what makes no sense.
@@ -59,6 +68,9 @@ impl Settings {
                 refuse("order", n as f64, "from 1 to 20")
             }
             Self { delay: Some(d), .. } if d < -20 => refuse("delay", d as f64, "-20 or more"),
+            Self { delay: Some(d), .. } if !self.allows(d) => {
+                refuse("delay", d as f64, "-1 or more in a causal model")
+            }
             Self { knots: Some(k), .. } if !(2..=200).contains(&k) => {
                 refuse("knots", k as f64, "from 2 to 200")
             }

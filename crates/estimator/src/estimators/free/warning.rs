@@ -1,9 +1,6 @@
 //! Weak points of an identification, told rather than hidden.
 
-use super::basis::Basis;
-use super::normalise::{Span, has_gain};
-use super::problem::{Parameters, Structure};
-use super::sensor::SensorNoise;
+use crate::estimators::{BorderDistance, Coefficient, PlusMinus};
 use crate::hysteresis::Branch;
 use std::fmt;
 
@@ -50,6 +47,88 @@ pub enum Warning {
         /// By how many samples.
         samples: usize,
     },
+    /// The normal equations lose half of the digits of the arithmetic, or all of them.
+    IllConditioned {
+        /// Condition number of the information matrix with columns scaled to one; infinite if a parameter has no information.
+        condition: f64,
+    },
+    /// Nowhere do the two borders differ beyond their errors.
+    LoopVanished {
+        /// How far they lie apart.
+        distance: BorderDistance,
+    },
+    /// No coefficient that looks ahead is told from zero.
+    LeadNotTold {
+        /// Lag of the one most clearly told, negative.
+        lag: isize,
+        /// Its value, output units.
+        value: f64,
+        /// Its standard error.
+        se: f64,
+    },
+    /// `A(1)` or `B(1)` is not told from zero, so neither are the gain and the levels that follow from it.
+    GainNotTold {
+        /// `A` or `B`.
+        polynomial: char,
+        /// Its value at 1.
+        value: f64,
+        /// Its standard error.
+        se: f64,
+    },
+    /// A coefficient larger than the whole of its polynomial at 1 is not told from zero.
+    CarrierNotTold {
+        /// The coefficient.
+        coefficient: Coefficient,
+        /// The polynomial at 1.
+        sum: f64,
+    },
+}
+
+/// Half-width of a 95 % interval in standard errors of a normal estimate.
+const Z95: f64 = 1.959_963_984_540_054;
+
+/// A value with its 95 % interval.
+fn interval(value: f64, se: f64) -> PlusMinus {
+    PlusMinus::new(value, Z95 * se)
+}
+
+impl Warning {
+    /// One word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::SensorNoise { .. } => "sensor_noise",
+            Self::FewReversals { .. } => "few_reversals",
+            Self::SteepCell { .. } => "steep_cell",
+            Self::RarelyVisited { .. } => "rarely_visited",
+            Self::SpanIllDefined => "span_ill_defined",
+            Self::NegativeGain => "negative_gain",
+            Self::NoStationaryGain => "no_stationary_gain",
+            Self::LooksAhead { .. } => "looks_ahead",
+            Self::IllConditioned { .. } => "ill_conditioned",
+            Self::LoopVanished { .. } => "loop_vanished",
+            Self::LeadNotTold { .. } => "look_ahead_not_told",
+            Self::GainNotTold { .. } => "gain_not_told",
+            Self::CarrierNotTold { .. } => "coefficient_not_told",
+        }
+    }
+
+    /// The figure that decided: a threshold, a count, a share, or how many standard errors a number lies from zero.
+    pub fn figure(&self) -> Option<f64> {
+        match *self {
+            Self::SensorNoise { threshold } => Some(threshold),
+            Self::FewReversals { count } => Some(count as f64),
+            Self::SteepCell { share, .. } => Some(share),
+            Self::RarelyVisited { samples, .. } | Self::LooksAhead { samples } => Some(samples as f64),
+            Self::IllConditioned { condition } => Some(condition),
+            Self::LoopVanished { distance } => Some(distance.z),
+            Self::LeadNotTold { value, se, .. }
+            | Self::GainNotTold { value, se, .. }
+            | Self::CarrierNotTold { coefficient: Coefficient { value, se, .. }, .. } => {
+                Some(value.abs() / se)
+            }
+            Self::SpanIllDefined | Self::NegativeGain | Self::NoStationaryGain => None,
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -90,81 +169,44 @@ impl fmt::Display for Warning {
                     "the output leads the input by {samples} sample(s): the sensor of v lags, or y is filtered both ways"
                 )
             }
-        }
-    }
-}
-
-/// A knot with fewer samples beside it than this is reported.
-const FEW_SAMPLES: usize = 10;
-/// Share of the working interval up to which a threshold is that of rounding in arithmetic.
-const ROUNDING: f64 = 1e-12;
-/// Fewer reversals than this are reported.
-const FEW_REVERSALS: usize = 4;
-
-/// What the fit has to say against itself.
-#[derive(Debug)]
-pub(super) struct Examination<'a> {
-    pub(super) basis: &'a Basis,
-    pub(super) structure: Structure,
-    pub(super) theta: &'a Parameters,
-    pub(super) noise: SensorNoise,
-    pub(super) threshold: f64,
-    /// Width of the working interval.
-    pub(super) range: f64,
-    pub(super) reversals: usize,
-    /// Samples in the cells beside each knot.
-    pub(super) visits: Vec<usize>,
-}
-
-impl Examination<'_> {
-    pub(super) fn warnings(&self) -> Vec<Warning> {
-        let mut found = Vec::new();
-        // The last digits of a computed input are no news.
-        if self.noise.threshold > ROUNDING * self.range {
-            found.push(Warning::SensorNoise { threshold: self.threshold });
-        }
-        if self.basis.is_switched() && self.reversals < FEW_REVERSALS {
-            found.push(Warning::FewReversals { count: self.reversals });
-        }
-        let lead = self.structure.ahead();
-        if lead > 0 {
-            found.push(Warning::LooksAhead { samples: lead });
-        }
-        if !Span::of(&self.theta.f).is_papers {
-            found.push(Warning::SpanIllDefined);
-        }
-        if !has_gain(self.theta) {
-            found.push(Warning::NoStationaryGain);
-        } else if self.theta.b.iter().sum::<f64>() * Span::of(&self.theta.f).value < 0.0 {
-            found.push(Warning::NegativeGain);
-        }
-        self.curves(&mut found);
-        found
-    }
-
-    /// Steep cells and rarely visited knots, curve by curve. A straight line has neither.
-    fn curves(&self, found: &mut Vec<Warning>) {
-        let value = |k: usize| if k == 0 { 0.0 } else { self.theta.f[k - 1] };
-        let curves =
-            [(Branch::Descending, self.basis.descending()), (Branch::Ascending, self.basis.ascending())];
-        let mut first = 0;
-        for (curve, knots) in curves.into_iter().take(self.basis.sizes().count()) {
-            let values: Vec<f64> = (first..first + knots.len()).map(value).collect();
-            let (low, high) =
-                values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-            for j in 1..knots.len() {
-                let share = (values[j] - values[j - 1]).abs() / (high - low).max(f64::MIN_POSITIVE);
-                if knots.len() > 4 && share > 0.5 {
-                    found.push(Warning::SteepCell { curve, between: (knots[j - 1], knots[j]), share });
-                }
+            Self::IllConditioned { condition } if condition.is_finite() => write!(
+                out,
+                "the regression is ill-conditioned (condition number {condition:.1e}, where 6.7e7 costs half of the digits): single coefficients mean little, only the model as a whole; give a lower order or richer records"
+            ),
+            Self::IllConditioned { .. } => write!(
+                out,
+                "the regression is singular: the records leave a parameter open, so the coefficients and their errors mean nothing, only the model as a whole; give a lower order or richer records"
+            ),
+            Self::LoopVanished { distance } => {
+                let BorderDistance { clearest, z, limit, places, .. } = distance;
+                let percent = PlusMinus::new(100.0 * clearest.difference, 100.0 * Z95 * clearest.se);
+                write!(
+                    out,
+                    "the loop vanished: over the whole stroke ({places} places) the borders do not differ beyond their errors; the clearest difference, at {:.4}, is ({percent}) % of u_M − u_m, {z:.1} standard errors where {limit:.1} would tell",
+                    clearest.v
+                )
             }
-            for (j, &v) in knots.iter().enumerate() {
-                let samples = self.visits[first + j];
-                if samples < FEW_SAMPLES {
-                    found.push(Warning::RarelyVisited { curve, v, samples });
-                }
-            }
-            first += knots.len();
+            Self::LeadNotTold { lag, value, se } => write!(
+                out,
+                "the look-ahead term b{lag} = {} is not told from zero: a model that needs no look ahead says as much",
+                interval(*value, *se)
+            ),
+            Self::GainNotTold { polynomial: 'A', value, se } => write!(
+                out,
+                "A(1) = {} is not told from zero: the model may as well integrate, so the gain, the levels and y_high, y_low mean nothing",
+                interval(*value, *se)
+            ),
+            Self::GainNotTold { polynomial, value, se } => write!(
+                out,
+                "{polynomial}(1) = {} is not told from zero: its coefficients cancel, so the gain and the common level of the borders mean nothing",
+                interval(*value, *se)
+            ),
+            Self::CarrierNotTold { coefficient: Coefficient { letter, lag, value, se }, sum } => write!(
+                out,
+                "{letter}{lag} = {} is not told from zero, yet it is larger than {}(1) = {sum:.3e}, all that remains when the coefficients are added up: give a lower order or richer records",
+                interval(*value, *se),
+                letter.to_ascii_uppercase()
+            ),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::arrow::NotExcited;
 use super::data::PulseData;
-use crate::estimators::{BorderPoint, Estimate};
+use crate::estimators::{BorderPoint, Estimate, LevelErrors};
 use crate::hysteresis::Branch;
 use thiserror::Error;
 
@@ -28,6 +28,8 @@ pub struct PulseFit {
     pub noise_sd: f64,
     /// `F̂` at `(h_m, u_m)`.
     pub u_low: f64,
+    /// Standard errors of the gain and of the stationary outputs at both ends.
+    pub level_errors: LevelErrors,
 }
 
 /// Why a method has no estimate to give.

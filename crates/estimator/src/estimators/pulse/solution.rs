@@ -7,6 +7,7 @@ use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
 use super::lanes::{Answer, LaneControl, ProfilePlan};
 use super::score::{Covariance, ErrorTerms};
+use crate::estimators::LevelErrors;
 use crate::hysteresis::Branch;
 use nalgebra::DVector;
 
@@ -70,6 +71,8 @@ pub(crate) struct Solution {
     reference: f64,
     points: Vec<usize>,
     quantities: Vec<Quantity>,
+    /// The gain, `y` held at `u_M` and at `u_m`.
+    levels: [Quantity; 3],
     u_low: f64,
 }
 
@@ -107,13 +110,18 @@ impl Solution {
             Level::Step(_) => Some(fit.response_to_constant(&experiments.statistics, &columns)),
         };
         let a_at_one = 1.0 + fit.core.rows(0, n).sum();
-        let quantities = coefficients
-            .chain(border_points)
-            .map(|(value, gradient, direct)| {
-                let step_slope = through.as_ref().map_or(0.0, |r| direct - a_at_one * r.along(&gradient));
-                Quantity { value, gradient, step_slope }
-            })
-            .collect();
+        let quantity = |(value, gradient, direct): (f64, Gradient, f64)| {
+            let step_slope = through.as_ref().map_or(0.0, |r| direct - a_at_one * r.along(&gradient));
+            Quantity { value, gradient, step_slope }
+        };
+        let quantities = coefficients.chain(border_points).map(quantity).collect();
+        let gain = b_at_one / a_at_one;
+        let mut of_gain = DVector::zeros(fit.core.len());
+        of_gain.rows_mut(0, n).fill(-gain / a_at_one);
+        of_gain.rows_mut(n, n).fill(1.0 / a_at_one);
+        let held = |u: f64| (gain * u, &base.core * gain + &of_gain * u, gain * base.step);
+        let levels = [(gain, of_gain.clone(), 0.0), held(u_low + 1.0), held(u_low)]
+            .map(|(value, core, direct)| quantity((value, Gradient { core, local: Vec::new() }, direct)));
         Ok(Self {
             columns,
             fit,
@@ -122,6 +130,7 @@ impl Solution {
             reference: experiments.reference,
             points,
             quantities,
+            levels,
             u_low,
         })
     }
@@ -136,19 +145,20 @@ impl Solution {
                 self.fit.variance / (a_at_one * a_at_one * step.samples)
             }
         };
-        let mut estimated = self.quantities.iter().map(|quantity| {
+        let se = |quantity: &Quantity| {
             let through_step = quantity.step_slope * quantity.step_slope * step_variance;
-            Estimated {
-                value: quantity.value,
-                se: (self.fit.variance_of(&quantity.gradient) + through_step).sqrt(),
-            }
-        });
+            (self.fit.variance_of(&quantity.gradient) + through_step).sqrt()
+        };
+        let [gain, y_high, y_low] = self.levels.each_ref().map(se);
+        let mut estimated =
+            self.quantities.iter().map(|quantity| Estimated { value: quantity.value, se: se(quantity) });
         PulseFit {
             a: estimated.by_ref().take(n).collect(),
             b: estimated.by_ref().take(n).collect(),
             borders: self.points.iter().map(|&m| estimated.by_ref().take(m).collect()).collect(),
             noise_sd: self.fit.variance.sqrt(),
             u_low: self.u_low,
+            level_errors: LevelErrors { gain, y_high, y_low },
         }
     }
 

@@ -1,0 +1,207 @@
+//! `switchback design --order 2 --points 8 --interval -40,40 --rate 100 --out DIR` and `switchback design --from RIG --precision P`
+
+use crate::design::{self, DesignError, Forecast, Length, Outlook, Plan, PlanMethod, Report, Request, Truth};
+use crate::failure::{CommandResult, Outcome};
+use crate::options::{Force, Quiet};
+use crate::rig;
+use std::path::{Path, PathBuf};
+use switchback_estimator::excitation::Campaign;
+use switchback_estimator::hysteresis::Interval;
+use switchback_estimator::rig::Rig;
+
+/// Write the experiments that identify a system: inputs to play, and the rig.toml that waits for the outputs.
+///
+/// With `--from RIG`, tell how long to measure: every parameter's standard error against the number of samples, predicted for
+/// the system and the noise found on that rig.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Order of the linear part [default with --from: that of the rig].
+    #[arg(long, value_name = "N", required_unless_present = "from", value_parser = clap::value_parser!(u8).range(1..=20))]
+    order: Option<u8>,
+
+    /// Levels to visit on each border [default: 8; with --from, those of the rig].
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(1..))]
+    points: Option<u16>,
+
+    /// Working interval of the input, input units.
+    #[arg(long, value_name = "LO,HI", required_unless_present = "from", conflicts_with = "from", allow_hyphen_values = true, value_parser = working_interval)]
+    interval: Option<Interval>,
+
+    /// Samples a second.
+    #[arg(long, value_name = "HZ", required_unless_present = "from", conflicts_with = "from", value_parser = positive)]
+    rate: Option<f64>,
+
+    /// Plan for the system and the noise of this rig: its designed experiments, or else its free records.
+    #[arg(long, value_name = "RIG.toml")]
+    from: Option<PathBuf>,
+
+    /// Measure until no border point has a larger standard error, as a share of u_M − u_m: 0.01 or 1%.
+    #[arg(long, value_name = "P", requires = "from", conflicts_with_all = ["periods", "duration", "free_only"], value_parser = share)]
+    precision: Option<f64>,
+
+    /// Method to predict for.
+    #[arg(long, value_enum, requires = "from", default_value_t = PlanMethod::Efficient)]
+    method: PlanMethod,
+
+    /// Periods of each pulse experiment [default: 100].
+    #[arg(long, value_name = "K", conflicts_with = "duration")]
+    periods: Option<u32>,
+
+    /// Seconds of all records together, instead of --periods.
+    #[arg(long, value_name = "S", value_parser = positive)]
+    duration: Option<f64>,
+
+    /// Smallest and largest move of the free records, input units [default: 2 % of the interval, all of it].
+    #[arg(long, value_name = "MIN,MAX", value_parser = two_numbers)]
+    amplitude: Option<[f64; 2]>,
+
+    /// What the actuator can do, input units a second; refuses experiments that need more.
+    #[arg(long, value_name = "SPEED", value_parser = positive)]
+    max_speed: Option<f64>,
+
+    /// Leave the designed experiments out and write the free records only.
+    #[arg(long)]
+    free_only: bool,
+
+    /// Seed of the free records.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Label and unit of the input, as in "travel [mm]" [default: that of the rig].
+    #[arg(long, value_name = "LABEL")]
+    input: Option<String>,
+
+    /// Label and unit of the output, as in "force [N]" [default: that of the rig].
+    #[arg(long, value_name = "LABEL")]
+    output: Option<String>,
+
+    /// Name of the rig to be measured [default: that of the folder].
+    #[arg(long)]
+    name: Option<String>,
+
+    /// Folder for the records and rig.toml.
+    #[arg(long, value_name = "DIR", required_unless_present = "from")]
+    out: Option<PathBuf>,
+
+    /// Print one JSON object instead of words.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// Plans, predicts, writes the folder, prints.
+///
+/// # Errors
+/// Experiments that cannot be, a rig that cannot be planned from, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
+    let request = request(args, source.as_ref())?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let (plan, outlook) = match source {
+        Some(source) => foresee(args, request, source.truth)?,
+        None => (Plan::new(request, length(args))?, None),
+    };
+    if let Some(folder) = folder {
+        folder.commit(&design::artefacts(&plan))?;
+    }
+    let folder = args.out.as_ref().map(|folder| folder.display().to_string());
+    let report = Report { plan, outlook, folder };
+    args.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
+    Ok(Outcome::Done)
+}
+
+/// The rig to plan from, and what it says of the system.
+struct Source {
+    rig: Rig,
+    truth: Truth,
+}
+
+impl Source {
+    fn read(args: &Args, file: &Path) -> Result<Self, DesignError> {
+        let mut rig = rig::read(file)?;
+        rig.order = args.order.map(usize::from).or(rig.order);
+        let truth = Truth::of(&rig, file)?;
+        Ok(Self { rig, truth })
+    }
+}
+
+/// What is asked for, completed from the rig.
+fn request(args: &Args, source: Option<&Source>) -> Result<Request, miette::Report> {
+    let known = source.map(|s| (s.truth.hysteresis.interval(), s.rig.sample_time, s.truth.system.order()));
+    let given = args.interval.zip(args.rate).zip(args.order);
+    let (interval, sample_time, order) = known
+        .or(given.map(|((interval, rate), order)| (interval, 1.0 / rate, usize::from(order))))
+        .ok_or_else(|| miette::miette!("give --order, --interval and --rate, or --from RIG.toml"))?;
+    let label = |given: &Option<String>, of_rig: fn(&Rig) -> &str, default: &str| {
+        given.clone().unwrap_or_else(|| source.map_or(default, |s| of_rig(&s.rig)).to_owned())
+    };
+    let folder =
+        args.out.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+    Ok(Request {
+        name: args.name.clone().or(folder).unwrap_or_else(|| "planned".to_owned()),
+        order,
+        points: args.points.map(usize::from).or(source.map(|s| s.truth.points)).unwrap_or(8),
+        interval,
+        sample_time,
+        labels: [
+            label(&args.input, |rig| &rig.input_label, "input v"),
+            label(&args.output, |rig| &rig.output_label, "output y"),
+        ],
+        amplitude: args.amplitude,
+        max_speed: args.max_speed,
+        free_only: args.free_only,
+        seed: args.seed,
+    })
+}
+
+/// Where no length is given, the default one.
+fn length(args: &Args) -> Length {
+    match (args.duration, args.periods) {
+        (Some(seconds), _) => Length::Duration(seconds),
+        (None, Some(periods)) => Length::Periods(periods as usize),
+        (None, None) => Length::Periods(design::DEFAULT_PERIODS),
+    }
+}
+
+/// The plan, as long as the precision wanted needs, and what is predicted of it.
+fn foresee(args: &Args, request: Request, truth: Truth) -> Result<(Plan, Option<Outlook>), DesignError> {
+    let sketch = Campaign::new(request.interval, request.order, request.points, Campaign::FEWEST_PERIODS)?;
+    let forecast = Forecast::new(&truth, sketch.pulses(), args.method)?;
+    let length = args.precision.map_or_else(|| length(args), |p| Length::Periods(forecast.periods_for(p)));
+    let plan = Plan::new(request, length)?;
+    Ok((plan, Some(Outlook { truth, forecast, wanted: args.precision })))
+}
+
+fn two_numbers(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse().map_err(|_| format!("`{}` is no number", part.trim())))
+        .collect::<Result<_, _>>()?;
+    <[f64; 2]>::try_from(numbers)
+        .map_err(|_| "give two numbers with a comma between them, as in -40,40".to_owned())
+}
+
+fn working_interval(text: &str) -> Result<Interval, String> {
+    let [low, high] = two_numbers(text)?;
+    Interval::new(low, high).map_err(|error| error.to_string())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("give a positive number".to_owned()),
+    }
+}
+
+/// `0.01`, `1%` or `1 %`.
+fn share(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%') {
+        Some(percent) => positive(percent.trim()).map(|number| number / 100.0),
+        None => positive(text),
+    }
+}

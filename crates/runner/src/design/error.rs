@@ -1,0 +1,90 @@
+//! Why there is no design.
+
+use crate::identification::IdentificationError;
+use crate::rig::RigError;
+use miette::Diagnostic;
+use switchback_estimator::estimators::pulse::PulseFitError;
+use switchback_estimator::excitation::ExcitationError;
+use thiserror::Error;
+
+/// Why no experiment was designed. Each message says what to change.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum DesignError {
+    /// The rig to plan from cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Rig(#[from] RigError),
+    /// The rig to plan from cannot be identified.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Identification(#[from] IdentificationError),
+    /// An experiment is refused.
+    #[error(transparent)]
+    Excitation(#[from] ExcitationError),
+    /// The system identified is none that an experiment can be planned for.
+    #[error("{rig}: no experiment can be planned for the system identified from it: {reason}")]
+    #[diagnostic(help(
+        "give `--order`, check the rig with `switchback identify {rig}`, or design without it: `--order --interval --rate`"
+    ))]
+    NoSystem {
+        /// The rig file.
+        rig: String,
+        /// What is wrong with the system.
+        reason: String,
+    },
+    /// The experiments would not determine the system.
+    #[error("{method} cannot identify this system from these experiments: {source}")]
+    #[diagnostic(help("give a lower `--order`"))]
+    NotExcited {
+        /// The method planned for.
+        method: &'static str,
+        /// What it says.
+        source: PulseFitError,
+    },
+    /// The actuator is too slow for one-sample visits.
+    #[error(
+        "the pulse experiments move {width} within one sample of {sample_time} s, at {needed:.6}/s, but `--max-speed` is {limit}"
+    )]
+    #[diagnostic(help(
+        "lower `--rate` to {rate:.4} Hz or less, or narrow `--interval`; or play the free records alone with `--free-only`"
+    ))]
+    TooFast {
+        /// The whole interval, input units.
+        width: f64,
+        /// Seconds between samples.
+        sample_time: f64,
+        /// Speed needed, input units a second.
+        needed: f64,
+        /// Speed allowed.
+        limit: f64,
+        /// Highest rate at which the interval can be crossed within a sample, Hz.
+        rate: f64,
+    },
+    /// The campaign does not fit into the time given.
+    #[error(
+        "`--duration {given}` s is too short: {needed:.1} s are needed for {fewest} periods of each pulse experiment"
+    )]
+    #[diagnostic(help("give at least that, or fewer `--points`"))]
+    TooShort {
+        /// Seconds given.
+        given: f64,
+        /// Seconds needed.
+        needed: f64,
+        /// The fewest periods.
+        fewest: usize,
+    },
+    /// The campaign is too long to be written.
+    #[error(
+        "each pulse experiment would have {samples:.3e} samples ({seconds:.3e} s), more than the {most:.0e} that a file should hold"
+    )]
+    #[diagnostic(help("ask for less `--precision`, or a shorter campaign"))]
+    TooLong {
+        /// Samples of each pulse experiment.
+        samples: f64,
+        /// Their duration.
+        seconds: f64,
+        /// The most allowed.
+        most: f64,
+    },
+}

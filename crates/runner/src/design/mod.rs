@@ -1,0 +1,42 @@
+//! The design of experiments: which inputs to play, and how long to measure for a wanted precision.
+//!
+//! A [`Plan`] is a campaign in physical time; its files are [`artefacts`]. Where a rig was measured already, a [`Truth`] identified from it
+//! lets a [`Forecast`] predict the standard errors of any such campaign.
+
+mod artefacts;
+mod error;
+mod forecast;
+mod json;
+mod plan;
+mod truth;
+mod words;
+
+pub use artefacts::artefacts;
+pub use error::DesignError;
+pub use forecast::{Forecast, PlanMethod, Prediction};
+pub use json::json;
+pub use plan::{DEFAULT_PERIODS, Length, Plan, Request};
+pub use truth::Truth;
+pub use words::words;
+
+/// What a run of `switchback design` has to tell.
+#[derive(Debug)]
+pub struct Report {
+    /// The plan.
+    pub plan: Plan,
+    /// What is predicted of it; none where nothing is known of the system.
+    pub outlook: Option<Outlook>,
+    /// The folder that it was written to.
+    pub folder: Option<String>,
+}
+
+/// A forecast with the question it answers.
+#[derive(Debug)]
+pub struct Outlook {
+    /// What the forecast was made from.
+    pub truth: Truth,
+    /// The forecast.
+    pub forecast: Forecast,
+    /// The wanted standard error of the worst border point, as a share of `u_M − u_m`.
+    pub wanted: Option<f64>,
+}

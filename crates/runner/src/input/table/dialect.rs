@@ -1,0 +1,145 @@
+//! How a text separates its cells and writes its numbers.
+
+use super::cell::{self, Cell, Decimal};
+use super::lines::{Delimiter, is_idle, numbered};
+use std::collections::HashMap;
+
+/// How a text separates its cells and writes its numbers, and what its rows look like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Dialect {
+    pub(super) delimiter: Delimiter,
+    pub(super) decimal: Decimal,
+    /// Cells of a row.
+    pub(super) width: usize,
+    /// Cells of a typical row that are text.
+    texts: usize,
+}
+
+/// In the order of preference where several read the text equally well. Blanks come last, since they surround other signs too; commas
+/// that separate and are decimal can only be told apart by quotation marks.
+const CANDIDATES: [(Delimiter, Decimal); 10] = [
+    (Delimiter::Sign('\t'), Decimal::Point),
+    (Delimiter::Sign('\t'), Decimal::Comma),
+    (Delimiter::Sign(';'), Decimal::Point),
+    (Delimiter::Sign(';'), Decimal::Comma),
+    (Delimiter::Sign('|'), Decimal::Point),
+    (Delimiter::Sign('|'), Decimal::Comma),
+    (Delimiter::Sign(','), Decimal::Point),
+    (Delimiter::Sign(','), Decimal::Comma),
+    (Delimiter::Blanks, Decimal::Point),
+    (Delimiter::Blanks, Decimal::Comma),
+];
+
+/// Lines looked at, and how many of them, the last, count: what stands above the table is among the others.
+const LOOKED_AT: usize = 2000;
+const COUNTED: usize = 400;
+
+impl Dialect {
+    /// The dialect in which most cells of the text are numbers; none where no two columns of numbers appear in any.
+    pub(super) fn of(text: &str) -> Option<Self> {
+        let lines: Vec<&str> =
+            numbered(text).map(|(_, line)| line).filter(|line| !is_idle(line)).take(LOOKED_AT).collect();
+        let counted = &lines[lines.len().saturating_sub(COUNTED)..];
+        let mut best: Option<(f64, Self)> = None;
+        for (delimiter, decimal) in CANDIDATES {
+            if let Some((score, dialect)) = judged(counted, delimiter, decimal)
+                && best.as_ref().is_none_or(|(most, _)| score > *most)
+            {
+                best = Some((score, dialect));
+            }
+        }
+        best.map(|(_, dialect)| dialect)
+    }
+
+    /// Whether cells could be a row of the table, rather than its header or what stands above.
+    pub(super) fn is_row(&self, cells: &[&str]) -> bool {
+        let count = Count::of(cells, self.decimal);
+        cells.len() == self.width && count.numbers >= 1 && count.texts <= self.texts
+    }
+
+    /// Whether most cells are words, as in a header.
+    pub(super) fn is_wordy(&self, cells: &[&str]) -> bool {
+        let count = Count::of(cells, self.decimal);
+        count.texts > count.numbers
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Count {
+    numbers: usize,
+    texts: usize,
+}
+
+impl Count {
+    fn of(cells: &[&str], decimal: Decimal) -> Self {
+        let read = cells.iter().map(|text| cell::read(text, decimal));
+        read.fold(Self { numbers: 0, texts: 0 }, |Self { numbers, texts }, cell| match cell {
+            Cell::Number(_) | Cell::Stamp(_) => Self { numbers: numbers + 1, texts },
+            Cell::Text => Self { numbers, texts: texts + 1 },
+            Cell::Missing => Self { numbers, texts },
+        })
+    }
+}
+
+/// The mean share of numbers among the cells that say something, over lines of the commonest width.
+fn judged(lines: &[&str], delimiter: Delimiter, decimal: Decimal) -> Option<(f64, Dialect)> {
+    let mut cells = Vec::new();
+    let mut counts: Vec<(usize, Count)> = Vec::with_capacity(lines.len());
+    for line in lines {
+        delimiter.split(line, &mut cells);
+        let count = Count::of(&cells, decimal);
+        if cells.len() >= 2 && count.numbers >= 1 {
+            counts.push((cells.len(), count));
+        }
+    }
+    let mut widths: HashMap<usize, usize> = HashMap::new();
+    for (width, _) in &counts {
+        *widths.entry(*width).or_default() += 1;
+    }
+    let (&width, _) = widths.iter().max_by_key(|(width, times)| (**times, **width))?;
+    let rows: Vec<Count> = counts.into_iter().filter(|(w, _)| *w == width).map(|(_, count)| count).collect();
+    let share = |count: &Count| count.numbers as f64 / (count.numbers + count.texts) as f64;
+    let score = rows.iter().map(share).sum::<f64>() / lines.len() as f64;
+    let mut texts: Vec<usize> = rows.iter().map(|count| count.texts).collect();
+    texts.sort_unstable();
+    let texts = texts[texts.len() / 2];
+    let has_two = rows.iter().any(|count| count.numbers >= 2);
+    has_two.then_some((score, Dialect { delimiter, decimal, width, texts }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn read_as(text: &str, delimiter: Delimiter, decimal: Decimal, width: usize) {
+        let dialect = Dialect::of(text).expect("a table");
+        assert_eq!(
+            (dialect.delimiter, dialect.decimal, dialect.width),
+            (delimiter, decimal, width),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn signs_and_decimals_are_recognised() {
+        read_as("t,v\n0.1,2\n0.2,3\n", Delimiter::Sign(','), Decimal::Point, 2);
+        read_as("t;v\n0,1;2,5\n0,2;3\n", Delimiter::Sign(';'), Decimal::Comma, 2);
+        read_as("0.1, 2.0, 3\n0.2, 3.0, 4\n", Delimiter::Sign(','), Decimal::Point, 3);
+        read_as("0,1\t2,5\n0,2\t3\n", Delimiter::Sign('\t'), Decimal::Comma, 2);
+        read_as("0,1   2,5\n0,2   3\n", Delimiter::Blanks, Decimal::Comma, 2);
+        read_as("\"0,1\",\"2,5\"\n\"0,2\",\"3\"\n", Delimiter::Sign(','), Decimal::Comma, 2);
+        read_as("1,2,OK\n2,3,OK\n", Delimiter::Sign(','), Decimal::Point, 3);
+        read_as(
+            "2024-01-01 10:00:00;1,5\n2024-01-01 10:00:01;2,5\n",
+            Delimiter::Sign(';'),
+            Decimal::Comma,
+            2,
+        );
+    }
+
+    #[test]
+    fn prose_is_no_table() {
+        assert_eq!(Dialect::of("This is\na letter, nothing more.\n"), None);
+    }
+}

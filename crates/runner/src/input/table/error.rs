@@ -1,0 +1,159 @@
+//! What can be wrong in a file of measurements.
+
+use miette::Diagnostic;
+use std::fmt::{self, Display};
+use thiserror::Error;
+
+/// Something in a file of measurements is wrong: file, place, what, and the remedy.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub struct DataError {
+    /// The file.
+    pub path: String,
+    /// Where in it.
+    pub place: Option<Place>,
+    /// What is wrong there.
+    pub problem: DataProblem,
+}
+
+/// A place in a file of measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Line of a text file, from 1.
+    Line(u64),
+    /// Row of the arrays of a binary file, from 1.
+    Row(u64),
+}
+
+/// What is wrong in a file of measurements.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs, reason = "the messages explain the fields")]
+pub enum DataProblem {
+    #[error("the file is empty")]
+    Empty,
+    #[error("no table was found: there are no rows with numbers in at least two columns")]
+    NoTable,
+    #[error("the file cannot be read as MATLAB data: {reason}")]
+    NotMatlab { reason: String },
+    #[error("the header has {found} cells, the rows {expected}")]
+    HeaderWidth { found: usize, expected: usize },
+    #[error("the row has {found} cells, but the table has {expected} columns")]
+    Ragged { found: usize, expected: usize },
+    #[error("there is no column `{asked}`; the columns are {known}")]
+    UnknownColumn { asked: String, known: String, meant: Option<String> },
+    #[error("the column `{column}` stands {times} times in the header")]
+    DuplicateColumn { column: String, times: usize },
+    #[error("the column `{column}` is asked for as {first} and as {second}")]
+    SameColumn { column: String, first: &'static str, second: &'static str },
+    #[error("the column `{found}` is not known, but looks like `{meant}`")]
+    LookAlike { found: String, meant: &'static str },
+    #[error("which column is {role} cannot be told; the columns are {known}")]
+    Doubtful { role: String, known: String, remedy: String },
+    #[error("column `{column}`: the cell is empty or NaN")]
+    EmptyCell { column: String, is_prediction: bool },
+    #[error("column `{column}`: `{cell}` is not a number")]
+    NotANumber { column: String, cell: String },
+    #[error("column `{column}`: `{cell}` is not an ISO 8601 time as in the rows above")]
+    NotAStamp { column: String, cell: String },
+    #[error("column `{column}`: `{cell}` is not finite")]
+    NotFinite { column: String, cell: String },
+    #[error("column `{column}`: {count} more cells like this")]
+    More { column: String, count: usize },
+    #[error("column `{column}`: the time stamp {now} does not lie after the one before it, {before}")]
+    NotIncreasing { column: String, before: f64, now: f64 },
+    #[error(
+        "column `{column}`: {before} is followed by {now}, a step of {step} s where the sample time is {sample_time} s"
+    )]
+    Gap { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
+    #[error(
+        "column `{column}`: uneven sampling: {before} is followed by {now}, a step of {step} s where the typical one is {sample_time} s"
+    )]
+    Uneven { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
+    #[error(
+        "column `{column}`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s"
+    )]
+    OtherSampleTime { column: String, mean_step: f64, sample_time: f64 },
+    #[error("the sample time is not known: {reason}")]
+    NoSampleTime { reason: String, remedy: String },
+    #[error("the sample time is {here} s here, but {there} s in {other}")]
+    SampleTimesDiffer { here: f64, there: f64, other: String },
+    #[error("the column is `{here}` here, but `{there}` in {other}")]
+    UnitsDiffer { here: String, there: String, other: String },
+    #[error("the input `{column}` never moves, in this file nor in any other that is fitted")]
+    NeverMoves { column: String },
+    #[error(
+        "cut, the record leaves {fitted} samples to fit and {held_out} held out; each side needs at least {needed} in one piece"
+    )]
+    CutTooShort { fitted: usize, held_out: usize, needed: usize },
+    #[error("the record has {found} samples; at least {needed} are needed")]
+    TooShort { found: usize, needed: usize },
+    #[error(
+        "dropouts cut the {rows} rows into pieces so short that {left} rows are left in usable ones (of {needed} samples or more)"
+    )]
+    Shattered { rows: usize, left: usize, needed: usize },
+}
+
+impl DataProblem {
+    /// What the user can do about it.
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Empty | Self::NoTable => {
+                "a file of measurements has one row a sample, with the input and the output in two columns; commas, semicolons, tabs, bars or blanks between them".to_owned()
+            }
+            Self::NotMatlab { .. } => "save it from MATLAB with `save -v7.3 FILE NAMES`, or as CSV with `writetable`".to_owned(),
+            Self::HeaderWidth { .. } => "give every column its name in the header, and none to spare".to_owned(),
+            Self::Ragged { .. } => {
+                "give every row one cell a column; a decimal comma would split a number in two where commas separate columns".to_owned()
+            }
+            Self::UnknownColumn { meant: Some(meant), .. } => format!("did you mean `{meant}`?"),
+            Self::UnknownColumn { .. } => "give one of these names, its unit may be left out, or the column's number".to_owned(),
+            Self::DuplicateColumn { .. } => "give the column's number instead of its name, or rename one of them".to_owned(),
+            Self::SameColumn { .. } => "give two columns".to_owned(),
+            Self::LookAlike { meant, .. } => {
+                format!("write `{meant}` if that is meant, else give the column another name")
+            }
+            Self::EmptyCell { is_prediction: true, .. } => {
+                "a prediction must cover every sample: fill the gap, or leave the column y_sim out".to_owned()
+            }
+            Self::EmptyCell { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
+            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } | Self::More { .. } => {
+                "write a finite number, or leave the cell empty where nothing was measured".to_owned()
+            }
+            Self::NotIncreasing { .. } => {
+                "sort the rows by time and remove repeated ones; give runs that start anew files of their own; where stamps are too coarse to tell the rows apart, use `--time none` with `--rate HZ`".to_owned()
+            }
+            Self::Gap { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
+            Self::Uneven { .. } => {
+                "add `--resample` (`resample = true` in a rig file) to interpolate linearly to the typical step, or `--time none --rate HZ` if the stamps, not the samples, are uneven".to_owned()
+            }
+            Self::OtherSampleTime { mean_step, .. } => {
+                format!("write `sample_time = {mean_step}` (`--sample-time {mean_step}`), or leave it out: the time column tells it")
+            }
+            Self::SampleTimesDiffer { .. } => "diagnose records of different sample times one by one, or resample them to one".to_owned(),
+            Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
+            Self::NeverMoves { column } => format!("fit to records in which `{column}` rises and falls; check that the column holds the input"),
+            Self::CutTooShort { .. } => "take a longer record, or hold out another file (`--holdout FILE`, in a rig file `use = \"holdout\"`)".to_owned(),
+            Self::Doubtful { remedy, .. } | Self::NoSampleTime { remedy, .. } => remedy.clone(),
+            Self::TooShort { .. } => {
+                "take a longer record; the fit needs more samples than there are coefficients".to_owned()
+            }
+            Self::Shattered { .. } => "check the time column, or add `--resample` (`resample = true` in a rig file) to interpolate".to_owned(),
+        }
+    }
+}
+
+impl Display for DataError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.place {
+            Some(Place::Line(line)) => write!(f, "{}:{line}: {}", self.path, self.problem),
+            Some(Place::Row(row)) => write!(f, "{}, row {row}: {}", self.path, self.problem),
+            None => write!(f, "{}: {}", self.path, self.problem),
+        }
+    }
+}
+
+impl Diagnostic for DataError {
+    fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        Some(Box::new(self.problem.remedy()))
+    }
+}

@@ -1,0 +1,108 @@
+//! The lines of a text, whatever ends them, and their cells.
+
+/// Lines with their number, from 1. Lines end in LF, CRLF or, where the text has no LF, in CR.
+pub(super) fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let lines = text.split(end).map(|line| line.strip_suffix('\r').unwrap_or(line));
+    (1..).zip(lines)
+}
+
+/// Whether a line holds no cells: blank, or a comment.
+pub(super) fn is_idle(line: &str) -> bool {
+    let line = line.trim_start();
+    line.is_empty() || is_comment(line)
+}
+
+pub(super) fn is_comment(line: &str) -> bool {
+    let line = line.trim_start();
+    line.starts_with(['#', '%']) || line.starts_with("//")
+}
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Delimiter {
+    Sign(char),
+    Blanks,
+}
+
+impl Delimiter {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Sign(';') => "semicolons",
+            Self::Sign('\t') => "tabs",
+            Self::Sign('|') => "bars",
+            Self::Sign(_) => "commas",
+            Self::Blanks => "blanks",
+        }
+    }
+
+    /// Splits a line into its cells, trimmed and without quotation marks; `cells` is emptied first.
+    pub(super) fn split<'t>(self, line: &'t str, cells: &mut Vec<&'t str>) {
+        cells.clear();
+        let mut rest = line.trim_matches(|c: char| c.is_whitespace() && Self::Sign(c) != self);
+        loop {
+            let (cell, after) = self.first(rest);
+            cells.push(cell);
+            match after {
+                Some(after) => rest = after,
+                None => return,
+            }
+        }
+    }
+
+    /// The first cell, and what stands behind the delimiter that ends it.
+    fn first(self, line: &str) -> (&str, Option<&str>) {
+        let start = line.trim_start_matches(|c: char| c.is_whitespace() && Self::Sign(c) != self);
+        if let Some(quoted) = start.strip_prefix('"')
+            && let Some(end) = quoted.find('"')
+        {
+            let rest = quoted[end + 1..].trim_start_matches(' ');
+            return (quoted[..end].trim(), self.behind(rest, &quoted[end + 1..]));
+        }
+        match self {
+            Self::Sign(sign) => match start.split_once(sign) {
+                Some((cell, after)) => (cell.trim(), Some(after)),
+                None => (start.trim(), None),
+            },
+            Self::Blanks => match start.split_once([' ', '\t']) {
+                Some((cell, after)) => (cell, Some(after).filter(|after| !after.trim().is_empty())),
+                None => (start, None),
+            },
+        }
+    }
+
+    fn behind<'t>(self, rest: &'t str, unskipped: &'t str) -> Option<&'t str> {
+        match self {
+            Self::Sign(sign) => rest.strip_prefix(sign),
+            Self::Blanks => Some(unskipped).filter(|rest| !rest.trim().is_empty()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells(delimiter: Delimiter, line: &str) -> Vec<&str> {
+        let mut cells = Vec::new();
+        delimiter.split(line, &mut cells);
+        cells
+    }
+
+    #[test]
+    fn lines_end_in_any_of_three_ways() {
+        for text in ["a\nb", "a\r\nb", "a\rb"] {
+            assert_eq!(numbered(text).collect::<Vec<_>>(), [(1, "a"), (2, "b")]);
+        }
+    }
+
+    #[test]
+    fn cells_are_split_trimmed_and_unquoted() {
+        assert_eq!(cells(Delimiter::Sign(','), " 1, 2 ,3"), ["1", "2", "3"]);
+        assert_eq!(cells(Delimiter::Sign(','), "\"1,5\",\"a b\" ,"), ["1,5", "a b", ""]);
+        assert_eq!(cells(Delimiter::Sign('\t'), "1\t\t3"), ["1", "", "3"]);
+        assert_eq!(cells(Delimiter::Sign('\t'), "\t2\t3"), ["", "2", "3"]);
+        assert_eq!(cells(Delimiter::Blanks, "  1  2 \t3 "), ["1", "2", "3"]);
+        assert_eq!(cells(Delimiter::Blanks, "\"load cell\" 2"), ["load cell", "2"]);
+    }
+}

@@ -1,0 +1,186 @@
+//! A file of measurements as named columns of numbers, whatever its dialect.
+//!
+//! Recognised without being told: what separates cells, decimal commas, the header and a row of units, what stands above the table,
+//! comments (`#`, `%`, `//`), missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be told.
+
+mod body;
+mod cell;
+mod dialect;
+mod error;
+mod head;
+mod lines;
+pub(crate) mod unit;
+
+pub use error::{DataError, DataProblem, Place};
+
+use super::decode::read_decoded;
+use super::text_file::FileError;
+use dialect::Dialect;
+use head::Head;
+use lines::Delimiter;
+use std::path::Path;
+
+/// A file's columns, all of the same length.
+#[derive(Debug, Clone)]
+pub(crate) struct Table {
+    /// The file, as messages call it.
+    pub(crate) path: String,
+    /// In the order of the file.
+    pub(crate) columns: Vec<Column>,
+    /// Where each row stands.
+    pub(crate) places: Vec<Place>,
+    /// Whether the names of the columns are the file's own.
+    pub(crate) has_header: bool,
+    /// What was recognised and is not how such files usually look.
+    pub(crate) notes: Vec<String>,
+    /// Rows that could not be read.
+    pub(crate) faults: Vec<DataError>,
+}
+
+/// One column.
+#[derive(Debug, Clone)]
+pub(crate) struct Column {
+    /// Its name without the unit; `column 2` where the file has no header.
+    pub(crate) name: String,
+    pub(crate) unit: Option<String>,
+    pub(crate) kind: Kind,
+    /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
+    pub(crate) values: Vec<f64>,
+    /// The first cells that are neither a value nor missing.
+    pub(crate) faults: Vec<Fault>,
+    /// How many such cells there are.
+    pub(crate) fault_count: usize,
+}
+
+/// What the cells of a column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Number,
+    Stamp,
+    Text,
+}
+
+/// A cell that cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Fault {
+    pub(crate) row: usize,
+    pub(crate) cell: String,
+}
+
+/// Why a file gives no table at all.
+#[derive(Debug)]
+pub(crate) enum TableError {
+    File(FileError),
+    Data(DataError),
+}
+
+impl Column {
+    /// `force [N]`, or the name alone.
+    pub(crate) fn label(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} [{unit}]", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Whether it holds numbers that can be an input or output.
+    pub(crate) fn is_number(&self) -> bool {
+        self.kind == Kind::Number && self.values.iter().any(|value| value.is_finite())
+    }
+}
+
+impl Table {
+    /// Reads a file of measurements: text, or with the feature `matlab` a `.mat` file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
+    pub(crate) fn read(path: &Path) -> Result<Self, TableError> {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat")) {
+            return super::mat::read(path);
+        }
+        let decoded = read_decoded(path).map_err(TableError::File)?;
+        let mut table = Self::parse(&path.display().to_string(), &decoded.text).map_err(TableError::Data)?;
+        if let Some(encoding) = decoded.encoding {
+            table.notes.insert(0, format!("text in {encoding}"));
+        }
+        Ok(table)
+    }
+
+    /// The table in a text.
+    pub(crate) fn parse(path: &str, text: &str) -> Result<Self, DataError> {
+        let fail = |place, problem| DataError { path: path.to_owned(), place, problem };
+        if text.trim().is_empty() {
+            return Err(fail(None, DataProblem::Empty));
+        }
+        let dialect = Dialect::of(text).ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let head = Head::find(text, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
+        let mut table = Self {
+            path: path.to_owned(),
+            columns: columns(&head, dialect.width),
+            places: Vec::new(),
+            has_header: !head.names.is_empty(),
+            notes: notes(&head, &dialect),
+            faults: Vec::new(),
+        };
+        body::fill(&mut table, text, &dialect, head.first_row);
+        // A delimiter at the end of every row makes no column.
+        let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
+        table.columns.retain(|column| !is_blank(column));
+        Ok(table)
+    }
+
+    /// All columns for a message: number, name, unit.
+    pub(crate) fn listing(&self) -> String {
+        let listed = self.columns.iter().enumerate().map(|(k, column)| {
+            let kind = match column.kind {
+                Kind::Number => "",
+                Kind::Stamp => ", times",
+                Kind::Text => ", text",
+            };
+            if self.has_header {
+                format!("{} `{}`{kind}", k + 1, column.label())
+            } else {
+                (k + 1).to_string()
+            }
+        });
+        listed.collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn columns(head: &Head, width: usize) -> Vec<Column> {
+    let named = (0..width).map(|k| match head.names.get(k) {
+        Some((name, unit)) => (name.clone(), unit.clone()),
+        None => (format!("column {}", k + 1), None),
+    });
+    let empty = |(name, unit)| Column {
+        name,
+        unit,
+        kind: Kind::Number,
+        values: Vec::new(),
+        faults: Vec::new(),
+        fault_count: 0,
+    };
+    named.map(empty).collect()
+}
+
+fn notes(head: &Head, dialect: &Dialect) -> Vec<String> {
+    let mut notes = Vec::new();
+    match head.skipped {
+        0 => {}
+        1 => notes.push("line 1 above the table left out".to_owned()),
+        lines => notes.push(format!("lines 1 to {lines} above the table left out")),
+    }
+    if dialect.delimiter != Delimiter::Sign(',') {
+        notes.push(format!("{} between columns", dialect.delimiter.name()));
+    }
+    if dialect.decimal == cell::Decimal::Comma {
+        notes.push("decimal commas".to_owned());
+    }
+    if head.has_unit_row {
+        notes.push("a row of units".to_owned());
+    }
+    if head.names.is_empty() {
+        notes.push("no header".to_owned());
+    }
+    notes
+}

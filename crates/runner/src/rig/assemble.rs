@@ -1,0 +1,235 @@
+//! From a plan to a [`Rig`] that cannot be wrong.
+
+use super::cut::{self, Part};
+use super::measured::{Measured, Request};
+use super::plan::{ColumnNames, Plan, PlannedRecord, Voice};
+use super::problem::RigProblem;
+use super::told::{self, Told};
+use crate::input::{DataError, DataProblem};
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::{Component, Path};
+use switchback_estimator::Record;
+use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+
+/// A rig, and what was inferred on the way.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The rig.
+    pub rig: Rig,
+    /// What was inferred, to be told.
+    pub told: Told,
+    /// The plan with all that was inferred written into it: it gives the same rig again.
+    pub plan: Plan,
+}
+
+/// A problem, and the record of the plan whose fault it is, where it is one's.
+#[derive(Debug)]
+pub(super) struct Located {
+    pub(super) record: Option<usize>,
+    pub(super) problem: RigProblem,
+}
+
+/// One record of the plan, read and divided.
+pub(super) struct Divided {
+    pub(super) measured: Measured,
+    pub(super) parts: Vec<Part>,
+}
+
+/// Reads all files of a plan.
+///
+/// # Errors
+/// All that is wrong with them.
+pub(super) fn assemble(plan: &Plan) -> Result<Loaded, Vec<Located>> {
+    let measured = read_all(plan)?;
+    check_agreement(plan, &measured)?;
+    let needed = samples_needed(plan.order);
+    let divided = each(plan.records.iter().zip(measured), |(record, measured)| {
+        let parts = divide(record, &measured, needed).map_err(|error| vec![error.into()])?;
+        Ok(Divided { measured, parts })
+    })?;
+    let names = record_names(&plan.records);
+    let records = each(divided.iter().zip(&plan.records).zip(names), |((divided, record), name)| {
+        rig_records(divided, record, &name).map_err(|error| vec![error.into()])
+    })?;
+    let first = &divided[0].measured;
+    let rig = Rig {
+        name: plan.name.clone(),
+        sample_time: first.sample_time,
+        order: plan.order,
+        interval: plan.interval,
+        input_label: plan.input_label.clone().unwrap_or_else(|| label(first.input(), "v", "input v")),
+        output_label: plan
+            .output_label
+            .clone()
+            .unwrap_or_else(|| first.output().map_or_else(String::new, |y| label(y, "y", "output y"))),
+        records: records.into_iter().flatten().collect(),
+    };
+    check_motion(plan, &rig, first)?;
+    Ok(Loaded { told: told::tell(plan, &divided), plan: resolved(plan, &rig, first), rig })
+}
+
+/// Does the same with each, and gives all results or all problems.
+fn each<I, R>(
+    items: impl Iterator<Item = I>,
+    mut work: impl FnMut(I) -> Result<R, Vec<RigProblem>>,
+) -> Result<Vec<R>, Vec<Located>> {
+    let (mut results, mut problems) = (Vec::new(), Vec::new());
+    for (record, item) in items.enumerate() {
+        match work(item) {
+            Ok(result) => results.push(result),
+            Err(found) => {
+                problems.extend(found.into_iter().map(|problem| Located { record: Some(record), problem }))
+            }
+        }
+    }
+    if problems.is_empty() { Ok(results) } else { Err(problems) }
+}
+
+fn read_all(plan: &Plan) -> Result<Vec<Measured>, Vec<Located>> {
+    let request =
+        Request { names: &plan.columns, sampling: plan.sampling, voice: &plan.voice, needs_output: true };
+    each(plan.records.iter(), |record| Measured::read(&record.path, request))
+}
+
+/// All files must speak of the same quantities at the same sample time.
+fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located>> {
+    let first = &measured[0];
+    let differs = |other: &Measured| -> Option<DataProblem> {
+        if (other.sample_time - first.sample_time).abs() > 0.01 * first.sample_time {
+            return Some(DataProblem::SampleTimesDiffer {
+                here: other.sample_time,
+                there: first.sample_time,
+                other: first.table.path.clone(),
+            });
+        }
+        let pairs = [(Some(other.input()), Some(first.input())), (other.output(), first.output())];
+        pairs.into_iter().find_map(|(here, there)| {
+            let (here, there) = (here?, there?);
+            let are_units = here.unit.is_some() && there.unit.is_some() && here.unit != there.unit;
+            are_units.then(|| DataProblem::UnitsDiffer {
+                here: here.label(),
+                there: there.label(),
+                other: first.table.path.clone(),
+            })
+        })
+    };
+    let problems: Vec<Located> = measured
+        .iter()
+        .enumerate()
+        .filter_map(|(record, other)| {
+            let error = DataError { path: other.table.path.clone(), place: None, problem: differs(other)? };
+            Some(Located { record: Some(record), problem: error.into() })
+        })
+        .collect();
+    debug_assert_eq!(measured.len(), plan.records.len());
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// Equations of order n reach back n samples and have 2n coefficients and at least two border values; one sample more
+/// leaves a residual. Ten at the least, since no order at all can be chosen from fewer.
+pub(super) fn samples_needed(order: Option<usize>) -> usize {
+    order.map_or(10, |n| (3 * n + 3).max(10))
+}
+
+fn divide(record: &PlannedRecord, measured: &Measured, needed: usize) -> Result<Vec<Part>, DataError> {
+    if record.role != Role::Free
+        && let Some(interruption) = measured.first_interruption()
+    {
+        return Err(interruption);
+    }
+    cut::divide(&measured.pieces, (record.usage, record.held_out), needed).map_err(|problem| DataError {
+        path: measured.table.path.clone(),
+        place: None,
+        problem,
+    })
+}
+
+fn rig_records(divided: &Divided, record: &PlannedRecord, name: &str) -> Result<Vec<RigRecord>, DataError> {
+    let Divided { measured, parts } = divided;
+    let of = |values: &[f64], range: &Range<usize>| values[range.clone()].to_vec();
+    let output = measured.y.as_deref().unwrap_or_default();
+    let records = cut::names(name, parts).into_iter().zip(parts).map(|(name, part)| RigRecord {
+        name,
+        role: record.role,
+        usage: part.usage,
+        record: Record::new(of(&measured.v, &part.range), of(output, &part.range))
+            .expect("rows are samples only where input and output are finite"),
+        predicted: measured.predicted.as_deref().map(|predicted| of(predicted, &part.range)),
+    });
+    Ok(records.collect())
+}
+
+/// `force [N]`, or the name; a column that is called as its signal is called that.
+fn label(column: &crate::input::Column, signal: &str, otherwise: &str) -> String {
+    let is_nameless = column.name.eq_ignore_ascii_case(signal) || column.name.starts_with("column ");
+    match (&column.unit, is_nameless) {
+        (_, false) => column.label(),
+        (Some(unit), true) => format!("{otherwise} [{unit}]"),
+        (None, true) => otherwise.to_owned(),
+    }
+}
+
+/// A system that was never moved cannot be identified.
+fn check_motion(plan: &Plan, rig: &Rig, first: &Measured) -> Result<(), Vec<Located>> {
+    let stands = |record: &RigRecord| record.record.v().windows(2).all(|pair| pair[0] == pair[1]);
+    if !rig.fit_records().all(stands) {
+        return Ok(());
+    }
+    let record = plan.records.iter().position(|record| record.usage == Usage::Fit).unwrap_or(0);
+    let problem = DataProblem::NeverMoves { column: first.input().label() };
+    let path = plan.records[record].path.display().to_string();
+    Err(vec![Located { record: Some(record), problem: DataError { path, place: None, problem }.into() }])
+}
+
+/// The plan as it would have to be given to infer nothing.
+fn resolved(plan: &Plan, rig: &Rig, first: &Measured) -> Plan {
+    let name = |k: usize| {
+        let column = &first.table.columns[k];
+        let named = first.table.columns.iter().filter(|other| other.name.eq_ignore_ascii_case(&column.name));
+        if first.table.has_header && !column.name.is_empty() && named.count() == 1 {
+            column.name.clone()
+        } else {
+            (k + 1).to_string()
+        }
+    };
+    let selection = &first.selection;
+    Plan {
+        columns: ColumnNames {
+            time: Some(selection.time.map_or_else(|| super::plan::NO_TIME.to_owned(), name)),
+            input: Some(name(selection.input)),
+            output: selection.output.map(name),
+        },
+        sampling: super::plan::Sampling { sample_time: Some(rig.sample_time), ..plan.sampling },
+        input_label: Some(rig.input_label.clone()),
+        output_label: Some(rig.output_label.clone()),
+        voice: Voice::Manifest,
+        ..plan.clone()
+    }
+}
+
+/// The file's name without its ending; where two records would share it, with the folders before it, and where even
+/// these are alike, with a number after it. Names become parts of file names, so they hold no separators.
+fn record_names(records: &[PlannedRecord]) -> Vec<String> {
+    let parts = |record: &PlannedRecord| -> Vec<String> {
+        let path = Path::new(&record.named).with_extension("");
+        let named = path.components().filter(|part| matches!(part, Component::Normal(_)));
+        named.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
+    };
+    let stems: Vec<String> =
+        records.iter().map(|record| parts(record).pop().unwrap_or_else(|| "record".to_owned())).collect();
+    let mut names: Vec<String> = Vec::with_capacity(records.len());
+    let mut taken = HashSet::new();
+    for (record, stem) in records.iter().zip(&stems) {
+        let is_shared = stems.iter().filter(|other| *other == stem).count() > 1;
+        let name = if is_shared { parts(record).join("-") } else { stem.clone() };
+        let mut free = name.clone();
+        let mut count = 1;
+        while !taken.insert(free.clone()) {
+            count += 1;
+            free = format!("{name}-{count}");
+        }
+        names.push(free);
+    }
+    names
+}

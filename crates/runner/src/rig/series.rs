@@ -1,0 +1,51 @@
+//! One file as an input to be played: `v`, perhaps with a measured `y` beside it.
+
+use super::measured::{Measured, Request};
+use super::plan::{ColumnNames, Sampling, Voice};
+use super::problem::RigError;
+use std::path::Path;
+
+/// An evenly sampled input, and what was measured beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputSeries {
+    /// Seconds between samples, positive.
+    pub sample_time: f64,
+    /// The input, at least one sample, finite.
+    pub v: Vec<f64>,
+    /// The output, where the file has one; as many samples.
+    pub y: Option<Vec<f64>>,
+    /// Name of the input's column, with its unit where the file gives one.
+    pub input_label: String,
+    /// Name of the output's column.
+    pub output_label: Option<String>,
+    /// How the file was read, where that is not how such files usually look.
+    pub notes: Vec<String>,
+}
+
+/// Reads a file that holds an input: columns as in a rig's record, but the output may be missing.
+///
+/// An input that is to be played must be whole: a dropout is an error. `command` is the command line so far, for remedies.
+///
+/// # Errors
+/// [`RigError`] with all that is wrong.
+pub fn read_input(
+    path: &Path,
+    names: &ColumnNames,
+    sampling: Sampling,
+    command: &str,
+) -> Result<InputSeries, RigError> {
+    let voice = Voice::CommandLine(command.to_owned());
+    let request = Request { names, sampling, voice: &voice, needs_output: false };
+    let measured = Measured::read(path, request).map_err(RigError::new)?;
+    if let Some(interruption) = measured.first_interruption() {
+        return Err(interruption.into());
+    }
+    Ok(InputSeries {
+        sample_time: measured.sample_time,
+        input_label: measured.input().label(),
+        output_label: measured.output().map(crate::input::Column::label),
+        notes: measured.table.notes.clone(),
+        v: measured.v,
+        y: measured.y,
+    })
+}
