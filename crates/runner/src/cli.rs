@@ -28,7 +28,7 @@ pub struct Cli {
     verb: Option<Verb>,
 
     #[command(flatten)]
-    study: Option<cmd::study::Args>,
+    study: cmd::study::Args,
 }
 
 #[derive(Debug, Subcommand)]
@@ -38,8 +38,8 @@ enum Verb {
     Design(cmd::design::Args),
     Gap(cmd::gap::Args),
     Identify(cmd::identify::Args),
-    Man(cmd::man::Args),
     Init(cmd::init::Args),
+    Man(cmd::man::Args),
     Rig(cmd::rig::Args),
     Simulate(cmd::simulate::Args),
 }
@@ -86,20 +86,17 @@ impl Cli {
     /// # Errors
     /// The report of an input that could not be used.
     pub fn run(self) -> CommandResult {
-        match (self.verb, self.study) {
-            (Some(Verb::Compare(args)), _) => cmd::compare::run(&args),
-            (Some(Verb::Completions(args)), _) => cmd::completions::run(&args),
-            (Some(Verb::Design(args)), _) => cmd::design::run(&args),
-            (Some(Verb::Gap(args)), _) => cmd::gap::run(&args),
-            (Some(Verb::Identify(args)), _) => cmd::identify::run(&args),
-            (Some(Verb::Man(args)), _) => cmd::man::run(&args),
-            (Some(Verb::Init(args)), _) => cmd::init::run(&args),
-            (Some(Verb::Rig(args)), _) => cmd::rig::run(&args),
-            (Some(Verb::Simulate(args)), _) => cmd::simulate::run(&args),
-            (None, Some(args)) => cmd::study::run(&args),
-            (None, None) => {
-                Err(miette::miette!("nothing to do; name a scenario file, or see `switchback --help`"))
-            }
+        match self.verb {
+            Some(Verb::Compare(args)) => cmd::compare::run(&args),
+            Some(Verb::Completions(args)) => cmd::completions::run(&args),
+            Some(Verb::Design(args)) => cmd::design::run(&args),
+            Some(Verb::Gap(args)) => cmd::gap::run(&args),
+            Some(Verb::Identify(args)) => cmd::identify::run(&args),
+            Some(Verb::Init(args)) => cmd::init::run(&args),
+            Some(Verb::Man(args)) => cmd::man::run(&args),
+            Some(Verb::Rig(args)) => cmd::rig::run(&args),
+            Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
+            None => cmd::study::run(&self.study),
         }
     }
 }

@@ -110,8 +110,9 @@ fn a_stopped_diagnosis_leaves_no_trace() {
     assert_eq!(folder.listing(), before);
 }
 
+/// From there it can go on; that it does is tested where the journal is.
 #[test]
-fn a_stopped_examination_keeps_its_keys_and_goes_on_from_them() {
+fn a_stopped_examination_keeps_its_keys_and_what_is_judged() {
     let folder = Folder::with_good_rig();
     folder.write("blind.toml", &BLIND.replace("none = 300", "none = 300\nslice = 2"));
     let process = start(&folder, &["blind.toml", "--quiet", "--out", "out"]);
@@ -119,9 +120,6 @@ fn a_stopped_examination_keeps_its_keys_and_goes_on_from_them() {
     until("the keys", || key.exists() && !is_staging(&folder.path("out")) && !is_staging(&folder.path(".")));
     let (code, told) = stop(process, "-TERM");
     assert_eq!(code, Some(3), "{told}");
-    let sealed = fs::read(&key).expect("the keys");
+    assert_eq!(fs::read_to_string(&key).expect("the keys").lines().count(), 2);
     assert_eq!(listing(&folder.path("out")), [".switchback.sha256", "key.jsonl", "unfinished.jsonl"]);
-    folder.switchback(&["blind.toml", "--quiet", "--out", "out"]).assert().success();
-    assert_eq!(fs::read(&key).expect("the keys"), sealed);
-    assert!(!folder.path("out/unfinished.jsonl").exists());
 }

@@ -28,7 +28,7 @@ fn the_same_seed_writes_the_same_folder_and_says_what_is_in_it() {
         files.sort();
         files
     };
-    assert_eq!(files("one").len(), 8);
+    assert_eq!(files("one").len(), 9, "seven records, what describes them, and the list of what was written");
     assert_eq!(files("one"), files("two"));
     let description = fs::read_to_string(root.path().join("one/rig.toml")).unwrap();
     assert!(!description.contains("creep"), "the folder must not tell");

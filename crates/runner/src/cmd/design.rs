@@ -2,14 +2,12 @@
 
 use crate::design::{self, DesignError, Forecast, Length, Outlook, Plan, PlanMethod, Report, Request, Truth};
 use crate::failure::{CommandResult, Outcome};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet};
 use crate::rig;
-use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use switchback_estimator::excitation::Campaign;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::Rig;
-use thiserror::Error;
 
 /// Write the experiments that identify a system: inputs to play, and the rig.toml that waits for the outputs.
 ///
@@ -85,22 +83,15 @@ pub struct Args {
     #[arg(long, value_name = "DIR", required_unless_present = "from")]
     out: Option<PathBuf>,
 
-    /// Replace files of the same names.
-    #[arg(long)]
-    force: bool,
-
     /// Print one JSON object instead of words.
     #[arg(long)]
     json: bool,
-}
 
-/// Files of these names lie in the folder already.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{folder}: {names} would be replaced; nothing was written")]
-#[diagnostic(help("give another folder, or `--force` to replace what lies there, measurements included"))]
-pub struct WouldReplace {
-    folder: String,
-    names: String,
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Plans, predicts, writes the folder, prints.
@@ -110,16 +101,17 @@ pub struct WouldReplace {
 pub fn run(args: &Args) -> CommandResult {
     let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
     let request = request(args, source.as_ref())?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
     let (plan, outlook) = match source {
         Some(source) => foresee(args, request, source.truth)?,
         None => (Plan::new(request, length(args))?, None),
     };
-    let folder = args.out.as_ref().map(|folder| folder.display().to_string());
-    if let Some(folder) = &args.out {
-        write(folder, &design::artefacts(&plan), args.force)?;
+    if let Some(folder) = folder {
+        folder.commit(&design::artefacts(&plan))?;
     }
+    let folder = args.out.as_ref().map(|folder| folder.display().to_string());
     let report = Report { plan, outlook, folder };
-    print(&if args.json { design::json(&report) } else { design::words(&report) })?;
+    args.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
     Ok(Outcome::Done)
 }
 
@@ -183,17 +175,6 @@ fn foresee(args: &Args, request: Request, truth: Truth) -> Result<(Plan, Option<
     let length = args.precision.map_or_else(|| length(args), |p| Length::Periods(forecast.periods_for(p)));
     let plan = Plan::new(request, length)?;
     Ok((plan, Some(Outlook { truth, forecast, wanted: args.precision })))
-}
-
-fn write(folder: &Path, artefacts: &Artefacts, force: bool) -> miette::Result<()> {
-    let lying: Vec<&str> =
-        artefacts.iter().map(|(name, _)| name).filter(|name| folder.join(name).exists()).collect();
-    if !force && !lying.is_empty() {
-        let folder = folder.display().to_string();
-        return Err(WouldReplace { folder, names: lying.join(", ") }.into());
-    }
-    OutputFolder::claim(folder)?.commit(artefacts)?;
-    Ok(())
 }
 
 fn two_numbers(text: &str) -> Result<[f64; 2], String> {

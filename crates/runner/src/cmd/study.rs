@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The scenario file.
-    scenario: PathBuf,
+    // There is none where a verb is named.
+    #[arg(required = true)]
+    scenario: Option<PathBuf>,
 
     /// Write the report into this folder [default: reports/NAME, NAME the scenario's file name]
     #[arg(long, value_name = "DIR")]
@@ -47,16 +49,19 @@ const FILES: [&str; 7] =
 /// # Errors
 /// A scenario that cannot be read or run, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    if blind::is_blind(&args.scenario) {
+    let Some(file) = args.scenario.as_deref() else {
+        return Err(miette!("nothing to do; name a scenario file, or see `switchback --help`"));
+    };
+    if blind::is_blind(file) {
         if args.engine.is_some() {
-            let path = args.scenario.display();
+            let path = file.display();
             return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
         }
         let page = super::blind::Page { json: args.json, quiet: args.quiet };
-        let run = || super::blind::run(&args.scenario, args.out.as_deref(), page, args.force);
+        let run = || super::blind::run(file, args.out.as_deref(), page, args.force);
         return args.threads.install(run)?;
     }
-    let read = Scenario::read(&args.scenario)?;
+    let read = Scenario::read(file)?;
     let scenario = match args.engine {
         Some(engine) => read.on(engine),
         None => read,
@@ -64,7 +69,7 @@ pub fn run(args: &Args) -> CommandResult {
     let default = || Path::new("reports").join(scenario.name());
     let folder = args.force.claim(&args.out.clone().unwrap_or_else(default), &FILES)?;
     let meter = Meter::new(args.quiet);
-    let results = args.threads.install(|| study::run(&scenario, command(args), &meter))?;
+    let results = args.threads.install(|| study::run(&scenario, command(file, args.engine), &meter))?;
     meter.finish();
     let results = results.into_diagnostic()?;
     let place = folder.path().display().to_string();
@@ -75,9 +80,9 @@ pub fn run(args: &Args) -> CommandResult {
 }
 
 /// The command that makes the results again, without the place where this machine keeps the file.
-fn command(args: &Args) -> String {
-    let name = args.scenario.file_name().unwrap_or_default().to_string_lossy();
-    let engine = args.engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
+fn command(file: &Path, engine: Option<Engine>) -> String {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let engine = engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
     format!("switchback {name}{engine}")
 }
 

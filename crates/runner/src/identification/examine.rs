@@ -1,9 +1,10 @@
 //! An identification, examined: beside simpler models, beside one for real time, and by its residuals.
 
 use super::{
-    CausalAlternative, Flag, Identification, IdentificationError, Method, Request, Yardstick, identify,
-    lacks_holdout, residuals,
+    CausalAlternative, Flag, Identification, IdentificationError, Method, Request, Yardstick,
+    identify_watched, lacks_holdout, residuals,
 };
+use crate::progress::Watch;
 use rayon::prelude::*;
 use switchback_estimator::rig::Rig;
 use switchback_estimator::statistics::Whiteness;
@@ -22,12 +23,13 @@ pub struct Examination {
 /// Identifies a rig and examines the result: [`Identification::flags`] then holds every reservation, weightiest first.
 ///
 /// Beside the identification asked for it makes, on the same terms, those of the simpler methods and, where the model looks ahead,
-/// the one of a model that does not.
+/// the one of a model that does not. `watch` shows how far it has come.
 ///
 /// # Errors
 /// [`IdentificationError`] if nothing can be identified, or if the result cannot simulate a single record.
-pub fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
-    let mut found = identify(rig, request)?;
+pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identification, IdentificationError> {
+    watch.begin("identifying");
+    let mut found = identify_watched(rig, request, watch)?;
     let useless = residuals::worse_than_the_mean(rig, &found);
     let simulated = found.runs.iter().flatten().count();
     if simulated > 0 && useless.len() == simulated {
@@ -37,7 +39,8 @@ pub fn examined(rig: &Rig, request: Request) -> Result<Identification, Identific
             told: useless.into_iter().map(|flag| flag.text).collect::<Vec<_>>().join("; "),
         });
     }
-    let others = others(rig, request, &found);
+    watch.begin("comparing with other models");
+    let others = others(rig, request, &found, watch);
     let mut examination =
         Examination { innovations: residuals::innovations(rig, &found), ..Examination::default() };
     for (request, other) in others {
@@ -55,7 +58,12 @@ pub fn examined(rig: &Rig, request: Request) -> Result<Identification, Identific
 }
 
 /// The identifications to compare with, those that the records allow.
-fn others(rig: &Rig, request: Request, found: &Identification) -> Vec<(Request, Identification)> {
+fn others(
+    rig: &Rig,
+    request: Request,
+    found: &Identification,
+    watch: &Watch,
+) -> Vec<(Request, Identification)> {
     if lacks_holdout(rig) {
         return Vec::new();
     }
@@ -68,7 +76,8 @@ fn others(rig: &Rig, request: Request, found: &Identification) -> Vec<(Request, 
     if !found.obstacles.is_empty() {
         requests.push(Request { causal: true, ..request });
     }
-    let identified = requests.into_par_iter().map(|request| Some((request, identify(rig, request).ok()?)));
+    let other = |request| Some((request, identify_watched(rig, request, watch).ok()?));
+    let identified = requests.into_par_iter().map(other);
     identified.collect::<Vec<_>>().into_iter().flatten().collect()
 }
 

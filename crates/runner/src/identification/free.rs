@@ -3,7 +3,9 @@
 use super::{Examination, Flag, Found, FreeRun, Identification, IdentificationError, Request, causal, unit};
 use crate::model::Curves;
 use switchback_estimator::Record;
-use switchback_estimator::estimators::free::{FreeError, InputMap, Model, Settings, identify as estimate};
+use switchback_estimator::estimators::free::{
+    FreeError, InputMap, Model, Progress, Settings, identify_watched as estimate,
+};
 use switchback_estimator::rig::Rig;
 
 /// Identifies from all fit records, whatever drove them.
@@ -11,15 +13,17 @@ pub(super) fn identify(
     rig: &Rig,
     Request { method, causal }: Request,
     input_map: InputMap,
+    progress: &dyn Progress,
 ) -> Result<Identification, IdentificationError> {
     let records: Vec<&Record> = rig.fit_records().map(|record| &record.record).collect();
     let settings = Settings { order: rig.order, interval: rig.interval, causal, ..Settings::new(input_map) };
-    let identified = estimate(&records, &settings).map_err(|error| IdentificationError::Refused {
-        rig: rig.name.clone(),
-        method,
-        remedy: remedy(&error).to_owned(),
-        reason: error.to_string(),
-    })?;
+    let identified =
+        estimate(&records, &settings, progress).map_err(|error| IdentificationError::Refused {
+            rig: rig.name.clone(),
+            method,
+            remedy: remedy(&error).to_owned(),
+            reason: error.to_string(),
+        })?;
     let model = Found::Curves(Curves::of(&identified));
     Ok(Identification {
         method,

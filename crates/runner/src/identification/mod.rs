@@ -19,7 +19,7 @@ mod yardstick;
 
 pub use crate::scenario::Method;
 pub use causal::CausalAlternative;
-pub use dispatch::identify;
+pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
 pub use examine::{Examination, examined};
 pub use fit::fit_percent;

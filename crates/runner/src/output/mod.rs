@@ -7,7 +7,6 @@ mod folder;
 mod page;
 mod schema;
 mod sha256;
-mod single;
 mod staging;
 mod written;
 
@@ -18,5 +17,4 @@ pub use folder::OutputFolder;
 pub use page::print;
 pub use schema::stamped;
 pub use sha256::sha256;
-pub use single::OutputFile;
 pub(crate) use staging::abandon;

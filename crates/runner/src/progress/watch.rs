@@ -4,6 +4,7 @@ use crate::options::Quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::Duration;
+use switchback_estimator::estimators::free::Progress;
 
 /// A line on a terminal's stderr: the stage, how many of its pieces of work are done, the time since the command began.
 ///
@@ -57,6 +58,16 @@ impl Watch {
     /// Takes the line off the screen.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+impl Progress for Watch {
+    fn found(&self, pieces: usize) {
+        self.found(pieces);
+    }
+
+    fn did_one(&self) {
+        self.did_one();
     }
 }
 

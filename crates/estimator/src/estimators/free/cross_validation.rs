@@ -3,6 +3,7 @@
 use super::data::Featured;
 use super::fit::{Effort, Fitted, Ladder};
 use super::problem::{Segment, Structure};
+use super::progress::Progress;
 use super::simulation_error::cost;
 
 /// Parts that the fit records are cut into; each is left out once.
@@ -24,15 +25,22 @@ pub(super) struct Assessed {
     pub(super) fits: Vec<Fitted>,
 }
 
-/// Cross-validates structures at the top of a ladder, smaller ones first.
-pub(super) fn assess_all(ladder: &Ladder, structures: &[Structure], refine: bool) -> Vec<Assessed> {
+/// Cross-validates structures at the top of a ladder, smaller ones first; a piece of work is a fold.
+pub(super) fn assess_all(
+    ladder: &Ladder,
+    structures: &[Structure],
+    refine: bool,
+    progress: &dyn Progress,
+) -> Vec<Assessed> {
     let folds = (0..FOLDS).map(|fold| {
-        if refine {
+        let fits = if refine {
             ladder.climb_all(structures, Effort::SEARCH, |rung, s| blocks(rung, s, fold, false))
         } else {
             let one_shot = |&s| ladder.one_shot(s, &blocks(ladder.top(), s, fold, false));
             structures.iter().map(one_shot).collect()
-        }
+        };
+        progress.did_one();
+        fits
     });
     let folds: Vec<Vec<Option<Fitted>>> = folds.collect();
     let fits = |i: usize| folds.iter().map(|fold: &Vec<Option<Fitted>>| fold[i].clone()).collect();

@@ -10,6 +10,7 @@ use super::fit::{Effort, Ladder};
 use super::model::Model;
 use super::normalise::{Covariance, Figures, level_errors, normalise};
 use super::problem::{Parameters, Segment, Structure};
+use super::progress::Progress;
 use super::rank_one::{information, residual_energy};
 use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
@@ -52,9 +53,21 @@ pub struct Identified {
 /// # Errors
 /// [`FreeError`] if there is nothing to identify from, or too little for the settings.
 pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, FreeError> {
+    identify_watched(records, settings, &())
+}
+
+/// [`identify`], which tells how far it has come; the result does not depend on who hears.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_watched(
+    records: &[&Record],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Identified, FreeError> {
     settings.check()?;
     let data = with_best_rule(Data::new(records, settings)?, settings);
-    let selection = select(&data, settings)?;
+    let selection = select(&data, settings, progress)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
     let featured = ladder.top();

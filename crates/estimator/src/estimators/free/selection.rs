@@ -5,6 +5,7 @@ use super::data::Data;
 use super::error::FreeError;
 use super::fit::{Effort, FIRST_KNOTS, Ladder};
 use super::problem::{Segment, Structure};
+use super::progress::Progress;
 use super::settings::{InputMap, Settings};
 use super::simulation_error::cost;
 use std::ops::RangeInclusive;
@@ -51,7 +52,11 @@ pub struct Selection {
 /// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
 /// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
 /// smaller ones travel better to records that the fit has not seen.
-pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, FreeError> {
+pub(super) fn select(
+    data: &Data,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Selection, FreeError> {
     let orders: Vec<usize> = settings.order.map_or(ORDERS.collect(), |n| vec![n]);
     let delays: Vec<isize> =
         settings.delay.map_or(DELAYS.filter(|&d| settings.allows(d)).collect(), |d| vec![d]);
@@ -71,12 +76,15 @@ pub(super) fn select(data: &Data, settings: &Settings) -> Result<Selection, Free
         return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
     }
     let ladder = Ladder::new(data, settings.input_map, first_knots);
-    let mut assessed = assess_all(&ladder, &structures, settings.refine);
+    let more_knots = knots.iter().filter(|&&k| k != first_knots).count();
+    progress.found(FOLDS + more_knots);
+    let mut assessed = assess_all(&ladder, &structures, settings.refine, progress);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
     let mut second: Vec<Assessed> = Vec::new();
     for &k in knots.iter().filter(|&&k| k != first_knots) {
         let ladder = Ladder::last_step(data, settings.input_map, k);
         second.extend(best_of_each_delay(&assessed).map(|a| assess_next(&ladder, a, settings.refine)));
+        progress.did_one();
     }
     assessed.extend(second);
     assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
