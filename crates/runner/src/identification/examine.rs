@@ -29,14 +29,7 @@ pub struct Examination {
 pub fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
     let mut found = identify(rig, request)?;
     let useless = residuals::worse_than_the_mean(rig, &found);
-    let simulated = found.runs.iter().flatten().count();
-    if simulated > 0 && useless.len() == simulated {
-        return Err(IdentificationError::Useless {
-            rig: rig.name.clone(),
-            method: request.method,
-            told: useless.into_iter().map(|flag| flag.text).collect::<Vec<_>>().join("; "),
-        });
-    }
+    refuse_useless(rig, &found, &useless)?;
     let others = others(rig, request, &found);
     let mut examination =
         Examination { innovations: residuals::innovations(rig, &found), ..Examination::default() };
@@ -52,6 +45,20 @@ pub fn examined(rig: &Rig, request: Request) -> Result<Identification, Identific
     found.flags = flags(rig, &found, &examination, useless);
     found.examination = examination;
     Ok(found)
+}
+
+/// A model that no record bears out is no result.
+pub(super) fn refuse_useless(
+    rig: &Rig,
+    found: &Identification,
+    useless: &[Flag],
+) -> Result<(), IdentificationError> {
+    let simulated = found.runs.iter().flatten().count();
+    if simulated == 0 || useless.len() < simulated {
+        return Ok(());
+    }
+    let told = useless.iter().map(|flag| flag.text.as_str()).collect::<Vec<_>>().join("; ");
+    Err(IdentificationError::Useless { rig: rig.name.clone(), method: found.method, told })
 }
 
 /// The identifications to compare with, those that the records allow.
