@@ -31,14 +31,7 @@ pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identifica
     watch.begin("identifying");
     let mut found = identify_watched(rig, request, watch)?;
     let useless = residuals::worse_than_the_mean(rig, &found);
-    let simulated = found.runs.iter().flatten().count();
-    if simulated > 0 && useless.len() == simulated {
-        return Err(IdentificationError::Useless {
-            rig: rig.name.clone(),
-            method: request.method,
-            told: useless.into_iter().map(|flag| flag.text).collect::<Vec<_>>().join("; "),
-        });
-    }
+    refuse_useless(rig, &found, &useless)?;
     watch.begin("comparing with other models");
     let others = others(rig, request, &found, watch);
     let mut examination =
@@ -55,6 +48,20 @@ pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identifica
     found.flags = flags(rig, &found, &examination, useless);
     found.examination = examination;
     Ok(found)
+}
+
+/// A model that no record bears out is no result.
+pub(super) fn refuse_useless(
+    rig: &Rig,
+    found: &Identification,
+    useless: &[Flag],
+) -> Result<(), IdentificationError> {
+    let simulated = found.runs.iter().flatten().count();
+    if simulated == 0 || useless.len() < simulated {
+        return Ok(());
+    }
+    let told = useless.iter().map(|flag| flag.text.as_str()).collect::<Vec<_>>().join("; ");
+    Err(IdentificationError::Useless { rig: rig.name.clone(), method: found.method, told })
 }
 
 /// The identifications to compare with, those that the records allow.

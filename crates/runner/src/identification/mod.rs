@@ -108,3 +108,6 @@ pub fn unit(label: &str) -> &str {
 fn lacks_holdout(rig: &Rig) -> bool {
     rig.holdout_records().next().is_none()
 }
+
+#[cfg(test)]
+mod tests;
