@@ -46,8 +46,8 @@ mod workers;
 
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
-    Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
-    RecordGap, ResidualPicture, Status, Together, Verdict,
+    Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, Models,
+    NextExperiment, RecordGap, ResidualPicture, Status, Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
