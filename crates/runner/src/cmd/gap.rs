@@ -85,11 +85,10 @@ fn effect() -> impl TypedValueParser<Value = Effect> {
 fn artefacts(report: &Report) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
-    if let Some(nominal) = model::nominal(report) {
-        artefacts.add("nominal.json", nominal.text());
+    for (name, file) in model::diagnosed(report) {
+        artefacts.add(name, file.text());
     }
-    artefacts.add("augmented.json", model::augmented(report).text());
-    artefacts.add("series.csv", model::diagnosed(report));
+    artefacts.add("series.csv", model::diagnosed_series(report));
     artefacts.add("verdict.txt", diagnosis::words(report, None));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);

@@ -2,8 +2,8 @@
 
 use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
-use crate::options::Quiet;
-use crate::output::{OutputFile, print};
+use crate::options::{Force, Quiet};
+use crate::output::print;
 use crate::rig;
 use std::path::{Path, PathBuf};
 
@@ -17,12 +17,11 @@ pub struct Args {
     #[arg(long, value_name = "RIG.toml")]
     out: Option<PathBuf>,
 
-    /// Replace the file that is there.
-    #[arg(long, requires = "out")]
-    force: bool,
-
     #[command(flatten)]
     quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Reads the files as `gap` would, prints or writes the rig file that says so.
@@ -31,7 +30,7 @@ pub struct Args {
 /// Files that cannot be read, or a rig file that is there already.
 pub fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
-    let file = target.map(|path| OutputFile::claim(path, args.force)).transpose()?;
+    let file = args.force.claim_file(target)?;
     let loaded = args.data.load("init", args.quiet)?;
     let manifest = rig::manifest(&loaded, target.map(folder));
     match file {

@@ -7,6 +7,7 @@ mod folder;
 mod page;
 mod schema;
 mod sha256;
+mod single;
 mod staging;
 mod written;
 
@@ -17,4 +18,5 @@ pub use folder::OutputFolder;
 pub use page::print;
 pub use schema::stamped;
 pub use sha256::sha256;
+pub use single::OutputFile;
 pub(crate) use staging::abandon;
