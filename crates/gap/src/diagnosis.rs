@@ -1,12 +1,15 @@
 //! What a diagnosis says, field by field as the JSON contract has it.
 
 use crate::effect::{Effect, Stage};
+use crate::export::PortableModel;
 
 /// How far the verdict goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Status {
-    /// Nothing significant.
+    /// Nothing significant, or no gap that the judged records resolve.
     None,
+    /// The parameters of the model under diagnosis are off, or its order: identifying it anew closes the gap.
+    Refit,
     /// The effects found.
     Named,
     /// One of several twins that no record here separates.
@@ -22,6 +25,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::Refit => "refit",
             Self::Named => "named",
             Self::Class => "class",
             Self::Ambiguous => "ambiguous",
@@ -43,8 +47,24 @@ pub struct Verdict {
     pub stage: Option<Stage>,
     /// Probability that the verdict holds (for `class`: that one of its members is the cause).
     pub probability: f64,
+    /// Whether the probability was calibrated for records like these: an order declared, models identified here and compared one step
+    /// ahead, a record held out. Elsewhere it only ranks.
+    pub calibrated: bool,
     /// An effect in the augmented model that is no cause of its own: it takes the little that the law of the one named leaves.
     pub corrected_by: Option<Effect>,
+    /// The model identified anew (status `refit`).
+    pub refit: Option<Refit>,
+}
+
+/// A model of the same kind, identified anew, that closes the gap without any cause.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refit {
+    /// Its order.
+    pub order: usize,
+    /// Samples by which its output follows the input later than in the paper; −1 where it follows within the sample.
+    pub delay: isize,
+    /// Share of the gap on the judged records that it closes.
+    pub closure: Figure,
 }
 
 /// A figure with its 90 % interval.
@@ -97,10 +117,46 @@ pub struct Cell {
     pub axis: &'static str,
     /// The cell, e.g. `0.00..0.10`.
     pub cell: String,
-    /// Its share of the excess energy on this axis.
+    /// The same as figures; none where the axis has kinds, not values.
+    pub interval: Option<CellInterval>,
+    /// Its share of the excess energy; what lies in no cell of the axis has a share too.
     pub share: f64,
-    /// False-discovery-controlled significance (Benjamini–Hochberg).
+    /// Share of the samples that lie in it: of the range, where the axis is frequency.
+    pub exposure: f64,
+    /// Share of the energy over share of the samples: how many times the average a sample here carries.
+    pub enrichment: f64,
+    /// Significance of its energy beyond the noise, false discoveries controlled (Benjamini–Hochberg).
     pub q_value: f64,
+    /// Significance of its energy being denser than elsewhere, controlled likewise.
+    pub enrichment_q_value: f64,
+}
+
+/// The ends of a cell, infinite where it is open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellInterval {
+    /// Lower end, in the cell.
+    pub low: f64,
+    /// Upper end, not in the cell.
+    pub high: f64,
+    /// What both are measured in.
+    pub unit: CellUnit,
+}
+
+/// What a cell's ends are measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CellUnit {
+    /// Units of the input.
+    Input,
+    /// Units of the input a second.
+    InputPerSecond,
+    /// Units of the output.
+    Output,
+    /// Samples.
+    Samples,
+    /// Cycles a second.
+    Hertz,
+    /// Share of the samples of all records, in the order of the file.
+    ShareOfCampaign,
 }
 
 /// One fitted parameter of an effect.
@@ -127,12 +183,16 @@ pub struct Candidate {
     pub probability: f64,
     /// Its fitted parameters.
     pub parameters: Vec<FittedParameter>,
-    /// Bayesian information criterion of the augmented model minus that of the nominal one; negative is better.
+    /// Bayesian information criterion of the augmented model; lower is better, and only differences on the same records mean anything.
     pub bic: f64,
+    /// Its drop, criterion of the nominal model less that of the augmented one: positive where the effect is worth its parameters.
+    pub delta_bic: f64,
     /// Gain in log predictive score over the nominal model, nats per hold-out sample.
     pub heldout_log_score: f64,
-    /// Closure on the hold-out records with this effect alone.
+    /// Closure on the hold-out records with this effect alone; none where there is no gap to close, or the model is unstable.
     pub closure: Option<f64>,
+    /// Whether the model with this effect has no free run: its output leaves every range, or its `A` is unstable.
+    pub unstable: bool,
 }
 
 /// The best pair of effects, whether or not it was named.
@@ -264,4 +324,10 @@ pub struct Diagnosis {
     pub residuals_after: ResidualPicture,
     /// What could not be judged, and why.
     pub limitations: Vec<String>,
+    /// The model as it was, the one under diagnosis; absent where only its predictions are known.
+    pub nominal: Option<PortableModel>,
+    /// The same with what was found added; without effects it is the nominal model.
+    pub augmented: PortableModel,
+    /// The effects in the augmented model, with their parameters there.
+    pub added: Vec<(Effect, Vec<FittedParameter>)>,
 }

@@ -43,6 +43,7 @@ pub(crate) fn propose(
             period: None,
             from: WARM_UP.min(v.len()),
             moves: motions(&v, Play::default(), campaign.rule).into(),
+            standing: false,
             v,
         };
         let runs: Vec<Vec<f64>> =

@@ -15,6 +15,7 @@
 //! | `simulation` | free runs of what is fitted |
 //! | `verdict` | calibrated odds of the explanations, and what is told |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
+//! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
 //! | `diagnose`, `diagnosis` | the order of all this, and its report |
 //!
 //! [`workbench`] makes rigs with known causes by plain loops: the oracle of the rest.
@@ -27,6 +28,7 @@ mod effect;
 mod effects;
 mod error;
 mod experiments;
+mod export;
 mod least_squares;
 mod likelihood;
 mod localise;
@@ -45,11 +47,12 @@ mod workers;
 
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
-    Candidate, Cell, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap, HoldoutSeries, NextExperiment,
-    RecordGap, ResidualPicture, Status, Together, Verdict,
+    Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap,
+    HoldoutSeries, NextExperiment, RecordGap, Refit, ResidualPicture, Status, Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
+pub use export::{PortableError, PortableModel, Simulated};
 pub use phase::Phase;
 pub use settings::{Model, NominalModel, Settings};
 pub use workers::{Serial, Workers};

@@ -4,7 +4,7 @@ mod bench;
 
 use bench::{rig, whole};
 use switchback_estimator::rig::{Rig, RigRecord};
-use switchback_gap::{Diagnosis, Model, NominalModel, Settings, diagnose};
+use switchback_gap::{Diagnosis, Model, NominalModel, Settings, Status, diagnose};
 
 /// The bench's own model, its ascending border raised.
 fn raised(by: f64) -> NominalModel {
@@ -32,6 +32,11 @@ fn the_map_of_a_given_model_shows_where_it_is_wrong() {
     let wrong = found(&rig, Model::Given(raised(0.1)));
     let (share, significant) = cell(&wrong, "branch", "ascending");
     assert!(significant && share > 0.8, "{:?}", wrong.where_);
+    // Nothing is missing but the right borders.
+    assert_eq!(wrong.verdict.status, Status::Refit, "{:?}", wrong.verdict);
+    let refit = wrong.verdict.refit.expect("a model identified anew");
+    assert_eq!((refit.order, refit.delay), (1, 0));
+    assert!(refit.closure.estimate > 0.95 && wrong.verdict.effects.is_empty(), "{refit:?}");
     // A model that is right leaves nothing to map, and so does the one identified.
     for model in [Model::Given(raised(0.0)), Model::Identify] {
         let right = found(&rig, model);

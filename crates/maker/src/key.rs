@@ -1,6 +1,7 @@
 //! What was put into a rig: the key that stays sealed until the diagnosis is done.
 
-use crate::law::{Nature, Stage};
+use crate::law::{INTERVAL_WIDTHS, Nature, Stage};
+use switchback_estimator::hysteresis::Interval;
 
 /// One effect that a rig was made with.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,10 +20,19 @@ pub struct TrueEffect {
     pub magnitude: f64,
     /// What magnitude 1 means.
     pub unit: &'static str,
+    /// What the magnitude is, where its unit does not say it.
+    pub quantity: Option<&'static str>,
     /// Size that was asked for.
     pub wanted: f64,
     /// Size that it has by itself: what survives the best nominal re-fit, in noise sd.
     pub size: f64,
+}
+
+impl TrueEffect {
+    /// The magnitude in input units, where it is a length along the input.
+    pub fn length(&self, interval: Interval) -> Option<f64> {
+        (self.unit == INTERVAL_WIDTHS).then(|| self.magnitude * interval.width())
+    }
 }
 
 /// Everything withheld about a rig.

@@ -5,6 +5,9 @@ use crate::plant::Plant;
 use rand_chacha::ChaCha8Rng;
 use std::fmt::Debug;
 
+/// The unit of lengths along the input: shares of the working interval.
+pub const INTERVAL_WIDTHS: &str = "interval widths";
+
 /// Where in the block diagram an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stage {
@@ -104,6 +107,11 @@ pub trait Law: Debug + Send + Sync {
 
     /// What magnitude 1 means.
     fn unit(&self) -> &'static str;
+
+    /// What the magnitude is, where its unit does not say it.
+    fn quantity(&self) -> Option<&'static str> {
+        None
+    }
 
     /// Largest magnitude that makes sense.
     fn limit(&self) -> f64;

@@ -33,6 +33,6 @@ mod workshop;
 pub use campaign::{Passage, Plan};
 pub use effects::{EFFECTS, FOREIGN, laws_of};
 pub use key::{Key, TrueEffect, Truth};
-pub use law::{Dose, Law, Nature, Scene, Stage};
+pub use law::{Dose, INTERVAL_WIDTHS, Law, Nature, Scene, Stage};
 pub use make::{Ingredient, MadeRig, MakeError, MakeRig};
 pub use plant::{Family, Plant, Shape, Table};

@@ -101,6 +101,7 @@ impl Ingredient {
             nature: self.law.nature(),
             magnitude,
             unit: self.law.unit(),
+            quantity: self.law.quantity(),
             wanted: self.size,
             size,
         }

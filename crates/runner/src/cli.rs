@@ -41,6 +41,7 @@ enum Verb {
     Init(cmd::init::Args),
     Man(cmd::man::Args),
     Rig(cmd::rig::Args),
+    Simulate(cmd::simulate::Args),
 }
 
 /// Runs what the words of a command line ask for, the program's own name first. Help, version and what cannot be understood
@@ -94,6 +95,7 @@ impl Cli {
             Some(Verb::Init(args)) => cmd::init::run(&args),
             Some(Verb::Man(args)) => cmd::man::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
+            Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),
         }
     }

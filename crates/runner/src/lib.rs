@@ -10,6 +10,7 @@ pub mod failure;
 pub mod identification;
 pub mod input;
 pub mod interrupt;
+pub mod model;
 pub mod options;
 pub mod output;
 pub mod plots;

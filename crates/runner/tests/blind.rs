@@ -37,7 +37,9 @@ fn silent(status: Status) -> Diagnosis {
             class: vec![],
             stage: None,
             probability: 0.9,
+            calibrated: true,
             corrected_by: None,
+            refit: None,
         },
         gap: Gap {
             before: nothing,

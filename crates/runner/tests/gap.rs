@@ -76,12 +76,53 @@ fn a_rig_without_a_gap_has_none() {
     for field in ["estimate", "ci90"] {
         assert!(!page["gap"]["before"][field].is_null(), "{field}");
     }
-    let cell = &page["where"][0];
-    assert!(cell["axis"].is_string() && cell["cell"].is_string() && cell["share"].is_number());
+    assert_eq!(page["schema"], "switchback/gap/1");
     let candidate = &page["candidates"][0];
-    for field in ["effect", "stage", "probability", "parameters", "bic", "heldout_log_score", "closure"] {
+    let fields =
+        ["effect", "stage", "probability", "parameters", "bic", "delta_bic", "heldout_log_score", "closure"];
+    for field in fields {
         assert!(candidate.get(field).is_some(), "{field}");
     }
+    let number = |x: &Value| x.as_f64().expect("a number");
+    // The criterion's value less its drop's sign: every candidate is held against the same nominal model.
+    let nominal: Vec<f64> = page["candidates"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|c| number(&c["bic"]) + number(&c["delta_bic"]))
+        .collect();
+    assert!(nominal.iter().all(|bic| (bic - nominal[0]).abs() < 1e-6 * nominal[0].abs()), "{nominal:?}");
+    assert!(page["candidates"].as_array().is_some_and(|all| all.iter().all(|c| c["unstable"].is_boolean())));
+}
+
+#[test]
+fn a_cell_tells_its_ends_its_share_and_its_exposure() {
+    let folder = Folder::with_good_rig();
+    let page = diagnosed(&folder, &[]);
+    let cells = page["where"].as_array().expect("a list");
+    let of = |axis: &str| cells.iter().filter(|c| c["axis"] == axis).collect::<Vec<_>>();
+    let number = |x: &Value| x.as_f64().expect("a number");
+    for cell in cells {
+        let [share, exposure, enrichment] = ["share", "exposure", "enrichment"].map(|key| number(&cell[key]));
+        assert!(exposure > 0.0 && (enrichment * exposure - share).abs() < 1e-9, "{cell:#}");
+        assert!(cell["q_value"].is_number() && cell["enrichment_q_value"].is_number(), "{cell:#}");
+    }
+    for kind in of("branch").into_iter().chain(of("record")) {
+        assert!(["low", "high", "unit"].iter().all(|key| kind[*key].is_null()), "{kind:#}");
+    }
+    for (axis, unit) in
+        [("v", "input units"), ("speed", "input units/s"), ("frequency", "Hz"), ("rest_samples", "samples")]
+    {
+        let all = of(axis);
+        assert!(!all.is_empty() && all.iter().all(|c| c["unit"] == unit), "{axis}: {all:#?}");
+        assert!(
+            all.iter()
+                .all(|c| c["low"].is_number()
+                    && c["low"].as_f64() < c["high"].as_f64().or(Some(f64::INFINITY)))
+        );
+    }
+    let whole: f64 = of("branch").iter().map(|c| number(&c["exposure"])).sum();
+    assert!((whole - 1.0).abs() < 0.02, "{whole}");
 }
 
 #[test]
@@ -151,17 +192,18 @@ fn a_given_model_of_another_gain_lacks_nothing_but_that() {
     (model["b"], model["gain"]) = (b.into(), gain);
     folder.write("model.json", &model.to_string());
     let page = diagnosed(&folder, &["--model", "model.json"]);
-    assert_eq!(page["verdict"]["status"], "none");
+    assert_eq!(page["verdict"]["status"], "refit");
+    assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(0));
+    let refit = &page["verdict"]["refit"];
+    assert_eq!((&refit["order"], &refit["delay"]), (&Value::from(2), &Value::from(0)));
+    assert!(refit["closure"]["estimate"].as_f64().expect("a number") > 0.99, "{refit:#}");
+    assert_eq!(page["verdict"]["calibrated"], false);
     let figure = |key: &str| page["gap"][key]["estimate"].as_f64().expect("a number");
     assert!(figure("before") > 0.01, "{page:#}");
     assert!(figure("identified_anew").abs() < 1e-3 * figure("before"), "{page:#}");
     let output = folder.switchback(&["gap", "rig.toml", "--model", "model.json"]).output().expect("it runs");
     let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
-    assert!(told.contains("missing from the model but the right parameters"), "{told}");
-    assert!(
-        told.contains("Identified anew from the fit records, a model without any cause closes"),
-        "{told}"
-    );
+    assert!(told.contains("The model's parameters (its order) are off: identified anew"), "{told}");
 }
 
 #[test]

@@ -23,6 +23,7 @@ fn every_pulse_method_finds_the_system_of_the_small_rig() {
     let folder = Folder::with_good_rig();
     for method in ["efficient", "joint"] {
         let found = identified(&folder, &["--method", method]);
+        assert_eq!(found["schema"], "switchback/identify/1");
         assert_eq!(found["method"], method);
         assert_eq!(found["order"], 2);
         for (letter, truth) in [("a", [-1.2, 0.5]), ("b", [0.4, 0.2])] {

@@ -24,7 +24,7 @@ fn the_interval_of_a_play_holds_what_no_sample_decides() {
     let what = ["--effect", "backlash", "--size", "2", "--seed", "514"];
     let page = diagnosis_of_made(&what);
     let play = interval(&parameter(&page, "backlash", "play"));
-    // The maker moves 0.01 interval widths of 20 to either side.
+    // The maker moves a play of full width 0.02 intervals of 20.
     assert!(play.contains(&0.4), "{play:?}");
     assert!(play.end() - play.start() < 0.01, "{play:?}");
 }

@@ -62,6 +62,26 @@ fn the_list_names_every_effect_with_its_laws() {
         .args(["rig", "--list"])
         .assert()
         .success()
-        .stdout(contains("backlash"))
+        .stdout(contains("play, 1 Prandtl-Ishlinskii, 2 uneven play (full width, in input units)"))
         .stdout(contains("Bouc-Wen"));
+}
+
+/// The travel lost at a reversal, whoever tells of it: twice the radius of the play operator, in units of the input.
+#[test]
+fn a_play_is_told_by_its_full_width_in_input_units() {
+    let root = tempfile::tempdir().unwrap();
+    let made = |json: &[&str]| {
+        let out = root.path().join(format!("rig{}", json.len()));
+        let what = ["rig", "--effect", "backlash", "--size", "2", "--seed", "514"];
+        let run = switchback().args(what).args(json).arg("--out").arg(out).assert().success();
+        String::from_utf8(run.get_output().stdout.clone()).unwrap()
+    };
+    let told = made(&[]);
+    assert!(told.contains("backlash (play, operator): full width 0.4000 input units"), "{told}");
+    let told = made(&["--json"]);
+    assert!(told.starts_with("{\n  \"schema\": \"switchback/rig/1\","), "{told}");
+    let key: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let effect = &key["effects"][0];
+    assert_eq!((&effect["quantity"], &effect["unit"]), (&"full width".into(), &"input units".into()));
+    assert!((effect["magnitude"].as_f64().unwrap() - 0.4).abs() < 1e-9, "{effect}");
 }

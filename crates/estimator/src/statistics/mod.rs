@@ -5,6 +5,7 @@ mod error_sums;
 mod jackknife;
 mod lane_errors;
 mod line;
+mod propagation;
 mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
@@ -12,6 +13,7 @@ pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};
+pub use propagation::propagated;
 pub use whiteness::Whiteness;
 
 /// A measured number with its Monte-Carlo standard error.

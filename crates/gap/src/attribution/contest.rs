@@ -79,7 +79,7 @@ impl<W: Workers> Attribution<'_, W> {
         let known = Known::new(self.campaign, self.detailed);
         let asked: Vec<Effect> = self.rulers().collect();
         let found = self.workers.map(&asked, |effect| from_scratch(&known, *effect));
-        let found: Vec<Explanation> = found.into_iter().flatten().collect();
+        let found: Vec<Explanation> = found.into_iter().flatten().filter(|s| self.considers(s)).collect();
         let most = found.iter().chain(singles).map(|s| self.gain(Some(s))).fold(0.0, f64::max);
         let rivals = found.into_iter().filter(|s| self.gain(Some(s)) > RIVAL * most).collect::<Vec<_>>();
         self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
@@ -100,6 +100,13 @@ impl<W: Workers> Attribution<'_, W> {
             None => singles.push(known),
         }
         singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    }
+
+    /// Whether all effects of an explanation are to be considered, each once: signs may have given a law the name of another.
+    pub(crate) fn considers(&self, explanation: &Explanation) -> bool {
+        let effects = explanation.effects();
+        let is_new = |(number, effect): (usize, &Effect)| !effects[..number].contains(effect);
+        effects.iter().all(|e| self.settings.effects.contains(e)) && effects.iter().enumerate().all(is_new)
     }
 
     /// Penalised deviance gained over the nominal model.
@@ -134,7 +141,12 @@ impl<W: Workers> Attribution<'_, W> {
             if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
         done.extend(self.raced(known, &promising, contest.to_beat));
-        done.retain(|(_, law)| law.is_sound());
+        let named = done.into_iter().map(|(_, law)| law.named_by_its_signs());
+        let effect = |law: &Explanation| law.parts.last().map(|part| part.effect);
+        let mut done: Vec<(Effect, Explanation)> = named
+            .filter(|law| law.is_sound() && self.considers(law))
+            .filter_map(|law| Some((effect(&law)?, law)))
+            .collect();
         done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
         // Several laws of one effect: the best counts.
         let mut seen: Vec<Effect> = Vec::new();

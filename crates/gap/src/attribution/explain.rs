@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::attribution::search::finish;
 use crate::effect::Effect;
-use crate::effects::{Apply, Search, Sound, Variant, is_coloured_noise};
+use crate::effects::{Apply, Naming, Search, Sound, Variant, is_coloured_noise};
 use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
 use crate::model::assembly::Assembly;
 use crate::records::campaign::Campaign;
@@ -15,10 +15,11 @@ use crate::records::campaign::Campaign;
 #[derive(Clone)]
 pub(crate) struct Part {
     pub(crate) effect: Effect,
-    /// Which of the effect's laws.
-    pub(crate) law: usize,
+    /// Which law it is: the effect that offers it, and its number there. The signs of its fit may make it one of another effect.
+    pub(crate) law: (Effect, usize),
     pub(crate) apply: Apply,
     pub(crate) sound: Sound,
+    pub(crate) naming: Option<Naming>,
     /// Number of own parameters.
     pub(crate) count: usize,
     pub(crate) search: Search,
@@ -34,9 +35,10 @@ impl Part {
     pub(crate) fn of(effect: Effect, (law, variant): (usize, &Variant)) -> Self {
         Self {
             effect,
-            law,
+            law: (effect, law),
             apply: variant.apply.clone(),
             sound: variant.sound,
+            naming: variant.naming,
             count: variant.starts[0].len(),
             search: variant.search,
             handicap: variant.handicap,
@@ -48,9 +50,10 @@ impl Part {
         let apply: Apply = Arc::new(|_, _| {});
         Self {
             effect: Effect::BorderResolution,
-            law: 0,
+            law: (Effect::BorderResolution, 0),
             apply,
             sound: |_, _| true,
+            naming: None,
             count: 0,
             search: Search::Smooth,
             handicap: 0.0,
@@ -125,9 +128,28 @@ impl Explanation {
         from..from + self.parts[number].count
     }
 
-    /// Whether it is what it says: neither the limit of another effect nor noise in disguise.
+    /// Whether it is what it says: neither the limit of another effect, nor one whose signs are another's, nor noise in disguise.
     pub(crate) fn may_be_a_cause(&self) -> bool {
-        self.is_sound() && !self.disguises_noise()
+        self.is_sound() && self.names_hold() && !self.disguises_noise()
+    }
+
+    /// The same explanation, each effect by the name that the signs of its fit give it.
+    pub(crate) fn named_by_its_signs(mut self) -> Self {
+        self.parts = self.named_parts().map(|(part, effect)| Part { effect, ..part.clone() }).collect();
+        self
+    }
+
+    /// Whether each effect has the name that the signs of its fit give it.
+    fn names_hold(&self) -> bool {
+        self.named_parts().all(|(part, effect)| part.effect == effect)
+    }
+
+    /// Every effect with the name that the signs of its fit give it.
+    fn named_parts(&self) -> impl Iterator<Item = (&Part, Effect)> {
+        self.parts.iter().enumerate().map(|(number, part)| {
+            let own: Vec<f64> = self.fit.own[self.own_of(number)].iter().map(|o| o.value).collect();
+            (part, part.naming.map_or(part.effect, |naming| naming(&own, &self.fit)))
+        })
     }
 
     /// Whether an effect of it is but the colour of the noise under another name.

@@ -16,7 +16,7 @@ use crate::workers::Workers;
 #[derive(Debug)]
 pub(super) struct Evidence {
     /// Every effect whose fit is one of it: what is no cause by itself may still be one of two.
-    all: Vec<Explanation>,
+    pub(super) all: Vec<Explanation>,
     /// Those that may be the cause, best first.
     pub(super) singles: Vec<Explanation>,
     /// Whether the best of them gains what chance does not.
@@ -75,7 +75,7 @@ impl Plan {
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
-            self.drop_what_held_out_records_refute(&mut singles);
+            self.drop_what_held_out_records_refute(workers, &mut singles);
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);

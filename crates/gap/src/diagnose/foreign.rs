@@ -3,6 +3,7 @@
 use switchback_estimator::rig::{Rig, RigRecord};
 
 use crate::error::DiagnoseError;
+use crate::likelihood::engine::Fit;
 use crate::localise::Residuals;
 use crate::records::campaign::{Campaign, Track};
 use crate::settings::Model;
@@ -11,6 +12,8 @@ use crate::simulation::simulate::free_run;
 /// A model as it was given: nothing of it is fitted.
 #[derive(Debug)]
 pub(super) struct Foreign {
+    /// The model itself, where it is known.
+    pub(super) given: Option<Fit>,
     /// Simulated outputs, one a judged track.
     pub(super) runs: Vec<Vec<f64>>,
     pub(super) residuals: Residuals,
@@ -35,6 +38,7 @@ impl Foreign {
                     runs: judged.iter().map(run).collect(),
                     residuals: Residuals::of(campaign, &given),
                     is_output: false,
+                    given: Some(given),
                 })
             }
             Model::Predicted => {
@@ -47,7 +51,12 @@ impl Foreign {
                 let known = predicted(rig, campaign);
                 let series = campaign.tracks.iter().zip(known).map(errors).collect();
                 let residuals = Residuals { series, simulated: true };
-                Some(Self { runs: predictions(rig, campaign, judged)?, residuals, is_output: true })
+                Some(Self {
+                    given: None,
+                    runs: predictions(rig, campaign, judged)?,
+                    residuals,
+                    is_output: true,
+                })
             }
         })
     }

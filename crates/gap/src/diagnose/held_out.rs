@@ -106,11 +106,19 @@ impl Plan {
         }
     }
 
-    /// A simulator that is worse on held-out records explains nothing, however well it follows those it was fitted to.
-    pub(super) fn drop_what_held_out_records_refute(&self, singles: &mut Vec<Explanation>) {
+    /// What is worse on held-out records explains nothing, however well it follows those it was fitted to: a simulator that closes none
+    /// of the gap, and whatever harms a record beyond its error.
+    pub(super) fn drop_what_held_out_records_refute(
+        &self,
+        workers: &impl Workers,
+        singles: &mut Vec<Explanation>,
+    ) {
         if self.campaign.criterion.simulates() {
             singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
         }
+        let harm = workers.map(singles, |s| self.harms(s));
+        let mut harm = harm.into_iter();
+        singles.retain(|_| !harm.next().unwrap_or_default());
     }
 
     /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
@@ -165,7 +173,7 @@ impl Plan {
     }
 
     /// The gap on the judged records before and after.
-    fn gap(&self, fit: &Fit, resamples: usize) -> Gap {
+    pub(super) fn gap(&self, fit: &Fit, resamples: usize) -> Gap {
         let draws = (self.settings.seed, resamples);
         measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), draws)
     }

@@ -2,10 +2,12 @@
 
 mod evidence;
 mod foreign;
+mod harm;
 mod held_out;
 mod judged;
 mod nominal;
 mod parameters;
+mod refit;
 mod report;
 
 use switchback_estimator::rig::Rig;
@@ -19,12 +21,13 @@ use crate::attribution::explain::Explanation;
 use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
-use crate::nominal::order::{Choice, Chosen, declared, structure};
+use crate::export::Exporter;
+use crate::nominal::order::{Choice, Chosen, Structure, declared, of_structure, structure};
 use crate::phase::Phase;
 use crate::records::campaign::Campaign;
 use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
-use crate::verdict::decide::verdict;
+use crate::verdict::decide::{parameters_are_off, unresolved, verdict};
 use crate::verdict::odds::{Leavings, holds_together, odds, odds_together};
 use crate::verdict::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
@@ -53,28 +56,70 @@ pub fn diagnose_with(
 ) -> Result<Diagnosis, DiagnoseError> {
     workers.begin(Phase::Nominal);
     let records = Campaign::new(rig)?;
+    let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
-    let conclude = |mut plan: Plan| {
-        let conclusion = plan.attribute(workers);
-        plan.report(workers, conclusion)
+    let chosen = structure(workers, records.clone(), declared, settings.max_order)?;
+    let (first, conclusion) = concluded(workers, chosen, &plan)?;
+    let (last, conclusion) = match declared {
+        Some(_) => (first, conclusion),
+        None => with_room_for_dynamics(workers, (first, conclusion), (&records, &plan))?,
     };
-    let (mut steps, simulator) =
-        match structure(workers, records, declared(rig, &model)?, settings.max_order)? {
-            Choice::One(chosen) => return Ok(conclude(plan(chosen)?)),
-            Choice::Either(steps, simulator) => (plan(steps)?, simulator),
-        };
+    Ok(last.report(workers, conclusion))
+}
+
+/// The diagnosis of one choice; of two, that one step ahead where it tells a cause with which no simulator is needed.
+fn concluded(
+    workers: &impl Workers,
+    choice: Choice,
+    plan: &impl Fn(Chosen) -> Result<Plan, DiagnoseError>,
+) -> Result<(Plan, Conclusion), DiagnoseError> {
+    let (mut steps, simulator) = match choice {
+        Choice::One(chosen) => {
+            let mut only = plan(chosen)?;
+            let conclusion = only.attribute(workers);
+            return Ok((only, conclusion));
+        }
+        Choice::Either(steps, simulator) => (plan(steps)?, simulator),
+    };
     let by_steps = steps.attribute(workers);
     let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
     if told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
-        return Ok(steps.report(workers, by_steps));
+        return Ok((steps, by_steps));
     }
     let mut runs = plan(simulator.chosen())?;
     let by_runs = runs.attribute(workers);
     // What a simulator leaves alone may be what it cannot see.
     match (by_steps.verdict.status, by_runs.verdict.status) {
-        (Status::Unexplained, Status::None) => Ok(steps.report(workers, by_steps)),
-        _ => Ok(runs.report(workers, by_runs)),
+        (Status::Unexplained, Status::None) => Ok((steps, by_steps)),
+        _ => Ok((runs, by_runs)),
     }
+}
+
+/// The diagnosis on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be told and a higher
+/// order or another delay does the same on the held-out records. What that one tells counts, unless it is such an effect again, or
+/// nothing of use: then the order is the answer.
+fn with_room_for_dynamics(
+    workers: &impl Workers,
+    (first, conclusion): (Plan, Conclusion),
+    (records, plan): (&Campaign, &impl Fn(Chosen) -> Result<Plan, DiagnoseError>),
+) -> Result<(Plan, Conclusion), DiagnoseError> {
+    if !refit::tells_dynamics(&conclusion.verdict) {
+        return Ok((first, conclusion));
+    }
+    let simulates = first.campaign.criterion.simulates();
+    let wider = first.structure.wider(refit::tells_a_delay(&conclusion.verdict));
+    let fitted = workers.map(&wider, |structure| of_structure(records, *structure, simulates).ok());
+    let does_the_same = |chosen: &Chosen| first.does_the_same(chosen, &conclusion.augmented.fit);
+    let Some(chosen) = fitted.into_iter().flatten().find(does_the_same) else {
+        return Ok((first, conclusion));
+    };
+    let mut again = plan(chosen)?;
+    let anew = again.attribute(workers);
+    if refit::tells_dynamics(&anew.verdict) || anew.verdict.status == Status::Unexplained {
+        let refitted = first.refitted(conclusion, &again);
+        return Ok((first, refitted));
+    }
+    Ok((again, anew))
 }
 
 /// What is known before any effect is tried.
@@ -89,13 +134,19 @@ struct Plan {
     /// Tracks the gap is measured on, and what the model under diagnosis makes of them.
     judged: Vec<usize>,
     runs: Vec<Vec<f64>>,
+    /// That of the nominal model.
+    structure: Structure,
+    /// Whether probabilities were calibrated on records and models like these.
+    is_calibrated: bool,
     limitations: Vec<String>,
+    exporter: Exporter,
 }
 
 impl Plan {
     /// Lays out what a diagnosis of the chosen nominal model starts from.
     fn new(rig: &Rig, model: &Model, settings: &Settings, chosen: Chosen) -> Result<Self, DiagnoseError> {
-        let Chosen { campaign, fit, told } = chosen;
+        let Chosen { campaign, fit, structure, told } = chosen;
+        let declared = told.is_none();
         let mut settings = settings.clone();
         let mut limitations = Vec::from_iter(told);
         if campaign.criterion.simulates() {
@@ -110,7 +161,21 @@ impl Plan {
             Some(foreign) => foreign.runs.clone(),
             None => nominal.runs(&campaign, &judged),
         };
-        Ok(Self { settings, campaign, nominal, foreign, judged, runs, limitations })
+        let exporter = Exporter::new(rig);
+        let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
+        let is_calibrated = declared && holds_out && foreign.is_none() && !campaign.criterion.simulates();
+        Ok(Self {
+            settings,
+            campaign,
+            nominal,
+            foreign,
+            judged,
+            runs,
+            structure,
+            is_calibrated,
+            limitations,
+            exporter,
+        })
     }
 
     /// Founds the diagnosis on another optimum of the nominal model.
@@ -141,7 +206,7 @@ impl Plan {
             self.found_on(better);
             evidence = self.gather(workers);
         }
-        let Evidence { singles, significant, best, mut tests, pair, .. } = evidence;
+        let Evidence { all, singles, significant, best, mut tests, pair } = evidence;
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
@@ -162,6 +227,8 @@ impl Plan {
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
                 && !self.worsens(&explanation)
+                && !self.harms(&explanation)
+                && self.second_shows(&explanation, &causes, &all)
                 && !misses
                 && (!pair.is_hidden || self.shows_in_simulations(&explanation));
             if together.told() >= self.settings.name_at && holds {
@@ -178,12 +245,19 @@ impl Plan {
             singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
         ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
         let causes = joint.as_ref().map(|(_, causes)| causes);
-        let verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
+        let mut verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
+        let explanation = joint.map_or(best, |(explanation, _)| explanation);
+        if self.only_parameters_are_off(verdict.status, &explanation.fit) {
+            verdict = parameters_are_off(&verdict);
+        } else if verdict.status == Status::Unexplained && self.resolves_no_gap(&explanation.fit) {
+            verdict = unresolved(&odds);
+        }
+        verdict.calibrated = self.is_calibrated;
         let augmented = match verdict.status {
-            Status::None => self.nominal.plain.clone(),
-            _ => joint.map_or(best, |(explanation, _)| explanation),
+            Status::None | Status::Refit => self.nominal.plain.clone(),
+            _ => explanation,
         };
-        Conclusion { singles, odds, verdict, augmented, left, together: found }
+        Conclusion { singles, odds, verdict, augmented, left, together: found, other: None }
     }
 }
 

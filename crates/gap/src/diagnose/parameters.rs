@@ -18,8 +18,17 @@ pub(super) fn parameters(
     let effect = explanation.parts[number].effect;
     let own = explanation.own_of(number);
     let searched = explanation.fit.own[own.clone()].iter().zip(&intervals[own]);
-    let searched =
-        searched.map(|(o, ci90)| FittedParameter { name: o.name, unit: o.unit, value: o.value, ci90: *ci90 });
+    let name = |name: &'static str| match (effect, name) {
+        // A law of falling friction that fitted one that rises.
+        (Effect::RateDependence, "stribeck_speed") => "speed_scale",
+        (_, name) => name,
+    };
+    let searched = searched.map(|(o, ci90)| FittedParameter {
+        name: name(o.name),
+        unit: o.unit,
+        value: o.value,
+        ci90: *ci90,
+    });
     let lag = searched.clone().find(|own| effect == Effect::ExtraPole && own.name == "pole");
     let told_first = lag.as_ref().and_then(time_constant).into_iter();
     told_first.chain(read_off(campaign, explanation, effect)).chain(searched).collect()

@@ -7,12 +7,17 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
-use crate::diagnosis::{Candidate, Cell, Diagnosis, Figure, Gap, HoldoutSeries, Status, Together, Verdict};
+use crate::diagnosis::{
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Refit, Status, Together, Verdict,
+};
 use crate::effect::Effect;
+use crate::export::PortableModel;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
+use crate::nominal::order::Structure;
 use crate::phase::Phase;
 use crate::residuals::score::{innovations, picture};
+use crate::simulation::simulate::runs_away;
 use crate::verdict::odds::Odds;
 use crate::workers::Workers;
 
@@ -24,14 +29,28 @@ pub(super) struct Conclusion {
     pub(super) augmented: Explanation,
     pub(super) left: f64,
     pub(super) together: Option<Together>,
+    /// The nominal model of another structure that is the answer: order, delay, its runs of the judged records and the noise that it
+    /// leaves in these.
+    pub(super) other: Option<Other>,
+}
+
+/// A nominal model of another structure.
+pub(super) struct Other {
+    pub(super) structure: Structure,
+    pub(super) runs: Vec<Vec<f64>>,
+    pub(super) floor: (f64, f64),
 }
 
 impl Plan {
     pub(super) fn report(self, workers: &impl Workers, c: Conclusion) -> Diagnosis {
         workers.begin(Phase::Report);
         let campaign = &self.campaign;
-        let floor = self.noise_floor(&c.augmented.fit);
-        let runs = self.simulations(&c.augmented.fit);
+        let mut floor = self.noise_floor(&c.augmented.fit);
+        let mut runs = self.simulations(&c.augmented.fit);
+        if let Some(other) = &c.other {
+            floor = other.floor;
+            runs.iter_mut().zip(&other.runs).for_each(|(run, other)| run.after.clone_from(other));
+        }
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
         gap.identified_anew = self.identified_anew(floor);
@@ -55,23 +74,33 @@ impl Plan {
                     .into(),
             );
         }
-        if matches!(c.verdict.status, Status::None) {
-            gap.closure = None;
+        let mut verdict = c.verdict;
+        match verdict.status {
+            Status::None => gap.closure = None,
+            Status::Refit => {
+                let structure = c.other.as_ref().map_or(self.structure, |other| other.structure);
+                let told = |closure| Refit { order: structure.order, delay: -structure.lead, closure };
+                verdict.refit = gap.closure.map(told);
+            }
+            _ => {}
         }
         let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
         let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, floor, nominal_score));
-        let is_told = |effect| c.verdict.effects.contains(&effect) || c.verdict.class.contains(&effect);
+        let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
         for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
             candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
         }
-        candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability).then(x.bic.total_cmp(&y.bic)));
+        candidates.sort_by(|x, y| {
+            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
+        });
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
-        let next_experiment = crate::experiments::propose(campaign, &c.verdict, &c.singles, floor.0);
+        let added = self.added(&c.augmented, &candidates, c.together.as_ref());
+        let next_experiment = crate::experiments::propose(campaign, &verdict, &c.singles, floor.0);
         Diagnosis {
             where_,
-            verdict: c.verdict,
+            verdict,
             gap,
             candidates,
             probability_none: c.odds.none,
@@ -84,6 +113,39 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
+            nominal: self.nominal_model(),
+            augmented: self.exporter.fitted(campaign, &c.augmented),
+            added,
+        }
+    }
+
+    /// The effects of the augmented model; parameters with the intervals that they are told with elsewhere, where they are.
+    fn added(
+        &self,
+        augmented: &Explanation,
+        candidates: &[Candidate],
+        together: Option<&Together>,
+    ) -> Vec<(Effect, Vec<FittedParameter>)> {
+        let effects = augmented.effects();
+        let told = match effects[..] {
+            [only] => candidates.iter().find(|c| c.effect == only).map(|c| vec![c.parameters.clone()]),
+            _ => together.filter(|pair| pair.effects == effects).map(|pair| pair.parameters.clone()),
+        };
+        let intervals = augmented.fit.intervals();
+        let own = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
+        let all: Vec<_> = (0..effects.len()).map(own).collect();
+        let values =
+            |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
+        // An explanation on other knots has other estimates.
+        let told = told.filter(|told| values(told) == values(&all));
+        effects.into_iter().zip(told.unwrap_or(all)).collect()
+    }
+
+    /// The model under diagnosis; nothing where only its predictions are known.
+    fn nominal_model(&self) -> Option<PortableModel> {
+        match &self.foreign {
+            Some(foreign) => foreign.given.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
+            None => Some(self.exporter.fitted(&self.campaign, &self.nominal.plain)),
         }
     }
 
@@ -110,15 +172,18 @@ impl Plan {
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
             measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
-        let closure = closure.map(|_| 1.0 - after.estimate / before.estimate);
+        let unstable = runs_away(&s.fit, runs.iter().map(|run| &run.after[..]));
+        let closure = closure.filter(|_| !unstable).map(|_| 1.0 - after.estimate / before.estimate);
         Candidate {
             effect,
             stage: effect.stage(),
             probability: p,
             parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
-            bic: s.bic() - self.nominal.plain.bic(),
+            bic: s.bic(),
+            delta_bic: self.nominal.plain.bic() - s.bic(),
             heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
             closure,
+            unstable,
         }
     }
 

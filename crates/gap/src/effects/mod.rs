@@ -24,6 +24,7 @@ mod sensor_drift;
 mod sensor_nonlinearity;
 mod sensor_quantisation;
 mod sensor_saturation;
+mod speed;
 mod stribeck;
 
 use std::sync::Arc;
@@ -53,6 +54,9 @@ pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
 /// Whether a law, given its fitted own parameters, is still a law of its effect, not the limit at which it is another one.
 pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
 
+/// The effect that a law is one of, given its fitted own parameters: where a coefficient may have either sign, a name includes it.
+pub(crate) type Naming = fn(&[f64], &Fit) -> Effect;
+
 /// One law of an effect.
 pub(crate) struct Variant {
     /// Points the search starts from; all hold the same parameters.
@@ -66,6 +70,8 @@ pub(crate) struct Variant {
     pub(crate) valley: Option<fn(&[Own]) -> i64>,
     pub(crate) apply: Apply,
     pub(crate) sound: Sound,
+    /// Which effect a fit is one of, where that depends on its signs.
+    pub(crate) naming: Option<Naming>,
     /// A finer border grid that comes with the law.
     pub(crate) grid: Option<Grid>,
     /// Added to the deviance: evidence that the innovations do not show, or a penalty.
@@ -92,6 +98,7 @@ impl Variant {
             valley: None,
             apply: Arc::new(apply),
             sound: |_, _| true,
+            naming: None,
             grid: None,
             handicap: 0.0,
         }
@@ -107,6 +114,11 @@ impl Variant {
     /// The same law, of its effect only where a fit is sound.
     fn sound_if(self, sound: Sound) -> Self {
         Self { sound, ..self }
+    }
+
+    /// The same law, of another effect where its signs say so.
+    fn named_by(self, naming: Naming) -> Self {
+        Self { naming: Some(naming), ..self }
     }
 }
 
@@ -182,3 +194,6 @@ fn fitted_tracks(campaign: &Campaign) -> Vec<usize> {
 fn own(name: &'static str, unit: &'static str, value: f64, bounds: (f64, f64), step: f64) -> Own {
     Own { name, unit, value, low: bounds.0, high: bounds.1, step }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,10 +6,13 @@
 //! ```
 //!
 //! Parameters: `power` (0.1…3); the coefficient is estimated with the borders, `widening` w (−0.9…20) is not. Stage: operator. Fast records have wider loops
-//! than slow ones. While the input rests, the term keeps its last value or vanishes. Confused with: Stribeck
+//! than slow ones; where the fit says that they are narrower it is [Stribeck friction](super::stribeck), and a fit of that which says that they are
+//! wider is of this effect ([`super::speed`]). While the input rests, the term keeps its last value or vanishes. Confused with: Stribeck
 //! friction (which falls with speed), creep.
 
-use super::{Scene, Variant, own, typical_speed};
+use super::{Scene, Variant, own, speed, typical_speed};
+use crate::effect::Effect;
+use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -18,9 +21,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     for while_resting in [Resting::Held, Resting::Zero] {
         // Viscous friction is the commonest.
         let starts = [0.4, 1.0].iter().map(|&p| vec![own("power", "1", p, (0.1, 3.0), 0.02)]).collect();
-        out.push(Variant::conditional(starts, move |p, assembly| {
+        let law = Variant::conditional(starts, move |p, assembly| {
             assembly.border_columns.push(BorderColumn::Speed { power: p[0], scale, while_resting });
-        }));
+        });
+        out.push(law.named_by(name_of_a_column));
     }
     let starts = [(0.2, 0.3), (1.0, 0.3), (0.2, 1.0), (1.0, 1.0)].map(|(share, power)| {
         vec![
@@ -28,8 +32,14 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             own("power", "1", power, (0.1, 3.0), 0.02),
         ]
     });
-    out.push(Variant::conditional(starts.into(), move |p, assembly| {
+    let widening = Variant::conditional(starts.into(), move |p, assembly| {
         assembly.widening = Some(Widening { share: p[0], power: p[1], scale, speeds: Speeds::High });
-    }));
+    });
+    out.push(widening.named_by(|p, _| speed::of_a_widening(Speeds::High, p[0])));
     out
+}
+
+fn name_of_a_column(p: &[f64], fit: &Fit) -> Effect {
+    let is_it = |c: &BorderColumn| matches!(c, BorderColumn::Speed { power, .. } if *power == p[0]);
+    speed::of_a_column(fit, is_it).unwrap_or(Effect::RateDependence)
 }

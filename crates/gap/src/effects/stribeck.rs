@@ -8,9 +8,12 @@
 //!
 //! Parameters: Stribeck speed `r_s` in strokes per sample, `power` (0.3…4; 2 is the Gaussian law, below 1 near the hyperbolic one); `length` in strokes (0.002…0.2); the coefficient is estimated with the borders, `widening` w
 //! (−0.9…20) is not. Stage:
-//! operator. Slow passages show a wider loop than fast ones, and only below `r_s`. Confused with: rate dependence.
+//! operator. Slow passages show a wider loop than fast ones, and only below `r_s`; where the fit says that it is narrower, friction rises
+//! with speed, and the law is one of [rate dependence](super::rate_dependence). Confused with: rate dependence.
 
-use super::{Scene, Variant, own, typical_speed};
+use super::{Scene, Variant, own, speed, typical_speed};
+use crate::effect::Effect;
+use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
@@ -29,6 +32,10 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             let column = BorderColumn::LowSpeed { power: p[1], scale: p[0], while_resting };
             assembly.border_columns.push(column);
         })
+        .named_by(|p, fit| {
+            let of_it = |power: f64, scale: f64| [scale, power] == p[..2];
+            named(fit, |c| matches!(*c, BorderColumn::LowSpeed { power, scale, .. } if of_it(power, scale)))
+        })
     };
     let bends = own("length", "strokes", 0.02, (0.002, 0.2), 0.001);
     let starts =
@@ -37,11 +44,23 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         let column = BorderColumn::Bristle { power: p[1], scale: p[0], length: p[2] };
         assembly.border_columns.push(column);
     });
+    let bristle = bristle.named_by(|p, fit| {
+        let of_it = |power: f64, scale: f64, length: f64| [scale, power, length] == p[..3];
+        named(
+            fit,
+            |c| matches!(*c, BorderColumn::Bristle { power, scale, length } if of_it(power, scale, length)),
+        )
+    });
     let share = own("widening", "half widths of the loop", 0.3, (-0.9, 20.0), 0.005);
     let starts =
         [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0)].map(|start| [vec![share], slow(start)].concat());
     let wider = Variant::conditional(starts.into(), |p, assembly| {
         assembly.widening = Some(Widening { share: p[0], power: p[2], scale: p[1], speeds: Speeds::Low });
     });
+    let wider = wider.named_by(|p, _| speed::of_a_widening(Speeds::Low, p[0]));
     vec![low_speed(Resting::Held), low_speed(Resting::Zero), bristle, wider]
+}
+
+fn named(fit: &Fit, is_it: impl Fn(&BorderColumn) -> bool) -> Effect {
+    speed::of_a_column(fit, is_it).unwrap_or(Effect::Stribeck)
 }

@@ -96,17 +96,17 @@ const STRONGER: f64 = 1e3;
 const STRONGEST: f64 = 0.5;
 
 /// The state of a fit at given parameters.
-struct State {
+pub(super) struct State {
     assembly: Assembly,
-    whitener: Whitener,
-    innovations: Vec<Vec<f64>>,
-    weights: Weights,
+    pub(super) whitener: Whitener,
+    pub(super) innovations: Vec<Vec<f64>>,
+    pub(super) weights: Weights,
     deviance: f64,
-    variance: f64,
+    pub(super) variance: f64,
 }
 
 /// Evaluates the model; `None` where it is not finite.
-fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
+pub(super) fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
     if design.criterion.simulates() && !settles(&p.a) {
         return None;
     }
@@ -265,7 +265,7 @@ pub(crate) fn fit(
 ///
 /// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
 /// squares monotone in the deviance.
-fn derivatives(
+pub(super) fn derivatives(
     ground: &Ground<'_>,
     build: &Build<'_>,
     own: &[Own],

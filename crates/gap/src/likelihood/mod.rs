@@ -8,5 +8,6 @@ pub(crate) mod jacobian;
 pub(crate) mod mask;
 pub(crate) mod rows;
 pub(crate) mod spectral;
+pub(crate) mod uncertainty;
 pub(crate) mod weights;
 pub(crate) mod whitener;

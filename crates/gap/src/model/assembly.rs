@@ -4,11 +4,15 @@
 //! v → delay → play → borders (transition, wear, widening, relaxation) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
+use serde::{Deserialize, Serialize};
+
+use crate::model::infinite;
 use crate::model::sensor::SensorCurve;
 use crate::records::motion::Play;
 
 /// How the working point passes from one border to the other.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Transition {
     /// Travel over which it passes, in strokes.
     pub(crate) length: f64,
@@ -26,7 +30,8 @@ impl Transition {
 }
 
 /// What fades during a transition with envelope `φ`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum TransitionLaw {
     /// `u = C(v) + φ·(u_rev − C(v_rev))`: the distance to the border at the reversal fades.
     Offset,
@@ -37,7 +42,8 @@ pub(crate) enum TransitionLaw {
 }
 
 /// A clock that slow changes follow, from 0 to about 1 unless told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Clock {
     /// Share of the samples of the whole campaign.
     Campaign,
@@ -52,7 +58,8 @@ pub(crate) enum Clock {
 }
 
 /// A slow change `Σ_k c_k·s_k(t)` of a clock.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Slow {
     pub(crate) clock: Clock,
     /// Coefficients of the shifted Legendre polynomials of degree 1, 2, … of the clock.
@@ -107,7 +114,8 @@ impl Slow {
 }
 
 /// A loop whose width depends on the speed `r` of the input, in strokes per sample: it is wider by the share `share·g(r)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Widening {
     pub(crate) share: f64,
     pub(crate) power: f64,
@@ -116,7 +124,8 @@ pub(crate) struct Widening {
 }
 
 /// At which speeds a loop is wide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Speeds {
     /// `g = (r/scale)^power`.
     High,
@@ -136,7 +145,8 @@ impl Widening {
 
 /// A working point that goes towards the middle between the borders while the input rests: by the share
 /// `share·(1 − e^(−rest/tau))` of its distance, `rest` in samples.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Relaxation {
     pub(crate) share: f64,
     pub(crate) tau: f64,
@@ -149,7 +159,8 @@ impl Relaxation {
 }
 
 /// A column beside the border values: its coefficient is estimated with them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum BorderColumn {
     /// `branch·r^power`, `r` the speed in strokes per sample over `scale`.
     Speed { power: f64, scale: f64, while_resting: Resting },
@@ -172,7 +183,8 @@ pub(crate) enum BorderColumn {
 }
 
 /// What a speed-dependent term does while the input rests.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Resting {
     /// It keeps its last value, as `u` does.
     Held,
@@ -181,7 +193,8 @@ pub(crate) enum Resting {
 }
 
 /// A disturbance column of the equation, `A y = B u + Σ d·ψ`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum EquationColumn {
     /// Cosine and sine at a frequency (radians per sample) on one track, or on all with the campaign's clock.
     Line { frequency: f64, track: Option<usize>, sine: bool },
@@ -208,16 +221,20 @@ impl EquationColumn {
 }
 
 /// The sensor's range.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Saturation {
+    #[serde(with = "infinite")]
     pub(crate) low: f64,
+    #[serde(with = "infinite")]
     pub(crate) high: f64,
     /// Order of the equation.
     pub(crate) order: usize,
 }
 
 /// Noise on the input that acts: its variance over that of the equation error.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct InputNoise {
     /// What comes by the slope of the borders.
     pub(crate) by_slope: f64,
@@ -230,7 +247,8 @@ pub(crate) struct InputNoise {
 }
 
 /// The law of the equation error.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct NoiseLaw {
     /// `D(q⁻¹) e = w`: coefficients d₁, d₂, ….
     pub(crate) ar: Vec<f64>,
@@ -257,7 +275,8 @@ impl NoiseLaw {
 }
 
 /// A composition of effects.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Assembly {
     /// Coefficients of B beyond the nominal order.
     pub(crate) extra_b: usize,

@@ -1,7 +1,10 @@
 //! Two tabulated borders, linear between knots, with jumps where a knot stands twice.
 
+use serde::{Deserialize, Serialize};
+
 /// Knots of both borders on the dimensionless input axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Grid {
     /// Descending border, then ascending border; each non-decreasing, a repeated knot is a jump.
     pub(crate) knots: [Vec<f64>; 2],

@@ -1,13 +1,29 @@
 //! A sensor's characteristic in powers of what it senses.
 
+use serde::{Deserialize, Serialize};
+
 /// `y = z + γ₂z² + γ₃z³`, dimensionless; where its slope falls below [`FLATTEST`] it goes on straight: one that folds back is no
 /// sensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub(crate) struct Forwards {
     square: f64,
     cube: f64,
     /// Where it begins and ceases to be a polynomial.
     range: [f64; 2],
+}
+
+/// The coefficients tell the range.
+impl From<[f64; 2]> for Forwards {
+    fn from([square, cube]: [f64; 2]) -> Self {
+        Self::new(square, cube)
+    }
+}
+
+impl From<Forwards> for [f64; 2] {
+    fn from(curve: Forwards) -> Self {
+        [curve.square, curve.cube]
+    }
 }
 
 /// Least slope.

@@ -1,11 +1,13 @@
 //! The parameters that are linear or bilinear given the effects' own.
 
 use nalgebra::{Complex, DMatrix};
+use serde::{Deserialize, Serialize};
 
 use crate::model::assembly::Assembly;
 
 /// `a`, `b`, border values and disturbance coefficients.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Linear {
     pub(crate) a: Vec<f64>,
     pub(crate) b: Vec<f64>,

@@ -3,6 +3,7 @@
 pub(crate) mod assembly;
 pub(crate) mod borders;
 pub(crate) mod forwards;
+pub(crate) mod infinite;
 pub(crate) mod linear;
 pub(crate) mod sensor;
 pub(crate) mod stability;

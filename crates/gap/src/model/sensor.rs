@@ -1,12 +1,15 @@
 //! The sensor's characteristic, by its inverse.
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::forwards::Forwards;
 
 /// The inverse characteristic `x = z + Σ θₖ zᵏ⁺² + Σ hⱼ bump((z−cⱼ)/s) + knees(z)`, dimensionless, `z + γ₂z² + γ₃z³ = y`.
 ///
 /// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly: it is the inverse that is linear in
 /// them, and the inverse that the likelihood of `y` needs. Curves that are powers forwards have no short inverse.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct SensorCurve {
     /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
@@ -16,7 +19,8 @@ pub(crate) struct SensorCurve {
 }
 
 /// Evenly spaced bumps `exp(−z²/2)`, `z = (y − first − j·spacing)/spacing`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Bumps {
     pub(crate) first: f64,
     pub(crate) spacing: f64,
@@ -24,7 +28,8 @@ pub(crate) struct Bumps {
 }
 
 /// Beyond `level` the sensor answers to the logarithm of what exceeds it: `x = y + w·(e^z − 1 − z)`, `z` the excess over `w`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Knee {
     pub(crate) level: f64,
     pub(crate) width: f64,

@@ -26,6 +26,8 @@ pub(crate) struct Chosen {
     /// The records with the lead and the criterion chosen.
     pub(crate) campaign: Campaign,
     pub(crate) fit: Fit,
+    /// What was chosen or declared.
+    pub(crate) structure: Structure,
     /// What was chosen, in words, where the rig does not declare it.
     pub(crate) told: Option<String>,
 }
@@ -51,7 +53,11 @@ pub(crate) struct Simulator {
 }
 
 /// Largest lead tried, samples.
-const LEADS: usize = 2;
+const LEADS: isize = 2;
+/// Orders above one chosen, and samples of delay beyond its own, at which a structure is asked whether it does what an effect does: a
+/// mode is two orders more.
+const HIGHER: usize = 2;
+const LATER: isize = 3;
 /// A structure this much worse than the best, as a ratio of mean squares, is as good if it is simpler.
 const AS_GOOD: f64 = 1.03;
 /// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
@@ -65,10 +71,10 @@ const ROUNDS: usize = 10;
 
 /// What is chosen besides the criterion.
 #[derive(Debug, Clone, Copy)]
-struct Structure {
-    order: usize,
-    /// Samples by which the output follows the input sooner than in the paper.
-    lead: usize,
+pub(crate) struct Structure {
+    pub(crate) order: usize,
+    /// Samples by which the output follows the input sooner than in the paper, or later where it is negative.
+    pub(crate) lead: isize,
     begins: Begins,
 }
 
@@ -78,9 +84,17 @@ impl Structure {
         let lead = match self.lead {
             0 => String::new(),
             1 => " and an output that follows the input within its sample".to_owned(),
+            lead if lead < 0 => format!(" and {} samples of extra delay", -lead),
             lead => format!(" and an output {} sample ahead of the input", lead - 1),
         };
         format!("the rig declares no order: order {}{lead}", self.order)
+    }
+
+    /// Structures with room for what an effect of the dynamics or a delay does, simpler ones first; `is_late` where it is a delay.
+    pub(crate) fn wider(self, is_late: bool) -> Vec<Self> {
+        let later = (1..=LATER).map(|by| Self { lead: self.lead - by, ..self });
+        let higher = (1..=HIGHER).map(|by| Self { order: self.order + by, ..self });
+        later.filter(|_| is_late).chain(higher).collect()
     }
 
     /// The records as this structure sees them.
@@ -126,7 +140,8 @@ pub(crate) fn structure(
     match declared {
         Some(n) => {
             let fit = identify(&campaign, n.max(1))?;
-            Ok(Choice::One(Chosen { campaign, fit, told: None }))
+            let structure = Structure { order: n, lead: 0, begins: Begins::default() };
+            Ok(Choice::One(Chosen { campaign, fit, structure, told: None }))
         }
         None => choose(workers, &campaign, most),
     }
@@ -166,12 +181,28 @@ fn choose(workers: &impl Workers, campaign: &Campaign, most: usize) -> Result<Ch
     }
 }
 
+/// The nominal model of a structure that was not chosen, identified one step ahead or as a simulator.
+///
+/// # Errors
+/// [`DiagnoseError`] where no such model fits the records.
+pub(crate) fn of_structure(
+    campaign: &Campaign,
+    structure: Structure,
+    simulates: bool,
+) -> Result<Chosen, DiagnoseError> {
+    if !simulates {
+        return one_step(campaign, structure);
+    }
+    let first = attempt(campaign, structure)?.simulator.ok_or_else(unstable)?;
+    Ok(Simulator { campaign: campaign.clone(), structure, first }.chosen())
+}
+
 /// The structure identified one step ahead.
 fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, DiagnoseError> {
     let campaign = structure.applied(campaign);
     let fit = identify(&campaign, structure.order)?;
     let told = Some(format!("{} was chosen from the fit records", structure.told()));
-    Ok(Chosen { campaign, fit, told })
+    Ok(Chosen { campaign, fit, structure, told })
 }
 
 impl Simulator {
@@ -188,7 +219,7 @@ impl Simulator {
              their free run",
             self.structure.told()
         );
-        Chosen { campaign, fit, told: Some(told) }
+        Chosen { campaign, fit, structure: self.structure, told: Some(told) }
     }
 
     /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as

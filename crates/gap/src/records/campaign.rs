@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
@@ -29,6 +30,8 @@ pub(crate) struct Track {
     pub(crate) from: usize,
     /// How `v` moves, without play.
     pub(crate) moves: Arc<[Motion]>,
+    /// Whether it is a record from outside the campaign, on which the campaign's clocks stand at their end.
+    pub(crate) standing: bool,
 }
 
 impl Track {
@@ -54,6 +57,8 @@ impl Track {
 #[derive(Debug, Clone)]
 pub(crate) struct Campaign {
     pub(crate) tracks: Vec<Track>,
+    /// Seconds between samples.
+    pub(crate) sample_time: f64,
     pub(crate) v_low: f64,
     pub(crate) v_width: f64,
     pub(crate) y_mean: f64,
@@ -68,10 +73,13 @@ pub(crate) struct Campaign {
     pub(crate) rule: ReversalRule,
     /// What a model is held against.
     pub(crate) criterion: Criterion,
+    /// Samples by which the input was [led](Self::led_by).
+    pub(crate) lead: isize,
 }
 
 /// What a model is held against.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Criterion {
     /// The next sample, given the measured ones before it: efficient where the equation error is what the model says.
     OneStep,
@@ -132,27 +140,14 @@ impl Campaign {
         let mut tracks = Vec::with_capacity(rig.records.len());
         let mut clock = 0;
         for r in &rig.records {
-            // Rounded, so that a difference of rounding errors is no move and no reversal.
-            let v: Vec<f64> = r
-                .record
-                .v()
-                .iter()
-                .map(|v| ((v - v_low) / v_width / RESOLUTION).round() * RESOLUTION)
-                .collect();
-            // Rounded too, so that readings at the end of a sensor's range are equal.
-            let y = r
-                .record
-                .y()
-                .iter()
-                .map(|y| ((y - y_mean) / y_scale / RESOLUTION).round() * RESOLUTION)
-                .collect();
-            let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
+            let v = dimensionless(r.record.v(), v_low, v_width);
+            let y = dimensionless(r.record.y(), y_mean, y_scale);
             let period = period_of(&v);
             tracks.push(Track {
                 name: r.name.clone(),
                 role: r.role,
                 usage: r.usage,
-                from: (moves + WARM_UP).min(v.len()),
+                from: first_counted(&v),
                 v,
                 y,
                 clock,
@@ -160,6 +155,7 @@ impl Campaign {
                 travelled: 0.0,
                 period,
                 moves: Arc::default(),
+                standing: false,
             });
             clock += r.record.len();
         }
@@ -173,6 +169,7 @@ impl Campaign {
         let levels = levels(&tracks);
         Ok(Self {
             tracks,
+            sample_time: rig.sample_time,
             v_low,
             v_width,
             y_mean,
@@ -182,20 +179,20 @@ impl Campaign {
             travel,
             rule,
             criterion: Criterion::OneStep,
+            lead: 0,
         })
     }
 
     /// The same records for a model whose output follows the input `lead` samples sooner than in the paper: a sampled
-    /// input may act within its sample, and a record of the position may trail the force.
-    pub(crate) fn led_by(&self, lead: usize) -> Self {
-        let mut led = self.clone();
-        for track in &mut led.tracks {
-            let last = track.v[track.v.len() - 1];
-            track.v.drain(..lead.min(track.v.len() - 1));
-            track.v.resize(track.y.len(), last);
+    /// input may act within its sample, and a record of the position may trail the force. A negative lead is a delay.
+    pub(crate) fn led_by(&self, lead: isize) -> Self {
+        let mut sooner = self.clone();
+        sooner.lead += lead;
+        for track in &mut sooner.tracks {
+            track.v = led(&track.v, lead);
             track.moves = motions(&track.v, Play::default(), self.rule).into();
         }
-        led
+        sooner
     }
 
     /// The same records with branches that begin elsewhere.
@@ -221,6 +218,24 @@ impl Campaign {
     pub(crate) fn fit_samples(&self) -> usize {
         self.fit().map(|t| t.v.len() - t.from).sum()
     }
+}
+
+/// A signal in shares of a scale from an origin; rounded, so that a difference of rounding errors is no move and no reversal, and
+/// readings at the end of a sensor's range are equal.
+pub(crate) fn dimensionless(signal: &[f64], origin: f64, scale: f64) -> Vec<f64> {
+    signal.iter().map(|x| ((x - origin) / scale / RESOLUTION).round() * RESOLUTION).collect()
+}
+
+/// The first counted sample of an input.
+pub(crate) fn first_counted(v: &[f64]) -> usize {
+    let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
+    (moves + WARM_UP).min(v.len())
+}
+
+/// An input so many samples sooner, or later where that is negative; before its beginning and after its end it rests.
+pub(crate) fn led(v: &[f64], lead: isize) -> Vec<f64> {
+    let last = v.len() - 1;
+    (0..=last).map(|t| v[t.saturating_add_signed(lead).min(last)]).collect()
 }
 
 fn range<'a>(values: impl Iterator<Item = &'a f64>) -> (f64, f64) {

@@ -1,5 +1,7 @@
 //! What the input does, sample by sample, as the operator sees it.
 
+use serde::{Deserialize, Serialize};
+
 /// Direction of the working point.
 pub(crate) type Sign = f64;
 
@@ -29,7 +31,8 @@ pub(crate) struct Motion {
 }
 
 /// What counts as a reversal.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct ReversalRule {
     /// A move smaller than this against the branch is no reversal (noise on `v`).
     pub(crate) threshold: f64,
@@ -38,7 +41,8 @@ pub(crate) struct ReversalRule {
 }
 
 /// Where a new branch begins, once a travel beyond the threshold has confirmed the reversal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Begins {
     /// At the sample that confirms it.
     #[default]
@@ -48,7 +52,8 @@ pub(crate) enum Begins {
 }
 
 /// A play whose width may change along the stroke.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Play {
     /// Full width in the middle of the stroke, in strokes.
     pub(crate) width: f64,

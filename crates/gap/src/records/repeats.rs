@@ -83,6 +83,7 @@ mod tests {
             period: Some(period),
             from: 12,
             moves: Arc::default(),
+            standing: false,
         }
     }
 

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::diagnosis::ResidualPicture;
 use crate::least_squares::normal::Normal;
 use crate::least_squares::sums::energy;
-use crate::likelihood::design::{Design, Whitener};
+use crate::likelihood::design::{Design, DesignTrack, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
 use crate::records::campaign::{Campaign, Track};
@@ -18,42 +18,43 @@ pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track
     design.innovations(&fit.linear, &design.whitener(&fit.assembly.noise, &fit.linear.a))
 }
 
-/// Mean log predictive density a sample on the hold-out records, dimensionless output. What died away when they began is no
-/// fault of the model: it is taken out.
+/// Mean log predictive density a sample on the hold-out records, dimensionless output.
 pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
+    let scores = heldout_log_scores(campaign, fit);
+    let counted = || scores.iter().flatten().filter(|x| !x.is_nan());
+    (scores.iter().any(|record| !record.is_empty()))
+        .then(|| counted().sum::<f64>() / (counted().count() as f64).max(1.0))
+}
+
+/// Log predictive density of every counted sample of each hold-out record, dimensionless output; NaN where a sample has no say. What
+/// died away when a record began is no fault of the model: it is taken out.
+pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>> {
     let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
     let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
-    let n = design.samples();
-    if n == 0 {
-        return None;
-    }
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let p = fit.linear.padded(fit.grid.len(), &assembly);
     let w = without(design.innovations(&p, &whitener), &design, &whitener, starts);
     let variance = fit.variance;
+    let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
     if let Some((share, ratio)) = fit.assembly.noise.mixture {
         let wide = variance * ratio * ratio;
-        let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
-        let sum: f64 = w
-            .iter()
-            .flatten()
-            .map(|&x| ((1.0 - share) * density(x, variance) + share * density(x, wide)).max(1e-300).ln())
-            .sum();
-        return Some(sum / n as f64);
+        let mixed = |x: f64| (1.0 - share) * density(x, variance) + share * density(x, wide);
+        return w.iter().map(|w| w.iter().map(|x| mixed(*x).max(1e-300).ln()).collect()).collect();
     }
     let weights = weigh(&design, &fit.assembly.noise, &fit.linear, &w);
-    let mut sum = 0.0;
-    let mut count = 0.0_f64;
-    for (number, w) in weights.by_track(&w).iter().enumerate() {
-        for (k, x) in w.iter().enumerate() {
+    let weighed = weights.by_track(&w);
+    let of_track = |(number, part): (usize, &DesignTrack)| {
+        let w = &weighed[number];
+        let counted = (0..w.len()).filter(|&k| weights.counts(number, k)).count();
+        let slope = part.log_slope / counted.max(1) as f64;
+        let score = |(k, x): (usize, &f64)| {
             let s = weights.scale.as_ref().map_or(1.0, |s| s[number][k]);
-            if s > 0.0 {
-                sum += -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance + s.ln();
-                count += 1.0;
-            }
-        }
-    }
-    Some((sum + design.log_slope()) / count.max(1.0))
+            let normal = -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance;
+            if s > 0.0 { normal + s.ln() + slope } else { f64::NAN }
+        };
+        w.iter().enumerate().map(score).collect()
+    };
+    design.tracks.iter().enumerate().map(of_track).collect()
 }
 
 /// Innovations without what columns of the equation whose coefficients are unknown take of them, by least squares.

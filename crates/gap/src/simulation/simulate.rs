@@ -1,52 +1,124 @@
 //! Free-run simulation of a fitted model over a record.
 
+use std::ops::Range;
+
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{Assembly, BorderColumn, convolve};
+use crate::model::borders::Grid;
+use crate::model::linear::Linear;
+use crate::model::stability::stable;
 use crate::records::campaign::{Campaign, Track};
 use crate::simulation::beginnings::{set_by_first_samples, with_beginnings};
+
+/// Outputs beyond this many standard deviations are those of an unstable model; the bound keeps its error finite.
+const LIMIT: f64 = 1e6;
 
 /// The output that the model predicts from the input alone; the samples before the first counted one are the measured ones
 /// and set the initial state. Dimensionless units.
 pub(crate) fn free_run(campaign: &Campaign, fit: &Fit, number: usize, track: &Track) -> Vec<f64> {
-    let begun = started(&fit.assembly, number);
-    let (assembly, added) = with_beginnings(campaign, &begun);
-    let design = Design::of(campaign, &fit.grid, &assembly, &[(number, track)]);
-    let part = &design.tracks[0];
-    let mut u = design.input(part, &fit.linear.f);
-    if begun != fit.assembly {
-        start(&mut u, &design, fit);
+    let prepared = Prepared::new(campaign, (&fit.grid, &fit.assembly), number, track);
+    let x = prepared.run(&fit.linear, Begins::Measured { variance: fit.variance });
+    prepared.read(track, &x)
+}
+
+/// Where a free run begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Begins {
+    /// From the outputs measured before the first counted sample, where errors have the given variance.
+    Measured {
+        /// Variance of the equation error.
+        variance: f64,
+    },
+    /// From rest at the first input, where it has been for ever.
+    Rest,
+}
+
+/// A record laid out for free runs of a model, however often its linear parameters change.
+pub(crate) struct Prepared<'a> {
+    grid: &'a Grid,
+    assembly: &'a Assembly,
+    /// The assembly with what only this record has.
+    begun: Assembly,
+    design: Design,
+    /// Equation columns of beginnings that were added.
+    added: Range<usize>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Lays out a track that is given with its number in the campaign.
+    pub(crate) fn new(
+        campaign: &Campaign,
+        (grid, assembly): (&'a Grid, &'a Assembly),
+        number: usize,
+        track: &Track,
+    ) -> Self {
+        let begun = started(assembly, number);
+        let (with, added) = with_beginnings(campaign, &begun);
+        let design = Design::of(campaign, grid, &with, &[(number, track)]);
+        Self { grid, assembly, begun, design, added }
     }
-    let b = convolve(&fit.linear.b, &design.taps);
-    let mut p = fit.linear.padded(fit.grid.len(), &assembly);
-    set_by_first_samples(&mut p, &design, part, (added, fit.variance));
-    let d = part.columns.coefficients(&p.d);
-    let mut x = part.x[..part.from].to_vec();
-    let limit = 1e6;
-    for t in part.from..track.v.len() {
-        let mut now = 0.0;
-        for (i, a) in fit.linear.a.iter().enumerate() {
-            now -= a * x[t - i - 1];
+
+    /// The output before the sensor, one value a sample; given ones before the first counted sample.
+    pub(crate) fn run(&self, linear: &Linear, begins: Begins) -> Vec<f64> {
+        let part = &self.design.tracks[0];
+        let mut u = self.design.input(part, &linear.f);
+        if self.begun != *self.assembly {
+            start(&mut u, &self.design, (self.grid, self.assembly, linear), begins);
         }
-        for (j, b) in b.iter().enumerate() {
-            now += b * u[t.saturating_sub(j + 1)];
+        let b = convolve(&linear.b, &self.design.taps);
+        let mut p = linear.padded(self.grid.len(), &self.design.assembly);
+        if let Begins::Measured { variance } = begins {
+            set_by_first_samples(&mut p, &self.design, part, (self.added.clone(), variance));
         }
-        for (d, psi) in d.iter().zip(part.columns.row(t)) {
-            now += d * psi;
+        let d = part.columns.coefficients(&p.d);
+        let beside = |t: usize| d.iter().zip(part.columns.row(t));
+        let mut x = match begins {
+            Begins::Measured { .. } => part.x[..part.from].to_vec(),
+            Begins::Rest => {
+                let driven = b.iter().sum::<f64>() * u[0] + beside(0).map(|(d, psi)| d * psi).sum::<f64>();
+                let rest = driven / (1.0 + linear.a.iter().sum::<f64>());
+                vec![rest.clamp(-LIMIT, LIMIT); part.from]
+            }
+        };
+        for t in part.from..part.x.len() {
+            let mut now = 0.0;
+            for (i, a) in linear.a.iter().enumerate() {
+                now -= a * x[t - i - 1];
+            }
+            for (j, b) in b.iter().enumerate() {
+                now += b * u[t.saturating_sub(j + 1)];
+            }
+            for (d, psi) in beside(t) {
+                now += d * psi;
+            }
+            x.push(now.clamp(-LIMIT, LIMIT));
         }
-        // An unstable model leaves every range; the bound keeps its error finite.
-        x.push(now.clamp(-limit, limit));
+        x
     }
-    let sensed = |x: f64| {
-        let y = fit.assembly.curve.read(x);
-        match fit.assembly.saturation {
-            Some(s) => y.clamp(s.low, s.high),
-            None => y,
-        }
-    };
-    let mut y = track.y[..part.from].to_vec();
-    y.extend(x[part.from..].iter().map(|x| sensed(*x)));
-    y
+
+    /// What the sensor makes of a run; the measured outputs before the first counted sample.
+    pub(crate) fn read(&self, track: &Track, x: &[f64]) -> Vec<f64> {
+        let from = self.design.tracks[0].from;
+        let mut y = track.y[..from].to_vec();
+        y.extend(x[from..].iter().map(|x| sensed(self.assembly, *x)));
+        y
+    }
+}
+
+/// The reading of an output.
+pub(crate) fn sensed(assembly: &Assembly, x: f64) -> f64 {
+    let y = assembly.curve.read(x);
+    match assembly.saturation {
+        Some(s) => y.clamp(s.low, s.high),
+        None => y,
+    }
+}
+
+/// Whether a model has no free run: its `A` is unstable, or its output has come to the bound, or is no number.
+pub(crate) fn runs_away<'a>(fit: &Fit, runs: impl IntoIterator<Item = &'a [f64]>) -> bool {
+    let leaves = |y: &f64| !y.is_finite() || y.abs() >= LIMIT;
+    !stable(&fit.linear.a) || runs.into_iter().any(|run| run.iter().any(leaves))
 }
 
 /// The assembly with an unknown start of the working point for a track that was not fitted, where fitted tracks have one.
@@ -63,18 +135,26 @@ fn started(assembly: &Assembly, number: usize) -> Assembly {
 }
 
 /// Sets the start of the working point by the equation errors before the first counted sample, the only ones a simulation may
-/// look at; the present start is that of another track.
-fn start(u: &mut [f64], design: &Design, fit: &Fit) {
+/// look at; the present start is that of another track. At rest the working point starts where it would without any.
+fn start(
+    u: &mut [f64],
+    design: &Design,
+    (grid, assembly, linear): (&Grid, &Assembly, &Linear),
+    begins: Begins,
+) {
     let part = &design.tracks[0];
     let is_start = |c: &BorderColumn| matches!(c, BorderColumn::Start { .. });
-    let Some(at) = fit.assembly.border_columns.iter().position(is_start) else { return };
-    let mut unit = vec![0.0; fit.linear.f.len()];
-    unit[fit.grid.len() + at] = 1.0;
+    let Some(at) = assembly.border_columns.iter().position(is_start) else { return };
+    let mut unit = vec![0.0; linear.f.len()];
+    unit[grid.len() + at] = 1.0;
     let shape = design.input(part, &unit);
-    let other = fit.linear.f[fit.grid.len() + at];
+    let other = linear.f[grid.len() + at];
     u.iter_mut().zip(&shape).for_each(|(u, s)| *u -= other * s);
-    let b = convolve(&fit.linear.b, &design.taps);
-    let (a, x) = (&fit.linear.a, &part.x);
+    if let Begins::Rest = begins {
+        return;
+    }
+    let b = convolve(&linear.b, &design.taps);
+    let (a, x) = (&linear.a, &part.x);
     let through = |u: &[f64], t: usize| -> f64 { b.iter().enumerate().map(|(j, b)| b * u[t - j - 1]).sum() };
     let (mut cross, mut energy) = (0.0, 1e-300);
     for t in a.len().max(b.len())..part.from {

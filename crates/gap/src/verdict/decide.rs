@@ -18,7 +18,26 @@ const WIDEST: usize = 3;
 const PROBABLE: f64 = 0.58;
 
 fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
-    Verdict { status, effects: Vec::new(), class: Vec::new(), stage, probability, corrected_by: None }
+    Verdict {
+        status,
+        effects: Vec::new(),
+        class: Vec::new(),
+        stage,
+        probability,
+        calibrated: true,
+        corrected_by: None,
+        refit: None,
+    }
+}
+
+/// The verdict where the judged records resolve no gap and no candidate explains what is left: whatever it is, it shows nowhere.
+pub(crate) fn unresolved(odds: &Odds) -> Verdict {
+    naming_nothing(Status::None, None, odds.none + odds.unexplained)
+}
+
+/// The verdict where identifying the model anew closes as much of the gap as any cause; `verdict` is that which tells one.
+pub(crate) fn parameters_are_off(verdict: &Verdict) -> Verdict {
+    naming_nothing(Status::Refit, None, verdict.probability)
 }
 
 /// The verdict on one or several effects; `together` are those that a pair names.
@@ -43,12 +62,10 @@ pub(crate) fn verdict(
     if p >= settings.name_at {
         let effects = together.map_or_else(|| vec![first], |t| t.effects.clone());
         return Verdict {
-            status: Status::Named,
             effects,
-            class: Vec::new(),
             stage: Some(first.stage()),
-            probability: p,
             corrected_by: together.and_then(|t| t.correction),
+            ..naming_nothing(Status::Named, None, p)
         };
     }
     let mut rivals = vec![ranked[0]];
@@ -70,7 +87,7 @@ pub(crate) fn verdict(
     let status = if twins { Status::Class } else { Status::Ambiguous };
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
     let stage = stage.or(Some(first.stage()));
-    Verdict { status, effects: Vec::new(), class, stage, probability: sum(&rivals), corrected_by: None }
+    Verdict { class, ..naming_nothing(status, stage, sum(&rivals)) }
 }
 
 fn sum(rivals: &[(Effect, f64)]) -> f64 {

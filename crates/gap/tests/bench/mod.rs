@@ -31,14 +31,34 @@ pub(crate) fn white(seed: u64) -> impl FnMut() -> f64 {
 
 /// A first-order rig with two straight borders a jump of one apart, and a little noise.
 pub(crate) fn output(v: &[f64]) -> Vec<f64> {
-    let (mut u, mut y, mut white) = (-1.0, 0.0, white(12_345));
+    let mut white = white(12_345);
+    response(v, &[-0.6], &mut || 0.01 * white())
+}
+
+/// A rig `y + a₁ y(t−1) + … = A(1) u(t−1) + ξ` with the same borders.
+pub(crate) fn response(v: &[f64], a: &[f64], error: &mut impl FnMut() -> f64) -> Vec<f64> {
+    let gain = 1.0 + a.iter().sum::<f64>();
+    let (mut u, mut past) = (-1.0, vec![0.0; a.len()]);
     (0..v.len())
         .map(|t| {
-            y = 0.6 * y + 0.4 * u + 0.01 * white();
+            let y = gain * u - a.iter().zip(&past).map(|(a, y)| a * y).sum::<f64>() + error();
+            past.rotate_right(1);
+            past[0] = y;
             if t > 0 && v[t] != v[t - 1] {
                 u = v[t] + 0.5 * (v[t] - v[t - 1]).signum();
             }
             y
+        })
+        .collect()
+}
+
+/// The input behind a play of a full width.
+pub(crate) fn played(v: &[f64], width: f64) -> Vec<f64> {
+    let mut p = v[0];
+    v.iter()
+        .map(|v| {
+            p = p.max(v - 0.5 * width).min(v + 0.5 * width);
+            p
         })
         .collect()
 }

@@ -4,7 +4,7 @@
 
 use super::card;
 use super::motion::{directions, half_width, moves};
-use crate::law::{Law, Scene};
+use crate::law::{INTERVAL_WIDTHS, Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 4] = [&Exponential, &Dahl, &BoucWen, &MaxwellSlip];
 
@@ -16,7 +16,7 @@ const SHORTEST: f64 = 0.01;
 struct Exponential;
 
 impl Law for Exponential {
-    card!("gradual_transition", "exponential", Operator, "interval widths", 1.0);
+    card!("gradual_transition", "exponential", Operator, INTERVAL_WIDTHS, 1.0);
 
     fn least(&self) -> f64 {
         SHORTEST
@@ -35,7 +35,7 @@ impl Law for Exponential {
 struct Dahl;
 
 impl Law for Dahl {
-    card!("gradual_transition", "Dahl, exponent 1/2", Operator, "interval widths", 1.0);
+    card!("gradual_transition", "Dahl, exponent 1/2", Operator, INTERVAL_WIDTHS, 1.0);
 
     fn least(&self) -> f64 {
         SHORTEST
@@ -57,7 +57,7 @@ impl Law for Dahl {
 struct BoucWen;
 
 impl Law for BoucWen {
-    card!("gradual_transition", "Bouc-Wen, exponent 2", Operator, "interval widths", 1.0);
+    card!("gradual_transition", "Bouc-Wen, exponent 2", Operator, INTERVAL_WIDTHS, 1.0);
 
     fn least(&self) -> f64 {
         SHORTEST
@@ -87,7 +87,7 @@ impl Law for BoucWen {
 struct MaxwellSlip;
 
 impl Law for MaxwellSlip {
-    card!("gradual_transition", "Maxwell slip", Operator, "interval widths", 1.0);
+    card!("gradual_transition", "Maxwell slip", Operator, INTERVAL_WIDTHS, 1.0);
 
     fn least(&self) -> f64 {
         SHORTEST

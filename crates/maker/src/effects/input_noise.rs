@@ -2,7 +2,7 @@
 
 use super::card;
 use super::motion::{border, directions};
-use crate::law::{Law, Nature, Scene};
+use crate::law::{INTERVAL_WIDTHS, Law, Nature, Scene};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -14,7 +14,7 @@ pub(super) static LAWS: [&dyn Law; 3] = [&PositionJitter, &ActuatorNoise, &Lapla
 struct PositionJitter;
 
 impl Law for PositionJitter {
-    card!("input_noise", "position jitter", Input, "interval widths", 0.2);
+    card!("input_noise", "position jitter", Input, INTERVAL_WIDTHS, 0.2);
 
     fn nature(&self) -> Nature {
         Nature::Noise
@@ -49,7 +49,7 @@ impl Law for ActuatorNoise {
 struct LaplaceJitter;
 
 impl Law for LaplaceJitter {
-    card!("input_noise", "Laplace jitter", Input, "interval widths", 0.2);
+    card!("input_noise", "Laplace jitter", Input, INTERVAL_WIDTHS, 0.2);
 
     fn nature(&self) -> Nature {
         Nature::Noise

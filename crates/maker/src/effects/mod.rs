@@ -30,7 +30,7 @@ use crate::law::Law;
 
 /// The identity card of a law: the five methods that hold constants.
 macro_rules! card {
-    ($effect:literal, $name:literal, $stage:ident, $unit:literal, $limit:literal) => {
+    ($effect:literal, $name:literal, $stage:ident, $unit:expr, $limit:literal) => {
         fn effect(&self) -> &'static str {
             $effect
         }

@@ -79,8 +79,11 @@ impl Evidence {
     const KEPT: usize = 4;
 
     fn of(d: &Diagnosis) -> Self {
-        let mut candidates: Vec<_> =
-            d.candidates.iter().map(|c| (c.effect.name(), -c.bic, c.heldout_log_score, c.closure)).collect();
+        let mut candidates: Vec<_> = d
+            .candidates
+            .iter()
+            .map(|c| (c.effect.name(), c.delta_bic, c.heldout_log_score, c.closure))
+            .collect();
         candidates.sort_by(|x, y| y.1.total_cmp(&x.1));
         candidates.truncate(Self::KEPT);
         Self {
@@ -261,7 +264,7 @@ impl Baseline {
         Self {
             lowest_rmse: best(|c| c.closure.unwrap_or(0.0)),
             heldout_winner: best(|c| c.heldout_log_score),
-            plain_bic: best(|c| -c.bic),
+            plain_bic: best(|c| c.delta_bic),
         }
     }
 }

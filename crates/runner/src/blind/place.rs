@@ -1,6 +1,6 @@
 //! *Where*: the cells a diagnosis flags against the cells where the true effect acts.
 //!
-//! A cell is understood from its axis and its label alone, as a reader of `gap.json` would; its samples are found in the
+//! A cell is understood from its axis, its name and its ends, as a reader of `gap.json` would; its samples are found in the
 //! rig here, without the diagnosis' own code.
 
 use serde::{Deserialize, Serialize};
@@ -34,6 +34,7 @@ struct Circumstance<'a> {
     branch: &'static str,
     v: f64,
     y: f64,
+    /// Input units a second.
     speed: f64,
     travel: f64,
     rest: f64,
@@ -75,7 +76,7 @@ fn mean_square<'s, 'r: 's>(samples: impl Iterator<Item = &'s Circumstance<'r>>) 
     sum / count.max(1) as f64
 }
 
-/// What a cell holds, understood once from its axis and label.
+/// What a cell holds, understood once.
 enum Region<'a> {
     Record(&'a str),
     Branch(&'a str),
@@ -98,8 +99,8 @@ impl<'a> Region<'a> {
             "time" => |s| s.time,
             _ => return None,
         };
-        let (low, high) = cell.cell.split_once("..")?;
-        Some(Self::Between(property, low.parse().ok()?..high.parse().ok()?))
+        let ends = cell.interval?;
+        Some(Self::Between(property, ends.low..ends.high))
     }
 
     fn holds(&self, s: &Circumstance<'_>) -> bool {
@@ -139,7 +140,7 @@ fn circumstances<'a>(rig: &'a Rig, truth: &[Truth]) -> Vec<Circumstance<'a>> {
                     branch: if step == 0.0 { "holding" } else { branch },
                     v: now,
                     y: y[t - 1],
-                    speed: step.abs(),
+                    speed: step.abs() / rig.sample_time,
                     travel,
                     rest,
                     loop_size,
@@ -156,10 +157,37 @@ fn circumstances<'a>(rig: &'a Rig, truth: &[Truth]) -> Vec<Circumstance<'a>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use switchback_gap::{CellInterval, CellUnit};
     use switchback_maker::{Ingredient, MakeRig};
 
     fn cell(axis: &'static str, cell: &str, q_value: f64) -> Cell {
-        Cell { axis, cell: cell.to_owned(), share: 0.0, q_value }
+        Cell {
+            axis,
+            cell: cell.to_owned(),
+            interval: None,
+            share: 0.0,
+            exposure: 0.0,
+            enrichment: 0.0,
+            q_value,
+            enrichment_q_value: q_value,
+        }
+    }
+
+    fn between(axis: &'static str, [low, high]: [f64; 2], unit: CellUnit) -> Cell {
+        Cell { interval: Some(CellInterval { low, high, unit }), ..cell(axis, "", 0.0) }
+    }
+
+    #[test]
+    fn speeds_are_those_of_the_rig_a_second() {
+        let made = MakeRig::new(4).make().unwrap();
+        let fastest = circumstances(&made.rig, &made.truth).iter().map(|s| s.speed).fold(0.0, f64::max);
+        let moves =
+            made.rig.records.iter().flat_map(|r| r.record.v().windows(2).map(|w| (w[1] - w[0]).abs()));
+        let most = moves.fold(0.0, f64::max);
+        assert!((fastest * made.rig.sample_time - most).abs() < 1e-9 * most, "{fastest} {most}");
+        let all = between("speed", [0.0, 2.0 * fastest], CellUnit::InputPerSecond);
+        let region = Region::of(&all).unwrap();
+        assert!(circumstances(&made.rig, &made.truth).iter().all(|s| region.holds(s) == (s.speed > 0.0)));
     }
 
     #[test]
@@ -179,7 +207,8 @@ mod tests {
         let records: Vec<Cell> = made.rig.records.iter().map(|r| cell("record", &r.name, 0.0)).collect();
         let all = check(&records, &made.rig, &made.truth);
         assert_eq!((all[0].hits + all[0].false_flags, all[0].misses), (7, 0));
-        let none = check(&[cell("time", "0.0000..1.0000", 1.0)], &made.rig, &made.truth);
+        let whole = Cell { q_value: 1.0, ..between("time", [0.0, 1.0], CellUnit::ShareOfCampaign) };
+        let none = check(&[whole], &made.rig, &made.truth);
         assert_eq!((none[0].hits, none[0].misses), (0, 1));
     }
 }

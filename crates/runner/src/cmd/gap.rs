@@ -3,6 +3,7 @@
 use super::data_args::DataArgs;
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
+use crate::model;
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
@@ -17,8 +18,8 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    /// Diagnose this model, the output of `switchback identify --json` [default: the columns y_sim if the records have
-    /// them, else the model identified from the fit records]
+    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
+    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
     #[arg(long, value_name = "MODEL.json")]
     model: Option<PathBuf>,
 
@@ -30,7 +31,8 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write the verdict, gap.json, the figures and the next experiment into this folder.
+    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures and the next
+    /// experiment into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -45,8 +47,11 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 7] = [
+const FILES: [&str; 10] = [
     "gap.json",
+    "nominal.json",
+    "augmented.json",
+    "series.csv",
     "verdict.txt",
     "where.svg",
     "candidates.svg",
@@ -83,6 +88,11 @@ fn effect() -> impl TypedValueParser<Value = Effect> {
 fn artefacts(report: &Report) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
+    if let Some(nominal) = model::nominal(report) {
+        artefacts.add("nominal.json", nominal.text());
+    }
+    artefacts.add("augmented.json", model::augmented(report).text());
+    artefacts.add("series.csv", model::diagnosed(report));
     artefacts.add("verdict.txt", diagnosis::words(report, None));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);

@@ -3,6 +3,7 @@
 use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::{self, Identification, Method, Request};
+use crate::model;
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
@@ -30,7 +31,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write estimate.json and the plots into this folder.
+    /// Also write estimate.json, model.json, series.csv and the plots into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -45,7 +46,8 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 3] = ["estimate.json", "borders.svg", "measured_and_simulated_*.svg"];
+const FILES: [&str; 5] =
+    ["estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
 
 /// Reads, identifies, prints, and writes the folder if one was asked for.
 ///
@@ -76,6 +78,10 @@ fn method() -> impl TypedValueParser<Value = Method> {
 fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
     let mut artefacts = Artefacts::default();
     artefacts.add("estimate.json", identification::json(rig, identification));
+    if let Some(model) = model::identified(rig, identification) {
+        artefacts.add("model.json", model.text());
+    }
+    artefacts.add("series.csv", model::identified_series(rig, identification));
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
         let name = format!("measured_and_simulated_{}.svg", record.name);

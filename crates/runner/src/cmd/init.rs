@@ -3,11 +3,9 @@
 use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Force, Quiet};
-use crate::output::{Artefacts, print};
+use crate::output::print;
 use crate::rig;
-use miette::Diagnostic;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// Write the rig file that `gap` and `identify` would use for these files, with comments, to be changed at will.
 #[derive(Debug, clap::Args)]
@@ -20,46 +18,29 @@ pub struct Args {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    force: Force,
+    quiet: Quiet,
 
     #[command(flatten)]
-    quiet: Quiet,
-}
-
-/// The path cannot name a rig file.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{path}: is no name for a rig file")]
-#[diagnostic(help("give a file, for instance `--out rig.toml`"))]
-pub struct NoFileName {
-    /// The path as given.
-    path: String,
+    force: Force,
 }
 
 /// Reads the files as `gap` would, prints or writes the rig file that says so.
 ///
 /// # Errors
-/// Files that cannot be read, or a rig file that is there already and was written or changed by someone else.
+/// Files that cannot be read, or a rig file that is there already.
 pub fn run(args: &Args) -> CommandResult {
-    let Some(path) = &args.out else {
-        print(&rig::manifest(&args.data.load("init", args.quiet)?, None))?;
-        return Ok(Outcome::Done);
-    };
-    let (folder, name) = parts(path)?;
-    let claim = args.force.claim(folder, &[&name])?;
+    let target = args.out.as_deref();
+    let file = args.force.claim_file(target)?;
     let loaded = args.data.load("init", args.quiet)?;
-    let mut artefacts = Artefacts::default();
-    artefacts.add(name.as_str(), rig::manifest(&loaded, Some(folder)));
-    claim.commit(&artefacts)?;
+    let manifest = rig::manifest(&loaded, target.map(folder));
+    match file {
+        Some(file) => file.commit(manifest)?,
+        None => print(&manifest)?,
+    }
     Ok(Outcome::Done)
 }
 
-/// The folder and the file name of a path.
-fn parts(path: &Path) -> Result<(&Path, String), NoFileName> {
-    let unnamed = || NoFileName { path: path.display().to_string() };
-    if path.is_dir() {
-        return Err(unnamed());
-    }
-    let name = path.file_name().ok_or_else(unnamed)?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    Ok((folder, name.to_string_lossy().into_owned()))
+/// The folder that a file lies in.
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -10,4 +10,5 @@ pub mod identify;
 pub mod init;
 pub mod man;
 pub mod rig;
+pub mod simulate;
 pub mod study;

@@ -1,14 +1,18 @@
 //! `switchback rig --effect EFFECT --size 2 --seed 7 --out DIR`
 
+use crate::diagnosis::Units;
 use crate::failure::{CommandResult, Outcome};
 use crate::input::closest;
 use crate::options::{Force, Quiet};
-use crate::output::print;
+use crate::output::{print, stamped};
 use crate::rig;
 use miette::Diagnostic;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use switchback_maker::{EFFECTS, FOREIGN, Family, Ingredient, Key, MakeError, MakeRig, laws_of};
+use switchback_estimator::rig::Rig;
+use switchback_maker::{
+    EFFECTS, FOREIGN, Family, Ingredient, MadeRig, MakeError, MakeRig, TrueEffect, laws_of,
+};
 use thiserror::Error;
 
 /// Make a rig with a chosen effect: records as a user would take them, and on stdout what was put in.
@@ -79,7 +83,7 @@ impl From<MakeError> for RigCommandError {
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     if args.list {
-        print(&if args.json { pretty(&list_json()) } else { list() })?;
+        print(&if args.json { stamped(LIST_SCHEMA, &list_json()) } else { list() })?;
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
@@ -88,7 +92,7 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    args.quiet.tell_or(args.json, || pretty(&key_json(&made.key)), || told(&made.key))?;
+    args.quiet.tell_or(args.json, || stamped(SCHEMA, &key_json(&made)), || told(&made))?;
     Ok(Outcome::Done)
 }
 
@@ -101,19 +105,31 @@ fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
     Ok(recipe)
 }
 
-fn told(key: &Key) -> String {
+/// Name and version of the layout of what was put in.
+const SCHEMA: &str = "switchback/rig/1";
+
+/// The same of the list of effects.
+const LIST_SCHEMA: &str = "switchback/rig-list/1";
+
+/// The magnitude of an effect and its unit: lengths along the input in the input's own.
+fn measured(effect: &TrueEffect, rig: &Rig) -> (f64, String) {
+    let length = rig.interval.and_then(|interval| effect.length(interval));
+    length.map_or_else(|| (effect.magnitude, effect.unit.to_owned()), |x| (x, Units::of(rig).input))
+}
+
+fn told(MadeRig { rig, key, .. }: &MadeRig) -> String {
     let between = if key.curved { " curved between the levels" } else { "" };
     let mut text =
         format!("order {}, {} borders{between}, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
     for e in &key.effects {
+        let (magnitude, unit) = measured(e, rig);
+        let quantity = e.quantity.map_or_else(String::new, |quantity| format!("{quantity} "));
         let _ = writeln!(
             text,
-            "{} ({}, {}): {:.4} {}; survives the best nominal re-fit with {:.2} noise sd",
+            "{} ({}, {}): {quantity}{magnitude:.4} {unit}; survives the best nominal re-fit with {:.2} noise sd",
             e.effect,
             e.law,
             e.stage.name(),
-            e.magnitude,
-            e.unit,
             e.size
         );
         if (e.size / e.wanted - 1.0).abs() > 0.05 {
@@ -126,15 +142,16 @@ fn told(key: &Key) -> String {
     text
 }
 
-/// A key as JSON.
-pub(crate) fn key_json(key: &Key) -> serde_json::Value {
+/// What was put in as JSON.
+fn key_json(MadeRig { rig, key, .. }: &MadeRig) -> serde_json::Value {
     let effects: Vec<_> = key
         .effects
         .iter()
         .map(|e| {
+            let (magnitude, unit) = measured(e, rig);
             serde_json::json!({
                 "effect": e.effect, "law": e.law, "plain": e.plain, "stage": e.stage.name(),
-                "magnitude": e.magnitude, "unit": e.unit, "wanted_size": e.wanted, "size": e.size,
+                "quantity": e.quantity, "magnitude": magnitude, "unit": unit, "wanted_size": e.wanted, "size": e.size,
             })
         })
         .collect();
@@ -151,7 +168,10 @@ fn list() -> String {
         for name in names {
             let laws: Vec<_> =
                 laws_of(name).iter().enumerate().map(|(i, law)| format!("{i} {}", law.name())).collect();
-            let _ = writeln!(text, "  {name:22} {}", laws.join(", "));
+            let quantity = laws_of(name).first().and_then(|law| law.quantity());
+            let quantity =
+                quantity.map_or_else(String::new, |quantity| format!(" ({quantity}, in input units)"));
+            let _ = writeln!(text, "  {name:22} {}{quantity}", laws.join(", "));
         }
     }
     text
@@ -162,9 +182,5 @@ fn list_json() -> serde_json::Value {
         let laws = |name| laws_of(name).iter().map(|law| law.name()).collect::<Vec<_>>();
         names.iter().map(|name| serde_json::json!({ "effect": name, "laws": laws(name) })).collect()
     };
-    serde_json::json!({ "schema": 1, "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
-}
-
-fn pretty(json: &serde_json::Value) -> String {
-    format!("{json:#}\n")
+    serde_json::json!({ "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
 }

@@ -1,8 +1,12 @@
 //! The diagnosis as one JSON object.
 
 use super::{Report, Units, told};
+use crate::output::stamped;
 use serde::Serialize;
-use switchback_gap::{Candidate, Cell, Diagnosis, Effect, Figure, FittedParameter, Together};
+use switchback_gap::{Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Together};
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/gap/1";
 
 /// The object that `gap --json` prints; figures that do not exist are null.
 #[derive(Serialize)]
@@ -30,7 +34,16 @@ struct Verdict {
     class: Vec<&'static str>,
     stage: Option<&'static str>,
     probability: f64,
+    calibrated: bool,
     corrected_by: Option<&'static str>,
+    refit: Option<Refit>,
+}
+
+#[derive(Serialize)]
+struct Refit {
+    order: usize,
+    delay: isize,
+    closure: Interval,
 }
 
 #[derive(Serialize)]
@@ -63,8 +76,14 @@ struct RecordGap<'a> {
 struct Place<'a> {
     axis: &'static str,
     cell: &'a str,
+    low: Option<f64>,
+    high: Option<f64>,
+    unit: Option<String>,
     share: f64,
+    exposure: f64,
+    enrichment: f64,
     q_value: f64,
+    enrichment_q_value: f64,
 }
 
 #[derive(Serialize)]
@@ -74,8 +93,10 @@ struct Explanation {
     probability: f64,
     parameters: Vec<Parameter>,
     bic: f64,
+    delta_bic: f64,
     heldout_log_score: f64,
     closure: Option<f64>,
+    unstable: bool,
 }
 
 #[derive(Serialize)]
@@ -111,10 +132,17 @@ struct Next<'a> {
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
 /// output units, `identified_anew` the `G²` of a nominal model identified from the fit records where another was given,
 /// `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
-/// `bic` relative to the nominal model. `together` is the best pair of effects: `parameters` those of each, fitted beside the other,
+/// `bic` is the criterion's value and `delta_bic` its drop, that of the nominal model less that of the candidate: positive where the effect
+/// is worth its parameters. `closure` is null where there is no gap to close, and where `unstable` says that the candidate has no free run.
+/// A cell of `where` runs from `low` to `high` in `unit`: all three null where the axis has kinds, an end null where it is open. `share` is its
+/// share of the energy beyond the noise, `exposure` its share of the samples (of the frequency range, on that axis), `enrichment` the one over
+/// the other; `q_value` tells whether there is energy beyond the noise, `enrichment_q_value` whether it is denser than elsewhere.
+/// `probability_none` is that nothing is missing, the nominal model being right as it is; `probability_unexplained` that something is missing
+/// which is none of the candidates; with the candidates' probabilities both sum to one. `together` is the best pair of effects: `parameters` those of each, fitted beside the other,
 /// `gain` in penalised deviance over the best single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
-/// the augmented model that is no cause of its own.
+/// the augmented model that is no cause of its own; `calibrated` tells whether the probability was calibrated for such records; `refit`
+/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -123,7 +151,7 @@ pub fn json(report: &Report) -> String {
         model: report.source.name(),
         verdict: verdict(diagnosis),
         gap: gap(diagnosis),
-        r#where: diagnosis.where_.iter().map(place).collect(),
+        r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
         candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
         together: diagnosis.together.as_ref().map(|together| pair(together, &units)),
         samples: diagnosis.samples,
@@ -140,7 +168,7 @@ pub fn json(report: &Report) -> String {
         limitations: &diagnosis.limitations,
         version: env!("CARGO_PKG_VERSION"),
     };
-    serde_json::to_string_pretty(&page).expect("numbers, strings and lists of them are JSON") + "\n"
+    stamped(SCHEMA, &page)
 }
 
 fn verdict(diagnosis: &Diagnosis) -> Verdict {
@@ -151,7 +179,13 @@ fn verdict(diagnosis: &Diagnosis) -> Verdict {
         class: names(&verdict.class),
         stage: verdict.stage.map(|stage| stage.name()),
         probability: verdict.probability,
+        calibrated: verdict.calibrated,
         corrected_by: verdict.corrected_by.map(|effect| effect.name()),
+        refit: verdict.refit.map(|refit| Refit {
+            order: refit.order,
+            delay: refit.delay,
+            closure: interval(&refit.closure),
+        }),
     }
 }
 
@@ -179,8 +213,20 @@ fn interval(figure: &Figure) -> Interval {
     Interval { estimate: figure.estimate, ci90: figure.ci90 }
 }
 
-fn place(cell: &Cell) -> Place<'_> {
-    Place { axis: cell.axis, cell: &cell.cell, share: cell.share, q_value: cell.q_value }
+fn place<'a>(cell: &'a Cell, units: &Units) -> Place<'a> {
+    let end = |end: fn(&CellInterval) -> f64| cell.interval.as_ref().map(end).filter(|x| x.is_finite());
+    Place {
+        axis: cell.axis,
+        cell: &cell.cell,
+        low: end(|interval| interval.low),
+        high: end(|interval| interval.high),
+        unit: cell.interval.map(|interval| units.of_cell(interval.unit)),
+        share: cell.share,
+        exposure: cell.exposure,
+        enrichment: cell.enrichment,
+        q_value: cell.q_value,
+        enrichment_q_value: cell.enrichment_q_value,
+    }
 }
 
 fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
@@ -190,8 +236,10 @@ fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
         probability: candidate.probability,
         parameters: parameters(&candidate.parameters, units),
         bic: candidate.bic,
+        delta_bic: candidate.delta_bic,
         heldout_log_score: candidate.heldout_log_score,
         closure: candidate.closure,
+        unstable: candidate.unstable,
     }
 }
 

@@ -15,14 +15,14 @@ mod subject;
 mod units;
 mod words;
 
+pub use crate::model::ModelError;
 pub use error::DiagnosisError;
 pub use examine::{Report, examine};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use json::json;
-pub use model_file::ModelError;
-pub use number::{digits, fit_percent};
+pub use number::{closed_percent, digits, fit_percent};
 pub use parameter::{Told, told};
-pub use place::{SIGNIFICANT, edges};
+pub use place::SIGNIFICANT;
 pub use subject::{Source, Subject, SubjectError};
 pub use units::Units;
 pub use words::words;

@@ -1,33 +1,39 @@
-//! A model file: the output of `switchback identify --json`.
+//! The model that a diagnosis is given: a model file, or the output of `switchback identify --json`.
 
-use crate::input::{FileError, read_text};
-use miette::Diagnostic;
+use crate::input::read_text;
+use crate::model::{self, ModelError, ModelFile};
 use serde::Deserialize;
 use serde_json::error::Category;
 use std::path::Path;
 use switchback_estimator::estimators::{BorderPoint, Estimate};
 use switchback_estimator::linear::is_stable;
-use thiserror::Error;
 
-/// Why a file is no model.
-#[derive(Debug, Error, Diagnostic)]
-#[non_exhaustive]
-pub enum ModelError {
-    /// The file cannot be read as text.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    File(#[from] FileError),
-    /// Its content is refused.
-    #[error("{place}: {message}")]
-    #[diagnostic(help("{remedy}"))]
-    Content {
-        /// The file, with line and column where these are known.
-        place: String,
-        /// What is wrong.
-        message: String,
-        /// What to do about it.
-        remedy: String,
-    },
+/// What a file holds.
+pub(super) enum Given {
+    /// A model file.
+    File(Box<ModelFile>),
+    /// The page that `identify --json` prints.
+    Page(Estimate),
+}
+
+/// Reads a model: a file with a `schema`, else a page of `identify --json`.
+///
+/// # Errors
+/// [`ModelError`] if the file is neither.
+pub(super) fn read(path: &Path) -> Result<Given, ModelError> {
+    #[derive(Deserialize)]
+    struct Peek {
+        #[serde(default)]
+        kind: Option<serde::de::IgnoredAny>,
+        #[serde(default)]
+        schema: Option<serde::de::IgnoredAny>,
+    }
+    let peek: Option<Peek> = serde_json::from_str(&read_text(path)?).ok();
+    // Pages of commands carry a schema, too, but no kind.
+    match peek.is_some_and(|peek| peek.schema.is_some() && peek.kind.is_some()) {
+        true => Ok(Given::File(Box::new(model::read(path)?))),
+        false => page(path).map(Given::Page),
+    }
 }
 
 /// How to get a file that is one.
@@ -52,11 +58,11 @@ struct WirePoint {
     f: f64,
 }
 
-/// Reads a model: order, `a`, `b`, `gain`, `delay` (0 where it is missing) and both borders.
+/// Reads a page: order, `a`, `b`, `gain`, `delay` (0 where it is missing) and both borders.
 ///
 /// # Errors
 /// [`ModelError`] if the file is no JSON, lacks a field, or its numbers contradict each other.
-pub(super) fn read(path: &Path) -> Result<Estimate, ModelError> {
+fn page(path: &Path) -> Result<Estimate, ModelError> {
     let text = read_text(path)?;
     let wire: WireModel = serde_json::from_str(&text).map_err(|error| refused(path, &text, &error))?;
     check(&wire).map_err(|(message, remedy)| ModelError::Content {

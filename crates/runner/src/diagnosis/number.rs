@@ -39,6 +39,11 @@ pub(super) fn whole_percent(percent: f64) -> String {
     format!("{rounded:.decimals$}").replace('-', "−")
 }
 
+/// Share of a gap that is closed, in whole percent; what is worse than −999 says no more than that.
+pub fn closed_percent(percent: f64) -> String {
+    if percent < -999.0 { "< −999".to_owned() } else { whole_percent(percent) }
+}
+
 /// A fit figure: one decimal; what is worse than −999 says no more than that.
 ///
 /// ```
@@ -118,6 +123,13 @@ mod tests {
         assert_eq!(whole_percent(100.0), "100");
         assert_eq!(whole_percent(-0.2), "0");
         assert_eq!(whole_percent(-112.3), "−112");
+    }
+
+    #[test]
+    fn a_gap_that_grows_beyond_measure_is_told_as_such() {
+        assert_eq!(closed_percent(-2.7e12), "< −999");
+        assert_eq!(closed_percent(-112.3), "−112");
+        assert_eq!(closed_percent(97.7), "98");
     }
 
     #[test]

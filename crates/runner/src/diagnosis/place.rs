@@ -1,56 +1,76 @@
 //! Where the gap lies, in words.
 
-use super::number::edge;
+use super::number::{edge, whole_percent};
 use super::{Report, Units};
 use switchback_gap::Cell;
 
 /// Cells with a q-value below this are told of and coloured: at most this share of them is expected to be chance.
 pub const SIGNIFICANT: f64 = 0.05;
 
-/// Share of an axis's energy that the cells named must hold together.
-const BULK: f64 = 0.6;
+/// Share of the energy that a place must hold to be told of: most of it.
+const MOST: f64 = 0.5;
 
-/// How much larger than its share of the axis a place's share of the energy must be to be worth naming.
-const CONCENTRATED: f64 = 0.2;
+/// How many times the average a sample of a place must carry: half as much again. With most of the energy a place is then two thirds of
+/// the samples at most.
+const ENRICHED: f64 = 1.5;
 
-/// The cells of one axis that hold the bulk of the energy.
+/// A place on one axis: neighbouring cells, or one kind.
 struct Place<'a> {
     axis: &'static str,
-    cells: Vec<&'a Cell>,
+    cells: &'a [Cell],
     share: f64,
-    /// Share of the energy less share of the axis's cells: 0 where the gap is everywhere, near 1 where it is in one place.
-    concentration: f64,
+    exposure: f64,
+}
+
+impl<'a> Place<'a> {
+    fn of(cells: &'a [Cell]) -> Self {
+        let sum = |of: fn(&Cell) -> f64| cells.iter().map(of).sum();
+        Self {
+            axis: cells[0].axis,
+            cells,
+            share: sum(|cell| cell.share),
+            exposure: sum(|cell| cell.exposure),
+        }
+    }
+
+    /// How many times the average a sample here carries.
+    fn enrichment(&self) -> f64 {
+        self.share / self.exposure
+    }
+
+    /// Whether it is worth naming, and chance made none of it.
+    fn is_told(&self) -> bool {
+        let found = |cell: &Cell| cell.q_value < SIGNIFICANT && cell.enrichment_q_value < SIGNIFICANT;
+        self.share >= MOST && self.enrichment() >= ENRICHED && self.cells.iter().all(found)
+    }
 }
 
 /// Where the gap is concentrated: on a branch, and on the axis that shows it best. None where no cell is significant.
 ///
 /// Where the simulation shows no gap, the map is that of the one-step errors alone, and the sentence says so.
 pub(super) fn place(report: &Report) -> Option<String> {
-    let cells = &report.diagnosis.where_;
+    let visible = report.diagnosis.gap.before.ci90[0] > 0.0;
+    let subject = if visible { "The gap" } else { "What one-step predictions miss" };
+    sentence(subject, &report.diagnosis.where_, &Units::of(&report.rig))
+}
+
+fn sentence(subject: &str, cells: &[Cell], units: &Units) -> Option<String> {
     if cells.iter().all(|cell| cell.q_value >= SIGNIFICANT) {
         return None;
     }
-    let mut axes: Vec<&'static str> = cells.iter().map(|cell| cell.axis).collect();
-    axes.dedup();
-    let visible = report.diagnosis.gap.before.ci90[0] > 0.0;
-    let subject = if visible { "The gap" } else { "What one-step predictions miss" };
-    let units = Units::of(&report.rig);
-    let places = axes.into_iter().filter_map(|axis| bulk(axis, cells));
-    let (branch, mut others): (Vec<Place<'_>>, Vec<Place<'_>>) = places
-        .filter(|place| place.concentration >= CONCENTRATED)
-        .partition(|place| place.axis == "branch" && place.cells.len() == 1);
-    others.retain(|place| place.axis != "branch" && !is_motion(place) && is_one_stretch(place));
+    let places = cells.chunk_by(|one, next| one.axis == next.axis).filter_map(densest);
+    let (branch, mut others): (Vec<Place<'_>>, Vec<Place<'_>>) =
+        places.partition(|place| place.axis == "branch");
     others.sort_by(|x, y| {
-        let order = |place: &Place<'_>| (is_indirect(place.axis), -place.concentration);
+        let order = |place: &Place<'_>| (is_indirect(place.axis), -place.enrichment());
         order(x).partial_cmp(&order(y)).unwrap_or(std::cmp::Ordering::Equal)
     });
-    let told: Vec<String> = branch
-        .iter()
-        .chain(others.first())
-        .map(|place| format!("{} ({:.0} % of its energy)", told(place, &units), 100.0 * place.share))
-        .collect();
+    let told = branch.iter().chain(others.first()).enumerate();
+    let told: Vec<String> = told.map(|(number, place)| with_figures(place, units, number == 0)).collect();
     Some(match told.is_empty() {
-        true => format!("{subject} lies everywhere: no axis of the map holds most of it in few cells."),
+        true => {
+            format!("{subject} lies everywhere: no axis of the map shows most of it in few of the samples.")
+        }
         false => format!("{subject} lies {}.", told.join(", ")),
     })
 }
@@ -60,81 +80,60 @@ fn is_indirect(axis: &str) -> bool {
     matches!(axis, "record" | "time")
 }
 
-/// Whether the cells lie side by side; scattered ones are no place.
-fn is_one_stretch(place: &Place<'_>) -> bool {
-    let intervals: Option<Vec<_>> = place.cells.iter().map(|cell| edges(&cell.cell)).collect();
-    intervals.is_none_or(|intervals| merged(&intervals).len() == 1)
+/// Of the stretches of one axis that are told of, the one whose samples carry most. Kinds have no neighbours.
+fn densest(cells: &[Cell]) -> Option<Place<'_>> {
+    let longest = if cells.iter().all(|cell| cell.interval.is_some()) { cells.len() } else { 1 };
+    let stretches = (1..=longest).flat_map(|length| cells.windows(length));
+    let told = stretches.filter(|cells| adjoin(cells)).map(Place::of).filter(Place::is_told);
+    told.max_by(|x, y| x.enrichment().total_cmp(&y.enrichment()))
 }
 
-/// Whether the place is merely where the input moves, as in most samples.
-fn is_motion(place: &Place<'_>) -> bool {
-    place.axis == "rest_samples" && place.cells.first().is_some_and(|cell| cell.cell.starts_with("0.0"))
+/// Whether each cell begins where the last one ends: cells without samples are not in the map.
+fn adjoin(cells: &[Cell]) -> bool {
+    cells.windows(2).all(|w| w[0].interval.zip(w[1].interval).is_some_and(|(one, next)| one.high == next.low))
 }
 
-/// The fewest cells that hold [`BULK`] of an axis's energy, all of them significant.
-fn bulk<'a>(axis: &'static str, cells: &'a [Cell]) -> Option<Place<'a>> {
-    let mut ranked: Vec<(usize, &Cell)> = cells.iter().filter(|cell| cell.axis == axis).enumerate().collect();
-    let count = ranked.len();
-    ranked.sort_by(|x, y| y.1.share.total_cmp(&x.1.share));
-    let mut share = 0.0;
-    let mut core = Vec::new();
-    for (position, cell) in ranked {
-        if share >= BULK {
-            break;
-        }
-        if cell.q_value >= SIGNIFICANT {
-            return None;
-        }
-        share += cell.share;
-        core.push((position, cell));
-    }
-    core.sort_by_key(|(position, _)| *position);
-    let concentration = share - core.len() as f64 / count as f64;
-    Some(Place { axis, cells: core.into_iter().map(|(_, cell)| cell).collect(), share, concentration })
-}
-
-/// The ends of a cell that is an interval, `0.1000..0.2000`.
-pub fn edges(cell: &str) -> Option<[f64; 2]> {
-    let (low, high) = cell.split_once("..")?;
-    Some([low.parse().ok()?, high.parse().ok()?])
+/// `within 0.04 mm of each reversal (58 % of its energy in 5 % of the samples)`
+fn with_figures(place: &Place<'_>, units: &Units, is_first: bool) -> String {
+    let [share, exposure] = [place.share, place.exposure].map(|x| whole_percent(100.0 * x));
+    let whole = if place.axis == "frequency" { "frequencies" } else { "samples" };
+    let figures = match is_first {
+        true => format!("{share} % of its energy in {exposure} % of the {whole}"),
+        false => format!("{share} % in {exposure} % of the {whole}"),
+    };
+    format!("{} ({figures})", told(place, units))
 }
 
 fn told(place: &Place<'_>, units: &Units) -> String {
-    let Some(intervals) = place.cells.iter().map(|cell| edges(&cell.cell)).collect::<Option<Vec<_>>>() else {
-        return named(place.axis, &place.cells.iter().map(|cell| cell.cell.as_str()).collect::<Vec<_>>());
+    let ends = |cell: &Cell| cell.interval.map(|interval| (interval, units.of_cell(interval.unit)));
+    let (Some((first, unit)), Some((last, _))) = (ends(&place.cells[0]), place.cells.last().and_then(ends))
+    else {
+        return named(place.axis, &place.cells[0].cell);
     };
-    let merged = merged(&intervals);
-    let each =
-        |tell: &dyn Fn([f64; 2]) -> String| merged.iter().map(|i| tell(*i)).collect::<Vec<_>>().join(" and ");
+    let ends = [first.low, last.high];
     match place.axis {
-        "travel_since_reversal" => each(&|i| after_reversal(i, &units.input)),
-        "rest_samples" => format!("{} after the input stopped", each(&|i| between(i, "samples"))),
-        "v" => format!("at an input of {}", each(&|i| between(i, &units.input))),
-        "y" => format!("at an output of {}", each(&|i| between(i, &units.output))),
-        "loop_size" => format!("in loops of {}", each(&|i| between(i, &units.input))),
-        "speed" => {
-            let per_second = |i: [f64; 2]| i.map(|x| x / units.sample_time);
-            format!("at speeds of {}", each(&|i| between(per_second(i), &format!("{}/s", units.input))))
+        "travel_since_reversal" => after_reversal(ends, &unit),
+        "rest_samples" if ends[1] <= 1.0 => "while the input moves".to_owned(),
+        "rest_samples" if ends[0] <= 0.0 => {
+            format!("while the input moves and until {} samples after it stopped", edge(ends[1]))
         }
-        "frequency" => {
-            let hertz = |i: [f64; 2]| i.map(|x| x / units.sample_time);
-            format!("at frequencies of {}", each(&|i| between(hertz(i), "Hz")))
-        }
-        "time" => {
-            let percent = |i: [f64; 2]| i.map(|x| 100.0 * x);
-            format!("at {} of the campaign's time", each(&|i| between(percent(i), "%")))
-        }
-        axis => format!("at {} {}", axis.replace('_', " "), each(&|i| between(i, ""))),
+        "rest_samples" => format!("{} after the input stopped", between(ends, &unit)),
+        "v" => format!("at an input of {}", between(ends, &unit)),
+        "y" => format!("at an output of {}", between(ends, &unit)),
+        "loop_size" => format!("in loops of {}", between(ends, &unit)),
+        "speed" => format!("at speeds of {}", between(ends, &unit)),
+        "frequency" => format!("at frequencies of {}", between(ends, &unit)),
+        "time" => format!("at {} of the campaign's time", between(ends.map(|x| 100.0 * x), "%")),
+        axis => format!("at {} {}", axis.replace('_', " "), between(ends, "")),
     }
 }
 
-fn named(axis: &str, cells: &[&str]) -> String {
-    match (axis, cells) {
-        ("branch", ["holding"]) => "where the input rests".to_owned(),
-        ("branch", [branch]) => format!("on the {branch} border"),
-        ("record", [record]) => format!("in the record {record}"),
-        ("record", records) => format!("in the records {}", records.join(", ")),
-        (axis, cells) => format!("at {} {}", axis.replace('_', " "), cells.join(", ")),
+fn named(axis: &str, cell: &str) -> String {
+    match (axis, cell) {
+        ("branch", "holding") => "where the input rests".to_owned(),
+        ("branch", branch) => format!("on the {branch} border"),
+        ("record", record) => format!("in the record {record}"),
+        (axis, cell) => format!("at {} {cell}", axis.replace('_', " ")),
     }
 }
 
@@ -157,54 +156,112 @@ fn between([low, high]: [f64; 2], unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// Intervals that touch become one.
-fn merged(intervals: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut merged: Vec<[f64; 2]> = Vec::new();
-    for interval in intervals {
-        match merged.last_mut() {
-            Some(last) if last[1] >= interval[0] => last[1] = interval[1],
-            _ => merged.push(*interval),
-        }
-    }
-    merged
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use switchback_gap::{CellInterval, CellUnit};
 
     fn units() -> Units {
         Units { input: "V".into(), output: "um".into(), sample_time: 0.01, stroke: 2.0 }
     }
 
-    fn cell(axis: &'static str, cell: &str, share: f64, q_value: f64) -> Cell {
-        Cell { axis, cell: cell.to_owned(), share, q_value }
+    fn kind(axis: &'static str, cell: &str, share: f64, exposure: f64) -> Cell {
+        Cell {
+            axis,
+            cell: cell.to_owned(),
+            interval: None,
+            share,
+            exposure,
+            enrichment: share / exposure,
+            q_value: 1e-9,
+            enrichment_q_value: if share > exposure { 1e-9 } else { 1.0 },
+        }
+    }
+
+    fn travel([low, high]: [f64; 2], share: f64, exposure: f64) -> Cell {
+        let interval = Some(CellInterval { low, high, unit: CellUnit::Input });
+        Cell { interval, ..kind("travel_since_reversal", "", share, exposure) }
+    }
+
+    fn told(cells: &[Cell]) -> String {
+        sentence("The gap", cells, &units()).expect("significant cells")
+    }
+
+    /// A play: most of its energy soon after a reversal, where few samples are, at slow speeds, where most are.
+    fn play() -> Vec<Cell> {
+        let speed = |low, high, share, exposure| {
+            let interval = Some(CellInterval { low, high, unit: CellUnit::InputPerSecond });
+            Cell { interval, ..kind("speed", "", share, exposure) }
+        };
+        vec![
+            travel([0.0, 0.04], 0.58, 0.05),
+            travel([0.04, 0.1], 0.24, 0.05),
+            travel([0.1, f64::INFINITY], 0.18, 0.9),
+            speed(0.0, 20.0, 0.98, 0.95),
+            speed(20.0, f64::INFINITY, 0.02, 0.05),
+        ]
+    }
+
+    #[test]
+    fn a_place_is_told_by_share_and_exposure() {
+        let expected =
+            "The gap lies within 0.04 V of each reversal (58 % of its energy in 5 % of the samples).";
+        assert_eq!(told(&play()), expected);
     }
 
     #[test]
     fn neighbouring_cells_are_told_as_one_stretch() {
-        let cells = [
-            cell("travel_since_reversal", "0.0000..0.0400", 0.5, 1e-9),
-            cell("travel_since_reversal", "0.0400..0.1000", 0.4, 1e-9),
-            cell("travel_since_reversal", "0.1000..0.2000", 0.1, 0.5),
-            cell("travel_since_reversal", "0.2000..inf", 0.0, 1.0),
-        ];
-        let place = bulk("travel_since_reversal", &cells).expect("two cells hold the bulk");
-        assert_eq!(told(&place, &units()), "within 0.1 V of each reversal");
-        assert!((place.concentration - 0.4).abs() < 1e-12);
+        let mut cells = play();
+        (cells[0].share, cells[1].share) = (0.42, 0.4);
+        let expected =
+            "The gap lies within 0.1 V of each reversal (82 % of its energy in 10 % of the samples).";
+        assert_eq!(told(&cells), expected);
+        // Not where a cell between them has no samples.
+        cells[1].interval = Some(CellInterval { low: 0.05, high: 0.1, unit: CellUnit::Input });
+        assert!(told(&cells).starts_with("The gap lies everywhere"), "{}", told(&cells));
     }
 
     #[test]
-    fn a_bulk_that_chance_may_have_made_is_no_place() {
-        let cells = [cell("time", "0.0000..0.1000", 0.9, 0.3), cell("time", "0.1000..0.2000", 0.1, 0.01)];
-        assert!(bulk("time", &cells).is_none());
+    fn where_nearly_all_samples_are_is_no_place() {
+        let speeds = &play()[3..];
+        assert!(told(speeds).starts_with("The gap lies everywhere"), "{}", told(speeds));
+    }
+
+    #[test]
+    fn energy_that_chance_may_have_put_there_is_in_no_place() {
+        let mut cells = play();
+        cells[0].enrichment_q_value = 0.3;
+        assert!(told(&cells).starts_with("The gap lies everywhere"), "{}", told(&cells));
+        cells.iter_mut().for_each(|cell| cell.q_value = 0.3);
+        assert!(sentence("The gap", &cells, &units()).is_none());
+    }
+
+    #[test]
+    fn a_branch_is_told_beside_the_best_of_the_other_axes() {
+        let mut cells =
+            vec![kind("branch", "descending", 0.95, 0.48), kind("branch", "ascending", 0.05, 0.52)];
+        cells.extend(play());
+        let expected = "The gap lies on the descending border (95 % of its energy in 48 % of the samples), within 0.04 V of each reversal \
+                        (58 % in 5 % of the samples).";
+        assert_eq!(told(&cells), expected);
+    }
+
+    #[test]
+    fn records_are_named_where_nothing_says_it_better() {
+        let records = [kind("record", "drive", 0.9, 0.1), kind("record", "sweep", 0.1, 0.9)];
+        assert!(
+            told(&records).contains("in the record drive (90 % of its energy in 10 %"),
+            "{}",
+            told(&records)
+        );
+        let both = [&records[..], &play()].concat();
+        assert!(!told(&both).contains("drive"), "{}", told(&both));
     }
 
     #[test]
     fn open_cells_and_unknown_axes_read_well() {
         assert_eq!(between([f64::NEG_INFINITY, -1.5], "um"), "less than −1.5 um");
         assert_eq!(after_reversal([1.6, f64::INFINITY], "V"), "more than 1.6 V after each reversal");
-        assert_eq!(named("y_amplitude", &["large"]), "at y amplitude large");
-        assert_eq!(edges("holding"), None);
+        assert_eq!(named("y_amplitude", "large"), "at y amplitude large");
     }
 }

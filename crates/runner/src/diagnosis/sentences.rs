@@ -18,15 +18,17 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
     let diagnosis = &report.diagnosis;
     let mut sentences = vec![size(report)];
-    if diagnosis.verdict.status != Status::None {
+    let tells = !matches!(diagnosis.verdict.status, Status::None);
+    if tells {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     sentences.push(cause(diagnosis, &units));
-    sentences.extend(identified_anew(diagnosis));
-    if !matches!(diagnosis.verdict.status, Status::None) {
-        sentences.extend(closure(report));
-        sentences.push(remainder(diagnosis, &units));
+    sentences.extend(uncalibrated(diagnosis));
+    if diagnosis.verdict.status != Status::Refit {
+        sentences.extend(identified_anew(diagnosis));
+        sentences.extend(tells.then(|| closure(report)).into_iter().flatten());
     }
+    sentences.extend(tells.then(|| remainder(diagnosis, &units)));
     sentences
 }
 
@@ -90,11 +92,20 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
     let verdict = &diagnosis.verdict;
     let p = probability(verdict.probability);
     match verdict.status {
-        Status::None if closed_anew(diagnosis).is_some_and(|share| share > 0.0) => {
-            format!(
-                "Nothing significant is missing from the model but the right parameters, probability {p}."
-            )
+        // What is left though nothing shows on the judged records.
+        Status::None if diagnosis.probability_none < 0.5 => {
+            let [_, high] = diagnosis.gap.before.ci90;
+            let missed = match high {
+                high if high > 0.0 => format!(
+                    "anything below {} % of the output's variance, the upper end of the gap's interval, would be missed",
+                    digits(100.0 * high, 2)
+                ),
+                _ => "the noise floor is no estimate of the noise, so nobody knows what would be missed"
+                    .to_owned(),
+            };
+            format!("No gap can be resolved: {missed}.")
         }
+        Status::Refit => refit(diagnosis),
         Status::None => format!("Nothing significant is missing from the model, probability {p}."),
         Status::Named if verdict.effects.len() > 1 => {
             let each: Vec<_> =
@@ -139,6 +150,41 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             format!("Cause: none of the candidates, probability {p}{stage}{best}.")
         }
     }
+}
+
+/// What identifying the model anew does.
+fn refit(diagnosis: &Diagnosis) -> String {
+    let Some(refit) = diagnosis.verdict.refit else {
+        return "The model's parameters (its order) are off: identified anew it lacks no cause.".to_owned();
+    };
+    let delay = match refit.delay {
+        0 => String::new(),
+        -1 => " and an output that follows the input within its sample".to_owned(),
+        delay if delay < 0 => format!(" and an output {} sample ahead of the input", -delay - 1),
+        delay => format!(" and {delay} samples of extra delay"),
+    };
+    let [low, high] = refit.closure.ci90.map(|x| whole_percent(100.0 * x));
+    format!(
+        "The model's parameters (its order) are off: identified anew from the fit records, with order {}{delay} and without any cause, it \
+         closes {} % [{low}, {high}] of the gap, and no cause closes more beyond the error.",
+        refit.order,
+        whole_percent(100.0 * refit.closure.estimate)
+    )
+}
+
+/// A word on probabilities that were calibrated on other records than these.
+fn uncalibrated(diagnosis: &Diagnosis) -> Option<String> {
+    let tells_one = match diagnosis.verdict.status {
+        Status::Refit => false,
+        // Then no probability is told.
+        Status::None => diagnosis.probability_none >= 0.5,
+        _ => true,
+    };
+    (tells_one && !diagnosis.verdict.calibrated).then(|| {
+        "This probability was not calibrated for such records (no declared order, a comparison by the free run, a model that was given, \
+         or no record held out): it ranks, and is no frequency."
+            .to_owned()
+    })
 }
 
 /// `backlash (play 0.12 ± 0.01 V)`

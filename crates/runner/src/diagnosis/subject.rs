@@ -1,9 +1,11 @@
 //! Whose model meets the records.
 
-use super::model_file::{self, ModelError};
+use super::model_file::{self, Given};
 use crate::identification::EstimatedSystem;
+use crate::model::{ModelError, ModelFile, System};
 use miette::Diagnostic;
 use std::path::Path;
+use switchback_estimator::estimators::Estimate;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
 use switchback_gap::{Model, NominalModel};
@@ -79,6 +81,26 @@ pub enum SubjectError {
         /// Order in the rig.
         rig: usize,
     },
+    /// The model has another sample time than the rig.
+    #[error("{file}: the model has a sample time of {model} s, but the rig of {rig} s")]
+    #[diagnostic(help("identify the model from records sampled as these are, or resample the records"))]
+    SampleTime {
+        /// The model file.
+        file: String,
+        /// Sample time of the model.
+        model: f64,
+        /// Sample time of the rig.
+        rig: f64,
+    },
+    /// The model cannot run on a record that it is to be judged on.
+    #[error("{file}: the model cannot run on the record {record}")]
+    #[diagnostic(help("leave the record out, or give a model of both borders"))]
+    NoRun {
+        /// The model file.
+        file: String,
+        /// The record.
+        record: String,
+    },
     /// Some records have predictions and some that must have them do not.
     #[error("the record {record} has no column `y_sim`, but {other} has one")]
     #[diagnostic(help(
@@ -120,11 +142,50 @@ impl Subject {
     }
 
     fn given(rig: Rig, file: &Path, notes: Vec<String>) -> Result<Self, SubjectError> {
-        let estimate = model_file::read(file)?;
-        let model = estimate.a.len();
-        if let Some(order) = rig.order.filter(|order| *order != model) {
-            return Err(SubjectError::Order { file: file.display().to_string(), model, rig: order });
+        match model_file::read(file)? {
+            Given::Page(estimate) => Self::of_page(rig, file, estimate, notes),
+            Given::File(model) => Self::of_file(rig, file, &model, notes),
         }
+    }
+
+    /// A model file. One without effects goes to the diagnosis as it is; any other is simulated here.
+    fn of_file(
+        rig: Rig,
+        file: &Path,
+        model: &ModelFile,
+        mut notes: Vec<String>,
+    ) -> Result<Self, SubjectError> {
+        let sample_time = model.header.sample_time;
+        if (sample_time - rig.sample_time).abs() > 1e-6 * rig.sample_time {
+            let file = file.display().to_string();
+            return Err(SubjectError::SampleTime { file, model: sample_time, rig: rig.sample_time });
+        }
+        let plain = match &model.system {
+            System::Switched(model) => model.is_plain().then(|| model.system()),
+            System::Points(points) => return Self::of_page(rig, file, points.estimate(), notes),
+            System::Curves(curves) => curves.plain(),
+        };
+        if let Some(plain) = plain {
+            check_order(&rig, file, plain.a.len())?;
+            return Ok(Self { rig, model: Model::Given(plain), source: Source::Given, notes });
+        }
+        let rig = with_predictions(rig, |record| {
+            let (v, y) = (record.record.v(), record.record.y());
+            model.run(v, Some(y)).filter(|run| run.start < v.len()).map(|run| run.y)
+        });
+        if let Some(missing) = judged(&rig).find(|record| record.predicted.is_none()) {
+            return Err(SubjectError::NoRun {
+                file: file.display().to_string(),
+                record: missing.name.clone(),
+            });
+        }
+        notes.push("the model given is diagnosed by its free runs".to_owned());
+        Ok(Self { rig, model: Model::Predicted, source: Source::Given, notes })
+    }
+
+    /// The page of an identification, or a model of its kind.
+    fn of_page(rig: Rig, file: &Path, estimate: Estimate, notes: Vec<String>) -> Result<Self, SubjectError> {
+        check_order(&rig, file, estimate.a.len())?;
         let interval = working_interval(&rig);
         let system = EstimatedSystem::new(&estimate, interval).map_err(|reason| ModelError::Content {
             place: file.display().to_string(),
@@ -137,7 +198,10 @@ impl Subject {
             let model = NominalModel { a: estimate.a.clone(), b: estimate.b.clone(), descending, ascending };
             (rig, Model::Given(model))
         } else {
-            (predicted_by(&system, rig), Model::Predicted)
+            (
+                with_predictions(rig, |record| system.run(&record.record).map(|run| run.simulated)),
+                Model::Predicted,
+            )
         };
         Ok(Self { rig, model, source: Source::Given, notes })
     }
@@ -156,10 +220,18 @@ fn working_interval(rig: &Rig) -> Interval {
     rig.interval.unwrap_or(moved)
 }
 
-/// The rig with the system's free run as the prediction of every record that moves.
-fn predicted_by(system: &EstimatedSystem<'_>, mut rig: Rig) -> Rig {
+/// The rig with a model's free run as the prediction of every record that it can run on.
+fn with_predictions(mut rig: Rig, run: impl Fn(&RigRecord) -> Option<Vec<f64>>) -> Rig {
     for record in &mut rig.records {
-        record.predicted = system.run(&record.record).map(|run| run.simulated);
+        record.predicted = run(record);
     }
     rig
+}
+
+/// Whether the model has the order that the rig declares.
+fn check_order(rig: &Rig, file: &Path, model: usize) -> Result<(), SubjectError> {
+    match rig.order.filter(|order| *order != model) {
+        Some(order) => Err(SubjectError::Order { file: file.display().to_string(), model, rig: order }),
+        None => Ok(()),
+    }
 }

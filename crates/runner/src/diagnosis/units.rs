@@ -2,6 +2,7 @@
 
 use crate::identification::unit;
 use switchback_estimator::rig::Rig;
+use switchback_gap::CellUnit;
 
 /// Units and scales of a rig, to tell dimensionless figures in the user's own.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +32,18 @@ impl Units {
             output: named(&rig.output_label, "output units"),
             sample_time: rig.sample_time,
             stroke: rig.interval.map_or(high - low, |interval| interval.width()),
+        }
+    }
+
+    /// The unit of a cell's ends, in words.
+    pub fn of_cell(&self, unit: CellUnit) -> String {
+        match unit {
+            CellUnit::Input => self.input.clone(),
+            CellUnit::InputPerSecond => format!("{}/s", self.input),
+            CellUnit::Output => self.output.clone(),
+            CellUnit::Samples => "samples".to_owned(),
+            CellUnit::Hertz => "Hz".to_owned(),
+            CellUnit::ShareOfCampaign => "share of the campaign".to_owned(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The diagnosis as a page for a person.
 
 use super::experiment::separates;
-use super::number::{digits, fit_percent, whole_percent};
+use super::number::{closed_percent, digits, fit_percent};
 use super::sentences::{parameters, probability};
 use super::{NEXT_EXPERIMENT, Report, Units, sentences};
 use crate::output::columns;
@@ -14,6 +14,10 @@ const WIDTH: usize = 100;
 
 /// Explanations listed; the rest is in the JSON.
 const LISTED: usize = 6;
+
+/// What is left when all candidates are ruled out, and when there is nothing to explain.
+const NONE_OF_THESE: &str = "none of these";
+const NOTHING: &str = "nothing";
 
 /// The verdict in sentences, the hold-out records, the best explanations, what could not be judged, and what to do next.
 /// `out` is where the report's folder was written, if it was.
@@ -58,20 +62,22 @@ fn records(report: &Report) -> String {
 
 fn explanations(report: &Report, units: &Units) -> String {
     let diagnosis = &report.diagnosis;
-    let head = ["explanation", "probability", "ΔBIC", "nats/sample", "closure %"];
+    let head = ["explanation", "probability", "BIC drop", "nats/sample", "closure %"];
     let mut rows = vec![head.map(str::to_owned)];
     let listed = || diagnosis.candidates.iter().take(LISTED);
     for candidate in listed() {
         rows.push(row(candidate));
     }
     for (name, p) in
-        [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)]
+        [(NONE_OF_THESE, diagnosis.probability_unexplained), (NOTHING, diagnosis.probability_none)]
     {
         let rest = ["", "", ""].map(str::to_owned);
         let [a, b, c] = rest;
         rows.push([name.to_owned(), probability(p), a, b, c]);
     }
-    let table = columns(&rows);
+    let rest =
+        format!("`{NONE_OF_THESE}`: a cause that is no candidate; `{NOTHING}`: the model is right as it is.");
+    let table = format!("{}{}", columns(&rows), wrapped(&rest, ""));
     let told: Vec<String> = listed()
         .map(|candidate| (candidate.effect, parameters(&candidate.parameters, units)))
         .filter(|(_, text)| !text.is_empty())
@@ -88,9 +94,13 @@ fn row(candidate: &Candidate) -> [String; 5] {
     [
         candidate.effect.to_string(),
         probability(candidate.probability),
-        format!("{:.0}", candidate.bic).replace('-', "−"),
+        format!("{:.0}", candidate.delta_bic + 0.0).replace('-', "−"),
         digits(candidate.heldout_log_score, 2),
-        candidate.closure.map_or_else(|| "–".to_owned(), |c| whole_percent(100.0 * c)),
+        match candidate.closure {
+            _ if candidate.unstable => "unstable".to_owned(),
+            Some(closure) => closed_percent(100.0 * closure),
+            None => "–".to_owned(),
+        },
     ]
 }
 

@@ -1,6 +1,7 @@
 //! Methods for any record of a rig, and the yardsticks.
 
-use super::{Examination, Flag, FreeRun, Identification, IdentificationError, Request, causal, unit};
+use super::{Examination, Flag, Found, FreeRun, Identification, IdentificationError, Request, causal, unit};
+use crate::model::Curves;
 use switchback_estimator::Record;
 use switchback_estimator::estimators::free::{
     FreeError, InputMap, Model, Progress, Settings, identify_watched as estimate,
@@ -23,8 +24,10 @@ pub(super) fn identify(
             remedy: remedy(&error).to_owned(),
             reason: error.to_string(),
         })?;
+    let model = Found::Curves(Curves::of(&identified));
     Ok(Identification {
         method,
+        model: Some(model),
         estimate: identified.estimate,
         runs: rig.records.iter().map(|record| run(&identified.model, &record.record)).collect(),
         level_errors: identified.level_errors,

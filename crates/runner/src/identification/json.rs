@@ -1,10 +1,14 @@
 //! The identification as one JSON object.
 
 use super::{CausalAlternative, Flag, Identification, Yardstick};
+use crate::output::stamped;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use switchback_estimator::estimators::{BorderDistance, BorderPoint};
 use switchback_estimator::rig::{Rig, Usage};
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/identify/1";
 
 /// The object that `identify --json` prints; figures that do not exist are null.
 #[derive(Serialize)]
@@ -196,7 +200,7 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
         flags: identification.flags.iter().map(reservation).collect(),
         version: env!("CARGO_PKG_VERSION"),
     };
-    serde_json::to_string_pretty(&page).expect("numbers, strings and lists of them are JSON") + "\n"
+    stamped(SCHEMA, &page)
 }
 
 fn reservation(flag: &Flag) -> Reservation<'_> {

@@ -31,8 +31,18 @@ pub(crate) use simulate::EstimatedSystem;
 pub use table::table;
 pub use yardstick::Yardstick;
 
+use crate::model::{Curves, Points};
 use switchback_estimator::estimators::{BorderDistance, Estimate, LevelErrors};
 use switchback_estimator::rig::Rig;
+
+/// A model by the kind of its method.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// Of the methods for any record.
+    Curves(Curves),
+    /// Of the methods for pulse experiments.
+    Points(Points),
+}
 
 /// What a method made of a rig.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +64,8 @@ pub struct Identification {
     pub flags: Vec<Flag>,
     /// What other models and the residuals say, once it was asked for.
     pub examination: Examination,
+    /// The same system as a model that runs on its own; none where it cannot run.
+    pub model: Option<Found>,
 }
 
 impl Identification {

@@ -1,7 +1,8 @@
 //! Methods for the designed experiments of a rig.
 
 use super::simulate::EstimatedSystem;
-use super::{Examination, Flag, Identification, IdentificationError, Method};
+use super::{Examination, Flag, Found, Identification, IdentificationError, Method};
+use crate::model::Points;
 use switchback_estimator::estimators::free::Warning;
 use switchback_estimator::estimators::pulse::{PulseData, PulseDataError, PulseFit, PulseMethod, StepMean};
 use switchback_estimator::estimators::{BorderDistance, Estimate};
@@ -32,8 +33,9 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
     };
     let data = read(rig, method, &records, order)?;
     let data: Vec<&PulseData> = data.iter().collect();
-    let fit = fit(rig, method, &data)?;
+    let (fit, covariance) = fit(rig, method, &data)?;
     let estimate = fit.estimate(&data);
+    let covariance = by_position(covariance, &data);
     if method != Method::Joint && data.len() == 1 {
         let border = match data[0].branch {
             Branch::Descending => "descending",
@@ -69,7 +71,18 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
     let examination = Examination::default();
     let level_errors = Some(fit.level_errors);
     let obstacles = Vec::new();
-    Ok(Identification { method, estimate, level_errors, runs, distance, obstacles, flags, examination })
+    let model = Points::of(&estimate, interval, Some(covariance)).ok().map(Found::Points);
+    Ok(Identification {
+        method,
+        estimate,
+        level_errors,
+        runs,
+        distance,
+        obstacles,
+        flags,
+        examination,
+        model,
+    })
 }
 
 /// What the errors of an estimate say against it.
@@ -78,6 +91,18 @@ fn doubts(estimate: &Estimate, distance: Option<BorderDistance>) -> Vec<Warning>
     let hollow = estimate.hollow_coefficients();
     let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum });
     vanished.map(|distance| Warning::LoopVanished { distance }).into_iter().chain(hollow).collect()
+}
+
+/// The covariance of `a`, `b` and the points in the order of the experiments as that of `a`, `b` and the points by border, the descending
+/// one first, and by increasing `v`: the order of an [`Estimate`](switchback_estimator::estimators::Estimate).
+fn by_position(covariance: Vec<Vec<f64>>, data: &[&PulseData]) -> Vec<Vec<f64>> {
+    let points: Vec<(bool, f64)> =
+        data.iter().flat_map(|d| d.levels.iter().map(move |&v| (d.branch == Branch::Ascending, v))).collect();
+    let coefficients = covariance.len() - points.len();
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&i, &j| points[i].0.cmp(&points[j].0).then(points[i].1.total_cmp(&points[j].1)));
+    let order: Vec<usize> = (0..coefficients).chain(order.into_iter().map(|k| coefficients + k)).collect();
+    order.iter().map(|&i| order.iter().map(|&j| covariance[i][j]).collect()).collect()
 }
 
 /// The fit records that the method works on: the longest of each role it needs.
@@ -156,7 +181,11 @@ fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usi
     }
 }
 
-fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, IdentificationError> {
+fn fit(
+    rig: &Rig,
+    method: Method,
+    data: &[&PulseData],
+) -> Result<(PulseFit, Vec<Vec<f64>>), IdentificationError> {
     let refused = |reason: String| IdentificationError::Refused {
         rig: rig.name.clone(),
         method,
@@ -168,10 +197,11 @@ fn fit(rig: &Rig, method: Method, data: &[&PulseData]) -> Result<PulseFit, Ident
             // Any mean serves for a first a, which then says how long the step takes to settle.
             let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
             let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
-            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }.fit()
+            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }
+                .fit_with_covariance()
         }
-        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit(),
-        _ => PulseMethod::Efficient(data).fit(),
+        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit_with_covariance(),
+        _ => PulseMethod::Efficient(data).fit_with_covariance(),
     };
     fitted.map_err(|error| refused(error.to_string()))
 }

@@ -26,6 +26,11 @@ impl<'a> EstimatedSystem<'a> {
         if !is_stable(&estimate.a) {
             return Err("the estimated A is unstable");
         }
+        Ok(Self::of_any(estimate, interval))
+    }
+
+    /// The same for an estimate that may be unstable.
+    pub(crate) fn of_any(estimate: &'a Estimate, interval: Interval) -> Self {
         let points =
             |border: &[BorderPoint]| -> Vec<(f64, f64)> { border.iter().map(|p| (p.v, p.f)).collect() };
         let mut descending = points(&estimate.descending);
@@ -44,7 +49,7 @@ impl<'a> EstimatedSystem<'a> {
             }
             _ => {}
         }
-        Ok(Self { estimate, interval, descending, ascending })
+        Self { estimate, interval, descending, ascending }
     }
 
     /// The completed borders, descending and ascending: `(v, F)` by increasing `v`.
@@ -58,9 +63,39 @@ impl<'a> EstimatedSystem<'a> {
     /// system) are the initial state; all later ones are simulated from `v` alone.
     pub(crate) fn run(&self, record: &Record) -> Option<FreeRun> {
         let v = record.v();
-        let n = self.estimate.a.len();
-        let first_known = (1..v.len()).find(|&t| v[t] != v[t - 1])?;
-        let mut u = vec![0.0; v.len()];
+        let first_known = first_move(v)?;
+        let start = (first_known + self.memory()).min(v.len());
+        let u = self.along(v, first_known, 0.0)?;
+        let y = self.from(&u, record.y()[..start].to_vec());
+        Some(FreeRun::new(record.y(), y, start))
+    }
+
+    /// Runs on an input from rest: the input has been at its first value for ever, on the border of the first move where that is known
+    /// there. None where it moves along a border that was not estimated.
+    pub(crate) fn run_from_rest(&self, v: &[f64]) -> Option<Vec<f64>> {
+        let first_known = first_move(v).unwrap_or(v.len());
+        let falls = v.get(first_known).is_some_and(|now| *now < v[0]);
+        let [own, other] = if falls {
+            [Branch::Descending, Branch::Ascending]
+        } else {
+            [Branch::Ascending, Branch::Descending]
+        };
+        let rest = self.border(own, v[0]).or_else(|| self.border(other, v[0]))?;
+        // The memory of the system before the record.
+        let before = self.memory().max(1);
+        let u = [vec![rest; before], self.along(v, first_known, rest)?].concat();
+        let mut y = self.from(&u, vec![self.estimate.gain * rest; before]);
+        Some(y.split_off(before))
+    }
+
+    /// Samples that an output looks back.
+    fn memory(&self) -> usize {
+        self.estimate.a.len() + self.estimate.delay.max(0) as usize
+    }
+
+    /// `u` along an input whose branch is known from a sample on; before it the value given.
+    fn along(&self, v: &[f64], first_known: usize, before: f64) -> Option<Vec<f64>> {
+        let mut u = vec![before; v.len()];
         for t in first_known..v.len() {
             u[t] = match v[t].total_cmp(&v[t - 1]) {
                 std::cmp::Ordering::Greater => self.border(Branch::Ascending, v[t])?,
@@ -68,17 +103,19 @@ impl<'a> EstimatedSystem<'a> {
                 std::cmp::Ordering::Equal => u[t - 1],
             };
         }
-        let delay = self.estimate.delay;
-        let start = (first_known + n + delay.max(0) as usize).min(v.len());
-        let mut y = record.y()[..start].to_vec();
-        for t in start..v.len() {
-            let (a, b) = (&self.estimate.a, &self.estimate.b);
+        Some(u)
+    }
+
+    /// The outputs for `u`, given the first ones.
+    fn from(&self, u: &[f64], mut y: Vec<f64>) -> Vec<f64> {
+        let Estimate { a, b, delay, .. } = self.estimate;
+        for t in y.len()..u.len() {
             // A look ahead that leaves the record finds the input at rest where it ended.
-            let driven = |j: usize| b[j] * u[(t - j).saturating_add_signed(-1 - delay).min(v.len() - 1)];
+            let driven = |j: usize| b[j] * u[(t - j).saturating_add_signed(-1 - delay).min(u.len() - 1)];
             let free = |i: usize| a[i] * y[t - 1 - i];
-            y.push((0..b.len()).map(driven).sum::<f64>() - (0..n).map(free).sum::<f64>());
+            y.push((0..b.len()).map(driven).sum::<f64>() - (0..a.len()).map(free).sum::<f64>());
         }
-        Some(FreeRun::new(record.y(), y, start))
+        y
     }
 
     /// The border's value, none where nothing is known of it. Outside the interval it keeps its last value.
@@ -97,6 +134,11 @@ impl<'a> EstimatedSystem<'a> {
             (None, _) => points[0].1,
         })
     }
+}
+
+/// The first sample at which an input moves.
+fn first_move(v: &[f64]) -> Option<usize> {
+    (1..v.len()).find(|&t| v[t] != v[t - 1])
 }
 
 /// The straight line through the two outermost points at `v`; constant where there is but one.

@@ -1,6 +1,6 @@
 //! `--force`
 
-use crate::output::{OutputError, OutputFolder};
+use crate::output::{OutputError, OutputFile, OutputFolder};
 use std::path::Path;
 
 /// Whether files that someone else wrote may be replaced.
@@ -20,7 +20,15 @@ impl Force {
         OutputFolder::claim(folder)?.forced(self.force).expecting(names)
     }
 
-    /// The same where a folder need not be asked for.
+    /// Claims a file by its path, where one was asked for.
+    ///
+    /// # Errors
+    /// [`OutputError`] if something is there and not given up, or the file cannot be written.
+    pub fn claim_file(self, path: Option<&Path>) -> Result<Option<OutputFile>, OutputError> {
+        path.map(|path| OutputFile::claim(path, self.force)).transpose()
+    }
+
+    /// The same as [`claim`](Self::claim) where a folder need not be asked for.
     ///
     /// # Errors
     /// As [`claim`](Self::claim).

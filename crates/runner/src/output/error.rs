@@ -26,6 +26,20 @@ pub enum OutputError {
         /// The artefact's name.
         name: String,
     },
+    /// A folder stands where a file is wanted.
+    #[error("{target}: is a folder, not a file")]
+    #[diagnostic(help("give the name of a file, in this folder or elsewhere"))]
+    IsFolder {
+        /// The file as given.
+        target: String,
+    },
+    /// A file stands already where one is to be written.
+    #[error("{target}: is there already")]
+    #[diagnostic(help("give another name, or --force to replace it"))]
+    Exists {
+        /// The file as given.
+        target: String,
+    },
     /// A file that someone else wrote or changed would be replaced.
     #[error("{target}: {files} would be lost there")]
     #[diagnostic(help("give another folder, or --force to replace what is there"))]

@@ -102,6 +102,11 @@ impl Basis {
         self.curves.len() == 2
     }
 
+    /// Whether it is the straight line `u = v`, which goes on beyond its ends.
+    pub fn is_line(&self) -> bool {
+        self.extrapolate
+    }
+
     /// Number of free knot values: all but the reference.
     pub(super) fn features(&self) -> usize {
         self.curves.iter().map(Vec::len).sum::<usize>() - 1

@@ -35,6 +35,8 @@ pub struct Identified {
     pub distance: Option<BorderDistance>,
     /// Weak points.
     pub warnings: Vec<Warning>,
+    /// Covariance of the model's coefficients `(a, b, f, c)`, row by row; absent where the records leave one of them open.
+    pub covariance: Option<Vec<Vec<f64>>>,
 }
 
 /// Identifies a Hammerstein system from any records.
@@ -94,8 +96,10 @@ pub fn identify_watched(
     let warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
     let level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
+    let covariance =
+        covariance.map(|c| c.matrix().row_iter().map(|row| row.iter().copied().collect()).collect());
     let model = Model { basis: basis.clone(), structure, parameters: theta, rule: data.rule };
-    Ok(Identified { estimate, level_errors, model, selection, distance, warnings })
+    Ok(Identified { estimate, level_errors, model, selection, distance, warnings, covariance })
 }
 
 /// What a fit knows of its own errors.

@@ -44,7 +44,7 @@ pub use equation_error::Moments;
 pub use error::FreeError;
 pub use identify::{Identified, identify, identify_watched};
 pub use limit::Limit;
-pub use model::{FreeRun, Model, fit_percent};
+pub use model::{Coefficients, FreeRun, Model, ModelError, fit_percent};
 pub use one_shot::{Grid, one_shot};
 pub use problem::Structure;
 pub use progress::Progress;

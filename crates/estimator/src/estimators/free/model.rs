@@ -6,6 +6,7 @@ use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::free_run;
 use crate::hysteresis::Branch;
 use crate::record::Record;
+use thiserror::Error;
 
 /// A Hammerstein system on piecewise-linear curves, in output units.
 ///
@@ -31,7 +32,97 @@ pub struct FreeRun {
     pub fit_percent: f64,
 }
 
+/// The numbers of a [`Model`], in any scale that `b` and `f` share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coefficients {
+    /// `a₁…aₙ`.
+    pub a: Vec<f64>,
+    /// `b`, one number a lag.
+    pub b: Vec<f64>,
+    /// Knot values, in the order of the knots, without the reference knot's, which is 0.
+    pub f: Vec<f64>,
+    /// The constant `c`.
+    pub c: f64,
+}
+
+/// Why parts make no [`Model`].
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// A list has the wrong length.
+    #[error("`{part}` has {found} numbers, but the structure and the knots make {expected}")]
+    Length {
+        /// The list.
+        part: &'static str,
+        /// Its numbers.
+        found: usize,
+        /// Those expected.
+        expected: usize,
+    },
+    /// The knots of a curve do not rise, or are fewer than two.
+    #[error("the knots of a curve must rise, and each curve needs two")]
+    Knots,
+    /// The order is zero.
+    #[error("the order is 0: a model needs a pole at least")]
+    Order,
+    /// A coefficient is not finite.
+    #[error("a coefficient is not finite")]
+    NotFinite,
+}
+
 impl Model {
+    /// Joins the parts of a model.
+    ///
+    /// # Errors
+    /// [`ModelError`] where they do not fit together.
+    pub fn new(
+        basis: Basis,
+        structure: Structure,
+        coefficients: Coefficients,
+        rule: ReversalRule,
+    ) -> Result<Self, ModelError> {
+        let falls = |knots: &[f64]| knots.len() < 2 || knots.windows(2).any(|pair| pair[1] <= pair[0]);
+        if falls(basis.descending()) || falls(basis.ascending()) {
+            return Err(ModelError::Knots);
+        }
+        if structure.order == 0 {
+            return Err(ModelError::Order);
+        }
+        let Coefficients { a, b, f, c } = coefficients;
+        let lists =
+            [("a", &a, structure.order), ("b", &b, structure.numerator()), ("f", &f, basis.features())];
+        for (part, list, expected) in lists {
+            if list.len() != expected {
+                return Err(ModelError::Length { part, found: list.len(), expected });
+            }
+        }
+        if a.iter().chain(&b).chain(&f).chain([&c]).any(|x| !x.is_finite()) {
+            return Err(ModelError::NotFinite);
+        }
+        Ok(Self { basis, structure, parameters: Parameters { a, b, f, c }, rule })
+    }
+
+    /// The numbers.
+    pub fn coefficients(&self) -> Coefficients {
+        let Parameters { a, b, f, c } = self.parameters.clone();
+        Coefficients { a, b, f, c }
+    }
+
+    /// The same model with its parameters `(a, b, f, c)` moved by a step, one number each.
+    ///
+    /// # Panics
+    /// If the step has another length.
+    pub fn moved(&self, step: &[f64]) -> Self {
+        let parameters = self.parameters.moved(step);
+        Self { parameters, ..self.clone() }
+    }
+
+    /// The first sample that a [`Self::free_run`] over an input simulates.
+    pub fn start(&self, v: &[f64]) -> usize {
+        let known = Branches::of(v, self.rule).map_or(v.len(), |b| b.first_known());
+        (known + self.structure.memory()).min(v.len())
+    }
+
     /// The hat functions of the curves.
     pub fn basis(&self) -> &Basis {
         &self.basis
@@ -85,8 +176,7 @@ impl Model {
     /// all known, the first move plus the memory of the model, are its initial state; all later ones are
     /// simulated from `v` alone.
     pub fn free_run(&self, record: &Record) -> FreeRun {
-        let known = Branches::of(record.v(), self.rule).map_or(record.len(), |b| b.first_known());
-        let start = (known + self.structure.memory()).min(record.len());
+        let start = self.start(record.v());
         let y = self.simulate(record.v(), &record.y()[..start]);
         let fit_percent = fit_percent(&record.y()[start..], &y[start..]);
         FreeRun { y, start, fit_percent }

@@ -46,6 +46,34 @@ impl Covariance {
         self.factor.solve(&score.component_div(&self.scale)).component_div(&self.scale)
     }
 
+    /// The covariance itself, row by row, in the scale of the fit.
+    ///
+    /// Where residuals are not white it is the least upper bound `S Q max(1, Λ) Qᵀ Sᵀ` of both estimates in the basis that makes both
+    /// diagonal, `σ²M⁻¹ = S Sᵀ` and `M⁻¹ meat M⁻¹ = S Q Λ Qᵀ Sᵀ`: no standard error by it is below [`Self::standard_error`].
+    pub(super) fn matrix(&self) -> DMatrix<f64> {
+        let p = self.scale.len();
+        let lower = self.factor.l();
+        let sd = self.noise_variance.sqrt();
+        // S = σ F⁻ᵀ for M = F Fᵀ.
+        let inverse = lower.clone().solve_lower_triangular(&DMatrix::identity(p, p));
+        let root = inverse.map_or_else(|| DMatrix::zeros(p, p), |inverse| inverse.transpose() * sd);
+        let between = self.meat.as_ref().and_then(|meat| {
+            let half = lower.solve_lower_triangular(meat)?;
+            lower.solve_lower_triangular(&half.transpose())
+        });
+        let root = match between {
+            Some(between) if self.noise_variance > 0.0 => {
+                let symmetric = (&between + between.transpose()) * (0.5 / self.noise_variance);
+                let eigen = symmetric.symmetric_eigen();
+                let stretch = eigen.eigenvalues.map(|x| x.max(1.0).sqrt());
+                root * eigen.eigenvectors * DMatrix::from_diagonal(&stretch)
+            }
+            _ => root,
+        };
+        let covariance = &root * root.transpose();
+        DMatrix::from_fn(p, p, |i, j| covariance[(i, j)] / (self.scale[i] * self.scale[j]))
+    }
+
     /// Standard error of a parameter with the given derivatives: the larger of the two estimates.
     pub(super) fn standard_error(&self, derivative: &DVector<f64>) -> f64 {
         let d = derivative.component_div(&self.scale);

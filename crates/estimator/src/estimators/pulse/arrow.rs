@@ -138,6 +138,30 @@ impl ArrowFit {
         self.variance * (own + through_core.dot(&solved))
     }
 
+    /// Covariances of several parameters with the given derivatives, row by row.
+    pub(crate) fn covariances_of(&self, gradients: &[&Gradient]) -> Vec<Vec<f64>> {
+        let through_core = |gradient: &Gradient| {
+            let mut core = gradient.core.clone();
+            gradient.local.iter().for_each(|&(l, weight)| core.axpy(-weight, &self.ties[l].slope, 1.0));
+            core
+        };
+        let through: Vec<_> = gradients.iter().map(|g| through_core(g)).collect();
+        let own = |one: &Gradient, other: &Gradient| -> f64 {
+            let shared = |&(l, weight): &(usize, f64)| {
+                let same = other.local.iter().filter(|(k, _)| *k == l).map(|(_, weight)| weight);
+                same.map(|other| weight * other / self.ties[l].own).sum::<f64>()
+            };
+            one.local.iter().map(shared).sum()
+        };
+        let row = |i: usize| {
+            let solved = self.factor.solve(&through[i]);
+            let entry =
+                |j: usize| self.variance * (own(gradients[i], gradients[j]) + through[j].dot(&solved));
+            (0..gradients.len()).map(entry).collect()
+        };
+        (0..gradients.len()).map(row).collect()
+    }
+
     /// Adds the correction for what a pass over the data finds left in the residual, and takes the residual variance from there.
     pub(crate) fn refine(&mut self, columns: &Columns, score: &Score) {
         let step = self.respond(columns, &score.residual, &score.lagged);

@@ -41,6 +41,15 @@ impl PulseMethod<'_> {
         Ok(self.solve()?.fit())
     }
 
+    /// The estimate and the covariance of its [parameters](PulseFit::parameters), row by row (delta method, white equation error).
+    ///
+    /// # Errors
+    /// As [`Self::fit`].
+    pub fn fit_with_covariance(self) -> Result<(PulseFit, Vec<Vec<f64>>), PulseFitError> {
+        let solution = self.solve()?;
+        Ok((solution.fit(), solution.covariance()))
+    }
+
     pub(crate) fn solve(self) -> Result<Solution, PulseFitError> {
         match self {
             Self::Paper { experiment, step } => paper::paper(experiment, step),

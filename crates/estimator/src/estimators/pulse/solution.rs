@@ -138,13 +138,7 @@ impl Solution {
     /// The estimate with its standard errors.
     pub(crate) fn fit(&self) -> PulseFit {
         let n = self.order;
-        let step_variance = match self.level {
-            Level::Constant => 0.0,
-            Level::Step(step) => {
-                let a_at_one = 1.0 + self.fit.core.rows(0, n).sum();
-                self.fit.variance / (a_at_one * a_at_one * step.samples)
-            }
-        };
+        let step_variance = self.step_variance();
         let se = |quantity: &Quantity| {
             let through_step = quantity.step_slope * quantity.step_slope * step_variance;
             (self.fit.variance_of(&quantity.gradient) + through_step).sqrt()
@@ -159,6 +153,30 @@ impl Solution {
             noise_sd: self.fit.variance.sqrt(),
             u_low: self.u_low,
             level_errors: LevelErrors { gain, y_high, y_low },
+        }
+    }
+
+    /// Covariance of `a`, `b`, then the borders' points, row by row.
+    pub(crate) fn covariance(&self) -> Vec<Vec<f64>> {
+        let gradients: Vec<&Gradient> = self.quantities.iter().map(|q| &q.gradient).collect();
+        let mut rows = self.fit.covariances_of(&gradients);
+        let step_variance = self.step_variance();
+        for (row, one) in rows.iter_mut().zip(&self.quantities) {
+            for (entry, other) in row.iter_mut().zip(&self.quantities) {
+                *entry += one.step_slope * other.step_slope * step_variance;
+            }
+        }
+        rows
+    }
+
+    /// Variance of `ŷ₀`.
+    fn step_variance(&self) -> f64 {
+        match self.level {
+            Level::Constant => 0.0,
+            Level::Step(step) => {
+                let a_at_one = 1.0 + self.fit.core.rows(0, self.order).sum();
+                self.fit.variance / (a_at_one * a_at_one * step.samples)
+            }
         }
     }
 

@@ -79,14 +79,15 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     /// Adds to the pairs found. Large errors here and there take what a law misses now and then: by a little they gain more than the
     /// cause itself.
     fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
-        self.found.extend(pairs.into_iter().filter(Explanation::may_be_a_cause));
         let of = self.of;
+        let is_pair = |pair: &Explanation| pair.may_be_a_cause() && of.considers(pair) && !are_twins(pair);
+        self.found.extend(pairs.into_iter().filter(is_pair));
         let rank = |pair: &Explanation| match members(pair).contains(&Effect::Outliers) {
             true => pair.bic() + STOPGAP * of.gain(Some(pair)).max(0.0),
             false => pair.bic(),
         };
         self.found.sort_by(|x, y| rank(x).total_cmp(&rank(y)));
-        let mut seen: Vec<[(Effect, usize); 2]> = Vec::new();
+        let mut seen: Vec<[(Effect, (Effect, usize)); 2]> = Vec::new();
         self.found.retain(|pair| {
             let both = laws(pair);
             let new = !seen.contains(&both);
@@ -264,10 +265,16 @@ fn members(pair: &Explanation) -> [Effect; 2] {
 }
 
 /// Both effects of a pair with the numbers of their laws, in one order.
-fn laws(pair: &Explanation) -> [(Effect, usize); 2] {
+fn laws(pair: &Explanation) -> [(Effect, (Effect, usize)); 2] {
     let mut both = [0, 1].map(|i| (pair.parts[i].effect, pair.parts[i].law));
     both.sort_unstable();
     both
+}
+
+/// Whether both are twins: signs may have given a law the name of one.
+fn are_twins(pair: &Explanation) -> bool {
+    let [one, other] = members(pair);
+    one.twins().contains(&other)
 }
 
 /// An effect and its twins.

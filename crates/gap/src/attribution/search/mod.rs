@@ -33,7 +33,7 @@ const RELAXED: usize = 6;
 const SCOUTED: usize = 8;
 const TRIALS: usize = 30;
 
-/// An effect that may explain more, and what is known about it.
+/// An effect whose laws may explain more, and what is known about it.
 #[derive(Debug, Clone)]
 pub(crate) struct Question {
     pub(crate) effect: Effect,
@@ -51,7 +51,8 @@ impl Question {
     /// The law of an effect that was fitted alone, from where it ended.
     pub(crate) fn after(single: &Explanation) -> Self {
         let part = &single.parts[0];
-        Self { effect: part.effect, alone: Some((part.law, single.fit.own.clone())) }
+        let (effect, law) = part.law;
+        Self { effect, alone: Some((law, single.fit.own.clone())) }
     }
 
     /// The law, with fewer starts where something is known; none where another law is asked for.

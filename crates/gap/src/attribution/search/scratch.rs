@@ -46,7 +46,8 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let mut raced: Vec<Explanation> =
         field.iter().take(RACED).map(|sketch| advance(campaign, 0, sketch)).collect();
     raced.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
-    raced.iter().map(|sketch| finish(campaign, 0, sketch)).find(Explanation::is_sound)
+    let finished = raced.iter().map(|sketch| finish(campaign, 0, sketch).named_by_its_signs());
+    finished.into_iter().find(Explanation::is_sound)
 }
 
 /// The middle start of every valley; all starts where none are known.
@@ -58,7 +59,7 @@ fn one_of_each_valley(law: &Variant) -> Vec<&Vec<Own>> {
 
 /// The first sketch of every law that is asked for.
 fn first_of_each_law(field: &[Explanation], is_asked: impl Fn(usize) -> bool) -> Vec<&Explanation> {
-    let added = |sketch: &Explanation| sketch.parts.last().map_or(0, |part| part.law);
+    let added = |sketch: &Explanation| sketch.parts.last().map_or(0, |part| part.law.1);
     let mut firsts: Vec<&Explanation> = Vec::new();
     for sketch in field {
         let law = added(sketch);

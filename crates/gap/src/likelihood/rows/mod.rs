@@ -78,12 +78,25 @@ impl Rows {
 
 /// The value of a clock at a sample.
 pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, path: f64) -> f64 {
+    if track.standing {
+        return at_the_end(clock, campaign);
+    }
     match clock {
         Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
         Clock::Samples => (track.clock + t) as f64,
         Clock::Record => t as f64 / track.v.len() as f64,
         Clock::Pauses => track.before as f64 / campaign.tracks.len() as f64,
         Clock::Travel => (track.travelled + path) / campaign.travel,
+    }
+}
+
+/// The value of a clock where the campaign, or its last record, ends.
+fn at_the_end(clock: Clock, campaign: &Campaign) -> f64 {
+    let records = campaign.tracks.iter().filter(|track| !track.standing).count().max(1);
+    match clock {
+        Clock::Campaign | Clock::Record | Clock::Travel => 1.0,
+        Clock::Samples => campaign.total as f64,
+        Clock::Pauses => (records - 1) as f64 / records as f64,
     }
 }
 

@@ -4,7 +4,11 @@ use crate::blind::case::Case;
 use crate::blind::design::Kind;
 use crate::blind::scenario::Study;
 use crate::blind::score::{Bound, Scores, Share};
+use crate::output::stamped;
 use serde_json::{Value, json};
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/blind/1";
 
 pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &Scores) -> String {
     let count = |kind: Kind| cases.iter().filter(|c| c.kind == kind).count();
@@ -49,9 +53,7 @@ pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &
             "outside_named": share(r.outside_named), "precision": share(r.precision),
         })).collect::<Vec<_>>(),
     });
-    let mut text = serde_json::to_string_pretty(&value).expect("numbers and strings are JSON");
-    text.push('\n');
-    text
+    stamped(SCHEMA, &value)
 }
 
 fn share(share: Share) -> Value {

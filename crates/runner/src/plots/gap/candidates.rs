@@ -1,6 +1,6 @@
 //! The candidates' ranking.
 
-use crate::diagnosis::Report;
+use crate::diagnosis::{Report, closed_percent};
 use crate::plots::canvas::{Canvas, Pen, TextLook};
 use crate::plots::legend::{Entry, Sample};
 use crate::plots::palette::{FAINT, GREY, OKABE_ITO, tint};
@@ -28,7 +28,8 @@ pub(super) fn figure(report: &Report) -> String {
     let sheet = Sheet {
         title: format!("{}: what explains the gap", report.rig.name),
         notes: vec![
-            "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale; closure is on the records judged.".to_owned(),
+            "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale.".to_owned(),
+            "Closure is on the records judged; unstable: with this effect the model's free run leaves every range.".to_owned(),
         ],
         legend,
         grid: Grid {
@@ -45,7 +46,8 @@ pub(super) fn figure(report: &Report) -> String {
         for (i, row) in rows.iter().enumerate() {
             row.draw(canvas, frames, i, strongest);
         }
-        for (column, title) in ["probability", "evidence −ΔBIC", "closure"].into_iter().enumerate() {
+        for (column, title) in ["probability", "evidence: drop of the BIC", "closure"].into_iter().enumerate()
+        {
             let (x, y) = frames.corner(0, column);
             canvas.text(title, (x, y - 16.0), TextLook::new(16.0).bold());
         }
@@ -76,6 +78,7 @@ struct Row {
     probability: f64,
     evidence: Option<f64>,
     closure: Option<f64>,
+    unstable: bool,
 }
 
 fn rows(report: &Report) -> Vec<Row> {
@@ -90,8 +93,9 @@ fn rows(report: &Report) -> Vec<Row> {
         name: c.effect.to_string(),
         rank: rank(c),
         probability: c.probability,
-        evidence: Some(-c.bic),
+        evidence: Some(c.delta_bic),
         closure: c.closure,
+        unstable: c.unstable,
     };
     let rest = |name: &str, status: Status, probability: f64| Row {
         name: name.to_owned(),
@@ -99,6 +103,7 @@ fn rows(report: &Report) -> Vec<Row> {
         probability,
         evidence: None,
         closure: None,
+        unstable: false,
     };
     let mut rows: Vec<Row> = diagnosis.candidates.iter().map(candidate).collect();
     rows.push(rest("none of these", Status::Unexplained, diagnosis.probability_unexplained));
@@ -114,7 +119,10 @@ impl Row {
         let name = if self.rank == Rank::Chosen { look.bold() } else { look };
         canvas.text(&self.name, (frames.corner(0, 0).0 - 10.0, middle), name.end());
         let evidence = self.evidence.map(|e| ((e.max(0.0) / strongest).sqrt(), whole(e)));
-        let closure = self.closure.map(|c| (c.clamp(0.0, 1.0), format!("{} %", whole(100.0 * c))));
+        let closure = match self.closure {
+            _ if self.unstable => Some((0.0, "unstable".to_owned())),
+            closure => closure.map(|c| (c.clamp(0.0, 1.0), format!("{} %", closed_percent(100.0 * c)))),
+        };
         let probability = Some((self.probability.clamp(0.0, 1.0), format!("{:.3}", self.probability)));
         for (column, bar) in [probability, evidence, closure].into_iter().enumerate() {
             let Some((share, text)) = bar else { continue };

@@ -1,0 +1,82 @@
+//! Whether the model under diagnosis lacks a cause or only the right parameters.
+
+use super::Plan;
+use super::harm::differences;
+use super::report::{Conclusion, Other};
+use crate::diagnosis::{Status, Verdict};
+use crate::effect::Effect;
+use crate::likelihood::engine::Fit;
+use crate::nominal::order::Chosen;
+use crate::simulation::simulate::free_run;
+use crate::verdict::decide::{parameters_are_off, unresolved};
+
+/// Effects that a higher order or another delay has room for.
+const DYNAMICS: [Effect; 3] = [Effect::InputDelay, Effect::ExtraPole, Effect::Resonance];
+
+/// Whether a verdict tells an effect that a higher order or another delay has room for, be it as one of several.
+pub(super) fn tells_dynamics(verdict: &Verdict) -> bool {
+    verdict.effects.iter().chain(&verdict.class).any(|effect| DYNAMICS.contains(effect))
+}
+
+/// Whether a verdict tells a delay.
+pub(super) fn tells_a_delay(verdict: &Verdict) -> bool {
+    verdict.effects.iter().chain(&verdict.class).any(|effect| *effect == Effect::InputDelay)
+}
+
+impl Plan {
+    /// Whether the same model, identified anew, closes as much of the gap of one that was given as the explanation of a verdict does:
+    /// on the judged records it saves what the other one does, but for the error of the difference.
+    ///
+    /// Where the explanation is none of the candidates, nothing may be left of the gap.
+    pub(super) fn only_parameters_are_off(&self, status: Status, explained: &Fit) -> bool {
+        if self.foreign.is_none() {
+            return false;
+        }
+        let anew = &self.nominal.plain.fit;
+        let gap = self.gap(anew, self.settings.resamples);
+        let saves = self.mean(&self.saved_in_simulation(anew), anew).is_some_and(|m| m.low > 0.0);
+        let errors = |fit: &Fit| {
+            self.squared_errors(|number| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]))
+        };
+        let adds = || {
+            let saved = differences(&errors(anew), &errors(explained));
+            self.mean(&saved, explained).is_some_and(|m| m.low > 0.0)
+        };
+        let suffices = match status {
+            Status::None => true,
+            Status::Unexplained => gap.after.ci90[0] <= 0.0,
+            _ => !adds(),
+        };
+        gap.before.ci90[0] > 0.0 && saves && suffices
+    }
+
+    /// Whether a nominal model of another structure does as well on the judged records as an explanation, but for the error of the
+    /// difference.
+    pub(super) fn does_the_same(&self, chosen: &Chosen, explained: &Fit) -> bool {
+        let other = self.squared_errors(|number| {
+            free_run(&chosen.campaign, &chosen.fit, number, &chosen.campaign.tracks[number])
+        });
+        let own = self.squared_errors(|number| {
+            free_run(&self.campaign, explained, number, &self.campaign.tracks[number])
+        });
+        self.mean(&differences(&other, &own), explained).is_some_and(|saved| saved.low <= 0.0)
+    }
+
+    /// The conclusion that the order is off: `again` is the plan on the nominal model that does what the effects do.
+    pub(super) fn refitted(&self, conclusion: Conclusion, again: &Self) -> Conclusion {
+        let fit = &again.nominal.plain.fit;
+        let runs = again.nominal.runs(&again.campaign, &again.judged);
+        let other = Other { structure: again.structure, runs, floor: again.noise_floor(fit) };
+        let mut verdict = match self.resolves_no_gap(&conclusion.augmented.fit) {
+            true => unresolved(&conclusion.odds),
+            false => parameters_are_off(&conclusion.verdict),
+        };
+        verdict.calibrated = self.is_calibrated;
+        Conclusion { verdict, augmented: self.nominal.plain.clone(), other: Some(other), ..conclusion }
+    }
+
+    /// Whether the judged records show no gap beyond the noise of a model.
+    pub(super) fn resolves_no_gap(&self, fit: &Fit) -> bool {
+        self.gap(fit, self.settings.resamples).before.ci90[0] <= 0.0
+    }
+}

@@ -1,0 +1,80 @@
+//! What of a model holds beyond the records it was fitted to.
+//!
+//! On a record from elsewhere the clocks of slow changes stand where the campaign ended, what belongs to single records is left out, and
+//! a wave, whose phase nobody knows there, is part of the noise.
+
+use std::collections::BTreeMap;
+
+use crate::model::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Slow};
+use crate::model::linear::Linear;
+
+/// The parameters without waves.
+pub(super) fn without_waves(linear: &Linear, assembly: &Assembly) -> Linear {
+    let mut out = linear.clone();
+    for (d, column) in out.d.iter_mut().zip(&assembly.equation_columns) {
+        if let EquationColumn::Line { .. } = column {
+            *d = 0.0;
+        }
+    }
+    out
+}
+
+/// Mean square of what the waves make of the output, the mean over the tracks where each has its own.
+///
+/// ```text
+/// Σ |d_cos + i·d_sin|² / (2 |A(e^(iω))|²)
+/// ```
+pub(super) fn power_of_waves(linear: &Linear, assembly: &Assembly) -> f64 {
+    // By the bits of the frequency, so that cosine and sine of one wave meet.
+    let mut waves: BTreeMap<(Option<usize>, u64), f64> = BTreeMap::new();
+    for (d, column) in linear.d.iter().zip(&assembly.equation_columns) {
+        if let EquationColumn::Line { frequency, track, .. } = *column {
+            *waves.entry((track, frequency.to_bits())).or_default() += d * d;
+        }
+    }
+    let own = waves.keys().filter_map(|key| key.0).collect::<std::collections::BTreeSet<_>>().len();
+    let power = |((track, bits), square): (&(Option<usize>, u64), &f64)| {
+        let omega = f64::from_bits(*bits);
+        let part = |trig: fn(f64) -> f64| -> f64 {
+            linear.a.iter().enumerate().map(|(i, a)| a * trig(omega * (i + 1) as f64)).sum()
+        };
+        let (re, im) = (1.0 + part(f64::cos), part(f64::sin));
+        let shares = if track.is_some() { own.max(1) } else { 1 };
+        square / (2.0 * (re * re + im * im) * shares as f64)
+    };
+    waves.iter().map(power).sum()
+}
+
+/// What a reader must know about a run on a record from elsewhere, one sentence each.
+pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
+    let mut notes = Vec::new();
+    let clocks = clocks(assembly);
+    if clocks.iter().any(|clock| *clock != Clock::Record) {
+        notes.push("the slow change in the model is taken as it was at the end of the campaign");
+    }
+    if clocks.contains(&Clock::Record) {
+        notes.push("the change within each record is taken as it was at a record's end");
+    }
+    let any = |is: fn(&EquationColumn) -> bool| assembly.equation_columns.iter().any(is);
+    if any(|c| matches!(c, EquationColumn::Line { .. })) {
+        notes.push("the phase of the periodic disturbance is unknown here: its size is in the band, the wave is not in y");
+    }
+    if any(|c| matches!(c, EquationColumn::Local { .. })) {
+        notes.push("the drift that every record had of its own is left out");
+    }
+    notes.into_iter().map(str::to_owned).collect()
+}
+
+/// The clocks that the model follows.
+fn clocks(assembly: &Assembly) -> Vec<Clock> {
+    let slow = |slow: &Option<Slow>| slow.iter().filter(|s| s.changes()).map(|s| s.clock).collect::<Vec<_>>();
+    let border = assembly.border_columns.iter().filter_map(|column| match column {
+        BorderColumn::BranchSlow { clock } | BorderColumn::SideSlow { clock, .. } => Some(*clock),
+        _ => None,
+    });
+    let equation = assembly.equation_columns.iter().filter_map(|column| match column {
+        EquationColumn::Trend { clock, .. } => Some(*clock),
+        _ => None,
+    });
+    slow(&assembly.wear).into_iter().chain(slow(&assembly.gain)).chain(border).chain(equation).collect()
+}

@@ -1,0 +1,14 @@
+//! Models that leave the diagnosis: everything that a fitted model needs to run on new inputs, as plain data.
+
+mod band;
+mod fitted;
+mod lasting;
+mod place;
+mod portable;
+mod simulate;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use self::fitted::Exporter;
+pub use self::portable::{PortableError, PortableModel};
+pub use self::simulate::Simulated;

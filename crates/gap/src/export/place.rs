@@ -1,0 +1,64 @@
+//! The records that a model was made from, and where another input stands among them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::records::campaign::Campaign;
+
+/// The campaign's clock: its records, as far as slow changes follow them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Known {
+    pub(super) total: usize,
+    pub(super) travel: f64,
+    pub(super) records: Vec<Placed>,
+}
+
+/// One record on the clock.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Placed {
+    pub(super) name: String,
+    pub(super) fit: bool,
+    pub(super) samples: usize,
+    pub(super) clock: usize,
+    pub(super) before: usize,
+    pub(super) travelled: f64,
+    pub(super) print: String,
+}
+
+impl Known {
+    pub(super) fn of(campaign: &Campaign, prints: &[String]) -> Self {
+        let placed = |(track, print): (&crate::records::campaign::Track, &String)| Placed {
+            name: track.name.clone(),
+            fit: track.is_fit(),
+            samples: track.v.len(),
+            clock: track.clock,
+            before: track.before,
+            travelled: track.travelled,
+            print: print.clone(),
+        };
+        Self {
+            total: campaign.total,
+            travel: campaign.travel,
+            records: campaign.tracks.iter().zip(prints).map(placed).collect(),
+        }
+    }
+
+    /// The number of the record with these samples.
+    pub(super) fn find(&self, v: &[f64], y: &[f64]) -> Option<usize> {
+        let print = print(v, y);
+        self.records.iter().position(|placed| placed.print == print)
+    }
+}
+
+/// A print of a record's samples: FNV-1a over their bits, 64 of them.
+///
+/// G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm". Two different records share one by chance
+/// once in 10¹⁹; nobody gains by forging one.
+pub(super) fn print(v: &[f64], y: &[f64]) -> String {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for byte in v.iter().chain(y).flat_map(|x| x.to_bits().to_le_bytes()) {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    format!("{hash:016x}")
+}

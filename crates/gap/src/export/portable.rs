@@ -1,0 +1,231 @@
+//! The model as it is written and read.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::lasting::notes;
+use super::place::Known;
+use crate::model::assembly::Assembly;
+use crate::model::borders::Grid;
+use crate::model::linear::Linear;
+use crate::records::campaign::{Criterion, WARM_UP};
+use crate::records::motion::ReversalRule;
+use crate::settings::NominalModel;
+
+/// A fitted model as plain data: all that its free runs depend on, to the last bit.
+///
+/// ```text
+/// v → delay → play → borders (transition, wear, widening, relaxation) + border columns → gain → filter → B/A → + disturbances → sensor → y
+/// ```
+///
+/// Everything is dimensionless: `(v − v_low)/v_width`, `(y − y_mean)/y_scale`, lengths in strokes (`v_width`), times in samples. Keys:
+///
+/// | key | content |
+/// |---|---|
+/// | `scales` | `v_low`, `v_width`, `y_mean`, `y_scale`: back to physical units |
+/// | `lead` | samples by which the output follows the input sooner than in `A y(t) = b₁u(t−1) + …` |
+/// | `rule` | what counts as a reversal: `threshold` in strokes, and where the new branch `begins` |
+/// | `criterion` | what it was fitted to: `one_step` predictions, or `simulation` with the `share` of independent errors |
+/// | `clock` | samples (`total`) and `travel` of the campaign, and its `records`: `name`, `fit`, `samples`, the `clock`, records `before` and strokes `travelled` at their start, and a `print` of their samples by which they are known again |
+/// | `grid` | `knots` of the descending, then of the ascending border; a knot that stands twice is a jump |
+/// | `assembly` | the effects: `delay`, `jitter`, `late`, `play`, `transition`, `wear`, `widening`, `relaxation`, `border_columns`, `gain`, the filter's `numerator` and `denominator`, `equation_columns`, the sensor's `curve` and `saturation`, the law of the `noise`, and `extra_b` coefficients of B |
+/// | `linear` | `a`; `b`; `f`, border values by knots and the coefficients of the border columns; `d`, those of the equation columns |
+/// | `variance` | of the equation error as fitted, weighted where its law weighs |
+/// | `output_noise` | variance of the noise in the output before the sensor |
+/// | `covariance` | of `a`, `b`, `f`, `d` and the own parameters of the effects: rows of the lower triangle; null where nothing was estimated |
+/// | `moved` | for each own parameter of the effects a `step`, and the `assembly` that far from the fitted one: its derivative |
+///
+/// A model that was read has parts that fit together: [`PortableError`] says what does not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Wire", into = "Wire")]
+pub struct PortableModel(pub(super) Wire);
+
+/// What is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Wire {
+    pub(super) scales: Scales,
+    pub(super) lead: isize,
+    pub(super) rule: ReversalRule,
+    pub(super) criterion: Criterion,
+    pub(super) clock: Known,
+    pub(super) grid: Grid,
+    pub(super) assembly: Assembly,
+    pub(super) linear: Linear,
+    pub(super) variance: f64,
+    pub(super) output_noise: f64,
+    pub(super) covariance: Option<Vec<Vec<f64>>>,
+    pub(super) moved: Vec<Moved>,
+}
+
+/// Origins and scales of input and output.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Scales {
+    pub(super) v_low: f64,
+    pub(super) v_width: f64,
+    pub(super) y_mean: f64,
+    pub(super) y_scale: f64,
+}
+
+/// What a step of an own parameter makes of the assembly.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Moved {
+    pub(super) step: f64,
+    pub(super) assembly: Assembly,
+}
+
+/// Why parts make no model.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PortableError {
+    /// A list has not as many entries as the rest of the model asks for.
+    #[error("`{part}` has {found} entries, but the rest of the model makes {expected}")]
+    Length {
+        /// The list.
+        part: &'static str,
+        /// Its entries.
+        found: usize,
+        /// Those expected.
+        expected: usize,
+    },
+    /// A number is out of its range.
+    #[error("`{part}` is {found}, but must be {expected}")]
+    Range {
+        /// The number's key.
+        part: &'static str,
+        /// Its value.
+        found: f64,
+        /// The range in words.
+        expected: &'static str,
+    },
+    /// Knots do not rise.
+    #[error("the knots of a border must not fall, and each border needs two")]
+    Knots,
+}
+
+/// Longest delay and filter that a file may ask for, samples: what is longer is a mistake in the file.
+const LONGEST: f64 = 1e5;
+
+impl PortableModel {
+    /// Its linear part and borders in physical units, without effects.
+    ///
+    /// The level of the borders is that at which a rest of `y` is `B(1)/A(1)·u`; it is lost where `B(1)` is zero.
+    pub fn system(&self) -> NominalModel {
+        let Wire { scales, linear, grid, .. } = &self.0;
+        let dc = linear.b.iter().sum::<f64>();
+        let level = (1.0 + linear.a.iter().sum::<f64>()) * scales.y_mean / dc;
+        let level = if level.is_finite() { level } else { 0.0 };
+        let mut values = linear.f.iter();
+        let [descending, ascending] = [0, 1].map(|side: usize| {
+            let knots = grid.knots[side].iter().zip(values.by_ref());
+            knots.map(|(v, f)| (scales.v_low + scales.v_width * v, scales.y_scale * f + level)).collect()
+        });
+        NominalModel { a: linear.a.clone(), b: linear.b.clone(), descending, ascending }
+    }
+
+    /// Whether [`Self::system`] is all of it: no effects, no lead, fitted to predictions one step ahead.
+    pub fn is_plain(&self) -> bool {
+        let Wire { assembly, lead, criterion, .. } = &self.0;
+        *assembly == Assembly::default() && *lead == 0 && !criterion.simulates()
+    }
+
+    /// Samples by which the output follows the input sooner than in the paper; negative where it follows later.
+    pub fn lead(&self) -> isize {
+        self.0.lead
+    }
+
+    /// Whether anything in it changes with the campaign's clock or belongs to single records, so that a run depends on its place there.
+    pub fn follows_clock(&self) -> bool {
+        !notes(&self.0.assembly).is_empty()
+    }
+
+    /// A move against the branch below this is no reversal, input units.
+    pub fn reversal_threshold(&self) -> f64 {
+        self.0.rule.threshold * self.0.scales.v_width
+    }
+}
+
+impl TryFrom<Wire> for PortableModel {
+    type Error = PortableError;
+
+    fn try_from(wire: Wire) -> Result<Self, PortableError> {
+        wire.check_numbers()?;
+        wire.check_lengths()?;
+        Ok(Self(wire))
+    }
+}
+
+impl From<PortableModel> for Wire {
+    fn from(model: PortableModel) -> Self {
+        model.0
+    }
+}
+
+impl Wire {
+    fn check_numbers(&self) -> Result<(), PortableError> {
+        let positive = |part, found: f64| match found > 0.0 && found.is_finite() {
+            true => Ok(()),
+            false => Err(PortableError::Range { part, found, expected: "positive" }),
+        };
+        positive("v_width", self.scales.v_width)?;
+        positive("y_scale", self.scales.y_scale)?;
+        positive("total", self.clock.total as f64)?;
+        for (part, found) in [("variance", self.variance), ("output_noise", self.output_noise)] {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(PortableError::Range { part, found, expected: "zero or positive" });
+            }
+        }
+        for assembly in self.assemblies() {
+            if !(0.0..LONGEST).contains(&assembly.delay) {
+                let expected = "at least 0 and below 100000 samples";
+                return Err(PortableError::Range { part: "delay", found: assembly.delay, expected });
+            }
+            if let Some(s) =
+                assembly.saturation.filter(|s| s.low > s.high || s.low.is_nan() || s.high.is_nan())
+            {
+                return Err(PortableError::Range { part: "low", found: s.low, expected: "at most `high`" });
+            }
+        }
+        for moved in &self.moved {
+            if moved.step == 0.0 {
+                return Err(PortableError::Range { part: "step", found: 0.0, expected: "other than zero" });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_lengths(&self) -> Result<(), PortableError> {
+        let equal = |part, found, expected| match found == expected {
+            true => Ok(()),
+            false => Err(PortableError::Length { part, found, expected }),
+        };
+        let falls = |knots: &Vec<f64>| knots.len() < 2 || knots.windows(2).any(|w| w[1] < w[0]);
+        if self.grid.knots.iter().any(falls) {
+            return Err(PortableError::Knots);
+        }
+        let order = self.linear.a.len();
+        if order == 0 || order > WARM_UP {
+            let expected = "from 1 to 12 coefficients";
+            return Err(PortableError::Range { part: "a", found: order as f64, expected });
+        }
+        equal("b", self.linear.b.len(), order + self.assembly.extra_b)?;
+        for assembly in self.assemblies() {
+            let columns = self.grid.len() + assembly.border_columns.len();
+            equal("f", self.linear.f.len(), columns)?;
+            equal("d", self.linear.d.len(), assembly.equation_columns.len())?;
+        }
+        if let Some(rows) = &self.covariance {
+            equal("covariance", rows.len(), self.linear.len() + self.moved.len())?;
+            for (i, row) in rows.iter().enumerate() {
+                equal("covariance", row.len(), i + 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn assemblies(&self) -> impl Iterator<Item = &Assembly> {
+        std::iter::once(&self.assembly).chain(self.moved.iter().map(|m| &m.assembly))
+    }
+}

@@ -1,0 +1,45 @@
+//! How well everything that a fit estimates is known together.
+
+use crate::likelihood::engine::{Build, Fit, Ground, derivatives, evaluate, priors};
+use crate::likelihood::jacobian::normal_equations;
+use crate::model::assembly::Assembly;
+
+/// Relative damping of the normal equations: that of a fit's last steps.
+const DAMPING: f64 = 1e-9;
+
+/// The covariance of a fit's parameters, and what moves the model where these are no linear ones.
+#[derive(Debug, Clone)]
+pub(crate) struct Uncertainty {
+    /// Covariance of `a`, `b`, `f`, `d` and the own parameters, a row each.
+    pub(crate) covariance: Vec<Vec<f64>>,
+    /// For each own parameter a step, and the assembly that far from the fitted one.
+    pub(crate) moved: Vec<(f64, Assembly)>,
+}
+
+/// `σ²(JᵀWJ + prior)⁻¹/share` at a fit, `build` that of its explanation; nothing where the normal equations have no solution.
+///
+/// The direction along which `b` and `f` trade their scale is held: no output depends on it.
+pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> Option<Uncertainty> {
+    let (design, p) = (&fit.design, &fit.linear);
+    let state = evaluate(design, fit.assembly.clone(), p)?;
+    let extra = derivatives(&ground, build, &fit.own, design, &state, p);
+    let w = state.weights.applied(&state.innovations);
+    let mut normal = normal_equations(design, p, &state.whitener, &state.weights, (&w, &extra));
+    priors(&mut normal, ground.grid, p, &fit.assembly);
+    let factor = normal.factor(DAMPING)?;
+    let scale = state.variance / design.criterion.share();
+    let column = |i: usize| {
+        let unit: Vec<f64> = (0..normal.size).map(|j| f64::from(u8::from(i == j))).collect();
+        factor.solve(&unit).into_iter().map(|x| scale * x).collect::<Vec<f64>>()
+    };
+    let covariance: Vec<Vec<f64>> = (0..normal.size).map(column).collect();
+    let is_finite = covariance.iter().flatten().all(|x| x.is_finite());
+    let moved = (0..fit.own.len()).map(|j| {
+        let mut values: Vec<f64> = fit.own.iter().map(|o| o.value).collect();
+        let own = &fit.own[j];
+        let step = if own.value + own.step > own.high { -own.step } else { own.step };
+        values[j] += step;
+        (step, build(&values))
+    });
+    is_finite.then(|| Uncertainty { covariance, moved: moved.collect() })
+}

@@ -1,0 +1,35 @@
+//! Numbers that may be infinite, in formats that know finite ones only: ±∞ as the words `inf` and `-inf`.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Either {
+    Finite(f64),
+    Infinite(Infinity),
+}
+
+#[derive(Serialize, Deserialize)]
+enum Infinity {
+    #[serde(rename = "inf")]
+    Positive,
+    #[serde(rename = "-inf")]
+    Negative,
+}
+
+pub(crate) fn serialize<S: Serializer>(x: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    let either = match *x {
+        f64::INFINITY => Either::Infinite(Infinity::Positive),
+        f64::NEG_INFINITY => Either::Infinite(Infinity::Negative),
+        finite => Either::Finite(finite),
+    };
+    either.serialize(serializer)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(match Either::deserialize(deserializer)? {
+        Either::Finite(x) => x,
+        Either::Infinite(Infinity::Positive) => f64::INFINITY,
+        Either::Infinite(Infinity::Negative) => f64::NEG_INFINITY,
+    })
+}

@@ -1,0 +1,65 @@
+//! What a verdict owes to the held-out records: a cause does them no harm, a gap that they do not show is none, and what a higher order
+//! does is no cause.
+
+mod bench;
+
+use bench::{input, output, played, record, response, rig, white};
+use switchback_estimator::rig::{RigRecord, Usage};
+use switchback_gap::workbench::{Cause, Foreign, specimen};
+use switchback_gap::{Effect, Model, Settings, Status, Verdict, diagnose};
+
+/// A record of the bench's rig behind a play.
+fn loose(name: &str, usage: Usage, (samples, phase): (usize, f64), play: f64) -> RigRecord {
+    let v = input(samples, phase);
+    let y = output(&played(&v, play));
+    record(name, usage, v, y)
+}
+
+fn told(order: Option<usize>, records: Vec<RigRecord>, settings: &Settings) -> Verdict {
+    diagnose(&rig(order, records), Model::Identify, settings).expect("a diagnosis").verdict
+}
+
+fn names(verdict: &Verdict, effect: Effect) -> bool {
+    verdict.effects.contains(&effect) || verdict.class.contains(&effect)
+}
+
+#[test]
+fn a_cause_that_harms_one_held_out_record_is_out_whatever_another_one_gains() {
+    let records = |tight: f64| {
+        vec![
+            loose("sweep", Usage::Fit, (3000, 0.0), 0.3),
+            loose("drive", Usage::Holdout, (2000, 1.0), 0.3),
+            loose("after the repair", Usage::Holdout, (1000, 2.0), tight),
+        ]
+    };
+    let lasting = told(Some(1), records(0.3), &Settings::default());
+    assert!(names(&lasting, Effect::Backlash) && lasting.calibrated, "{lasting:?}");
+    let repaired = told(Some(1), records(0.0), &Settings::default());
+    assert!(!names(&repaired, Effect::Backlash), "{repaired:?}");
+}
+
+#[test]
+fn what_no_held_out_record_shows_is_no_gap() {
+    // The size of the noise moves no simulation, and no candidate has it.
+    let rig = specimen(&[Cause::Foreign(Foreign::MultiplicativeNoise)], 2.0, 3).rig;
+    let diagnosis = diagnose(&rig, Model::Identify, &Settings::default()).expect("a diagnosis");
+    let verdict = &diagnosis.verdict;
+    assert!(diagnosis.gap.before.ci90[0] > 0.0 || verdict.status != Status::Unexplained, "{verdict:?}");
+}
+
+#[test]
+fn what_a_higher_order_does_is_no_cause() {
+    // Two lightly damped poles, and room for one.
+    let a = [-1.5, 0.85];
+    let ringing = |name: &str, usage, (samples, phase): (usize, f64), seed| {
+        let mut white = white(seed);
+        let v = input(samples, phase);
+        let y = response(&v, &a, &mut || 0.01 * white());
+        record(name, usage, v, y)
+    };
+    let records =
+        vec![ringing("sweep", Usage::Fit, (3000, 0.0), 1), ringing("drive", Usage::Holdout, (1500, 1.0), 2)];
+    let settings = Settings { max_order: 1, ..Settings::default() };
+    let verdict = told(None, records, &settings);
+    assert!(verdict.effects.is_empty() && verdict.class.is_empty() && !verdict.calibrated, "{verdict:?}");
+}

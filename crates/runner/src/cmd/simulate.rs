@@ -1,0 +1,126 @@
+//! `switchback simulate MODEL.json INPUT.csv`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::identification::unit;
+use crate::model::{self, Input, ModelFile, Run};
+use crate::options::{Force, Quiet};
+use crate::output::print;
+use miette::Diagnostic;
+use std::fmt::Write;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
+    model: PathBuf,
+
+    /// The input: a CSV with the columns t and v. With a column y, measured, the run begins where the record does, and the fit is told.
+    input: PathBuf,
+
+    /// Write the columns t,v,y,y_low,y_high into this file instead of printing them.
+    #[arg(long, value_name = "CSV")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// Why a model did not run.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum SimulateError {
+    /// The model knows no border for the input.
+    #[error("{input}: the input never moves, or it runs along a border that the model does not know")]
+    #[diagnostic(help(
+        "drive the input, and identify the model from records that run on both borders, or with `--method free`"
+    ))]
+    NoRun {
+        /// The input file.
+        input: String,
+    },
+    /// No sample is left to simulate.
+    #[error(
+        "{input}: the {samples} samples end before the simulation starts: they are all part of the initial state"
+    )]
+    #[diagnostic(help("give a longer input that moves, or leave the column `y` out to begin at rest"))]
+    TooShort {
+        /// The input file.
+        input: String,
+        /// Its samples.
+        samples: usize,
+    },
+}
+
+/// The header of the output.
+const HEADER: &str = "t,v,y,y_low,y_high";
+
+/// Reads both, runs, writes or prints.
+///
+/// # Errors
+/// A file that is no model or no input, an input that cannot be run, or an output that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let file = model::read(&args.model)?;
+    let input = model::read_input(&args.input, file.header.sample_time)?;
+    let target = args.force.claim_file(args.out.as_deref())?;
+    let shown = || args.input.display().to_string();
+    let run =
+        file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;
+    if run.start >= input.v.len() {
+        return Err(SimulateError::TooShort { input: shown(), samples: input.v.len() }.into());
+    }
+    let (told, csv) = (summary(&file, &input, &run), table(&input, &run));
+    match target {
+        Some(file) => {
+            file.commit(csv)?;
+            args.quiet.tell(&told)?;
+        }
+        None => {
+            if !args.quiet.quiet {
+                eprint!("{told}");
+            }
+            print(&csv)?;
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+fn table(input: &Input, run: &Run) -> String {
+    let mut text = format!("{HEADER}\n");
+    for (k, (t, v)) in input.t.iter().zip(&input.v).enumerate() {
+        let _ = writeln!(text, "{t},{v},{},{},{}", run.y[k], run.low[k], run.high[k]);
+    }
+    text
+}
+
+/// What ran, how well, and what to beware of.
+fn summary(file: &ModelFile, input: &Input, run: &Run) -> String {
+    let header = &file.header;
+    let effects: Vec<&str> = header.effects.iter().map(|added| added.effect.as_str()).collect();
+    let with = if effects.is_empty() { String::new() } else { format!(" with {}", effects.join(" and ")) };
+    let mut text = format!(
+        "{} model of {}{with}: {} samples simulated",
+        header.part,
+        header.rig,
+        input.v.len() - run.start
+    );
+    match (run.fit_percent, &input.y) {
+        (Some(fit), Some(y)) => {
+            let covered = 100.0 * run.covered(y);
+            let _ = writeln!(text, ", fit {fit:.2} %, {covered:.1} % of the measured y within the 95 % band");
+        }
+        _ => text.push('\n'),
+    }
+    let warnings = header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input));
+    for warning in &warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    for note in &run.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    text
+}

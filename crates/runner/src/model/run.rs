@@ -1,0 +1,90 @@
+//! Free runs of any model.
+
+use super::{ModelFile, System};
+use crate::identification::FreeRun;
+
+/// Half-width of a 95 % interval in standard deviations of a normal distribution.
+const Z95: f64 = 1.959_963_984_540_054;
+
+/// A free run over an input, output units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// One output a sample; the measured ones before `start`.
+    pub y: Vec<f64>,
+    /// Lower end of the 95 % band for a measured output; the measured one before `start`.
+    pub low: Vec<f64>,
+    /// Upper end.
+    pub high: Vec<f64>,
+    /// First simulated sample.
+    pub start: usize,
+    /// The fit figure where outputs were measured.
+    pub fit_percent: Option<f64>,
+    /// What the reader must know, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Run {
+    /// A run with the standard deviation of every sample.
+    pub(super) fn with_band(run: FreeRun, variances: &[f64], is_measured: bool) -> Self {
+        let FreeRun { simulated: y, start, fit_percent } = run;
+        let end = |sign: f64| -> Vec<f64> {
+            let half = |t: usize| if t < start { 0.0 } else { sign * Z95 * variances[t].max(0.0).sqrt() };
+            y.iter().enumerate().map(|(t, y)| y + half(t)).collect()
+        };
+        let (low, high) = (end(-1.0), end(1.0));
+        let fit_percent = (is_measured && start < y.len()).then_some(fit_percent);
+        Self { low, high, y, start, fit_percent, notes: Vec::new() }
+    }
+
+    /// Share of the measured outputs after the start that lie within the band.
+    pub fn covered(&self, measured: &[f64]) -> f64 {
+        let inside = |t: &usize| (self.low[*t]..=self.high[*t]).contains(&measured[*t]);
+        let count = (self.start..self.y.len()).filter(inside).count();
+        count as f64 / (self.y.len() - self.start).max(1) as f64
+    }
+}
+
+impl ModelFile {
+    /// Runs on an input. With measured outputs, one a sample, the first of them are the initial state, as in the command that wrote the
+    /// model; without, the run begins at rest at the first input. None where the input runs along a border that the model does not know.
+    ///
+    /// # Panics
+    /// If the input is empty or the outputs have another length.
+    pub fn run(&self, v: &[f64], y: Option<&[f64]>) -> Option<Run> {
+        let mut run = match &self.system {
+            System::Switched(model) => {
+                let run = model.simulate(v, y);
+                let known = run.record.map(|name| {
+                    format!("these are the samples of `{name}`, a record of the rig: slow changes keep its place among the records")
+                });
+                let known = known.filter(|_| model.follows_clock());
+                Run {
+                    y: run.y,
+                    low: run.low,
+                    high: run.high,
+                    start: run.start,
+                    fit_percent: run.fit_percent,
+                    notes: run.notes.into_iter().chain(known).collect(),
+                }
+            }
+            System::Curves(model) => model.run(v, y),
+            System::Points(model) => model.run(v, y)?,
+        };
+        let has_covariance = match &self.system {
+            System::Switched(model) => model.has_covariance(),
+            System::Curves(model) => model.covariance().is_some(),
+            System::Points(model) => model.covariance().is_some(),
+        };
+        if !has_covariance {
+            run.notes.push(
+                "the errors of the model's parameters are unknown: the band holds the noise only".to_owned(),
+            );
+        }
+        if y.is_none() {
+            run.notes.push(
+                "no measured output is given: the run begins at rest, as if the input had always been at its first value".to_owned(),
+            );
+        }
+        Some(run)
+    }
+}
