@@ -88,7 +88,6 @@ fn gap_respects_what_is_there() {
 
 #[test]
 fn identify_respects_what_is_there() {
-    respects(&["identify", "rig.toml"], "estimate.json");
     respects(&["identify", "rig.toml"], "borders.svg");
 }
 
