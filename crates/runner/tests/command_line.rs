@@ -39,6 +39,7 @@ fn a_misspelt_verb_is_not_taken_for_a_scenario() {
     refused(&["idenify"], &["`idenify` is no verb", "did you mean `switchback identify`?"]);
     refused(&["idenify", "rig.toml"], &["did you mean `switchback identify`?"]);
     refused(&["gapp", "rig.toml", "--json"], &["did you mean `switchback gap`?"]);
+    refused(&["simulat", "model.json"], &["did you mean `switchback simulate`?"]);
     refused(&["complitions", "bash"], &["did you mean `switchback completions`?"]);
     refused(&["nonsense"], &["the verbs are", "gap", "a scenario is named by its path"]);
 }
@@ -104,7 +105,7 @@ fn there_is_a_manual_page_for_the_program_and_for_every_verb() {
     let folder = Folder::with_good_rig();
     printed(&mut folder.switchback(&["man", "--out", "man1"]));
     let pages = listing(&folder.path("man1"));
-    for verb in ["", "-compare", "-completions", "-gap", "-identify", "-man", "-rig"] {
+    for verb in ["", "-compare", "-completions", "-gap", "-identify", "-init", "-man", "-rig", "-simulate"] {
         assert!(pages.contains(&format!("switchback{verb}.1")), "{verb} is missing in {pages:?}");
     }
     let gap = std::fs::read_to_string(folder.path("man1/switchback-gap.1")).expect("a page");

@@ -88,7 +88,6 @@ fn gap_respects_what_is_there() {
 
 #[test]
 fn identify_respects_what_is_there() {
-    respects(&["identify", "rig.toml"], "estimate.json");
     respects(&["identify", "rig.toml"], "borders.svg");
 }
 
@@ -96,6 +95,33 @@ fn identify_respects_what_is_there() {
 fn rig_respects_measurements() {
     respects(&["rig", "--seed", "7"], "rig.toml");
     respects(&["rig", "--seed", "7"], "drive.csv");
+}
+
+#[test]
+fn design_respects_measurements() {
+    let plan =
+        ["design", "--order", "1", "--points", "3", "--interval", "-1,1", "--rate", "100", "--periods", "5"];
+    respects(&plan, "rig.toml");
+    respects(&plan, "descendant.csv");
+}
+
+/// Whose a single file is nobody can tell: it is replaced by force only.
+#[test]
+fn init_and_simulate_respect_what_is_there() {
+    let folder = Folder::with_good_rig();
+    folder.switchback(&["identify", "rig.toml", "--quiet", "--out", "found"]).assert().success();
+    for arguments in [
+        &["init", "again.csv", "--out", "file"][..],
+        &["simulate", "found/model.json", "again.csv", "--out", "file"],
+    ] {
+        folder.write("file", FOREIGN);
+        let run = folder.switchback(arguments).assert().code(2);
+        let told = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        assert!(told.contains("file: is there already") && told.contains("--force"), "{told}");
+        assert_eq!(fs::read_to_string(folder.path("file")).expect("kept"), FOREIGN);
+        folder.switchback(arguments).arg("--force").assert().success();
+        assert_ne!(fs::read_to_string(folder.path("file")).expect("replaced"), FOREIGN);
+    }
 }
 
 #[test]

@@ -47,8 +47,11 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 7] = [
+const FILES: [&str; 10] = [
     "gap.json",
+    "nominal.json",
+    "augmented.json",
+    "series.csv",
     "verdict.txt",
     "where.svg",
     "candidates.svg",

@@ -46,7 +46,8 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 3] = ["estimate.json", "borders.svg", "measured_and_simulated_*.svg"];
+const FILES: [&str; 5] =
+    ["estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
 
 /// Reads, identifies, prints, and writes the folder if one was asked for.
 ///

@@ -3,11 +3,12 @@
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::unit;
 use crate::model::{self, Input, ModelFile, Run};
-use crate::output::{Artefacts, OutputFolder, print};
+use crate::options::{Force, Quiet};
+use crate::output::print;
 use miette::Diagnostic;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
@@ -26,6 +27,12 @@ pub struct Args {
     /// Print one JSON object instead: the fit figure, the share within the band, warnings and notes.
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Why a model did not run.
@@ -52,23 +59,9 @@ pub enum SimulateError {
         /// Its samples.
         samples: usize,
     },
-    /// Something else stands where the output is to go.
-    #[error("{path}: is there already, and was not written by `switchback simulate`")]
-    #[diagnostic(help("give another file, or move that one away"))]
-    Occupied {
-        /// The output file.
-        path: String,
-    },
-    /// The output has no name.
-    #[error("{path}: is no file to write to")]
-    #[diagnostic(help("give the name of a CSV file, in a folder or without"))]
-    NoFile {
-        /// The path as given.
-        path: String,
-    },
 }
 
-/// The header of the output, by which a file that may be replaced is known.
+/// The header of the output.
 const HEADER: &str = "t,v,y,y_low,y_high";
 
 /// Reads both, runs, writes or prints.
@@ -78,7 +71,7 @@ const HEADER: &str = "t,v,y,y_low,y_high";
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let input = model::read_input(&args.input, file.header.sample_time)?;
-    let target = args.out.as_deref().map(claim).transpose()?;
+    let target = args.force.claim_file(args.out.as_deref())?;
     let shown = || args.input.display().to_string();
     let run =
         file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;
@@ -88,34 +81,19 @@ pub fn run(args: &Args) -> CommandResult {
     let page = Page::of(&file, &input, &run);
     let (told, csv) = (if args.json { page.json() } else { page.words() }, table(&input, &run));
     match target {
-        Some((folder, name)) => {
-            let mut artefacts = Artefacts::default();
-            artefacts.add(name, csv);
-            folder.commit(&artefacts)?;
-            print(&told)?;
+        Some(file) => {
+            file.commit(csv)?;
+            args.quiet.tell(&told)?;
         }
         None if args.json => print(&told)?,
         None => {
-            eprint!("{told}");
+            if !args.quiet.quiet {
+                eprint!("{told}");
+            }
             print(&csv)?;
         }
     }
     Ok(Outcome::Done)
-}
-
-/// The folder and the name of the output; only a file that this command wrote is replaced.
-fn claim(path: &Path) -> miette::Result<(OutputFolder, String)> {
-    let shown = || path.display().to_string();
-    let name = path.file_name().and_then(|name| name.to_str()).filter(|_| !path.is_dir());
-    let name = name.ok_or_else(|| SimulateError::NoFile { path: shown() })?;
-    if path.exists() {
-        let is_own = std::fs::read_to_string(path).is_ok_and(|text| text.lines().next() == Some(HEADER));
-        if !is_own {
-            return Err(SimulateError::Occupied { path: shown() }.into());
-        }
-    }
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    Ok((OutputFolder::claim(folder)?, name.to_owned()))
 }
 
 fn table(input: &Input, run: &Run) -> String {
