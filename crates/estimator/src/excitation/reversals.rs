@@ -86,7 +86,7 @@ impl Reversals {
         let mut v = vec![self.interval.low()];
         let mut rising = true;
         for end in [self.interval.high(), self.interval.low()] {
-            self.go(end, &mut v, rng);
+            self.go(end, length, &mut v, rng);
             rising = !rising;
         }
         while v.len() < length {
@@ -97,7 +97,7 @@ impl Reversals {
                 self.turn(from, rising, rng)
             };
             if to != from {
-                self.go(to, &mut v, rng);
+                self.go(to, length, &mut v, rng);
                 rising = to < from;
             }
         }
@@ -114,13 +114,15 @@ impl Reversals {
         if up { (from + size).min(high) } else { (from - size).max(low) }
     }
 
-    /// Moves to `to` in a straight line, and rests there now and then.
-    fn go<R: Rng + ?Sized>(&self, to: f64, v: &mut Vec<f64>, rng: &mut R) {
+    /// Moves to `to` in a straight line, and rests there now and then. A move that outlasts the record is not written out beyond it.
+    fn go<R: Rng + ?Sized>(&self, to: f64, length: usize, v: &mut Vec<f64>, rng: &mut R) {
         let from = v[v.len() - 1];
-        // The limit may be so low that a move outlasts any record; it saturates then.
+        // A limit so low that no move ends saturates.
         let least = ((to - from).abs() / self.fastest).ceil().max(1.0) as u32;
         let steps = rng.random_range(1..=LONGEST_MOVE).max(least);
-        v.extend((1..steps).map(|k| from + (to - from) * (f64::from(k) / f64::from(steps))));
+        let room = length.saturating_sub(v.len());
+        let on_the_way = |k: u32| from + (to - from) * (f64::from(k) / f64::from(steps));
+        v.extend((1..steps).take(room).map(on_the_way));
         v.push(to);
         if rng.random_bool(REST.0) {
             let rest = rng.random_range(1..=REST.1);
