@@ -165,7 +165,7 @@ fn columns_are_named_without_unit_in_any_case_or_by_number() {
 
 #[test]
 fn the_manifest_that_init_writes_gives_the_same_rig() {
-    let text = with_header("time [s];travel [mm];load [N];force [N]", ";", |x| comma(x), "\n");
+    let text = with_header("time [s];travel [mm];load [N];force [N]", ";", comma, "\n");
     // A fourth column, so that something must be chosen.
     let text: String = text
         .lines()
@@ -193,9 +193,10 @@ fn the_program_goes_from_raw_files_to_an_answer() {
     let header = "Prüfstand 4\nZeit [ms];Weg [mm];Kraft [N]\n";
     let body: String =
         rows().map(|(t, v, y)| format!("{};{};{}\r\n", (1000.0 * t).round(), comma(v), comma(y))).collect();
-    let (text, _, _) = (format!("{header}{body}"), 0, 0);
-    let latin: Vec<u8> =
-        text.chars().map(|letter| u8::try_from(u32::from(letter)).expect("Latin-1")).collect();
+    let latin: Vec<u8> = format!("{header}{body}")
+        .chars()
+        .map(|letter| u8::try_from(u32::from(letter)).expect("Latin-1"))
+        .collect();
     let bench = Bench::new().with("bench.csv", latin);
     let output = bench.switchback(&["identify", "bench.csv", "--json"]).output().expect("it runs");
     let stderr = String::from_utf8(output.stderr).expect("UTF-8");

@@ -93,14 +93,14 @@ impl DataArgs {
             (self.time.is_some(), "--time", "columns = { time = \"…\" }"),
             (self.sample_time.is_some(), "--sample-time", "sample_time = …"),
             (self.rate.is_some(), "--rate", "sample_time = …"),
-            (self.holdout.is_some(), "--holdout", "use = \"holdout\"` or `holdout = …` in a [[record]], `"),
+            (self.holdout.is_some(), "--holdout", "use = \"holdout\"` or `holdout = 0.3"),
             (self.resample, "--resample", "resample = true"),
         ];
         match flags.into_iter().find(|(is_given, ..)| *is_given) {
             None => Ok(()),
             Some((_, flag, key)) => Err(asked(
                 format!("{flag} belongs to files of measurements, but {} is a rig file", path.display()),
-                &format!("write `{}` in the rig file", key.trim_end_matches("`, `")),
+                &format!("write `{key}` in the rig file"),
             )),
         }
     }

@@ -71,6 +71,7 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         has_header: true,
         notes,
         faults: Vec::new(),
+        cut_off: None,
     })
 }
 

@@ -134,7 +134,7 @@ pub(super) fn samples_needed(order: Option<usize>) -> usize {
 
 fn divide(record: &PlannedRecord, measured: &Measured, needed: usize) -> Result<Vec<Part>, DataError> {
     if record.role != Role::Free
-        && let Some(interruption) = measured.first_interruption()
+        && let Some(interruption) = measured.first_interruption().or_else(|| measured.table.cut_off.clone())
     {
         return Err(interruption);
     }

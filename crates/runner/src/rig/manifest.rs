@@ -3,7 +3,7 @@
 use super::assemble::Loaded;
 use super::plan::Plan;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 use switchback_estimator::rig::{Role, Usage};
 
 /// The rig file that gives the same rig as the files did, to be put into `folder` (none: the folder that the files are named from).
@@ -75,12 +75,14 @@ fn role(role: Role) -> &'static str {
     }
 }
 
-/// The path as seen from the folder; the whole path where it does not lie below it.
+/// The path as seen from the folder.
 fn relative(path: &Path, folder: Option<&Path>) -> String {
-    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty()) else {
+    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty() && path.is_relative()) else {
         return path.display().to_string();
     };
     let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (path, folder) = (whole(path), whole(folder));
-    path.strip_prefix(&folder).unwrap_or(&path).display().to_string()
+    let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect::<PathBuf>().display().to_string()
 }

@@ -33,8 +33,8 @@ pub(super) fn fill(table: &mut Table, text: &str, dialect: &Dialect, first_row: 
         table.places.push(Place::Line(line));
     }
     // A logger that was switched off leaves its last line unfinished.
-    if ragged.last().is_some_and(|(line, found)| *line == last && *found < dialect.width) {
-        ragged.pop();
+    let cut_off = ragged.pop_if(|(line, found)| *line == last && *found < dialect.width);
+    if cut_off.is_some() {
         table.notes.push(format!("line {last}, the last, is cut off and left out"));
     }
     let fault = |&(line, found): &(u64, usize)| DataError {
@@ -42,6 +42,7 @@ pub(super) fn fill(table: &mut Table, text: &str, dialect: &Dialect, first_row: 
         place: Some(Place::Line(line)),
         problem: DataProblem::Ragged { found, expected: dialect.width },
     };
+    table.cut_off = cut_off.as_ref().map(fault);
     table.faults = ragged.iter().take(KEPT).map(fault).collect();
 }
 

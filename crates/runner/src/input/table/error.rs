@@ -100,7 +100,7 @@ impl DataProblem {
             Self::Empty | Self::NoTable => {
                 "a file of measurements has one row a sample, with the input and the output in two columns; commas, semicolons, tabs, bars or blanks between them".to_owned()
             }
-            Self::NotMatlab { .. } => "save it from MATLAB with `save -v7.3 FILE NAMES`, or as CSV with `writetable`".to_owned(),
+            Self::NotMatlab { .. } => "save numeric vectors of one length, or a CSV file by `writetable`; MATLAB files are read by programs built with `--features matlab`".to_owned(),
             Self::HeaderWidth { .. } => "give every column its name in the header, and none to spare".to_owned(),
             Self::Ragged { .. } => {
                 "give every row one cell a column; a decimal comma would split a number in two where commas separate columns".to_owned()

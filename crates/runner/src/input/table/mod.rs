@@ -35,6 +35,8 @@ pub(crate) struct Table {
     pub(crate) notes: Vec<String>,
     /// Rows that could not be read.
     pub(crate) faults: Vec<DataError>,
+    /// The last line, where it ends in the middle of a row; such a row is left out.
+    pub(crate) cut_off: Option<DataError>,
 }
 
 /// One column.
@@ -121,6 +123,7 @@ impl Table {
             has_header: !head.names.is_empty(),
             notes: notes(&head, &dialect),
             faults: Vec::new(),
+            cut_off: None,
         };
         body::fill(&mut table, text, &dialect, head.first_row);
         // A delimiter at the end of every row makes no column.
