@@ -15,12 +15,13 @@ use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Speeds};
 use crate::model::borders::Grid;
 
-/// The name of the friction that a column of the borders fitted, the one that `is_it` tells; none where there is no such column.
+/// The name of the friction that a column of the borders fitted, the one that `is_it` tells; none where there is no such
+/// column, or the loop is none of friction: then the law's own name stands.
 pub(super) fn of_a_column(fit: &Fit, is_it: impl Fn(&BorderColumn) -> bool) -> Option<Effect> {
     let at = fit.assembly.border_columns.iter().position(is_it)?;
     let rises = matches!(fit.assembly.border_columns[at], BorderColumn::Speed { .. });
     let coefficient = fit.linear.f[fit.grid.len() + at];
-    Some(named(rises, coefficient * half_width(fit)))
+    orientation(fit).map(|orientation| named(rises, coefficient * orientation))
 }
 
 /// The name of the friction that widens the whole loop by a share.
@@ -33,13 +34,16 @@ fn named(rises: bool, coefficient: f64) -> Effect {
     if rises == (coefficient > 0.0) { Effect::RateDependence } else { Effect::Stribeck }
 }
 
-/// Half the distance of the ascending border from the descending one, in the mean: between the tables along the stroke, and what columns
-/// beside them add in the mean over the samples in which the input moves.
-fn half_width(fit: &Fit) -> f64 {
+/// The sign of the loop: positive where the ascending border lies above, in the mean. None where `u` falls along the stroke all the same, from
+/// the start of the descending border to the end of the ascending one, or the other way round: such a loop lags, and no friction makes it.
+fn orientation(fit: &Fit) -> Option<f64> {
     let added = mean_added(&fit.design, fit.grid.len());
     let coefficients = &fit.linear.f[fit.grid.len()..];
-    between_the_borders(&fit.grid, &fit.linear.f)
-        + added.iter().zip(coefficients).map(|(added, c)| added * c).sum::<f64>()
+    // What columns beside the tables add along the branch, in the mean over the samples in which the input moves.
+    let beside: f64 = added.iter().zip(coefficients).map(|(added, c)| added * c).sum();
+    let half = between_the_borders(&fit.grid, &fit.linear.f) + beside;
+    let span = fit.linear.f[fit.grid.len() - 1] - fit.linear.f[0] + 2.0 * beside;
+    (half * span > 0.0).then(|| half.signum())
 }
 
 /// Places along the stroke at which the borders are compared.

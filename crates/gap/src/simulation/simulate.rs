@@ -165,3 +165,28 @@ fn start(
     }
     u.iter_mut().zip(&shape).for_each(|(u, s)| *u += cross / energy * s);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::likelihood::engine::{Ground, fit};
+    use crate::testing::{noise_free, small_campaign, small_model};
+
+    #[test]
+    fn what_leaves_every_range_runs_away_and_nothing_else_does() {
+        let (campaign, grid) = small_campaign();
+        let truth = small_model(&grid);
+        let campaign = noise_free(campaign, &grid, &Assembly::default(), &truth);
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let mut fit = fit(ground, &|_| Assembly::default(), &[], &truth, 5).expect("a fit");
+        let run = |fit: &Fit| free_run(&campaign, fit, 0, &campaign.tracks[0]);
+        assert!(!runs_away(&fit, [&run(&fit)[..]]));
+        // A stable model whose run is no number, or beyond the bound.
+        assert!(runs_away(&fit, [&[0.0, f64::NAN][..]]) && runs_away(&fit, [&[0.0, -BOUND][..]]));
+        // Poles outside the unit circle: a short record need not show it, the coefficients do.
+        fit.linear.a = vec![-2.2, 1.21];
+        let away = run(&fit);
+        assert!(away.iter().all(|y| y.is_finite()) && away.iter().any(|y| y.abs() >= BOUND));
+        assert!(runs_away(&fit, [&away[..]]) && runs_away(&fit, [&away[..20]]));
+    }
+}

@@ -150,6 +150,29 @@ fn wrapped(text: &str, indent: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use switchback_gap::Effect;
+
+    #[test]
+    fn a_candidate_without_a_free_run_has_no_closure() {
+        let told = |closure: Option<f64>, unstable: bool| {
+            let candidate = Candidate {
+                effect: Effect::Creep,
+                stage: Effect::Creep.stage(),
+                probability: 0.1,
+                parameters: Vec::new(),
+                bic: -900.0,
+                delta_bic: 34.6,
+                heldout_log_score: 0.1,
+                closure,
+                unstable,
+            };
+            row(&candidate)
+        };
+        assert_eq!(told(Some(0.977), false), ["creep", "0.10", "35", "0.10", "98"]);
+        assert_eq!(told(None, true)[4], "unstable");
+        assert_eq!(told(None, false)[4], "–");
+        assert_eq!(told(Some(-2.7e10), false)[4], "< −999");
+    }
 
     #[test]
     fn long_texts_are_broken_between_words() {
