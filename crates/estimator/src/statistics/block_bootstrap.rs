@@ -151,8 +151,9 @@ mod tests {
 
     #[test]
     fn a_series_too_short_for_its_memory_gives_no_interval() {
-        let drift: Vec<f64> = (0..10).map(f64::from).collect();
+        let drift: Vec<f64> = (0..60).map(f64::from).collect();
         assert_eq!(MeanInterval::of(&[&drift]), None);
+        assert_eq!(MeanInterval::of(&[&[1.0, 2.0, 1.5]]), None);
         assert_eq!(MeanInterval::of(&[]), None);
     }
 
