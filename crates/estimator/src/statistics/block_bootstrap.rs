@@ -86,7 +86,7 @@ fn block_length(series: &[f64]) -> usize {
         |k: usize| centred.iter().zip(centred.iter().skip(k)).map(|(x, z)| x * z).sum::<f64>() / n;
     let variance = covariance(0);
     let longest = (3.0 * n.sqrt()).min(n / 3.0).ceil().max(1.0) as usize;
-    if !(variance > 0.0) {
+    if variance <= 0.0 {
         return 1;
     }
     let insignificant = 2.0 * (n.log10() / n).sqrt();
@@ -151,8 +151,9 @@ mod tests {
 
     #[test]
     fn a_series_too_short_for_its_memory_gives_no_interval() {
-        let drift: Vec<f64> = (0..10).map(f64::from).collect();
+        let drift: Vec<f64> = (0..60).map(f64::from).collect();
         assert_eq!(MeanInterval::of(&[&drift]), None);
+        assert_eq!(MeanInterval::of(&[&[1.0, 2.0, 1.5]]), None);
         assert_eq!(MeanInterval::of(&[]), None);
     }
 

@@ -62,26 +62,21 @@ impl Doubt<'_> {
 
     /// What straight lines between the knots may be off by at `v`, both borders together.
     ///
-    /// Between knots `x₀` and `x₁` a line misses a curve by `½|F″|(v − x₀)(x₁ − v)` at most; `F″` is twice the largest second divided difference over
-    /// three neighbouring knots of either border that enclose `v`.
+    /// A line misses a curve by `|F″|h²/8` at most over a cell of width `h`; `F″` is twice the largest second divided difference over three
+    /// neighbouring knots of either border. A least-squares line may be as far off at the knots, so the widest cell beside `v` counts.
     fn interpolation(&self, v: f64, points: &[Quantity]) -> f64 {
         let (down, up) = (self.basis.descending(), self.basis.ascending());
-        let value = |k: usize| points[k].value;
-        let curves = [(down, 0), (up, down.len())];
-        let curvatures = curves.iter().flat_map(|&(knots, first)| {
-            let enclosing =
-                (0..knots.len().saturating_sub(2)).filter(move |&j| knots[j] <= v && v <= knots[j + 2]);
-            enclosing.map(move |j| {
-                let slope = |k: usize| (value(first + k + 1) - value(first + k)) / (knots[k + 1] - knots[k]);
-                ((slope(j + 1) - slope(j)) / (knots[j + 2] - knots[j])).abs()
-            })
-        });
-        let curvature = curvatures.fold(0.0, f64::max);
-        let reach = |knots: &[f64]| {
-            let right = knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1);
-            ((v - knots[right - 1]) * (knots[right] - v)).max(0.0)
+        let curvature = |knots: &[f64], points: &[Quantity]| {
+            let slope = |k: usize| (points[k + 1].value - points[k].value) / (knots[k + 1] - knots[k]);
+            let second = |j: usize| ((slope(j + 1) - slope(j)) / (knots[j + 2] - knots[j])).abs();
+            (0..knots.len().saturating_sub(2)).map(second).fold(0.0, f64::max)
         };
-        curvature * (reach(down) + reach(up))
+        let largest = curvature(down, points).max(curvature(up, &points[down.len()..]));
+        let widest = |knots: &[f64]| {
+            let beside = knots.windows(2).filter(|cell| cell[0] <= v && v <= cell[1]);
+            beside.map(|cell| cell[1] - cell[0]).fold(0.0, f64::max)
+        };
+        0.25 * largest * (widest(down).powi(2) + widest(up).powi(2))
     }
 
     /// Everything that the errors say against the fit, hollow coefficients aside.
