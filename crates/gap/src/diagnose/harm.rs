@@ -11,6 +11,7 @@ use crate::likelihood::engine::Fit;
 use crate::records::campaign::Criterion;
 use crate::residuals::bootstrap::{Mean, mean};
 use crate::residuals::score::heldout_log_scores;
+use crate::residuals::spectrum::mean_square;
 use crate::simulation::simulate::free_run;
 
 /// What is left of a move once the model has settled.
@@ -19,16 +20,28 @@ const SETTLED: f64 = 0.05;
 impl Plan {
     /// Whether an explanation makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
     /// compared by that.
+    ///
+    /// What is all noise moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.
     pub(super) fn harms(&self, explanation: &Explanation) -> bool {
         let fit = &explanation.fit;
+        let all_noise = explanation.effects().iter().all(|e| e.is_noise());
+        let spared = if all_noise { self.cost_of_fitting(fit) } else { 0.0 };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
         let simulated = self.judged.iter().zip(self.saved_in_simulation(fit));
-        let simulated = simulated.filter(|(number, _)| is_held_out(number)).map(|(_, saved)| saved);
+        let simulated = simulated.filter(|(number, _)| is_held_out(number));
+        let simulated = simulated.map(|(_, saved)| saved.into_iter().map(|x| x + spared).collect());
         let predicted = match self.campaign.criterion {
             Criterion::OneStep => gained_in_prediction(self, &self.nominal.plain.fit, fit),
             Criterion::Simulation { .. } => Vec::new(),
         };
         simulated.chain(predicted).any(|saved| self.mean(&[saved], fit).is_some_and(|m| m.high < 0.0))
+    }
+
+    /// Squared error of the simulation that fitting `k` parameters to `N` samples costs elsewhere: `k/N` of that of the nominal model
+    /// (H. Akaike, "Fitting autoregressive models for prediction", Ann. Inst. Stat. Math. 21, 1969).
+    fn cost_of_fitting(&self, fit: &Fit) -> f64 {
+        let errors = self.judged_errors(&self.nominal.plain.fit);
+        fit.parameters / fit.samples.max(1) as f64 * mean_square(&errors)
     }
 
     /// Whether the effect that is told beside one of the sensor shows on the held-out records: laws of sensors are never exact, and a
