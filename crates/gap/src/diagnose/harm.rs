@@ -4,6 +4,7 @@
 //! own correlation asks for, and as the model takes to settle at least.
 
 use super::Plan;
+use super::held_out::told_by_the_lattice;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
@@ -21,11 +22,12 @@ impl Plan {
     /// Whether an explanation makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
     /// compared by that.
     ///
-    /// What is all noise moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.
+    /// What is all noise, or rounds, moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.
     pub(super) fn harms(&self, explanation: &Explanation) -> bool {
         let fit = &explanation.fit;
-        let all_noise = explanation.effects().iter().all(|e| e.is_noise());
-        let spared = if all_noise { self.cost_of_fitting(fit) } else { 0.0 };
+        let moves_nothing = |e: &Effect| e.is_noise() || *e == Effect::SensorQuantisation;
+        let spared =
+            if explanation.effects().iter().all(moves_nothing) { self.cost_of_fitting(fit) } else { 0.0 };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
         let simulated = self.judged.iter().zip(self.saved_in_simulation(fit));
         let simulated = simulated.filter(|(number, _)| is_held_out(number));
@@ -103,11 +105,16 @@ fn reads_wrongly(effect: Effect) -> bool {
     matches!(effect, Effect::SensorSaturation | Effect::SensorQuantisation | Effect::SensorNonlinearity)
 }
 
-/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict.
+/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict; what a lattice of
+/// the outputs is worth counts with it.
 fn gained_in_prediction(plan: &Plan, before: &Fit, after: &Fit) -> Vec<Vec<f64>> {
     let scores = |fit: &Fit| heldout_log_scores(&plan.campaign, fit);
     let mut gained = differences(&scores(after), &scores(before));
-    gained.iter_mut().for_each(|record| record.retain(|x| !x.is_nan()));
+    let by_lattice = told_by_the_lattice(after) - told_by_the_lattice(before);
+    for record in &mut gained {
+        record.retain(|x| !x.is_nan());
+        record.iter_mut().for_each(|x| *x += by_lattice);
+    }
     gained
 }
 
