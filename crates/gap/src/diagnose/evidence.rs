@@ -19,6 +19,9 @@ pub(super) struct Evidence {
     pub(super) all: Vec<Explanation>,
     /// Those that may be the cause, best first.
     pub(super) singles: Vec<Explanation>,
+    /// Whether what is out, since it harms held-out records, follows the fit records better than all that are left: these, too, only
+    /// stand in for something else.
+    pub(super) outdone: bool,
     /// Whether the best of them gains what chance does not.
     pub(super) significant: bool,
     /// The best of them, or the nominal model.
@@ -73,13 +76,21 @@ impl Plan {
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
+        let mut outdone = false;
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            let first = singles.first().map(|s| (s.parts[0].effect, s.evidence()));
             self.drop_what_held_out_records_refute(workers, &mut singles);
+            outdone = !self.campaign.criterion.simulates()
+                && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
+                    let other = left.parts[0].effect;
+                    let alike = other == effect || effect.twins().contains(&other);
+                    !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
+                });
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
-        Evidence { all, singles, significant, best, tests, pair: None }
+        Evidence { all, singles, outdone, significant, best, tests, pair: None }
     }
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {

@@ -4,6 +4,7 @@
 //! own correlation asks for, and as the model takes to settle at least.
 
 use super::Plan;
+use super::held_out::told_by_the_lattice;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
@@ -11,6 +12,7 @@ use crate::likelihood::engine::Fit;
 use crate::records::campaign::Criterion;
 use crate::residuals::bootstrap::{Mean, mean};
 use crate::residuals::score::heldout_log_scores;
+use crate::residuals::spectrum::mean_square;
 use crate::simulation::simulate::free_run;
 
 /// What is left of a move once the model has settled.
@@ -19,16 +21,29 @@ const SETTLED: f64 = 0.05;
 impl Plan {
     /// Whether an explanation makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
     /// compared by that.
+    ///
+    /// What is all noise, or rounds, moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.
     pub(super) fn harms(&self, explanation: &Explanation) -> bool {
         let fit = &explanation.fit;
+        let moves_nothing = |e: &Effect| e.is_noise() || *e == Effect::SensorQuantisation;
+        let spared =
+            if explanation.effects().iter().all(moves_nothing) { self.cost_of_fitting(fit) } else { 0.0 };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
         let simulated = self.judged.iter().zip(self.saved_in_simulation(fit));
-        let simulated = simulated.filter(|(number, _)| is_held_out(number)).map(|(_, saved)| saved);
+        let simulated = simulated.filter(|(number, _)| is_held_out(number));
+        let simulated = simulated.map(|(_, saved)| saved.into_iter().map(|x| x + spared).collect());
         let predicted = match self.campaign.criterion {
             Criterion::OneStep => gained_in_prediction(self, &self.nominal.plain.fit, fit),
             Criterion::Simulation { .. } => Vec::new(),
         };
         simulated.chain(predicted).any(|saved| self.mean(&[saved], fit).is_some_and(|m| m.high < 0.0))
+    }
+
+    /// Squared error of the simulation that fitting `k` parameters to `N` samples costs elsewhere: `k/N` of that of the nominal model
+    /// (H. Akaike, "Fitting autoregressive models for prediction", Ann. Inst. Stat. Math. 21, 1969).
+    fn cost_of_fitting(&self, fit: &Fit) -> f64 {
+        let errors = self.judged_errors(&self.nominal.plain.fit);
+        fit.parameters / fit.samples.max(1) as f64 * mean_square(&errors)
     }
 
     /// Whether the effect that is told beside one of the sensor shows on the held-out records: laws of sensors are never exact, and a
@@ -90,11 +105,16 @@ fn reads_wrongly(effect: Effect) -> bool {
     matches!(effect, Effect::SensorSaturation | Effect::SensorQuantisation | Effect::SensorNonlinearity)
 }
 
-/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict.
+/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict; what a lattice of
+/// the outputs is worth counts with it.
 fn gained_in_prediction(plan: &Plan, before: &Fit, after: &Fit) -> Vec<Vec<f64>> {
     let scores = |fit: &Fit| heldout_log_scores(&plan.campaign, fit);
     let mut gained = differences(&scores(after), &scores(before));
-    gained.iter_mut().for_each(|record| record.retain(|x| !x.is_nan()));
+    let by_lattice = told_by_the_lattice(after) - told_by_the_lattice(before);
+    for record in &mut gained {
+        record.retain(|x| !x.is_nan());
+        record.iter_mut().for_each(|x| *x += by_lattice);
+    }
     gained
 }
 

@@ -32,7 +32,7 @@ const AS_GOOD: f64 = 0.01;
 const CLEARLY: f64 = 0.9;
 
 /// Log score a sample that a model has for the lattice it puts the outputs on, of which their density knows nothing.
-fn told_by_the_lattice(fit: &Fit) -> f64 {
+pub(super) fn told_by_the_lattice(fit: &Fit) -> f64 {
     fit.assembly.noise.lattice.map_or(0.0, |_| 0.5 * worth(1))
 }
 

@@ -206,13 +206,14 @@ impl Plan {
             self.found_on(better);
             evidence = self.gather(workers);
         }
-        let Evidence { all, singles, significant, best, mut tests, pair } = evidence;
+        let Evidence { all, singles, outdone, significant, best, mut tests, pair } = evidence;
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         // The tests of one-step predictions say nothing about simulators.
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
-        let refuted = significant && (self.hardly_closes(&best, left) || self.misses_at_places(&best));
+        let refuted =
+            significant && (outdone || self.hardly_closes(&best, left) || self.misses_at_places(&best));
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
         let mut odds = odds(self.nominal.plain.bic(), &effects, leaves);
         let mut joint = None;
