@@ -343,3 +343,48 @@ fn the_first_order_part_takes_an_order_of_n_out_of_the_error() {
         assert!(long[1] < long[0] / 50.0, "and it is far the smaller: {long:?}");
     }
 }
+
+#[test]
+fn the_errors_of_the_gain_and_the_levels_cover_what_they_say() {
+    let system = LinearSystem::new(vec![-1.1, 0.4], vec![0.8, -0.3]).expect("stable");
+    let rig = Rig { system, hysteresis: leaf_spring(), points: 4 };
+    let (replicates, sigma) = (150_u64, 0.1);
+    let gain = rig.normalised().static_gain();
+    let truth = [
+        gain,
+        rig.system.static_gain() * rig.hysteresis.u_high(),
+        rig.system.static_gain() * rig.hysteresis.u_low(),
+    ];
+    let a_at_one = 1.0 + rig.system.a().iter().sum::<f64>();
+    let mut z = [const { Vec::new() }; 6];
+    for seed in 0..replicates {
+        let scaled =
+            |seed, count| gaussian_like(seed, count).into_iter().map(|x| sigma * x).collect::<Vec<_>>();
+        let data = [0, 1].map(|e| {
+            let record = rig.simulate(BOTH[e], 40, &scaled(2 * seed + e as u64, 2000));
+            PulseData::from_record(&record, BOTH[e].visited_branch(), 2, 20).expect("a pulse experiment")
+        });
+        let exact = rig.step(Direction::Descendant);
+        let shift = scaled(seed + 90_000, 1)[0] / (a_at_one * exact.samples.sqrt());
+        let step = StepMean { mean: exact.mean + shift, ..exact };
+        let both = [&data[0], &data[1]];
+        let fits = [PulseMethod::Efficient(&both), PulseMethod::Paper { experiment: &data[0], step }];
+        for (k, method) in fits.into_iter().enumerate() {
+            let fit = method.fit().expect("excited");
+            let (estimate, errors) = (fit.estimate(&both[..fit.borders.len()]), fit.level_errors);
+            let pairs = [
+                (estimate.gain, errors.gain),
+                (estimate.y_high, errors.y_high),
+                (estimate.y_low, errors.y_low),
+            ];
+            for (i, (value, se)) in pairs.into_iter().enumerate() {
+                z[3 * k + i].push((value - truth[i]) / se);
+            }
+        }
+    }
+    for (i, z) in z.iter().enumerate() {
+        let variance = z.iter().map(|z: &f64| z * z).sum::<f64>() / replicates as f64;
+        // Four Monte-Carlo standard errors about 1.
+        assert!((variance - 1.0).abs() < 4.0 * (2.0 / replicates as f64).sqrt(), "level {i}: {variance}");
+    }
+}

@@ -293,6 +293,17 @@ pub struct ResidualPicture {
     pub band: f64,
 }
 
+/// The models of a diagnosis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Models {
+    /// The model as it was, the one under diagnosis; absent where only its predictions are known.
+    pub nominal: Option<PortableModel>,
+    /// The same with what was found added; without effects it is the nominal model.
+    pub augmented: PortableModel,
+    /// The effects in the augmented model, with their parameters there.
+    pub added: Vec<(Effect, Vec<FittedParameter>)>,
+}
+
 /// Everything [`diagnose`](crate::diagnose) finds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
@@ -324,10 +335,6 @@ pub struct Diagnosis {
     pub residuals_after: ResidualPicture,
     /// What could not be judged, and why.
     pub limitations: Vec<String>,
-    /// The model as it was, the one under diagnosis; absent where only its predictions are known.
-    pub nominal: Option<PortableModel>,
-    /// The same with what was found added; without effects it is the nominal model.
-    pub augmented: PortableModel,
-    /// The effects in the augmented model, with their parameters there.
-    pub added: Vec<(Effect, Vec<FittedParameter>)>,
+    /// The models to take along; absent in a diagnosis that was put together by hand.
+    pub models: Option<Models>,
 }

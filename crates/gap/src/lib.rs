@@ -48,7 +48,7 @@ mod workers;
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap,
-    HoldoutSeries, NextExperiment, RecordGap, Refit, ResidualPicture, Status, Together, Verdict,
+    HoldoutSeries, Models, NextExperiment, RecordGap, Refit, ResidualPicture, Status, Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;

@@ -62,6 +62,7 @@ fn silent(status: Status) -> Diagnosis {
         residuals_before: ResidualPicture::default(),
         residuals_after: ResidualPicture::default(),
         limitations: vec![],
+        models: None,
     }
 }
 

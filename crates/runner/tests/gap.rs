@@ -156,8 +156,17 @@ fn a_rig_is_judged_without_any_candidate() {
 fn the_report_folder_holds_the_object_and_the_figures() {
     let folder = Folder::with_good_rig();
     let page = diagnosed(&folder, &["--out", "report"]);
-    let expected =
-        ["candidates.svg", "gap.json", "outputs_again.svg", "residuals.svg", "verdict.txt", "where.svg"];
+    let expected = [
+        "augmented.json",
+        "candidates.svg",
+        "gap.json",
+        "nominal.json",
+        "outputs_again.svg",
+        "residuals.svg",
+        "series.csv",
+        "verdict.txt",
+        "where.svg",
+    ];
     assert_eq!(listing(&folder.path("report")), expected);
     let written = fs::read_to_string(folder.path("report/gap.json")).expect("it is there");
     assert_eq!(serde_json::from_str::<Value>(&written).expect("JSON"), page);

@@ -102,6 +102,8 @@ fn the_output_folder_holds_the_estimate_and_the_figures() {
             "measured_and_simulated_again.svg",
             "measured_and_simulated_ascendant.svg",
             "measured_and_simulated_descendant.svg",
+            "model.json",
+            "series.csv",
         ]
     );
     let written = fs::read(folder.path("deep/report/estimate.json")).expect("estimate.json");

@@ -109,7 +109,12 @@ impl Estimate {
     pub fn distance_at_common_points(&self) -> Option<BorderDistance> {
         let gaps = self.ascending.iter().filter_map(|up| {
             let down = self.descending.iter().find(|down| down.v == up.v)?;
-            Some(BorderGap { v: up.v, difference: up.f - down.f, se: up.se.hypot(down.se) })
+            Some(BorderGap {
+                v: up.v,
+                difference: up.f - down.f,
+                se: up.se.hypot(down.se),
+                interpolation: 0.0,
+            })
         });
         BorderDistance::of(&gaps.collect::<Vec<_>>())
     }

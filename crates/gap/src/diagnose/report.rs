@@ -8,7 +8,8 @@ use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Refit, Status, Together, Verdict,
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Models, Refit, Status, Together,
+    Verdict,
 };
 use crate::effect::Effect;
 use crate::export::PortableModel;
@@ -113,9 +114,11 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
-            nominal: self.nominal_model(),
-            augmented: self.exporter.fitted(campaign, &c.augmented),
-            added,
+            models: Some(Models {
+                nominal: self.nominal_model(),
+                augmented: self.exporter.fitted(campaign, &c.augmented),
+                added,
+            }),
         }
     }
 

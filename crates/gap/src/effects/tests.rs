@@ -17,12 +17,13 @@ const NOISE: f64 = 1e-3;
 /// Half the distance between the borders of [`loop_of`].
 const HALF: f64 = 0.25;
 
-/// Straight borders, the ascending one above the descending by twice `half`, and coefficients of columns beside them.
+/// Bent borders, the ascending one above the descending by twice `half`, and coefficients of columns beside them. Along straight borders
+/// friction in proportion to speed would be a linear filter, which `B` takes.
 fn loop_of(half: f64, columns: &[f64]) -> Linear {
     let (_, grid) = small_campaign();
     let [down, up] = [0, 1].map(|side| {
         let side_of = if side == 0 { -half } else { half };
-        grid.knots[side].iter().map(|v| 0.8 * v + side_of).collect::<Vec<f64>>()
+        grid.knots[side].iter().map(|v| 1.6 * (v - 0.5).abs() + side_of).collect::<Vec<f64>>()
     });
     Linear { f: [&down[..], &up, columns].concat(), ..small_model(&grid) }
 }

@@ -14,7 +14,7 @@ use crate::simulation::noise_response::NoiseResponse;
 #[derive(Debug)]
 pub(crate) struct Exporter {
     /// What each record is known by.
-    prints: Vec<String>,
+    pub(super) prints: Vec<String>,
 }
 
 impl Exporter {

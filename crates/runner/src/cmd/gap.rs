@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> CommandResult {
     let subject = Subject::choose(rig, args.model.as_deref())?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let watch = Watch::new(args.quiet);
-    let report = args.threads.install(|| diagnosis::examine(subject, &args.without, &watch))?;
+    let report = args.threads.install(|| diagnosis::examine_watched(subject, &args.without, &watch))?;
     watch.finish();
     let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
@@ -88,11 +88,10 @@ fn effect() -> impl TypedValueParser<Value = Effect> {
 fn artefacts(report: &Report) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
-    if let Some(nominal) = model::nominal(report) {
-        artefacts.add("nominal.json", nominal.text());
+    for (name, file) in model::diagnosed(report) {
+        artefacts.add(name, file.text());
     }
-    artefacts.add("augmented.json", model::augmented(report).text());
-    artefacts.add("series.csv", model::diagnosed(report));
+    artefacts.add("series.csv", model::diagnosed_series(report));
     artefacts.add("verdict.txt", diagnosis::words(report, None));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);

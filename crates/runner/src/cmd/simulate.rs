@@ -6,6 +6,7 @@ use crate::model::{self, Input, ModelFile, Run};
 use crate::options::{Force, Quiet};
 use crate::output::print;
 use miette::Diagnostic;
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -22,6 +23,10 @@ pub struct Args {
     /// Write the columns t,v,y,y_low,y_high into this file instead of printing them.
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
+
+    /// Print one JSON object instead: the fit figure, the share within the band, warnings and notes.
+    #[arg(long)]
+    json: bool,
 
     #[command(flatten)]
     quiet: Quiet,
@@ -73,15 +78,17 @@ pub fn run(args: &Args) -> CommandResult {
     if run.start >= input.v.len() {
         return Err(SimulateError::TooShort { input: shown(), samples: input.v.len() }.into());
     }
-    let (told, csv) = (summary(&file, &input, &run), table(&input, &run));
+    let page = Page::of(&file, &input, &run);
+    let csv = table(&input, &run);
     match target {
         Some(file) => {
             file.commit(csv)?;
-            args.quiet.tell(&told)?;
+            args.quiet.tell_or(args.json, || page.json(), || page.words())?;
         }
+        None if args.json => print(&page.json())?,
         None => {
             if !args.quiet.quiet {
-                eprint!("{told}");
+                eprint!("{}", page.words());
             }
             print(&csv)?;
         }
@@ -98,29 +105,66 @@ fn table(input: &Input, run: &Run) -> String {
 }
 
 /// What ran, how well, and what to beware of.
-fn summary(file: &ModelFile, input: &Input, run: &Run) -> String {
-    let header = &file.header;
-    let effects: Vec<&str> = header.effects.iter().map(|added| added.effect.as_str()).collect();
-    let with = if effects.is_empty() { String::new() } else { format!(" with {}", effects.join(" and ")) };
-    let mut text = format!(
-        "{} model of {}{with}: {} samples simulated",
-        header.part,
-        header.rig,
-        input.v.len() - run.start
-    );
-    match (run.fit_percent, &input.y) {
-        (Some(fit), Some(y)) => {
-            let covered = 100.0 * run.covered(y);
-            let _ = writeln!(text, ", fit {fit:.2} %, {covered:.1} % of the measured y within the 95 % band");
+#[derive(Serialize)]
+struct Page<'a> {
+    schema: &'static str,
+    model: &'a str,
+    rig: &'a str,
+    effects: Vec<&'a str>,
+    /// First simulated sample, and samples from there on.
+    start: usize,
+    samples: usize,
+    fit_percent: Option<f64>,
+    /// Share of the measured outputs within the band.
+    covered: Option<f64>,
+    warnings: Vec<String>,
+    notes: &'a [String],
+    version: &'static str,
+}
+
+impl<'a> Page<'a> {
+    fn of(file: &'a ModelFile, input: &Input, run: &'a Run) -> Self {
+        let header = &file.header;
+        Self {
+            schema: "switchback/simulate/1",
+            model: &header.part,
+            rig: &header.rig,
+            effects: header.effects.iter().map(|added| added.effect.as_str()).collect(),
+            start: run.start,
+            samples: input.v.len() - run.start,
+            fit_percent: run.fit_percent.filter(|fit| fit.is_finite()),
+            covered: input.y.as_ref().map(|y| run.covered(y)),
+            warnings: header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
+            notes: &run.notes,
+            version: env!("CARGO_PKG_VERSION"),
         }
-        _ => text.push('\n'),
     }
-    let warnings = header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input));
-    for warning in &warnings {
-        let _ = writeln!(text, "warning: {warning}");
+
+    fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("numbers, strings and lists of them are JSON") + "\n"
     }
-    for note in &run.notes {
-        let _ = writeln!(text, "note: {note}");
+
+    fn words(&self) -> String {
+        let with = if self.effects.is_empty() {
+            String::new()
+        } else {
+            format!(" with {}", self.effects.join(" and "))
+        };
+        let mut text =
+            format!("{} model of {}{with}: {} samples simulated", self.model, self.rig, self.samples);
+        if let Some(fit) = self.fit_percent {
+            let _ = write!(text, ", fit {fit:.2} %");
+        }
+        if let Some(covered) = self.covered {
+            let _ = write!(text, ", {:.1} % of the measured y within the 95 % band", 100.0 * covered);
+        }
+        text.push('\n');
+        for warning in &self.warnings {
+            let _ = writeln!(text, "warning: {warning}");
+        }
+        for note in self.notes {
+            let _ = writeln!(text, "note: {note}");
+        }
+        text
     }
-    text
 }

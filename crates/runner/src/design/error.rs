@@ -44,10 +44,10 @@ pub enum DesignError {
     },
     /// The actuator is too slow for one-sample visits.
     #[error(
-        "the pulse experiments move {width} within one sample of {sample_time} s, at {needed:.6}/s, but `--max-speed` is {limit}"
+        "the pulse experiments move {width} within one sample of {sample_time} s, at {needed}/s, but `--max-speed` is {limit}"
     )]
     #[diagnostic(help(
-        "lower `--rate` to {rate:.4} Hz or less, or narrow `--interval`; or play the free records alone with `--free-only`"
+        "lower `--rate` to {rate} Hz or less, or narrow `--interval`; or play the free records alone with `--free-only`"
     ))]
     TooFast {
         /// The whole interval, input units.
@@ -55,11 +55,26 @@ pub enum DesignError {
         /// Seconds between samples.
         sample_time: f64,
         /// Speed needed, input units a second.
-        needed: f64,
+        needed: String,
         /// Speed allowed.
         limit: f64,
         /// Highest rate at which the interval can be crossed within a sample, Hz.
-        rate: f64,
+        rate: String,
+    },
+    /// The free records end before the actuator has crossed the interval.
+    #[error(
+        "at `--max-speed {limit}` one stroke over the interval takes {stroke} s, but holdout.csv lasts {record} s and is to show both borders from end to end"
+    )]
+    #[diagnostic(help("measure longer: give `--periods {periods}` or more"))]
+    TooSlow {
+        /// Speed allowed, input units a second.
+        limit: f64,
+        /// Seconds of one stroke.
+        stroke: String,
+        /// Seconds of the held-out record.
+        record: String,
+        /// Periods with which it would be long enough.
+        periods: usize,
     },
     /// The campaign does not fit into the time given.
     #[error(

@@ -2,8 +2,12 @@
 
 use super::{DesignError, Truth};
 use clap::ValueEnum;
-use switchback_estimator::excitation::{Campaign, PulseExperiment};
+use switchback_estimator::excitation::PulseExperiment;
 use switchback_estimator::simulation::{PlannedPrecision, PredictedErrors};
+
+/// Fewest periods planned for a precision: from here on, the errors of all machines of the example `design_precision` lie within 5 % of
+/// the asymptotic ones. With fewer, the free records would also be too short to be of use.
+pub const RELIABLE_PERIODS: usize = 10;
 
 /// The method that will identify from the planned experiments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -84,11 +88,12 @@ impl Forecast {
         Prediction { periods, samples, errors: self.precision.at((samples - self.order) as f64) }
     }
 
-    /// The fewest periods with which no border point's standard error exceeds `worst`, a share of `u_M − u_m`.
+    /// The fewest periods, [`RELIABLE_PERIODS`] at least, with which no border point's standard error exceeds `worst`, a share of
+    /// `u_M − u_m`.
     pub fn periods_for(&self, worst: f64) -> usize {
         let rows = self.precision.rows_for(worst);
         // What does not fit into the type is refused later, as too long.
         let periods = ((rows + self.order as f64) / self.pulses[0].period() as f64).ceil() as usize;
-        periods.max(Campaign::FEWEST_PERIODS)
+        periods.max(RELIABLE_PERIODS)
     }
 }

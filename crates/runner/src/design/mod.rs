@@ -13,7 +13,7 @@ mod words;
 
 pub use artefacts::artefacts;
 pub use error::DesignError;
-pub use forecast::{Forecast, PlanMethod, Prediction};
+pub use forecast::{Forecast, PlanMethod, Prediction, RELIABLE_PERIODS};
 pub use json::json;
 pub use plan::{DEFAULT_PERIODS, Length, Plan, Request};
 pub use truth::Truth;

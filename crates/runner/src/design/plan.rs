@@ -1,6 +1,7 @@
 //! A campaign in physical units.
 
 use super::DesignError;
+use crate::diagnosis::digits;
 use switchback_estimator::excitation::{Campaign, PlannedRecord, Reversals};
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::Role;
@@ -77,6 +78,7 @@ impl Plan {
         }
         let campaign = shortest.with_periods(periods)?.with_free(drive(&request)?, request.seed);
         check_speed(&request)?;
+        check_strokes(&request, &campaign)?;
         Ok(Self { request, campaign })
     }
 
@@ -123,10 +125,30 @@ fn check_speed(request: &Request) -> Result<(), DesignError> {
     let needed = width / sample_time;
     match request.max_speed {
         Some(limit) if needed > limit && !request.free_only => {
-            Err(DesignError::TooFast { width, sample_time, needed, limit, rate: limit / width })
+            let (needed, rate) = (digits(needed, 4), floored(limit / width));
+            Err(DesignError::TooFast { width, sample_time, needed, limit, rate })
         }
         _ => Ok(()),
     }
+}
+
+/// The free records begin with a stroke up and one down, which must fit into the shortest of them.
+fn check_strokes(request: &Request, campaign: &Campaign) -> Result<(), DesignError> {
+    let Some(limit) = request.max_speed else { return Ok(()) };
+    let stroke = (request.interval.width() / (limit * request.sample_time)).ceil();
+    let record = (campaign.samples() as f64 / 3.0).ceil();
+    if 2.0 * stroke <= record {
+        return Ok(());
+    }
+    let [stroke_seconds, record] = [stroke, record].map(|samples| digits(samples * request.sample_time, 3));
+    let periods = (6.0 * stroke / campaign.pulses()[0].period() as f64).ceil() as usize;
+    Err(DesignError::TooSlow { limit, stroke: stroke_seconds, record, periods })
+}
+
+/// Four significant digits, never more than the number itself.
+fn floored(x: f64) -> String {
+    let unit = 10f64.powf(x.log10().floor() - 3.0);
+    digits((x / unit).floor() * unit, 4)
 }
 
 /// A millionth of the interval is finer than any actuator resolves; beyond it, digits only fill the file.

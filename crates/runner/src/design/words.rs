@@ -1,7 +1,7 @@
 //! A plan told to a person.
 
 use super::artefacts::{role, usage};
-use super::{Outlook, Plan, Prediction, Report};
+use super::{Outlook, Plan, Prediction, RELIABLE_PERIODS, Report};
 use crate::diagnosis::digits;
 use crate::identification::unit;
 use crate::output::columns;
@@ -47,7 +47,7 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
     page.push_str(&errors(plan, outlook));
     let _ = writeln!(
         page,
-        "standard errors that {} will have; b in units of u_M − u_m, a point of a border as a share of it",
+        "standard errors that the method {} will have; a point of a border as a share of u_M − u_m, b in{output} for u_M − u_m = 1",
         forecast.method().name()
     );
     let at = forecast.at(chosen);
@@ -66,6 +66,12 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
         ),
         None => writeln!(page, "\n{length}: the worst border point will be known to {worst} of u_M − u_m"),
     };
+    if wanted.is_some() && chosen == RELIABLE_PERIODS {
+        let _ = writeln!(
+            page,
+            "note: no fewer than {RELIABLE_PERIODS} periods are planned; with fewer, such predictions do not hold"
+        );
+    }
     for note in &truth.notes {
         let _ = writeln!(page, "note: {note}");
     }
@@ -92,12 +98,15 @@ fn errors(plan: &Plan, outlook: &Outlook) -> String {
         row("each pulse experiment".to_owned(), String::new(), &|p| duration(plan.seconds(p.samples))),
     ];
     let planned = forecast.planned();
+    let at = forecast.at(chosen).errors;
     for (i, a) in planned.a.iter().enumerate() {
-        rows.push(row(format!("a{}", i + 1), digits(a.value, 4), &|p| digits(p.errors.a[i], 2)));
+        rows.push(row(format!("a{}", i + 1), carried(a.value, at.a[i]), &|p| digits(p.errors.a[i], 2)));
     }
     let output = with_unit(&plan.request().labels[1]);
     for (i, b) in planned.b.iter().enumerate() {
-        rows.push(row(format!("b{}{output}", i + 1), digits(b.value, 4), &|p| digits(p.errors.b[i], 2)));
+        rows.push(row(format!("b{}{output}", i + 1), carried(b.value, at.b[i]), &|p| {
+            digits(p.errors.b[i], 2)
+        }));
     }
     let worst = |errors: &[f64]| percent(errors.iter().copied().fold(0.0, f64::max));
     rows.push(row("worst descending point".to_owned(), String::new(), &|p| worst(&p.errors.descending)));
@@ -147,8 +156,8 @@ fn demands(plan: &Plan) -> String {
     if !request.free_only {
         let _ = writeln!(
             page,
-            "a period of the pulse experiments: {} samples, {} levels each visited for one sample, {} samples apart; the first of \
-             the {} periods lets the output settle",
+            "a period of the pulse experiments has {} samples: {} levels, visited for one sample each, {} samples apart\n\
+             the first of the {} periods lets the output settle",
             pulses.period(),
             pulses.points(),
             pulses.spacing(),
@@ -161,7 +170,7 @@ fn demands(plan: &Plan) -> String {
     let step = fastest(&all);
     let _ = writeln!(
         page,
-        "the actuator must move {}{spaced} within one sample ({}), at {}{a_second}, and hold still to within what its sensor resolves",
+        "the actuator must move {}{spaced} within one sample ({}), at {}{a_second}",
         digits(step, 4),
         duration(request.sample_time),
         digits(step / request.sample_time, 4),
@@ -174,6 +183,17 @@ fn with_unit(label: &str) -> String {
         "" => String::new(),
         unit => format!(" {unit}"),
     }
+}
+
+/// A value to the second digit of its error.
+fn carried(value: f64, error: f64) -> String {
+    if !(error.is_finite() && error > 0.0) {
+        return digits(value, 4);
+    }
+    let decimals = (1.0 - error.log10().floor()).max(0.0) as usize;
+    // Adding zero turns the −0 of rounding into 0.
+    let rounded = format!("{value:.decimals$}").parse::<f64>().unwrap_or(value) + 0.0;
+    format!("{rounded:.decimals$}").replace('-', "−")
 }
 
 /// A share in percent, two significant digits.

@@ -23,22 +23,27 @@ pub struct Examination {
 /// Identifies a rig and examines the result: [`Identification::flags`] then holds every reservation, weightiest first.
 ///
 /// Beside the identification asked for it makes, on the same terms, those of the simpler methods and, where the model looks ahead,
-/// the one of a model that does not. `watch` shows how far it has come.
+/// the one of a model that does not.
 ///
 /// # Errors
 /// [`IdentificationError`] if nothing can be identified, or if the result cannot simulate a single record.
-pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identification, IdentificationError> {
+pub fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
+    examined_watched(rig, request, &Watch::silent())
+}
+
+/// [`examined`], which shows how far it has come.
+///
+/// # Errors
+/// As [`examined`].
+pub fn examined_watched(
+    rig: &Rig,
+    request: Request,
+    watch: &Watch,
+) -> Result<Identification, IdentificationError> {
     watch.begin("identifying");
     let mut found = identify_watched(rig, request, watch)?;
     let useless = residuals::worse_than_the_mean(rig, &found);
-    let simulated = found.runs.iter().flatten().count();
-    if simulated > 0 && useless.len() == simulated {
-        return Err(IdentificationError::Useless {
-            rig: rig.name.clone(),
-            method: request.method,
-            told: useless.into_iter().map(|flag| flag.text).collect::<Vec<_>>().join("; "),
-        });
-    }
+    refuse_useless(rig, &found, &useless)?;
     watch.begin("comparing with other models");
     let others = others(rig, request, &found, watch);
     let mut examination =
@@ -55,6 +60,20 @@ pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identifica
     found.flags = flags(rig, &found, &examination, useless);
     found.examination = examination;
     Ok(found)
+}
+
+/// A model that no record bears out is no result.
+pub(super) fn refuse_useless(
+    rig: &Rig,
+    found: &Identification,
+    useless: &[Flag],
+) -> Result<(), IdentificationError> {
+    let simulated = found.runs.iter().flatten().count();
+    if simulated == 0 || useless.len() < simulated {
+        return Ok(());
+    }
+    let told = useless.iter().map(|flag| flag.text.as_str()).collect::<Vec<_>>().join("; ");
+    Err(IdentificationError::Useless { rig: rig.name.clone(), method: found.method, told })
 }
 
 /// The identifications to compare with, those that the records allow.

@@ -21,7 +21,7 @@ pub use crate::scenario::Method;
 pub use causal::CausalAlternative;
 pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
-pub use examine::{Examination, examined};
+pub use examine::{Examination, examined, examined_watched};
 pub use fit::fit_percent;
 pub use flag::Flag;
 pub use json::json;
@@ -108,3 +108,6 @@ pub fn unit(label: &str) -> &str {
 fn lacks_holdout(rig: &Rig) -> bool {
     rig.holdout_records().next().is_none()
 }
+
+#[cfg(test)]
+mod tests;

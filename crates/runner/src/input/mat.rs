@@ -1,14 +1,88 @@
-//! MATLAB files, where the program is built to read them.
+//! MATLAB files: v5 to v7 and, as HDF5, v7.3. Numeric vectors of equal length are columns, matrices are several.
 
 use super::table::{DataError, DataProblem, Table, TableError};
+#[cfg(feature = "matlab")]
+use super::{
+    table::{Column, Kind, Place},
+    text_file::read_bytes,
+};
 use std::path::Path;
 
+/// A numeric array: its name, rows and columns, and the values column by column.
+#[cfg(feature = "matlab")]
+struct Array {
+    name: String,
+    size: [usize; 2],
+    values: Vec<f64>,
+}
+
+#[cfg(not(feature = "matlab"))]
 pub(super) fn read(path: &Path) -> Result<Table, TableError> {
-    Err(TableError::Data(DataError {
+    Err(unreadable(path, "this program was built without the feature `matlab`".to_owned()))
+}
+
+/// Reads the numeric arrays of a MATLAB file.
+///
+/// # Errors
+/// A file that cannot be read, or holds no two vectors of one length.
+#[cfg(feature = "matlab")]
+pub(super) fn read(path: &Path) -> Result<Table, TableError> {
+    let bytes = read_bytes(path).map_err(TableError::File)?;
+    let is_hdf5 = hdf5_pure::is_hdf5_bytes(&bytes);
+    let arrays = if is_hdf5 { hdf5(bytes) } else { matlab5(&bytes) };
+    let arrays = arrays.map_err(|reason| unreadable(path, reason))?;
+    table(path, arrays)
+}
+
+fn unreadable(path: &Path, reason: String) -> TableError {
+    let path = path.display().to_string();
+    TableError::Data(DataError { path, place: None, problem: DataProblem::NotMatlab { reason } })
+}
+
+#[cfg(feature = "matlab")]
+mod formats;
+#[cfg(feature = "matlab")]
+use formats::{hdf5, matlab5};
+
+/// The arrays as columns: those whose length most of them share.
+#[cfg(feature = "matlab")]
+fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
+    let columns: Vec<(String, Vec<f64>)> = arrays.into_iter().flat_map(columns).collect();
+    let lengths: Vec<usize> = columns.iter().map(|(_, values)| values.len()).filter(|len| *len > 1).collect();
+    let shared = |len: &usize| lengths.iter().filter(|other| *other == len).count();
+    let rows = lengths.iter().copied().max_by_key(|len| (shared(len), *len));
+    let Some(rows) = rows.filter(|rows| shared(rows) >= 2) else {
+        return Err(unreadable(path, "there are no two numeric vectors of the same length".to_owned()));
+    };
+    let (taken, left): (Vec<_>, Vec<_>) = columns.into_iter().partition(|(_, values)| values.len() == rows);
+    let mut notes = vec!["MATLAB file".to_owned()];
+    if !left.is_empty() {
+        let names: Vec<&str> = left.iter().map(|(name, _)| name.as_str()).collect();
+        notes.push(format!("arrays of another length left out: {}", names.join(", ")));
+    }
+    let column = |(name, values): (String, Vec<f64>)| {
+        let (name, unit) = super::table::unit::split(&name);
+        Column { name, unit, kind: Kind::Number, values, faults: Vec::new(), fault_count: 0 }
+    };
+    Ok(Table {
         path: path.display().to_string(),
-        place: None,
-        problem: DataProblem::NotMatlab {
-            reason: "this program was built without the feature `matlab`".to_owned(),
-        },
-    }))
+        columns: taken.into_iter().map(column).collect(),
+        places: (1..=rows as u64).map(Place::Row).collect(),
+        has_header: true,
+        notes,
+        faults: Vec::new(),
+    })
+}
+
+/// A vector lies either way; the columns of a matrix get their number after its name.
+#[cfg(feature = "matlab")]
+fn columns(array: Array) -> Vec<(String, Vec<f64>)> {
+    let Array { name, size: [rows, count], values } = array;
+    // An infinite value is as useless as a missing one.
+    let values: Vec<f64> = values.into_iter().map(|x| if x.is_finite() { x } else { f64::NAN }).collect();
+    if rows == 1 || count == 1 {
+        return vec![(name, values)];
+    }
+    let column = |k: usize| (format!("{name} {}", k + 1), values[k * rows..(k + 1) * rows].to_vec());
+    (0..count).map(column).collect()
 }

@@ -20,15 +20,14 @@ pub fn identified(rig: &Rig, identification: &Identification) -> Option<ModelFil
     Some(ModelFile { header: header(rig, "identified", method, Domain::of(rig, threshold)), system })
 }
 
-/// The model under diagnosis; none where only its predictions are known.
-pub fn nominal(report: &Report) -> Option<ModelFile> {
-    let model = report.diagnosis.nominal.as_ref()?;
-    Some(of_gap(report, "nominal", model, &[]))
-}
-
-/// The same with what was found added.
-pub fn augmented(report: &Report) -> ModelFile {
-    of_gap(report, "augmented", &report.diagnosis.augmented, &report.diagnosis.added)
+/// The models of a diagnosis with the names of their files: the one under diagnosis, where more than its predictions are known, and the
+/// same with what was found added.
+pub fn diagnosed(report: &Report) -> Vec<(&'static str, ModelFile)> {
+    let Some(models) = &report.diagnosis.models else { return Vec::new() };
+    let nominal =
+        models.nominal.as_ref().map(|model| ("nominal.json", of_gap(report, "nominal", model, &[])));
+    let augmented = of_gap(report, "augmented", &models.augmented, &models.added);
+    nominal.into_iter().chain([("augmented.json", augmented)]).collect()
 }
 
 fn of_gap(

@@ -8,13 +8,13 @@ use switchback_estimator::rig::{Rig, RigRecord};
 
 /// `record,use,t,v,y,nominal,augmented`: every record of a diagnosis, fitted or held out; times start at zero in every record. Before the
 /// first counted sample the simulations are the measured output. `nominal` is the model under diagnosis, empty where it has no prediction.
-pub fn diagnosed(report: &Report) -> String {
-    let diagnosis = &report.diagnosis;
+pub fn diagnosed_series(report: &Report) -> String {
+    let models = report.diagnosis.models.as_ref();
     let runs = |number: usize, record: &RigRecord| {
         let (v, y) = (record.record.v(), record.record.y());
-        let nominal = diagnosis.nominal.as_ref().map(|model| model.outputs(number, v, y));
+        let nominal = models.and_then(|m| m.nominal.as_ref()).map(|model| model.outputs(number, v, y));
         let nominal = nominal.or_else(|| record.predicted.clone());
-        vec![nominal, Some(diagnosis.augmented.outputs(number, v, y))]
+        vec![nominal, models.map(|m| m.augmented.outputs(number, v, y))]
     };
     table(&report.rig, &["nominal", "augmented"], runs)
 }

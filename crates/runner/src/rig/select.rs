@@ -170,6 +170,7 @@ impl Offer<'_> {
         needs_output: bool,
     ) -> Result<(usize, Option<usize>), DataProblem> {
         let rest = |other: Option<usize>| self.signals.iter().copied().filter(move |k| Some(*k) != other);
+        let is_guessed = input.is_none() || output.is_none();
         let mut input = input.or_else(|| self.called(Part::Input));
         let mut output = output.or_else(|| self.called(Part::Output));
         // One is known and one is left.
@@ -188,6 +189,10 @@ impl Offer<'_> {
             input = only(rest(None));
         }
         match (input, output) {
+            // Two columns of one name are told apart by number only.
+            (Some(input), Some(output)) if is_guessed && self.share_a_name(input, output) => {
+                Err(self.doubt(None, None))
+            }
             (Some(input), output) if output.is_some() || !needs_output => Ok((input, output)),
             _ => Err(self.doubt(input, output)),
         }
@@ -218,6 +223,11 @@ impl Offer<'_> {
             self.voice.naming(&wanted)
         };
         DataProblem::Doubtful { role: role.to_owned(), known: self.table.listing(), remedy }
+    }
+
+    fn share_a_name(&self, a: usize, b: usize) -> bool {
+        let name = |k: usize| guess::simplified(&self.table.columns[k].name);
+        self.table.has_header && name(a) == name(b)
     }
 
     fn is_unique(&self, k: usize) -> bool {

@@ -50,9 +50,38 @@ impl Doubt<'_> {
             let ascending = self.basis.place(Branch::Ascending, v).hats().map(|(k, x)| (k, x));
             let descending = self.basis.place(Branch::Descending, v).hats().map(|(k, x)| (k, -x));
             let difference = combined(points, ascending.into_iter().chain(descending), covariance);
-            BorderGap { v, difference: difference.value, se: difference.se }
+            BorderGap {
+                v,
+                difference: difference.value,
+                se: difference.se,
+                interpolation: self.interpolation(v, points),
+            }
         };
         BorderDistance::of(&places.into_iter().map(gap).collect::<Vec<_>>())
+    }
+
+    /// What straight lines between the knots may be off by at `v`, both borders together.
+    ///
+    /// Between knots `x₀` and `x₁` a line misses a curve by `½|F″|(v − x₀)(x₁ − v)` at most; `F″` is twice the largest second divided difference over
+    /// three neighbouring knots of either border that enclose `v`.
+    fn interpolation(&self, v: f64, points: &[Quantity]) -> f64 {
+        let (down, up) = (self.basis.descending(), self.basis.ascending());
+        let value = |k: usize| points[k].value;
+        let curves = [(down, 0), (up, down.len())];
+        let curvatures = curves.iter().flat_map(|&(knots, first)| {
+            let enclosing =
+                (0..knots.len().saturating_sub(2)).filter(move |&j| knots[j] <= v && v <= knots[j + 2]);
+            enclosing.map(move |j| {
+                let slope = |k: usize| (value(first + k + 1) - value(first + k)) / (knots[k + 1] - knots[k]);
+                ((slope(j + 1) - slope(j)) / (knots[j + 2] - knots[j])).abs()
+            })
+        });
+        let curvature = curvatures.fold(0.0, f64::max);
+        let reach = |knots: &[f64]| {
+            let right = knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1);
+            ((v - knots[right - 1]) * (knots[right] - v)).max(0.0)
+        };
+        curvature * (reach(down) + reach(up))
     }
 
     /// Everything that the errors say against the fit, hollow coefficients aside.

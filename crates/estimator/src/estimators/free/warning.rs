@@ -193,12 +193,12 @@ impl fmt::Display for Warning {
             ),
             Self::GainNotTold { polynomial: 'A', value, se } => write!(
                 out,
-                "A(1) = {} is not told from zero: the model may as well integrate, so the gain, the levels and y_high, y_low mean nothing",
+                "A(1) = {} is not told from zero: the model may as well integrate, so its gain and the outputs it holds, y_high and y_low, have no bounds",
                 interval(*value, *se)
             ),
             Self::GainNotTold { polynomial, value, se } => write!(
                 out,
-                "{polynomial}(1) = {} is not told from zero: its coefficients cancel, so the gain and the common level of the borders mean nothing",
+                "{polynomial}(1) = {} is not told from zero: its coefficients cancel, so neither the sign of the gain nor the common level of the borders is known",
                 interval(*value, *se)
             ),
             Self::CarrierNotTold { coefficient: Coefficient { letter, lag, value, se }, sum } => write!(

@@ -15,6 +15,8 @@ pub(super) struct Head {
     /// Lines above the header that say nothing of the columns.
     pub(super) skipped: u64,
     pub(super) has_unit_row: bool,
+    /// Line of the names.
+    pub(super) line: u64,
 }
 
 /// The lines above the first row, nearest last; the ones in between that are blank are left out.
@@ -28,6 +30,10 @@ impl Head {
     /// A header that has another width than the rows.
     pub(super) fn find(text: &str, dialect: &Dialect) -> Result<Self, (Place, DataProblem)> {
         let Above { lines, first_row } = above(text, dialect);
+        // A comment names the columns only where no other line does.
+        let plain: Vec<_> = lines.iter().copied().filter(|(_, line)| !is_comment(line)).collect();
+        let is_named = plain.last().is_some_and(|(_, line)| header_cells(line, dialect).is_some());
+        let lines = if is_named { plain } else { lines };
         let mut head = Self { first_row, ..Self::default() };
         let Some(((line, nearest), further)) = lines.split_last() else { return Ok(head) };
         let Some(cells) = header_cells(nearest, dialect) else {
@@ -48,13 +54,14 @@ impl Head {
                 });
                 head.names = named.collect();
                 head.has_unit_row = true;
-                head.skipped = names_line - 1;
+                head.line = *names_line;
             }
             _ => {
                 head.names = cells.iter().map(|cell| unit::split(cell)).collect();
-                head.skipped = line - 1;
+                head.line = *line;
             }
         }
+        head.skipped = head.line - 1;
         Ok(head)
     }
 }
@@ -99,7 +106,7 @@ fn header_cells<'t>(line: &'t str, dialect: &Dialect) -> Option<Vec<&'t str>> {
         while cells.len() > dialect.width && cells.last() == Some(&"") {
             cells.pop();
         }
-        // Rows that end in a delimiter have a nameless last cell.
+        // Rows that end in a delimiter have a nameless last cell; that nothing stands in it is seen once they are read.
         if cells.len() + 1 == dialect.width && delimiter == dialect.delimiter && cells.len() >= 2 {
             cells.push("");
         }

@@ -125,6 +125,10 @@ impl Table {
         body::fill(&mut table, text, &dialect, head.first_row);
         // A delimiter at the end of every row makes no column.
         let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
+        if table.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
+            let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
+            return Err(fail(Some(Place::Line(head.line)), problem));
+        }
         table.columns.retain(|column| !is_blank(column));
         Ok(table)
     }

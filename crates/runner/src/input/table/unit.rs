@@ -40,7 +40,7 @@ fn unbracketed(cell: &str) -> Option<&str> {
 }
 
 /// Splits `force [N]`, `force (N)`, `force / N` and `force_N` into name and unit.
-pub(super) fn split(header: &str) -> (String, Option<String>) {
+pub(crate) fn split(header: &str) -> (String, Option<String>) {
     let header = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some(rest) = header.strip_suffix(close)

@@ -1,6 +1,6 @@
 //! Localisation maps: a panel an axis, a bar a cell.
 
-use crate::diagnosis::{Report, SIGNIFICANT, Units, digits};
+use crate::diagnosis::{Report, SIGNIFICANT, Units};
 use crate::plots::canvas::{Canvas, Pen, Point, TextLook};
 use crate::plots::legend::{Entry, Sample};
 use crate::plots::palette::{FAINT, GREY, INK, OKABE_ITO, tint};
@@ -115,12 +115,17 @@ fn panel(canvas: &Canvas<'_>, frames: &Frames, (row, column): (usize, usize), ti
         canvas.line(&[(tick, middle - 9.0), (tick, middle + 9.0)], Pen::new(INK, 2.0));
         let look = TextLook::new(14.0).colour(if kind == Kind::Chance { GREY } else { INK });
         let percent = |x: f64| format!("{:.0} %", 100.0 * x);
-        let figures =
-            [percent(cell.share), percent(cell.exposure), format!("× {}", digits(cell.enrichment, 2))];
-        for (figure, right) in figures.iter().zip([46.0, 92.0, 144.0]) {
+        let figures = [percent(cell.share), percent(cell.exposure), times(cell.enrichment)];
+        for (figure, right) in figures.iter().zip([46.0, 94.0, 144.0]) {
             canvas.text(figure, (left + width + right, middle), look.end());
         }
     }
+}
+
+/// How many times the average, to a tenth below ten.
+fn times(enrichment: f64) -> String {
+    let decimals = usize::from(enrichment < 9.95);
+    format!("× {enrichment:.decimals$}")
 }
 
 /// The axis in words, with the unit of its cells.

@@ -1,0 +1,258 @@
+//! `switchback simulate`: models that were written run as they did in the command that wrote them.
+
+mod common;
+
+use common::{Folder, step};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The page of `simulate --json`, and the columns that it wrote.
+fn simulated(folder: &Folder, model: &str, input: &str) -> (Value, Vec<[f64; 5]>) {
+    let arguments = ["simulate", model, input, "--json", "--out", "run.csv"];
+    let output = folder.switchback(&arguments).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{model} {input}: {}", String::from_utf8_lossy(&output.stderr));
+    let page = serde_json::from_slice(&output.stdout).expect("one JSON object on stdout");
+    let text = fs::read_to_string(folder.path("run.csv")).expect("a file");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("t,v,y,y_low,y_high"));
+    let row = |line: &str| -> [f64; 5] {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        cells.try_into().expect("five columns")
+    };
+    (page, lines.map(row).collect())
+}
+
+/// The column of one record in a series.csv.
+fn series(folder: &Folder, file: &str, record: &str, column: &str) -> Vec<f64> {
+    let text = fs::read_to_string(folder.path(file)).expect("a series");
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = lines.next().expect("a header");
+    let at = header.iter().position(|name| *name == column).expect("the column");
+    lines.filter(|row| row[0] == record).filter_map(|row| row[at].parse().ok()).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("a number, not {value}"))
+}
+
+fn close(found: f64, expected: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{what}: {found} is not {expected}");
+}
+
+fn run(folder: &Folder, arguments: &[&str]) -> Value {
+    let output = folder.switchback(arguments).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON object on stdout")
+}
+
+/// Exit code 2, nothing on stdout, nothing written, and a message with all the words in it.
+fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
+    let before = folder.listing();
+    let output = folder.switchback(arguments).output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(output.stdout.is_empty());
+    assert!(told.contains("help: "), "no remedy: {told}");
+    for word in words {
+        assert!(told.contains(word), "`{word}` is not in: {told}");
+    }
+    assert_eq!(folder.listing(), before, "nothing may be written");
+}
+
+fn with_step_records() -> Folder {
+    let folder = Folder::with_good_rig();
+    for (name, satellite, role) in [("high", 1.0, "step_high"), ("low", -1.0, "step_low")] {
+        folder.write(&format!("{name}.csv"), &step(satellite, 4));
+        folder.edit("rig.toml", |text| {
+            format!("{text}\n[[record]]\nfile = \"{name}.csv\"\nrole = \"{role}\"\nuse = \"fit\"\n")
+        });
+    }
+    folder
+}
+
+#[test]
+fn every_method_of_identify_is_reproduced_on_every_record() {
+    let folder = with_step_records();
+    let methods =
+        ["paper-descendant", "paper-ascendant", "joint", "efficient", "free", "linear-arx", "memoryless"];
+    for method in methods {
+        let page = run(&folder, &["identify", "rig.toml", "--method", method, "--json", "--out", "found"]);
+        let fits = page["fit_percent"].as_object().expect("an object");
+        let mut seen = 0;
+        for (record, fit) in fits {
+            let input = format!("{record}.csv");
+            if fit.is_null() {
+                refused(&folder, &["simulate", "found/model.json", &input], &[&input]);
+                continue;
+            }
+            let (told, rows) = simulated(&folder, "found/model.json", &input);
+            close(number(&told["fit_percent"]), number(fit), &format!("{method} {record}"));
+            let y: Vec<f64> = rows.iter().map(|row| row[2]).collect();
+            assert_eq!(y, series(&folder, "found/series.csv", record, "simulated"), "{method} {record}");
+            seen += 1;
+        }
+        assert!(seen >= 2, "{method}: {page:#}");
+    }
+}
+
+#[test]
+fn the_band_of_an_identified_model_holds_the_held_out_record() {
+    let folder = Folder::with_good_rig();
+    for method in ["efficient", "free"] {
+        run(&folder, &["identify", "rig.toml", "--method", method, "--json", "--out", "found"]);
+        let (told, rows) = simulated(&folder, "found/model.json", "again.csv");
+        // 1,100 samples, about one in five independent (poles of modulus 0.7): a standard error of 0.015, and three of them.
+        let covered = number(&told["covered"]);
+        assert!((covered - 0.95).abs() < 0.045, "{method}: {covered}");
+        assert!(rows.iter().all(|row| row[3] <= row[2] && row[2] <= row[4]));
+    }
+}
+
+/// Fits of `gap` and of `simulate` with the models that it wrote, on every judged record.
+fn gap_is_reproduced(folder: &Folder, rig: &str) {
+    let page = run(folder, &["gap", rig, "--json", "--out", "report"]);
+    let base = Path::new(rig).parent().expect("a folder");
+    println!("{rig}: {:#}", page["verdict"]);
+    for record in page["gap"]["per_record"].as_array().expect("a list") {
+        let name = record["record"].as_str().expect("a name");
+        let input = base.join(format!("{name}.csv")).display().to_string();
+        for (model, fit) in [("nominal", "fit_before"), ("augmented", "fit_after")] {
+            let (told, rows) = simulated(folder, &format!("report/{model}.json"), &input);
+            close(number(&told["fit_percent"]), number(&record[fit]), &format!("{rig} {name} {model}"));
+            let y: Vec<f64> = rows.iter().map(|row| row[2]).collect();
+            assert_eq!(y, series(folder, "report/series.csv", name, model), "{rig} {name} {model}");
+        }
+    }
+}
+
+#[test]
+fn gap_is_reproduced_on_the_shipped_rig_with_backlash() {
+    let rig =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/rigs/leaf-spring-with-backlash/rig.toml");
+    gap_is_reproduced(&Folder::with_good_rig(), &rig.display().to_string());
+}
+
+#[test]
+fn gap_is_reproduced_on_rigs_made_with_effects_that_move_the_simulation() {
+    for effect in ["creep", "gain_drift", "sensor_saturation", "resonance", "border_wear", "sensor_drift"] {
+        let folder = Folder::with_good_rig();
+        let made = folder.switchback(&[
+            "rig", "--effect", effect, "--size", "3", "--order", "1", "--seed", "5", "--out", "made",
+        ]);
+        assert_eq!({ made }.output().expect("it runs").status.code(), Some(0));
+        gap_is_reproduced(&folder, "made/rig.toml");
+    }
+}
+
+#[test]
+fn gap_is_reproduced_on_measured_rigs() {
+    for name in ["pneumatic-seal", "mr-damper"] {
+        let rig =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/rigs").join(name).join("rig.toml");
+        if !rig.exists() {
+            println!("skipped: no measured rig {name} in shared/rigs beside the workspace");
+            continue;
+        }
+        gap_is_reproduced(&Folder::with_good_rig(), &rig.display().to_string());
+    }
+}
+
+#[test]
+fn every_model_that_is_written_can_be_diagnosed() {
+    let folder = Folder::with_good_rig();
+    for method in ["efficient", "free"] {
+        run(&folder, &["identify", "rig.toml", "--method", method, "--json", "--out", method]);
+        let page = run(&folder, &["gap", "rig.toml", "--model", &format!("{method}/model.json"), "--json"]);
+        assert_eq!(page["model"], "given", "{method}");
+        assert!(number(&page["gap"]["per_record"][0]["fit_before"]) > 98.0, "{method}: {:#}", page["gap"]);
+    }
+    let first = run(&folder, &["gap", "rig.toml", "--json", "--out", "report"]);
+    for model in ["nominal", "augmented"] {
+        let page = run(&folder, &["gap", "rig.toml", "--model", &format!("report/{model}.json"), "--json"]);
+        assert_eq!(page["model"], "given");
+        let fit = |page: &Value| number(&page["gap"]["per_record"][0]["fit_before"]);
+        close(fit(&page), fit(&first), model);
+    }
+}
+
+#[test]
+fn without_a_measured_output_it_begins_at_rest_and_says_so() {
+    let folder = Folder::with_good_rig();
+    run(&folder, &["identify", "rig.toml", "--json", "--out", "found"]);
+    let rows: String = (0..50)
+        .map(|k| format!("{:.2},{}\n", 0.01 * f64::from(k), if k < 20 { 1.0 } else { -1.0 }))
+        .collect();
+    folder.write("input.csv", &format!("t,v\n{rows}"));
+    let (page, rows) = simulated(&folder, "found/model.json", "input.csv");
+    assert!(page["fit_percent"].is_null() && page["covered"].is_null());
+    assert!(page["notes"].to_string().contains("begins at rest"), "{page:#}");
+    // It rests on the descending border, which the first move is on: 0.3 − 0.2, a gain of 2.
+    assert!(rows[..20].iter().all(|row| (row[2] - rows[0][2]).abs() < 1e-9), "{:?}", rows[0]);
+    assert!(
+        (rows[0][2] - 0.2).abs() < 0.02 && (rows[49][2] + 1.0).abs() < 0.02,
+        "{:?} {:?}",
+        rows[0],
+        rows[49]
+    );
+}
+
+#[test]
+fn an_input_outside_what_was_seen_is_warned_of_and_run() {
+    let folder = Folder::with_good_rig();
+    run(&folder, &["identify", "rig.toml", "--method", "free", "--json", "--out", "found"]);
+    let rows: String = (0..300)
+        .map(|k| format!("{:.2},{}\n", 0.01 * f64::from(k), 3.0 * (0.05 * f64::from(k)).sin()))
+        .collect();
+    folder.write("input.csv", &format!("t,v\n{rows}"));
+    let (page, _) = simulated(&folder, "found/model.json", "input.csv");
+    let warnings = page["warnings"].to_string();
+    assert!(warnings.contains("leaves the range") && warnings.contains("-1 to 1"), "{warnings}");
+    assert!(warnings.contains("from one reversal to the next"), "{warnings}");
+    let (page, _) = simulated(&folder, "found/model.json", "again.csv");
+    assert_eq!(page["warnings"], Value::Array(Vec::new()), "{page:#}");
+}
+
+#[test]
+fn bad_models_and_inputs_are_refused_with_their_place_and_a_remedy() {
+    let folder = Folder::with_good_rig();
+    let page = run(&folder, &["identify", "rig.toml", "--json", "--out", "found"]);
+    let model = fs::read_to_string(folder.path("found/model.json")).expect("a model");
+    let with = |text: &str| folder.write("bad.json", text);
+    let refused_model =
+        |words: &[&str]| refused(&folder, &["simulate", "bad.json", "again.csv", "--out", "run.csv"], words);
+    with("");
+    refused_model(&["bad.json:1:1", "empty"]);
+    with("{\"schema\": ");
+    refused_model(&["no JSON"]);
+    with("{\"a\": [1]}");
+    refused_model(&["bad.json", "no model", "schema"]);
+    with(&page.to_string());
+    refused_model(&["model", "identify"]);
+    with(&model.replace("switchback/model/1", "switchback/model/9"));
+    refused_model(&["switchback/model/9", "switchback/model/1"]);
+    with(&model.replace("\"noise_sd\":", "\"noise\":"));
+    refused_model(&["bad.json:", "noise"]);
+    with(&model.replace("\"kind\": \"points\"", "\"kind\": \"spline\""));
+    refused_model(&["spline", "switched, curves or points"]);
+    let input = |text: &str| folder.write("bad.csv", text);
+    let refused_input = |words: &[&str]| {
+        refused(&folder, &["simulate", "found/model.json", "bad.csv", "--out", "run.csv"], words)
+    };
+    input("t,u\n0,1\n0.01,2\n");
+    refused_input(&["bad.csv", "`v`", "t,u"]);
+    input("t,v\n0,1\n0.01,NaN\n");
+    refused_input(&["bad.csv:3", "`v`", "NaN"]);
+    input("t,v\n0,1\n0.02,1\n0.04,2\n");
+    refused_input(&["0.02 s apart", "0.01 s", "resample"]);
+    input("t,v\n0,1\n0.01,1\n0.02,2\n0.03,2\n0.06,2\n0.07,1\n0.08,1\n");
+    refused_input(&["bad.csv:6", "followed by 0.06"]);
+    input("t,v,y\n0,1,0\n0.01,1,0\n0.02,1,0\n");
+    refused_input(&["bad.csv", "never moves"]);
+    refused(
+        &folder,
+        &["simulate", "found/model.json", "again.csv", "--out", "rig.toml"],
+        &["rig.toml", "there already"],
+    );
+    refused(&folder, &["simulate", "nowhere.json", "again.csv"], &["nowhere.json"]);
+}
