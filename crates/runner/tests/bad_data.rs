@@ -127,6 +127,15 @@ fn columns_in_doubt_are_listed_with_the_line_to_type() {
 }
 
 #[test]
+fn a_voltage_and_a_motion_may_either_drive() {
+    let text = table("time [s],voltage [V],displacement [um]", |_, line| Some(line));
+    refused(&text, &[], &["which column is the input", "--input voltage --output displacement"]);
+    let loaded =
+        Bench::new().with("a.csv", &text).load(&["a.csv", "--input", "voltage"]).expect("a good file");
+    assert_eq!(loaded.rig.output_label, "displacement [um]");
+}
+
+#[test]
 fn a_misspelt_column_gets_a_suggestion_and_all_are_told_at_once() {
     let text = table("time [s],travel [mm],force [N]", |_, line| Some(line));
     refused(

@@ -163,7 +163,8 @@ fn what_is_designed_and_played_identifies_the_machine() {
     }
     // The free records are worth something by themselves, and the paper's method finds its step.
     let free = json(root.path(), &["identify", "bench/rig.toml", "--method", "free", "--json"]);
-    assert!(free["fit_percent"]["holdout"].as_f64().expect("a figure") > 80.0, "{free:#}");
+    let held_out = |page: &Value| page["fit_percent"]["holdout"].as_f64().expect("a figure");
+    assert!(held_out(&free) > held_out(&found) - 3.0, "{free:#}");
     json(root.path(), &["identify", "bench/rig.toml", "--method", "paper-descendant", "--json"]);
 }
 
@@ -219,7 +220,8 @@ fn a_rig_of_free_records_alone_is_enough_to_plan_from() {
     play(&spring(), &root.path().join("pulses"));
     let page = json(root.path(), &["design", "--from", "pulses/rig.toml", "--precision", "0.01", "--json"]);
     let from_pulses = page["samples"].as_f64().expect("a number");
-    assert!((from_free / from_pulses - 1.0).abs() < 0.2, "{from_free} and {from_pulses}");
+    // The free record knows b to a fifth, and N goes with its square; the noise must be that of the equation, not of the output.
+    assert!((0.5..2.0).contains(&(from_free / from_pulses)), "{from_free} and {from_pulses}");
 }
 
 #[test]

@@ -113,3 +113,78 @@ fn settling(fit: &Fit) -> usize {
         r => (SETTLED.ln() / r.ln()).ceil() as usize,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nominal::order::{Choice, structure};
+    use crate::records::campaign::Campaign;
+    use crate::settings::{Model, Settings};
+    use crate::testing::white;
+    use crate::workers::Serial;
+    use switchback_estimator::Record;
+    use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+
+    /// The plan of a first-order rig with straight borders, its second record held out.
+    fn plan() -> Plan {
+        let mut noise = white();
+        let mut record = |name: &str, usage, phase: f64| {
+            let v: Vec<f64> = (0..600)
+                .map(|t| (0.17 * f64::from(t) + phase).sin() + 0.6 * (0.031 * f64::from(t)).cos())
+                .collect();
+            let (mut u, mut y) = (0.0, vec![0.0]);
+            for t in 1..v.len() {
+                y.push(0.6 * y[t - 1] + 0.4 * u + 0.02 * noise());
+                u = v[t] + 0.4 * (v[t] - v[t - 1]).signum();
+            }
+            let record = Record::new(v, y).expect("finite and equally long");
+            RigRecord { name: name.into(), role: Role::Free, usage, record, predicted: None }
+        };
+        let records = vec![record("fit", Usage::Fit, 0.0), record("held out", Usage::Holdout, 1.0)];
+        let rig = Rig {
+            name: "small".into(),
+            sample_time: 1.0,
+            order: Some(1),
+            interval: None,
+            input_label: "v".into(),
+            output_label: "y".into(),
+            records,
+        };
+        let campaign = Campaign::new(&rig).expect("a usable rig");
+        match structure(&Serial, campaign, Some(1), 1).expect("a model") {
+            Choice::One(chosen) => Plan::new(&rig, &Model::Identify, &Settings::default(), chosen),
+            Choice::Either(..) => panic!("the order is declared"),
+        }
+        .expect("a plan")
+    }
+
+    #[test]
+    fn what_is_worse_on_a_held_out_record_harms_and_what_is_no_better_is_no_second_effect() {
+        let plan = plan();
+        let good = &plan.nominal.plain;
+        let mut poor = good.clone();
+        poor.fit.linear.f.iter_mut().for_each(|f| *f *= 0.8);
+        assert!(plan.harms(&poor) && !plan.harms(good));
+        for effect in [Effect::Backlash, Effect::ColouredNoise] {
+            assert!(plan.is_gain(&good.fit, &poor.fit, effect));
+            assert!(
+                !plan.is_gain(&poor.fit, &good.fit, effect) && !plan.is_gain(&good.fit, &good.fit, effect)
+            );
+        }
+        let both = Causes {
+            effects: vec![Effect::SensorSaturation, Effect::Backlash],
+            correction: None,
+            rival: None,
+        };
+        let alone = |fit: &Fit| {
+            let mut clipping = Explanation::detailed(fit.clone());
+            clipping.parts[0].effect = Effect::SensorSaturation;
+            [clipping]
+        };
+        assert!(!plan.second_shows(good, &both, &alone(&good.fit)));
+        assert!(plan.second_shows(good, &both, &alone(&poor.fit)));
+        // Neither reads wrongly: nothing is asked.
+        let others = Causes { effects: vec![Effect::Creep, Effect::Backlash], ..both };
+        assert!(plan.second_shows(good, &others, &alone(&good.fit)));
+    }
+}

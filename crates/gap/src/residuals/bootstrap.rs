@@ -139,10 +139,10 @@ mod tests {
 
     #[test]
     fn the_interval_of_terms_that_hang_together_holds_their_mean() {
-        for pole in [0.0, 0.9] {
+        for (pole, n) in [(0.0, 400), (0.9, 2000)] {
             let mut noise = white();
             let holds = (0..300).filter(|&seed| {
-                let found = mean(&[remembering(pole, 2000, &mut noise)], 1, seed).expect("terms");
+                let found = mean(&[remembering(pole, n, &mut noise)], 1, seed).expect("terms");
                 found.low <= 0.0 && 0.0 <= found.high
             });
             // 95 % of 300 but for four standard deviations, and a bootstrap of correlated terms is a little narrow.

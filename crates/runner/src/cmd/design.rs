@@ -28,7 +28,7 @@ pub struct Args {
     interval: Option<Interval>,
 
     /// Samples a second.
-    #[arg(long, value_name = "HZ", required_unless_present = "from", conflicts_with = "from", value_parser = positive)]
+    #[arg(long, value_name = "HZ", required_unless_present = "from", conflicts_with = "from", allow_negative_numbers = true, value_parser = positive)]
     rate: Option<f64>,
 
     /// Plan for the system and the noise of this rig: its designed experiments, or else its free records.
@@ -36,11 +36,11 @@ pub struct Args {
     from: Option<PathBuf>,
 
     /// Measure until no border point has a larger standard error, as a share of u_M − u_m: 0.01 or 1%.
-    #[arg(long, value_name = "P", requires = "from", conflicts_with_all = ["periods", "duration", "free_only"], value_parser = share)]
+    #[arg(long, value_name = "P", conflicts_with_all = ["periods", "duration", "free_only"], allow_negative_numbers = true, value_parser = share)]
     precision: Option<f64>,
 
     /// Method to predict for.
-    #[arg(long, value_enum, requires = "from", default_value_t = PlanMethod::Efficient)]
+    #[arg(long, value_enum, default_value_t = PlanMethod::Efficient)]
     method: PlanMethod,
 
     /// Periods of each pulse experiment [default: 100].
@@ -48,15 +48,15 @@ pub struct Args {
     periods: Option<u32>,
 
     /// Seconds of all records together, instead of --periods.
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = positive)]
     duration: Option<f64>,
 
     /// Smallest and largest move of the free records, input units [default: 2 % of the interval, all of it].
-    #[arg(long, value_name = "MIN,MAX", value_parser = two_numbers)]
+    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = two_numbers)]
     amplitude: Option<[f64; 2]>,
 
     /// What the actuator can do, input units a second; refuses experiments that need more.
-    #[arg(long, value_name = "SPEED", value_parser = positive)]
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true, value_parser = positive)]
     max_speed: Option<f64>,
 
     /// Leave the designed experiments out and write the free records only.
@@ -94,11 +94,21 @@ pub struct Args {
     force: Force,
 }
 
+/// A precision was asked for without a rig.
+#[derive(Debug, Error, Diagnostic)]
+#[error("`--precision` needs `--from RIG.toml`: how long to measure depends on the system and its noise")]
+#[diagnostic(help("measure a first plan without it, then `switchback design --from` that rig"))]
+pub struct PrecisionOfWhat;
+
 /// Plans, predicts, writes the folder, prints.
 ///
 /// # Errors
 /// Experiments that cannot be, a rig that cannot be planned from, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
+    // Clap does not ask for an argument that conflicts with one given, as --from does with --interval.
+    if args.precision.is_some() && args.from.is_none() {
+        return Err(PrecisionOfWhat.into());
+    }
     let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
     let request = request(args, source.as_ref())?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;

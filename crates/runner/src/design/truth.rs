@@ -6,7 +6,7 @@ use std::path::Path;
 use switchback_estimator::estimators::Estimate;
 use switchback_estimator::hysteresis::{Interval, SwitchedHysteresis, Table, TablePoint};
 use switchback_estimator::linear::LinearSystem;
-use switchback_estimator::rig::Rig;
+use switchback_estimator::rig::{Rig, Usage};
 
 /// A system identified from a rig, taken for the true one while planning.
 #[derive(Debug, Clone)]
@@ -50,12 +50,35 @@ impl Truth {
             rig: rig.name.clone(),
             method,
             system,
-            noise_sd: estimate.noise_sd,
+            noise_sd: equation_noise(rig, &found).unwrap_or(estimate.noise_sd),
             points: estimate.descending.len().max(estimate.ascending.len()),
             hysteresis,
             notes,
         })
     }
+}
+
+/// Standard deviation of the equation error `ξ` where the method tells another one: `free` minimises the error `r` of its simulation, and
+/// reports that. What it leaves in the equation is `ξ = A(q⁻¹) r`.
+fn equation_noise(rig: &Rig, found: &Identification) -> Option<f64> {
+    let estimate = &found.estimate;
+    if found.method != Method::Free {
+        return None;
+    }
+    let (mut energy, mut rows) = (0.0, 0.0);
+    let runs = rig.records.iter().zip(&found.runs).filter(|(record, _)| record.usage == Usage::Fit);
+    for (record, run) in runs.filter_map(|(record, run)| Some((record, run.as_ref()?))) {
+        let r: Vec<f64> = record.record.y().iter().zip(&run.simulated).map(|(y, z)| y - z).collect();
+        for t in run.start + estimate.a.len()..r.len() {
+            let past: f64 = estimate.a.iter().enumerate().map(|(i, a)| a * r[t - 1 - i]).sum();
+            energy += (r[t] + past).powi(2);
+            rows += 1.0;
+        }
+    }
+    let parameters =
+        [estimate.a.len(), estimate.b.len(), estimate.descending.len(), estimate.ascending.len()];
+    let freedom = rows - parameters.iter().sum::<usize>() as f64;
+    (freedom > 0.0).then(|| (energy / freedom).sqrt())
 }
 
 /// The interval declared, or the range of the fit records.

@@ -47,8 +47,9 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
     page.push_str(&errors(plan, outlook));
     let _ = writeln!(
         page,
-        "standard errors that the method {} will have; a point of a border as a share of u_M − u_m, b in{output} for u_M − u_m = 1",
-        forecast.method().name()
+        "standard errors that the method {} will have; a point of a border as a share of u_M − u_m, b in{} for u_M − u_m = 1",
+        forecast.method().name(),
+        if output.is_empty() { " output units" } else { &output }
     );
     let at = forecast.at(chosen);
     let length = format!(

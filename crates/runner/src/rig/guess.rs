@@ -7,6 +7,8 @@ use crate::input::{Column, Kind};
 pub(super) enum Part {
     Time,
     Input,
+    /// An input where the output is a force.
+    Motion,
     Output,
 }
 
@@ -36,18 +38,11 @@ const TIME: &[&str] = &[
     "x value",
 ];
 
-/// What drives a machine. Words that name a signal's part come before those that name a quantity, which may be either.
-const INPUT: &[&str] = &[
-    "v",
-    "u",
-    "input",
-    "in",
-    "drive",
-    "command",
-    "cmd",
-    "setpoint",
-    "excitation",
-    "eingang",
+/// What drives a machine, whatever is measured on it.
+const INPUT: &[&str] =
+    &["v", "u", "input", "in", "drive", "command", "cmd", "setpoint", "excitation", "eingang"];
+/// Motion drives what answers with a force; but a piezo stage answers a voltage with it, so alone these words leave a doubt.
+const MOTION: &[&str] = &[
     "displacement",
     "disp",
     "travel",
@@ -86,6 +81,7 @@ pub(super) fn surety(column: &Column, part: Part) -> Option<Surety> {
     let words = match part {
         Part::Time => TIME,
         Part::Input => INPUT,
+        Part::Motion => MOTION,
         Part::Output => OUTPUT,
     };
     let name = simplified(&column.name);

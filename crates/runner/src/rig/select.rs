@@ -64,8 +64,9 @@ impl Selection {
             let column = &table.columns[*k];
             Some(*k) != output
                 && *k != input
-                && (guess::surety(column, Part::Input).is_some()
-                    || guess::surety(column, Part::Output).is_some())
+                && [Part::Input, Part::Motion, Part::Output]
+                    .into_iter()
+                    .any(|part| guess::surety(column, part).is_some())
         };
         let rivals = signals.iter().copied().filter(rival).collect();
         Ok(Self { time, index: index.filter(|_| time.is_none()), input, output, prediction, rivals })
@@ -142,8 +143,9 @@ fn clock(table: &Table, free: &impl Fn(&usize) -> bool) -> Option<usize> {
             let column = &table.columns[*k];
             guess::is_ramp(column)
                 && !guess::is_index(column)
-                && guess::surety(column, Part::Input).is_none()
-                && guess::surety(column, Part::Output).is_none()
+                && [Part::Input, Part::Motion, Part::Output]
+                    .into_iter()
+                    .all(|part| guess::surety(column, part).is_none())
         };
         let mut ramps = columns().filter(is_free_ramp);
         ramps.next().filter(|_| ramps.next().is_none())
@@ -171,14 +173,14 @@ impl Offer<'_> {
     ) -> Result<(usize, Option<usize>), DataProblem> {
         let rest = |other: Option<usize>| self.signals.iter().copied().filter(move |k| Some(*k) != other);
         let is_guessed = input.is_none() || output.is_none();
-        let mut input = input.or_else(|| self.called(Part::Input));
         let mut output = output.or_else(|| self.called(Part::Output));
+        let mut input = input.or_else(|| self.called(Part::Input));
         // One is known and one is left.
         if let (Some(_), None) = (input, output) {
             output = only(rest(input));
         }
         if let (None, Some(_)) = (input, output) {
-            input = only(rest(output));
+            input = self.called(Part::Motion).filter(|k| Some(*k) != output).or_else(|| only(rest(output)));
         }
         if let (None, None, [first, second]) = (input, output, self.signals)
             && !self.table.has_header
@@ -186,7 +188,7 @@ impl Offer<'_> {
             (input, output) = (Some(*first), Some(*second));
         }
         if !needs_output && input.is_none() {
-            input = only(rest(None));
+            input = self.called(Part::Motion).or_else(|| only(rest(None)));
         }
         match (input, output) {
             // Two columns of one name are told apart by number only.

@@ -44,7 +44,7 @@ pub(super) fn tell(plan: &Plan, divided: &[Divided]) -> Told {
     let timed =
         is_line || plan.sampling.sample_time.is_none() || !interruptions.is_empty() || plan.sampling.resample;
     Told {
-        columns: (is_line || !is_usual).then(|| columns(plan, first)),
+        columns: (is_line || !is_usual).then(|| columns(plan, first) + &other_columns(divided)),
         sample_time: timed.then(|| {
             std::iter::once(sample_time(divided)).chain(interruptions).collect::<Vec<_>>().join("; ")
         }),
@@ -94,6 +94,20 @@ fn columns(plan: &Plan, first: &Measured) -> String {
         line += &format!("; there {} also {} (take another by {how})", are(rivals.len()), rivals.join(", "));
     }
     line
+}
+
+/// Files whose columns are called otherwise than the first's.
+fn other_columns(divided: &[Divided]) -> String {
+    let named = |measured: &Measured| {
+        [Some(measured.input()), measured.output()].map(|column| column.map(crate::input::Column::label))
+    };
+    let first = named(&divided[0].measured);
+    let others = divided.iter().map(|divided| &divided.measured).filter(|measured| named(measured) != first);
+    let told = others.map(|measured| {
+        let [input, output] = named(measured).map(Option::unwrap_or_default);
+        format!("; in {} input `{input}`, output `{output}`", measured.table.path)
+    });
+    told.collect()
 }
 
 fn are(count: usize) -> &'static str {
