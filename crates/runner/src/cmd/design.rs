@@ -4,10 +4,12 @@ use crate::design::{self, DesignError, Forecast, Length, Outlook, Plan, PlanMeth
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Force, Quiet};
 use crate::rig;
+use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use switchback_estimator::excitation::Campaign;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::Rig;
+use thiserror::Error;
 
 /// Write the experiments that identify a system: inputs to play, and the rig.toml that waits for the outputs.
 ///

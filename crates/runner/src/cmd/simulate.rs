@@ -2,9 +2,10 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::unit;
-use crate::model::{self, Input, ModelFile, Run};
+use crate::model::{self, ModelFile, Run};
 use crate::options::{Force, Quiet};
 use crate::output::print;
+use crate::rig::{ColumnNames, InputSeries, RigError, Sampling, read_input};
 use miette::Diagnostic;
 use serde::Serialize;
 use std::fmt::Write;
@@ -17,8 +18,26 @@ pub struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
-    /// The input: a CSV with the columns t and v. With a column y, measured, the run begins where the record does, and the fit is told.
-    input: PathBuf,
+    /// The input to play: CSV in any dialect. With a measured output beside it the run begins where the record does, and the fit is
+    /// told.
+    #[arg(value_name = "INPUT.csv")]
+    file: PathBuf,
+
+    /// Column of the input, by name or number [default: guessed from the header]
+    #[arg(long, value_name = "COLUMN")]
+    input: Option<String>,
+
+    /// Column of the measured output, if there is one.
+    #[arg(long, value_name = "COLUMN")]
+    output: Option<String>,
+
+    /// Column of the time; `none` for rows that are even whatever it says [default: guessed; without one, a row is a sample]
+    #[arg(long, value_name = "COLUMN")]
+    time: Option<String>,
+
+    /// Interpolate the rows linearly to the model's sample time.
+    #[arg(long)]
+    resample: bool,
 
     /// Write the columns t,v,y,y_low,y_high into this file instead of printing them.
     #[arg(long, value_name = "CSV")]
@@ -70,9 +89,9 @@ const HEADER: &str = "t,v,y,y_low,y_high";
 /// A file that is no model or no input, an input that cannot be run, or an output that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
-    let input = model::read_input(&args.input, file.header.sample_time)?;
+    let input = played(args, file.header.sample_time)?;
     let target = args.force.claim_file(args.out.as_deref())?;
-    let shown = || args.input.display().to_string();
+    let shown = || args.file.display().to_string();
     let run =
         file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;
     if run.start >= input.v.len() {
@@ -96,12 +115,27 @@ pub fn run(args: &Args) -> CommandResult {
     Ok(Outcome::Done)
 }
 
-fn table(input: &Input, run: &Run) -> String {
+/// The input, at the model's sample time.
+fn played(args: &Args, sample_time: f64) -> Result<InputSeries, RigError> {
+    let names =
+        ColumnNames { time: args.time.clone(), input: args.input.clone(), output: args.output.clone() };
+    let sampling = Sampling { sample_time: Some(sample_time), resample: args.resample };
+    let command = format!("switchback simulate {} {}", args.model.display(), args.file.display());
+    read_input(&args.file, &names, sampling, &command)
+}
+
+fn table(input: &InputSeries, run: &Run) -> String {
     let mut text = format!("{HEADER}\n");
-    for (k, (t, v)) in input.t.iter().zip(&input.v).enumerate() {
+    for (k, v) in input.v.iter().enumerate() {
+        let t = stamp(input.start + k as f64 * input.sample_time);
         let _ = writeln!(text, "{t},{v},{},{},{}", run.y[k], run.low[k], run.high[k]);
     }
     text
+}
+
+/// Twelve digits of a time: they drop what rounding left of a product, and no meaning.
+fn stamp(t: f64) -> f64 {
+    format!("{t:.11e}").parse().unwrap_or(t)
 }
 
 /// What ran, how well, and what to beware of.
@@ -123,7 +157,7 @@ struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    fn of(file: &'a ModelFile, input: &Input, run: &'a Run) -> Self {
+    fn of(file: &'a ModelFile, input: &InputSeries, run: &'a Run) -> Self {
         let header = &file.header;
         Self {
             schema: "switchback/simulate/1",

@@ -15,6 +15,8 @@ pub(super) struct Measured {
     pub(super) table: Table,
     pub(super) selection: Selection,
     pub(super) sample_time: f64,
+    /// Seconds of the first sample by the time column; 0 without one, and where it holds instants.
+    pub(super) start: f64,
     pub(super) source: ClockSource,
     pub(super) v: Vec<f64>,
     pub(super) y: Option<Vec<f64>>,
@@ -112,6 +114,7 @@ struct Signals<'a> {
 /// Even samples, before they are told apart from the table they come from.
 struct Even {
     sample_time: f64,
+    start: f64,
     source: ClockSource,
     series: Series,
     pieces: Vec<Range<usize>>,
@@ -129,8 +132,20 @@ pub(super) struct Series {
 impl Even {
     fn measured(self, table: Table, selection: Selection) -> Measured {
         let Series { v, y, predicted, rows } = self.series;
-        let Self { sample_time, source, pieces, interruptions, .. } = self;
-        Measured { table, selection, sample_time, source, v, y, predicted, pieces, rows, interruptions }
+        let Self { sample_time, start, source, pieces, interruptions, .. } = self;
+        Measured {
+            table,
+            selection,
+            sample_time,
+            start,
+            source,
+            v,
+            y,
+            predicted,
+            pieces,
+            rows,
+            interruptions,
+        }
     }
 }
 
@@ -193,7 +208,7 @@ impl Signals<'_> {
             (1..series.rows.len()).filter(|&k| series.rows[k] > series.rows[k - 1] + 1).collect();
         let interruptions = starts.iter().map(|&k| self.empty_cell(series.rows[k - 1] + 1)).collect();
         let pieces = pieces(&starts, series.rows.len());
-        Ok(Even { sample_time, source: ClockSource::Given, series, pieces, interruptions })
+        Ok(Even { sample_time, start: 0.0, source: ClockSource::Given, series, pieces, interruptions })
     }
 
     fn clocked(&self, series: Series, column: &Column, request: Request<'_>) -> Result<Even, Fault> {
@@ -204,8 +219,10 @@ impl Signals<'_> {
         let label = column.label();
         let stamps = Stamps { column: &label, t: &t, resolution: &resolution };
         let declared = request.sampling.sample_time;
+        let start = if column.kind == Kind::Stamp { 0.0 } else { t.first().copied().unwrap_or(0.0) };
         if request.sampling.resample {
-            return self.resampled(series, &stamps, declared);
+            let even = self.resampled(series, &stamps, declared)?;
+            return Ok(Even { start, ..even });
         }
         let timing = stamps.judge(declared)?;
         if timing.sample_time.is_nan() {
@@ -224,7 +241,7 @@ impl Signals<'_> {
         };
         let interruptions = timing.dropouts.iter().map(told).collect();
         let pieces = pieces(&timing.dropouts, series.rows.len());
-        Ok(Even { sample_time: timing.sample_time, source, series, pieces, interruptions })
+        Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions })
     }
 
     fn resampled(&self, series: Series, stamps: &Stamps<'_>, declared: Option<f64>) -> Result<Even, Fault> {
@@ -237,6 +254,7 @@ impl Signals<'_> {
             pieces.iter().skip(1).map(|piece| self.empty_cell(even.rows[piece.start])).collect();
         Ok(Even {
             sample_time: step,
+            start: 0.0,
             source: ClockSource::Resampled(told),
             series: even,
             pieces,

@@ -10,6 +10,8 @@ use std::path::Path;
 pub struct InputSeries {
     /// Seconds between samples, positive.
     pub sample_time: f64,
+    /// Seconds of the first sample, where a time column tells it; else 0.
+    pub start: f64,
     /// The input, at least one sample, finite.
     pub v: Vec<f64>,
     /// The output, where the file has one; as many samples.
@@ -42,6 +44,7 @@ pub fn read_input(
     }
     Ok(InputSeries {
         sample_time: measured.sample_time,
+        start: measured.start,
         input_label: measured.input().label(),
         output_label: measured.output().map(crate::input::Column::label),
         notes: measured.table.notes.clone(),
