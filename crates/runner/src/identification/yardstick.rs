@@ -37,7 +37,7 @@ impl Yardstick {
             differences.push(squares.iter().map(|[own, other]| own - other).collect::<Vec<f64>>());
         }
         let [missed, missed_by_other, energy] = sums;
-        if !(energy > 0.0) {
+        if energy.is_nan() || energy <= 0.0 {
             return None;
         }
         let count: usize = differences.iter().map(Vec::len).sum();
