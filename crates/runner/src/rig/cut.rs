@@ -78,6 +78,7 @@ pub(super) fn names(record: &str, parts: &[Part]) -> Vec<String> {
 }
 
 #[cfg(test)]
+#[allow(clippy::single_range_in_vec_init, reason = "a record of one piece")]
 mod tests {
     use super::*;
     use Usage::{Fit, Holdout};
