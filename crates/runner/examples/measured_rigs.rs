@@ -8,10 +8,8 @@
 use std::path::Path;
 use switchback::diagnosis::{self, Subject};
 use switchback::identification::{Method, identify};
-use switchback::options::Quiet;
 use switchback::output::{Artefacts, OutputFolder};
 use switchback::plots;
-use switchback::progress::Watch;
 use switchback_estimator::rig::Usage;
 
 const RIGS: [&str; 3] = ["mr-damper", "pneumatic-seal", "piezo-stage"];
@@ -21,7 +19,6 @@ const METHODS: [Method; 3] = [Method::Free, Method::Memoryless, Method::LinearAr
 const FIGURES: [&str; 2] = ["where.svg", "candidates.svg"];
 
 fn main() -> miette::Result<()> {
-    let watch = Watch::new(Quiet::default());
     let folder = std::env::args().nth(1).unwrap_or_else(|| "../shared/rigs".to_owned());
     let mut artefacts = Artefacts::default();
     let mut table = String::from("rig,record,method,order,delay,border_points,fit_percent\n");
@@ -47,8 +44,7 @@ fn main() -> miette::Result<()> {
                 }
             }
         }
-        let report =
-            diagnosis::examine(Subject::choose(rig, None)?, &[], &watch).map_err(|e| e.in_file(&path))?;
+        let report = diagnosis::examine(Subject::choose(rig, None)?, &[]).map_err(|e| e.in_file(&path))?;
         let words = diagnosis::words(&report, None);
         println!("{words}");
         artefacts.add(format!("gap-{name}.txt"), words);

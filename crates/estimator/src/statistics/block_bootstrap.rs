@@ -86,7 +86,7 @@ fn block_length(series: &[f64]) -> usize {
         |k: usize| centred.iter().zip(centred.iter().skip(k)).map(|(x, z)| x * z).sum::<f64>() / n;
     let variance = covariance(0);
     let longest = (3.0 * n.sqrt()).min(n / 3.0).ceil().max(1.0) as usize;
-    if variance <= 0.0 {
+    if variance.is_nan() || variance <= 0.0 {
         return 1;
     }
     let insignificant = 2.0 * (n.log10() / n).sqrt();

@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> CommandResult {
     let subject = Subject::choose(rig, args.model.as_deref())?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
     let watch = Watch::new(args.quiet);
-    let report = args.threads.install(|| diagnosis::examine(subject, &args.without, &watch))?;
+    let report = args.threads.install(|| diagnosis::examine_watched(subject, &args.without, &watch))?;
     watch.finish();
     let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {

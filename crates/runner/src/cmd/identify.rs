@@ -59,7 +59,7 @@ pub fn run(args: &Args) -> CommandResult {
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
     let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);
-    let identification = args.threads.install(|| identification::examined(&rig, request, &watch))?;
+    let identification = args.threads.install(|| identification::examined_watched(&rig, request, &watch))?;
     watch.finish();
     let identification = identification.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {

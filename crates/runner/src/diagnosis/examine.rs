@@ -38,11 +38,23 @@ impl Workers for Pool<'_> {
 }
 
 /// Diagnoses with the default settings on all cores, some effects left out; the result does not depend on how many cores there
-/// are. `watch` shows how far it has come.
+/// are.
 ///
 /// # Errors
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
-pub fn examine(subject: Subject, without: &[Effect], watch: &Watch) -> Result<Report, DiagnosisError> {
+pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, DiagnosisError> {
+    examine_watched(subject, without, &Watch::silent())
+}
+
+/// [`examine`], which shows how far it has come.
+///
+/// # Errors
+/// As [`examine`].
+pub fn examine_watched(
+    subject: Subject,
+    without: &[Effect],
+    watch: &Watch,
+) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
     let settings = Settings::default().without(without);
     let mut diagnosis = diagnose_with(&Pool(watch), &rig, model, &settings)

@@ -17,7 +17,7 @@ mod words;
 
 pub use crate::model::ModelError;
 pub use error::DiagnosisError;
-pub use examine::{Report, examine};
+pub use examine::{Report, examine, examine_watched};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use json::json;
 pub use number::{closed_percent, digits, fit_percent};

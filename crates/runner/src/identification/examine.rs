@@ -23,11 +23,23 @@ pub struct Examination {
 /// Identifies a rig and examines the result: [`Identification::flags`] then holds every reservation, weightiest first.
 ///
 /// Beside the identification asked for it makes, on the same terms, those of the simpler methods and, where the model looks ahead,
-/// the one of a model that does not. `watch` shows how far it has come.
+/// the one of a model that does not.
 ///
 /// # Errors
 /// [`IdentificationError`] if nothing can be identified, or if the result cannot simulate a single record.
-pub fn examined(rig: &Rig, request: Request, watch: &Watch) -> Result<Identification, IdentificationError> {
+pub fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
+    examined_watched(rig, request, &Watch::silent())
+}
+
+/// [`examined`], which shows how far it has come.
+///
+/// # Errors
+/// As [`examined`].
+pub fn examined_watched(
+    rig: &Rig,
+    request: Request,
+    watch: &Watch,
+) -> Result<Identification, IdentificationError> {
     watch.begin("identifying");
     let mut found = identify_watched(rig, request, watch)?;
     let useless = residuals::worse_than_the_mean(rig, &found);

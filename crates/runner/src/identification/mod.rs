@@ -21,7 +21,7 @@ pub use crate::scenario::Method;
 pub use causal::CausalAlternative;
 pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
-pub use examine::{Examination, examined};
+pub use examine::{Examination, examined, examined_watched};
 pub use fit::fit_percent;
 pub use flag::Flag;
 pub use json::json;

@@ -68,6 +68,7 @@ fn missing_by(rig: &Rig, method: Method, errors: &[f64]) -> Identification {
     Identification {
         method,
         estimate,
+        model: None,
         level_errors: None,
         runs,
         distance: None,

@@ -36,6 +36,11 @@ impl Watch {
         Self { bar }
     }
 
+    /// A line that nobody sees.
+    pub fn silent() -> Self {
+        Self::new(Quiet { quiet: true })
+    }
+
     /// A stage begins.
     pub fn begin(&self, stage: &'static str) {
         self.bar.set_style(style(ONE_PIECE));

@@ -89,7 +89,10 @@ impl Bench {
             }
         };
         let line = std::iter::once("gap".to_owned()).chain(words.iter().map(word));
-        Line::try_parse_from(line).expect("flags that exist").data.load("gap", true)
+        Line::try_parse_from(line)
+            .expect("flags that exist")
+            .data
+            .load("gap", switchback::options::Quiet { quiet: true })
     }
 
     /// The message of an error, as it is told, with the folder left out.
