@@ -196,6 +196,9 @@ impl Offer<'_> {
                 Err(self.doubt(None, None))
             }
             (Some(input), output) if output.is_some() || !needs_output => Ok((input, output)),
+            (Some(input), None) if self.signals == [input] => {
+                Err(DataProblem::NotMeasured { input: self.table.columns[input].label() })
+            }
             _ => Err(self.doubt(input, output)),
         }
     }

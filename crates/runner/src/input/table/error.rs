@@ -49,6 +49,8 @@ pub enum DataProblem {
     LookAlike { found: String, meant: &'static str },
     #[error("which column is {role} cannot be told; the columns are {known}")]
     Doubtful { role: String, known: String, remedy: String },
+    #[error("column y is missing: play {input} and add the measured y")]
+    NotMeasured { input: String },
     #[error("column `{column}`: the cell is empty or NaN")]
     EmptyCell { column: String, is_prediction: bool },
     #[error("column `{column}`: `{cell}` is not a number")]
@@ -109,6 +111,9 @@ impl DataProblem {
             Self::UnknownColumn { .. } => "give one of these names, its unit may be left out, or the column's number".to_owned(),
             Self::DuplicateColumn { .. } => "give the column's number instead of its name, or rename one of them".to_owned(),
             Self::SameColumn { .. } => "give two columns".to_owned(),
+            Self::NotMeasured { .. } => {
+                "this is an input to be played: write the output measured at each sample into a column beside it".to_owned()
+            }
             Self::LookAlike { meant, .. } => {
                 format!("write `{meant}` if that is meant, else give the column another name")
             }
