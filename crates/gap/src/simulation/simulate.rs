@@ -182,11 +182,11 @@ mod tests {
         let run = |fit: &Fit| free_run(&campaign, fit, 0, &campaign.tracks[0]);
         assert!(!runs_away(&fit, [&run(&fit)[..]]));
         // A stable model whose run is no number, or beyond the bound.
-        assert!(runs_away(&fit, [&[0.0, f64::NAN][..]]) && runs_away(&fit, [&[0.0, -BOUND][..]]));
+        assert!(runs_away(&fit, [&[0.0, f64::NAN][..]]) && runs_away(&fit, [&[0.0, -LIMIT][..]]));
         // Poles outside the unit circle: a short record need not show it, the coefficients do.
         fit.linear.a = vec![-2.2, 1.21];
         let away = run(&fit);
-        assert!(away.iter().all(|y| y.is_finite()) && away.iter().any(|y| y.abs() >= BOUND));
+        assert!(away.iter().all(|y| y.is_finite()) && away.iter().any(|y| y.abs() >= LIMIT));
         assert!(runs_away(&fit, [&away[..]]) && runs_away(&fit, [&away[..20]]));
     }
 }
