@@ -311,7 +311,6 @@ fn the_band_holds_what_it_says() {
         }
     }
     let [covered, without] = [inside, narrow].map(|k| k as f64 / count as f64);
-    println!("covered {covered:.4}, by the noise alone {without:.4}");
     // 11,600 samples of which about one in three is independent (1 + 2Σρ² of this A is below 3): a standard error of 0.0035; the errors of
     // the thirty fits, each common to its record, add about as much. Three of both.
     assert!((covered - 0.95).abs() < 0.015, "{covered}");
