@@ -71,6 +71,9 @@ pub(super) fn edge(x: f64) -> String {
 /// Half-width of an interval, over the estimate, from which the records do not determine it.
 const UNDETERMINED: f64 = 30.0;
 
+/// An estimate below this share of its interval is zero but for rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// An estimate with its 90 % interval: `0.12 ± 0.01` where the interval is symmetric, `0.5 [0.3, 0.9]` where it is not, and no
 /// figure but the estimate where the records do not determine it.
 pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
@@ -82,7 +85,9 @@ pub(super) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     if half <= 0.0 {
         return digits(value, 3);
     }
-    if half > UNDETERMINED * value.abs() {
+    // An estimate of zero is one as well: how close to it the parameter lies is what its interval tells.
+    let value = if value.abs() < ROUNDING * half { 0.0 } else { value };
+    if half > UNDETERMINED * value.abs() && value != 0.0 {
         return format!("{}, undetermined", digits(value, 3));
     }
     // One digit of the error decides how many of the value are worth telling; two where it begins with a one.
@@ -112,6 +117,7 @@ mod tests {
         assert_eq!(with_interval(0.5, [0.3, 0.9]), "0.5 [0.3, 0.9]");
         assert_eq!(with_interval(0.0397, [0.03967, 0.04007]), "0.03970 [0.03967, 0.04007]");
         assert_eq!(with_interval(0.6, [-1e9, 1e9]), "0.600, undetermined");
+        assert_eq!(with_interval(1.1e-16, [-0.3, 0.3]), "0.0 ± 0.3");
         assert_eq!(with_interval(2.0, [f64::NAN, f64::NAN]), "2.00");
     }
 

@@ -23,7 +23,7 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     sentences.push(cause(diagnosis, &units));
-    sentences.extend(uncalibrated(diagnosis));
+    sentences.extend(uncalibrated(report));
     if diagnosis.verdict.status != Status::Refit {
         sentences.extend(identified_anew(diagnosis));
         sentences.extend(tells.then(|| closure(report)).into_iter().flatten());
@@ -173,17 +173,22 @@ fn refit(diagnosis: &Diagnosis) -> String {
 }
 
 /// A word on probabilities that were calibrated on other records than these.
-fn uncalibrated(diagnosis: &Diagnosis) -> Option<String> {
-    let tells_one = match diagnosis.verdict.status {
+fn uncalibrated(report: &Report) -> Option<String> {
+    let verdict = &report.diagnosis.verdict;
+    let tells_one = match verdict.status {
         Status::Refit => false,
         // Then no probability is told.
-        Status::None => diagnosis.probability_none >= 0.5,
+        Status::None => report.diagnosis.probability_none >= 0.5,
         _ => true,
     };
-    (tells_one && !diagnosis.verdict.calibrated).then(|| {
-        "This probability was not calibrated for such records (no declared order, a comparison by the free run, a model that was given, \
-         or no record held out): it ranks, and is no frequency."
-            .to_owned()
+    let reason = match (report.source, report.rig.order, report.rig.holdout_records().next()) {
+        (Source::Given | Source::Predicted, ..) => "the model was given",
+        (_, None, _) => "no order is declared",
+        (.., None) => "no record is held out",
+        _ => "models are compared by their free run",
+    };
+    (tells_one && !verdict.calibrated).then(|| {
+        format!("This probability ranks and is no frequency: it was not calibrated for records like these ({reason}).")
     })
 }
 
