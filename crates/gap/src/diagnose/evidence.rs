@@ -19,6 +19,8 @@ pub(super) struct Evidence {
     pub(super) all: Vec<Explanation>,
     /// Those that may be the cause, best first.
     pub(super) singles: Vec<Explanation>,
+    /// What is out, since it harms held-out records, though not better than all that are left: their rivals all the same.
+    pub(super) harmful: Vec<(Effect, f64)>,
     /// Whether what is out, since it harms held-out records, follows the fit records better than all that are left: these, too, only
     /// stand in for something else.
     pub(super) outdone: bool,
@@ -76,11 +78,14 @@ impl Plan {
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
-        let mut outdone = false;
+        let (mut outdone, mut harmful) = (false, Vec::new());
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
-            let first = singles.first().map(|s| (s.parts[0].effect, s.evidence()));
+            let weighed: Vec<(Effect, f64)> =
+                singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
+            let first = weighed.first().copied();
             self.drop_what_held_out_records_refute(workers, &mut singles);
+            harmful = weighed;
             outdone = !self.campaign.criterion.simulates()
                 && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
                     let other = left.parts[0].effect;
@@ -88,9 +93,13 @@ impl Plan {
                     !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
                 });
         }
+        if let Some(least) = singles.first().map(Explanation::evidence).filter(|_| significant) {
+            let is_left = |effect: Effect| singles.iter().any(|s| s.parts[0].effect == effect);
+            harmful.retain(|&(effect, evidence)| evidence > least && !is_left(effect));
+        }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
-        Evidence { all, singles, outdone, significant, best, tests, pair: None }
+        Evidence { all, singles, harmful, outdone, significant, best, tests, pair: None }
     }
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {

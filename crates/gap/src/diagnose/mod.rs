@@ -206,7 +206,7 @@ impl Plan {
             self.found_on(better);
             evidence = self.gather(workers);
         }
-        let Evidence { all, singles, outdone, significant, best, mut tests, pair } = evidence;
+        let Evidence { all, singles, harmful, outdone, significant, best, mut tests, pair } = evidence;
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
         let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
@@ -215,7 +215,10 @@ impl Plan {
         let refuted =
             significant && (outdone || self.hardly_closes(&best, left) || self.misses_at_places(&best));
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
-        let mut odds = odds(self.nominal.plain.bic(), &effects, leaves);
+        // What harms is no cause, and a rival all the same: what it would get goes to none of these.
+        let rivals: Vec<(Effect, f64)> = effects.iter().copied().chain(harmful).collect();
+        let mut odds = odds(self.nominal.plain.bic(), &rivals, leaves);
+        odds.unexplained += odds.effects.drain(effects.len()..).sum::<f64>();
         let mut joint = None;
         let gains: Vec<(Effect, f64)> =
             singles.iter().map(|s| (s.parts[0].effect, self.nominal.plain.bic() - s.bic())).collect();
