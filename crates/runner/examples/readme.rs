@@ -35,6 +35,7 @@ fn main() -> miette::Result<()> {
 /// Every section with its text.
 fn sections() -> miette::Result<Vec<(&'static str, String)>> {
     Ok(vec![
+        ("bench", verdict(Path::new("reports/bench/verdict.txt"))?),
         ("leafspring", study("leafspring")?),
         ("assumptions-broken", study("assumptions-broken")?),
         ("measured-rigs", fits(Path::new("reports/measured-rigs/fits.csv"))?),

@@ -3,6 +3,9 @@
 //! `cargo run --example machine -- --seeds 20 --play 1`: leaf springs that drive a second-order resonance, with a play of 1 mm (full
 //! width) before them. `--first N` is the first seed (1000), `--between` lets the drive go on between the samples, `--words` prints each
 //! diagnosis. Prints one line a machine and what was told how often.
+//!
+//! `--csv` prints the first machine's record instead, as its recorder would save it: `scenarios/data/bench.csv` is
+//! `cargo run --example machine -- --first 1004 --play 1 --csv`.
 
 mod simulated;
 
@@ -21,6 +24,10 @@ fn main() -> miette::Result<()> {
     let (first, seeds, play) = (of("--first", 1000.0) as u64, of("--seeds", 20.0) as u64, of("--play", 1.0));
     let wishes_for = |name: &str| wishes.iter().any(|w| w == name);
     let (in_full, holds) = (wishes_for("--words"), !wishes_for("--between"));
+    if wishes_for("--csv") {
+        print!("{}", Machine::draw(first, play, holds).csv(first));
+        return Ok(());
+    }
     let mut counted = Counted::default();
     for seed in first..first + seeds {
         let machine = Machine::draw(seed, play, holds);

@@ -139,6 +139,14 @@ impl Machine {
         }
     }
 
+    /// The whole record as a CSV file, with the digits that such recorders write.
+    pub(crate) fn csv(&self, seed: u64) -> String {
+        let (v, y) = self.recorded(seed);
+        let rows = v.iter().zip(&y).enumerate();
+        let row = |(k, (v, y)): (usize, (&f64, &f64))| format!("{:.3},{v:.3},{y:.4}\n", k as f64 / self.rate);
+        std::iter::once("time [s],travel [mm],force [kN]\n".to_owned()).chain(rows.map(row)).collect()
+    }
+
     /// The position at a time: once over the whole stroke first, to load the borders, then the drive.
     fn driven(&self, t: f64) -> f64 {
         match t - ONCE {
