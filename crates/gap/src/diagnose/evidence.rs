@@ -19,8 +19,8 @@ pub(super) struct Evidence {
     pub(super) all: Vec<Explanation>,
     /// Those that may be the cause, best first.
     pub(super) singles: Vec<Explanation>,
-    /// What is out, since it harms held-out records, though not better than all that are left: their rivals all the same.
-    pub(super) harmful: Vec<(Effect, f64)>,
+    /// The same with what is out, since it harms held-out records by itself: it may still be one of two, and is a rival of the others.
+    pub(super) ranked: Vec<Explanation>,
     /// Whether what is out, since it harms held-out records, follows the fit records better than all that are left: these, too, only
     /// stand in for something else.
     pub(super) outdone: bool,
@@ -78,14 +78,12 @@ impl Plan {
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
-        let (mut outdone, mut harmful) = (false, Vec::new());
+        let (mut outdone, mut ranked) = (false, Vec::new());
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
-            let weighed: Vec<(Effect, f64)> =
-                singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
-            let first = weighed.first().copied();
+            ranked.clone_from(&singles);
+            let first = ranked.first().map(|s| (s.parts[0].effect, s.evidence()));
             self.drop_what_held_out_records_refute(workers, &mut singles);
-            harmful = weighed;
             outdone = !self.campaign.criterion.simulates()
                 && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
                     let other = left.parts[0].effect;
@@ -93,23 +91,35 @@ impl Plan {
                     !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
                 });
         }
-        if let Some(least) = singles.first().map(Explanation::evidence).filter(|_| significant) {
-            let is_left = |effect: Effect| singles.iter().any(|s| s.parts[0].effect == effect);
-            harmful.retain(|&(effect, evidence)| evidence > least && !is_left(effect));
-        }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
-        Evidence { all, singles, harmful, outdone, significant, best, tests, pair: None }
+        Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
     }
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
         let tests = evidence.tests().filter(|_| self.settings.max_effects > 1)?;
         attribution.workers.begin(Phase::Pairs);
-        attribution.pair(Firsts { ranked: &evidence.singles, all: &evidence.all }, tests)
+        let first = evidence.ranked.first()?;
+        let is_best = first.effects() == evidence.best.effects();
+        let of_first = (!is_best).then(|| omnibus(&self.campaign, &first.fit)).flatten();
+        let firsts = Firsts { ranked: &evidence.ranked, all: &evidence.all };
+        attribution.pair(firsts, of_first.as_ref().unwrap_or(tests))
     }
 }
 
 impl Evidence {
+    /// The single effects that may be the cause, and behind them what harms held-out records and follows the fit records less well than
+    /// the best: their rivals all the same.
+    pub(super) fn rivals(&self) -> Vec<(Effect, f64)> {
+        let of = |s: &Explanation| (s.parts[0].effect, s.evidence());
+        let singles: Vec<(Effect, f64)> = self.singles.iter().map(of).collect();
+        let least = singles.first().map_or(f64::NEG_INFINITY, |best| best.1);
+        let is_out = |(effect, evidence): &(Effect, f64)| {
+            *evidence > least && singles.iter().all(|(known, _)| known != effect)
+        };
+        singles.iter().copied().chain(self.ranked.iter().map(of).filter(is_out)).collect()
+    }
+
     /// What the best effect leaves, where there is one.
     fn tests(&self) -> Option<&Omnibus> {
         self.tests.as_ref().filter(|_| self.significant)

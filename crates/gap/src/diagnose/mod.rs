@@ -206,26 +206,29 @@ impl Plan {
             self.found_on(better);
             evidence = self.gather(workers);
         }
-        let Evidence { all, singles, harmful, outdone, significant, best, mut tests, pair } = evidence;
+        let rivals = evidence.rivals();
+        let Evidence { all, mut singles, ranked: members, outdone, significant, best, mut tests, pair } =
+            evidence;
         let samples = self.campaign.fit_samples();
         let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
-        let effects: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, s.evidence())).collect();
         // The tests of one-step predictions say nothing about simulators.
         let deviance = if self.campaign.criterion.simulates() { 0.0 } else { left };
         let refuted =
             significant && (outdone || self.hardly_closes(&best, left) || self.misses_at_places(&best));
         let leaves = Leavings { deviance, gap: self.gap_left(&best.fit), refuted };
         // What harms is no cause, and a rival all the same: what it would get goes to none of these.
-        let rivals: Vec<(Effect, f64)> = effects.iter().copied().chain(harmful).collect();
         let mut odds = odds(self.nominal.plain.bic(), &rivals, leaves);
-        odds.unexplained += odds.effects.drain(effects.len()..).sum::<f64>();
+        odds.unexplained += odds.effects.drain(singles.len()..).sum::<f64>();
         let mut joint = None;
-        let gains: Vec<(Effect, f64)> =
-            singles.iter().map(|s| (s.parts[0].effect, self.nominal.plain.bic() - s.bic())).collect();
+        let of_members = |of: &dyn Fn(&Explanation) -> f64| -> Vec<(Effect, f64)> {
+            members.iter().map(|s| (s.parts[0].effect, of(s))).collect()
+        };
+        let gains = of_members(&|s| self.nominal.plain.bic() - s.bic());
         let found = pair.as_ref().map(|pair| self.together(workers, pair, &gains));
         if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
             let causes = pair.causes(&gains, samples);
-            let together = odds_together(self.nominal.plain.bic(), &pair, &causes, &effects);
+            let together =
+                odds_together(self.nominal.plain.bic(), &pair, &causes, &of_members(&Explanation::evidence));
             let (explanation, pair_left) = (pair.explanation, pair.left);
             let misses = causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation);
             let holds = self.better_held_out(&explanation, &best)
@@ -238,6 +241,7 @@ impl Plan {
             if together.told() >= self.settings.name_at && holds {
                 tests = omnibus(&self.campaign, &explanation.fit);
                 (left, odds, joint) = (pair_left, together, Some((explanation, causes)));
+                singles = members;
             }
         }
         let told = joint.as_ref().map_or(&best, |(explanation, _)| explanation);
