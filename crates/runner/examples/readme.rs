@@ -8,9 +8,12 @@
 //! <!-- end leafspring -->
 //! ```
 
+use clap::Parser;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use std::fmt::Write;
 use std::path::Path;
+use switchback::cmd::data_args::DataArgs;
+use switchback::options::Quiet;
 use switchback::{report, results};
 
 const README: &str = "README.md";
@@ -35,6 +38,7 @@ fn main() -> miette::Result<()> {
 /// Every section with its text.
 fn sections() -> miette::Result<Vec<(&'static str, String)>> {
     Ok(vec![
+        ("inferred", inferred("scenarios/data/bench.csv")?),
         ("bench", verdict(Path::new("reports/bench/verdict.txt"))?),
         ("leafspring", study("leafspring")?),
         ("assumptions-broken", study("assumptions-broken")?),
@@ -45,6 +49,18 @@ fn sections() -> miette::Result<Vec<(&'static str, String)>> {
         ("blind", format!("```text\n{}```\n", text(Path::new("reports/blind-sample/summary.txt"))?)),
         ("speed", text(Path::new("reports/speed/table.md"))?),
     ])
+}
+
+/// What the program says that it took from a file of measurements.
+fn inferred(file: &str) -> miette::Result<String> {
+    /// The command line of a verb that reads measurements.
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        data: DataArgs,
+    }
+    let loaded = Line::parse_from(["switchback", file]).data.load("gap", Quiet { quiet: true })?;
+    Ok(format!("```text\n{}```\n", loaded.told))
 }
 
 /// The rows of a study's table, without the lines on expectations.

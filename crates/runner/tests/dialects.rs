@@ -216,7 +216,7 @@ fn the_program_goes_from_raw_files_to_an_answer() {
     assert_eq!(from_manifest.stdout, output.stdout, "the rig file says the same");
     let again = bench.switchback(&["init", "bench.csv", "--out", "rig.toml"]).output().expect("it runs");
     assert_eq!(again.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&again.stderr).contains("exists already"));
+    assert!(String::from_utf8_lossy(&again.stderr).contains("is there already"));
     let forced =
         bench.switchback(&["init", "bench.csv", "--out", "rig.toml", "--force"]).output().expect("it runs");
     assert_eq!(forced.status.code(), Some(0));

@@ -157,6 +157,7 @@ fn the_report_folder_holds_the_object_and_the_figures() {
     let folder = Folder::with_good_rig();
     let page = diagnosed(&folder, &["--out", "report"]);
     let expected = [
+        ".switchback.sha256",
         "augmented.json",
         "candidates.svg",
         "gap.json",

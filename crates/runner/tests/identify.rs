@@ -105,6 +105,7 @@ fn the_output_folder_holds_the_estimate_and_the_figures() {
     assert_eq!(
         listing(&folder.path("deep/report")),
         [
+            ".switchback.sha256",
             "borders.svg",
             "estimate.json",
             "measured_and_simulated_again.svg",

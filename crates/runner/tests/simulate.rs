@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// The page of `simulate --json`, and the columns that it wrote.
 fn simulated(folder: &Folder, model: &str, input: &str) -> (Value, Vec<[f64; 5]>) {
-    let arguments = ["simulate", model, input, "--json", "--out", "run.csv"];
+    let arguments = ["simulate", model, input, "--json", "--out", "run.csv", "--force"];
     let output = folder.switchback(&arguments).output().expect("it runs");
     assert_eq!(output.status.code(), Some(0), "{model} {input}: {}", String::from_utf8_lossy(&output.stderr));
     let page = serde_json::from_slice(&output.stdout).expect("one JSON object on stdout");
@@ -239,12 +239,12 @@ fn bad_models_and_inputs_are_refused_with_their_place_and_a_remedy() {
     let refused_input = |words: &[&str]| {
         refused(&folder, &["simulate", "found/model.json", "bad.csv", "--out", "run.csv"], words)
     };
-    input("t,u\n0,1\n0.01,2\n");
-    refused_input(&["bad.csv", "`v`", "t,u"]);
-    input("t,v\n0,1\n0.01,NaN\n");
-    refused_input(&["bad.csv:3", "`v`", "NaN"]);
+    input("t,a,b\n0,1,3\n0.01,2,5\n0.02,1,3\n");
+    refused_input(&["bad.csv", "1 `t`, 2 `a`, 3 `b`", "--input a --output b"]);
+    input("t,v\n0,1\n0.01,1\n0.02,NaN\n0.03,1\n0.04,2\n");
+    refused_input(&["bad.csv:4", "`v`", "empty or NaN"]);
     input("t,v\n0,1\n0.02,1\n0.04,2\n");
-    refused_input(&["0.02 s apart", "0.01 s", "resample"]);
+    refused_input(&["0.02 s apart", "0.01 s", "--resample"]);
     input("t,v\n0,1\n0.01,1\n0.02,2\n0.03,2\n0.06,2\n0.07,1\n0.08,1\n");
     refused_input(&["bad.csv:6", "followed by 0.06"]);
     input("t,v,y\n0,1,0\n0.01,1,0\n0.02,1,0\n");

@@ -2,10 +2,11 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::identification::unit;
+use crate::input::{DataError, DataProblem};
 use crate::model::{self, ModelFile, Run};
 use crate::options::{Force, Quiet};
 use crate::output::print;
-use crate::rig::{ColumnNames, InputSeries, RigError, Sampling, read_input};
+use crate::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
 use miette::Diagnostic;
 use serde::Serialize;
 use std::fmt::Write;
@@ -67,6 +68,17 @@ pub enum SimulateError {
         /// The input file.
         input: String,
     },
+    /// The input is sampled otherwise.
+    #[error("{input}: the samples are {found} s apart, but the model was identified at {model} s")]
+    #[diagnostic(help("sample the input as the model was, or add `--resample` to interpolate it linearly"))]
+    SampleTime {
+        /// The input file.
+        input: String,
+        /// Seconds between its samples.
+        found: f64,
+        /// Seconds between those of the model.
+        model: f64,
+    },
     /// No sample is left to simulate.
     #[error(
         "{input}: the {samples} samples end before the simulation starts: they are all part of the initial state"
@@ -116,12 +128,26 @@ pub fn run(args: &Args) -> CommandResult {
 }
 
 /// The input, at the model's sample time.
-fn played(args: &Args, sample_time: f64) -> Result<InputSeries, RigError> {
+fn played(args: &Args, sample_time: f64) -> miette::Result<InputSeries> {
     let names =
         ColumnNames { time: args.time.clone(), input: args.input.clone(), output: args.output.clone() };
     let sampling = Sampling { sample_time: Some(sample_time), resample: args.resample };
     let command = format!("switchback simulate {} {}", args.model.display(), args.file.display());
-    read_input(&args.file, &names, sampling, &command)
+    let other = |error: &RigError| {
+        error.problems().iter().find_map(|problem| match problem {
+            RigProblem::Data(DataError {
+                problem: DataProblem::OtherSampleTime { mean_step, .. }, ..
+            }) => Some(*mean_step),
+            _ => None,
+        })
+    };
+    read_input(&args.file, &names, sampling, &command).map_err(|error| match other(&error) {
+        Some(found) => {
+            SimulateError::SampleTime { input: args.file.display().to_string(), found, model: sample_time }
+                .into()
+        }
+        None => error.into(),
+    })
 }
 
 fn table(input: &InputSeries, run: &Run) -> String {
