@@ -141,18 +141,18 @@ impl<W: Workers> Attribution<'_, W> {
             if worth { promising.extend(laws) } else { done.extend(laws.take(1)) }
         }
         done.extend(self.raced(known, &promising, contest.to_beat));
-        let named = done.into_iter().map(|(_, law)| law.named_by_its_signs());
-        let effect = |law: &Explanation| law.parts.last().map(|part| part.effect);
-        let mut done: Vec<(Effect, Explanation)> = named
-            .filter(|law| law.is_sound() && self.considers(law))
-            .filter_map(|law| Some((effect(&law)?, law)))
-            .collect();
+        let named = done.into_iter().map(|(asked, law)| (asked, law.named_by_its_signs()));
+        let mut done: Vec<(Effect, Explanation)> =
+            named.filter(|(_, law)| law.is_sound() && self.considers(law)).collect();
         done.sort_by(|x, y| x.1.bic().total_cmp(&y.1.bic()));
-        // Several laws of one effect: the best counts.
-        let mut seen: Vec<Effect> = Vec::new();
-        done.retain(|(effect, _)| {
-            let new = !seen.contains(effect);
-            seen.push(*effect);
+        // Several laws of one effect: the best counts. Alone, the best of each family of laws does: signs may give two families one
+        // name, and held-out records choose between them.
+        let is_alone = known.parts.is_empty();
+        let mut seen: Vec<(Option<Effect>, Option<Effect>)> = Vec::new();
+        done.retain(|(asked, law)| {
+            let key = (is_alone.then_some(*asked), law.parts.last().map(|part| part.effect));
+            let new = key.1.is_some() && !seen.contains(&key);
+            seen.push(key);
             new
         });
         done.into_iter().map(|(_, e)| e).collect()

@@ -75,6 +75,13 @@ impl Plan {
     fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
         singles.retain(Explanation::may_be_a_cause);
         self.hear_the_held_out(workers, &mut singles);
+        let mut seen = Vec::new();
+        singles.retain(|single| {
+            let effect = single.parts[0].effect;
+            let new = !seen.contains(&effect);
+            seen.push(effect);
+            new
+        });
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
