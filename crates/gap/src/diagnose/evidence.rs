@@ -75,13 +75,7 @@ impl Plan {
     fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
         singles.retain(Explanation::may_be_a_cause);
         self.hear_the_held_out(workers, &mut singles);
-        let mut seen = Vec::new();
-        singles.retain(|single| {
-            let effect = single.parts[0].effect;
-            let new = !seen.contains(&effect);
-            seen.push(effect);
-            new
-        });
+        self.keep_one_law_of_each(&mut singles);
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
@@ -101,6 +95,16 @@ impl Plan {
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
         Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
+    }
+
+    /// Several laws may bear the name of one effect. One step ahead the likelihood chooses; of simulators, what they lose on held-out
+    /// records counts as well.
+    fn keep_one_law_of_each(&self, singles: &mut Vec<Explanation>) {
+        let simulates = self.campaign.criterion.simulates();
+        let worth = |s: &Explanation| if simulates { s.evidence() } else { s.bic() };
+        let all: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, worth(s))).collect();
+        let is_best = |effect: Effect, worth: f64| all.iter().all(|(e, w)| *e != effect || worth <= *w);
+        singles.retain(|s| is_best(s.parts[0].effect, worth(s)));
     }
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
@@ -148,10 +152,10 @@ impl Evidence {
         let mut improved = false;
         for other in others.into_iter().filter(Explanation::may_be_a_cause) {
             let effect = other.parts[0].effect;
-            match all.iter_mut().find(|known| known.parts[0].effect == effect) {
+            match all.iter().find(|known| known.parts[0].effect == effect) {
                 Some(known) if other.bic() >= known.bic() - SIGNIFICANT => continue,
-                Some(known) => *known = other,
-                None => all.push(other),
+                // The held-out records may yet prefer the one that was known.
+                _ => all.push(other),
             }
             improved = true;
         }
