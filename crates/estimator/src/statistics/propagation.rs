@@ -41,6 +41,9 @@ pub fn propagated(lower: &[Vec<f64>], moved: impl Fn(&[f64]) -> Vec<f64>) -> Vec
 /// Columns `l_k` with `C = Σ l_k l_kᵀ`, from the eigenvectors of the correlations.
 fn root(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let p = lower.len();
+    if p == 0 {
+        return Vec::new();
+    }
     let sd: Vec<f64> = (0..p).map(|i| lower[i][i].max(0.0).sqrt()).collect();
     let correlation = DMatrix::from_fn(p, p, |i, j| {
         let scale = sd[i] * sd[j];
