@@ -12,12 +12,15 @@ pub struct MeanInterval {
     pub low: f64,
     /// Where 2.5 % lie above.
     pub high: f64,
-    /// Samples of a block.
+    /// Samples of the longest block.
     pub block: usize,
 }
 
 /// Resamples: the ends of the interval are then known to 0.35 % of probability.
 const DRAWS: usize = 2000;
+
+/// Blocks of a series at least, where no more are asked for: of fewer little is learnt.
+const FEWEST: usize = 5;
 
 /// Any number would do; a fixed one makes the interval a function of the data.
 const SEED: u64 = 0x0b10_c4b0_0757_a9ed;
@@ -30,19 +33,32 @@ impl MeanInterval {
     /// D. N. Politis, H. White, Econometric Reviews 23 (2004), doi 10.1081/ETC-120028836, with the correction of A. Patton, D. N. Politis, H. White
     /// (2009), doi 10.1080/07474930802459016.
     pub fn of(series: &[&[f64]]) -> Option<Self> {
+        let count: usize = series.iter().map(|s| s.len()).sum();
+        let block = series.iter().filter(|s| !s.is_empty()).map(|s| block_length(s)).max()?;
+        if count < 4 * block { None } else { Self::from_blocks(series, |_| block) }
+    }
+
+    /// The same where a series is known to remember `memory` samples, however short it is: a block is no shorter than that, and no longer than a
+    /// fifth of its series. `None` of nothing.
+    pub fn of_remembering(series: &[&[f64]], memory: usize) -> Option<Self> {
+        Self::from_blocks(series, |s| block_length(s).max(memory).clamp(1, (s.len() / FEWEST).max(1)))
+    }
+
+    fn from_blocks(series: &[&[f64]], block: impl Fn(&[f64]) -> usize) -> Option<Self> {
         let series: Vec<&[f64]> = series.iter().copied().filter(|s| !s.is_empty()).collect();
         let count: usize = series.iter().map(|s| s.len()).sum();
-        let block = series.iter().map(|s| block_length(s)).max()?;
-        if count < 4 * block || series.iter().any(|s| s.iter().any(|x| !x.is_finite())) {
+        if series.is_empty() || series.iter().any(|s| s.iter().any(|x| !x.is_finite())) {
             return None;
         }
-        let sums: Vec<CircularSums> = series.iter().map(|s| CircularSums::of(s)).collect();
+        let sums: Vec<(CircularSums, usize)> =
+            series.iter().map(|s| (CircularSums::of(s), block(s))).collect();
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
         let mut means: Vec<f64> = (0..DRAWS)
-            .map(|_| sums.iter().map(|s| s.resampled(block, &mut rng)).sum::<f64>() / count as f64)
+            .map(|_| sums.iter().map(|(s, block)| s.resampled(*block, &mut rng)).sum::<f64>() / count as f64)
             .collect();
         means.sort_by(f64::total_cmp);
         let mean = series.iter().flat_map(|s| s.iter()).sum::<f64>() / count as f64;
+        let block = sums.iter().map(|(_, block)| *block).max()?;
         Some(Self { mean, low: means[DRAWS / 40], high: means[DRAWS - 1 - DRAWS / 40], block })
     }
 }
@@ -155,6 +171,29 @@ mod tests {
         assert_eq!(MeanInterval::of(&[&drift]), None);
         assert_eq!(MeanInterval::of(&[&[1.0, 2.0, 1.5]]), None);
         assert_eq!(MeanInterval::of(&[]), None);
+    }
+
+    #[test]
+    fn blocks_have_the_length_of_least_error() {
+        // (3/2·(G/D)²·N)^⅓ with G = Σ|k|R(k) = 2ρ/(1−ρ)²·R(0) and ΣR(k) = (1+ρ)/(1−ρ)·R(0).
+        let rho: f64 = 0.9;
+        let ratio = (2.0 * rho / (1.0 - rho).powi(2)) / ((1.0 + rho) / (1.0 - rho));
+        let best = (1.5 * ratio.powi(2) * 4000.0).cbrt();
+        let found = block_length(&coloured(1, 4000, rho)) as f64;
+        assert!((0.5 * best..2.0 * best).contains(&found), "{found} {best}");
+    }
+
+    #[test]
+    fn a_memory_that_is_known_lengthens_the_blocks_up_to_a_fifth_of_the_series() {
+        let noise = coloured(3, 500, 0.0);
+        let block = |memory| MeanInterval::of_remembering(&[&noise], memory).expect("an interval").block;
+        assert!(block(1) < 20);
+        assert_eq!([block(60), block(usize::MAX)], [60, 100]);
+        let steps = [&[1.0; 50][..], &[3.0; 150]];
+        let found = MeanInterval::of_remembering(&steps, 7).expect("an interval");
+        assert!((found.low - 2.5).abs() < 1e-12 && (found.high - 2.5).abs() < 1e-12, "{found:?}");
+        assert_eq!(MeanInterval::of_remembering(&[], 1), None);
+        assert_eq!(MeanInterval::of_remembering(&[&[f64::NAN]], 1), None);
     }
 
     #[test]

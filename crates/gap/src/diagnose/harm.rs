@@ -3,6 +3,8 @@
 //! The error is that of the mean over a record whose errors hang together: a block bootstrap, 95 %. A block is as long as the errors'
 //! own correlation asks for, and as the model takes to settle at least.
 
+use switchback_estimator::statistics::MeanInterval;
+
 use super::Plan;
 use super::held_out::told_by_the_lattice;
 use crate::attribution::explain::Explanation;
@@ -10,7 +12,6 @@ use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
 use crate::records::campaign::Criterion;
-use crate::residuals::bootstrap::{Mean, mean};
 use crate::residuals::score::heldout_log_scores;
 use crate::residuals::spectrum::mean_square;
 use crate::simulation::simulate::free_run;
@@ -97,8 +98,9 @@ impl Plan {
     }
 
     /// The mean of what hangs together as the errors of a model do.
-    pub(super) fn mean(&self, records: &[Vec<f64>], fit: &Fit) -> Option<Mean> {
-        mean(records, settling(fit).max(settling(&self.nominal.plain.fit)), self.settings.seed)
+    pub(super) fn mean(&self, records: &[Vec<f64>], fit: &Fit) -> Option<MeanInterval> {
+        let records: Vec<&[f64]> = records.iter().map(Vec::as_slice).collect();
+        MeanInterval::of_remembering(&records, settling(fit).max(settling(&self.nominal.plain.fit)))
     }
 }
 
