@@ -1,6 +1,6 @@
 //! What of a model holds beyond the records it was fitted to.
 //!
-//! On a record from elsewhere the clocks of slow changes stand where the campaign ended, what belongs to single records is left out, and
+//! On a record from elsewhere the clocks of slow changes stand where the campaign ended, what belongs to single records has its mean, and
 //! a wave, whose phase nobody knows there, is part of the noise.
 
 use std::collections::BTreeMap;
@@ -60,7 +60,7 @@ pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
         notes.push("the phase of the periodic disturbance is unknown here: its size is in the band, the wave is not in y");
     }
     if any(|c| matches!(c, EquationColumn::Local { .. })) {
-        notes.push("the drift that every record had of its own is left out");
+        notes.push("the drift that every record had of its own is taken at its mean level");
     }
     notes.into_iter().map(str::to_owned).collect()
 }

@@ -10,7 +10,7 @@ use crate::likelihood::design::{Design, DesignTrack, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
 use crate::records::campaign::{Campaign, Track};
-use crate::simulation::beginnings::with_beginnings;
+use crate::simulation::beginnings::{with_beginnings, with_courses};
 
 /// Innovations of a fitted model on the chosen tracks.
 pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track) -> bool) -> Vec<Vec<f64>> {
@@ -26,27 +26,36 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
         .then(|| counted().sum::<f64>() / (counted().count() as f64).max(1.0))
 }
 
-/// Log predictive density of every counted sample of each hold-out record, dimensionless output; NaN where a sample has no say. What
-/// died away when a record began is no fault of the model: it is taken out.
+/// Log predictive density of every counted sample of each hold-out record, dimensionless output; NaN where a sample has no say.
+///
+/// What died away when a record began is no fault of the model, nor is the phase of a wave or the course of a zero that is free from
+/// record to record: these are taken out. A course or a wave of `k` coefficients follows the noise of `N` samples as well; what that gains,
+/// `k/N` a sample, is paid back (H. Akaike, "Information theory and an extension of the maximum likelihood principle", 1973).
 pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>> {
     let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
+    let (assembly, courses) = with_courses(campaign, &assembly);
     let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let p = fit.linear.padded(fit.grid.len(), &assembly);
-    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts);
+    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts.start..courses.end);
+    let free = |part: &DesignTrack| part.columns.numbers.iter().filter(|&j| courses.contains(j)).count();
     let variance = fit.variance;
     let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
     if let Some((share, ratio)) = fit.assembly.noise.mixture {
         let wide = variance * ratio * ratio;
         let mixed = |x: f64| (1.0 - share) * density(x, variance) + share * density(x, wide);
-        return w.iter().map(|w| w.iter().map(|x| mixed(*x).max(1e-300).ln()).collect()).collect();
+        let of_track = |(part, w): (&DesignTrack, &Vec<f64>)| {
+            let cost = free(part) as f64 / w.len().max(1) as f64;
+            w.iter().map(|x| mixed(*x).max(1e-300).ln() - cost).collect()
+        };
+        return design.tracks.iter().zip(&w).map(of_track).collect();
     }
     let weights = weigh(&design, &fit.assembly.noise, &fit.linear, &w);
     let weighed = weights.by_track(&w);
     let of_track = |(number, part): (usize, &DesignTrack)| {
         let w = &weighed[number];
         let counted = (0..w.len()).filter(|&k| weights.counts(number, k)).count();
-        let slope = part.log_slope / counted.max(1) as f64;
+        let slope = (part.log_slope - free(part) as f64) / counted.max(1) as f64;
         let score = |(k, x): (usize, &f64)| {
             let s = weights.scale.as_ref().map_or(1.0, |s| s[number][k]);
             let normal = -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance;
@@ -99,5 +108,45 @@ pub(crate) fn picture(campaign: &Campaign, w: &[Vec<f64>]) -> ResidualPicture {
         frequency: (0..=SEGMENT / 2).map(|k| k as f64 / SEGMENT as f64).collect(),
         spectrum: if segments > 0.0 { spectrum } else { Vec::new() },
         band: 1.96 / (count.max(1) as f64).sqrt(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::likelihood::engine::{Ground, fit};
+    use crate::model::assembly::{Assembly, EquationColumn};
+    use crate::model::linear::Linear;
+    use crate::testing::{noise_free, small_campaign, small_model, white};
+    use switchback_estimator::rig::Usage;
+
+    /// The oracle: the entropy of the equation errors, which no model predicts better.
+    #[test]
+    fn the_phase_of_a_wave_in_a_held_out_record_is_no_fault_of_the_model() {
+        let sd = 0.01;
+        let lines = [false, true].map(|sine| EquationColumn::Line { frequency: 0.9, track: Some(0), sine });
+        let assembly = Assembly { equation_columns: lines.to_vec(), ..Assembly::default() };
+        let mut noise = white();
+        let mut record = |phase: [f64; 2]| {
+            let (campaign, grid) = small_campaign();
+            let truth = Linear { d: phase.to_vec(), ..small_model(&grid) };
+            let mut track = noise_free(campaign, &grid, &assembly, &truth).tracks.remove(0);
+            let mut past = [0.0; 2];
+            for y in &mut track.y {
+                let now = sd * noise() - truth.a[0] * past[0] - truth.a[1] * past[1];
+                past = [now, past[0]];
+                *y += now;
+            }
+            track
+        };
+        let (mut campaign, grid) = small_campaign();
+        campaign.tracks = vec![record([0.3, 0.1]), record([-0.2, 0.25])];
+        campaign.tracks[1].usage = Usage::Holdout;
+        let start = Linear { d: vec![0.0; 2], ..small_model(&grid) };
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let found = fit(ground, &|_| assembly.clone(), &[], &start, 30).expect("a fit");
+        let score = heldout_log_score(&campaign, &found).expect("a held-out record");
+        let best = -0.5 * (2.0 * PI * sd * sd).ln() - 0.5;
+        assert!((score - best).abs() < 0.2, "{score} {best}");
     }
 }

@@ -1,6 +1,7 @@
-//! What dies away at the beginning of a record: the state of something slow, which nobody knows.
+//! What every record has of its own: the state of something slow when it begins, which dies away; the phase of a wave; the course of
+//! a zero that is free from record to record.
 //!
-//! Fitted records have a coefficient each. In held-out records it is estimated too: it says nothing about the model.
+//! Fitted records have coefficients of their own. In held-out records they are unknown: they say nothing about the model.
 
 use std::ops::Range;
 
@@ -38,6 +39,58 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
     }
     let added = known.len()..out.equation_columns.len();
     (out, added)
+}
+
+/// The assembly with waves and courses that are free from record to record in the held-out records, too; the numbers of the columns
+/// added. A course has pieces as long as in the first record fitted.
+pub(crate) fn with_courses(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
+    let mut out = assembly.clone();
+    let known = &assembly.equation_columns;
+    let Some(first) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
+    for (number, held_out) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
+        let own = known.iter().filter_map(|column| match *column {
+            EquationColumn::Line { frequency, track: Some(track), sine } if track == first => {
+                Some(EquationColumn::Line { frequency, track: Some(number), sine })
+            }
+            _ => None,
+        });
+        out.equation_columns.extend(own);
+        let pieces_of = |column: &EquationColumn| match *column {
+            EquationColumn::Local { pieces, track, .. } => {
+                let samples = campaign.tracks[track].v.len() / pieces.max(1);
+                Some((held_out.v.len() / samples.max(1)).max(1))
+            }
+            _ => None,
+        };
+        if let Some(pieces) = known.iter().find_map(pieces_of) {
+            let course = (0..=pieces).map(|piece| EquationColumn::Local { track: number, piece, pieces });
+            out.equation_columns.extend(course);
+        }
+    }
+    let added = known.len()..out.equation_columns.len();
+    (out, added)
+}
+
+/// The assembly with a level of a record that was not fitted, where fitted ones have courses; the numbers of the columns added.
+pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range<usize>) {
+    let mut out = assembly.clone();
+    let known = assembly.equation_columns.len();
+    let is_course = |c: &&EquationColumn| matches!(c, EquationColumn::Local { .. });
+    let mut courses = assembly.equation_columns.iter().filter(is_course).peekable();
+    if courses.peek().is_some() && courses.all(|c| !c.acts_on(number)) {
+        let level = [0, 1].map(|piece| EquationColumn::Local { track: number, piece, pieces: 1 });
+        out.equation_columns.extend(level);
+    }
+    let added = known..out.equation_columns.len();
+    (out, added)
+}
+
+/// The mean of the courses of the fitted records: what is to be expected of another one.
+pub(crate) fn expected_level(assembly: &Assembly, coefficients: &[f64]) -> f64 {
+    let of_courses = assembly.equation_columns.iter().zip(coefficients);
+    let levels = of_courses.filter(|(c, _)| matches!(c, EquationColumn::Local { .. })).map(|(_, d)| *d);
+    let (sum, count) = levels.fold((0.0, 0.0), |(sum, count), d| (sum + d, count + 1.0));
+    sum / f64::max(count, 1.0)
 }
 
 /// Sets the coefficients of added columns by the equation errors before the first counted sample, the only ones a simulation may look
@@ -164,5 +217,31 @@ mod tests {
         let (with, added) = with_beginnings(&campaign, &assembly);
         assert_eq!(added, 2..3);
         assert!(matches!(with.equation_columns[2], EquationColumn::Decay { track: 1, radius: 0.5, .. }));
+    }
+
+    #[test]
+    fn held_out_records_have_waves_and_courses_of_their_own() {
+        let (mut campaign, _) = small_campaign();
+        let mut held_out = campaign.tracks[0].clone();
+        held_out.usage = switchback_estimator::rig::Usage::Holdout;
+        let half = held_out.v.len() / 2;
+        held_out.v.truncate(half);
+        campaign.tracks.push(held_out);
+        let line = |track, sine| EquationColumn::Line { frequency: 0.3, track, sine };
+        let local = |track, piece, pieces| EquationColumn::Local { track, piece, pieces };
+        let own = [line(Some(0), false), line(Some(0), true), line(None, true)];
+        let course = (0..=4).map(|piece| local(0, piece, 4));
+        let assembly =
+            Assembly { equation_columns: own.into_iter().chain(course).collect(), ..Assembly::default() };
+        let (with, added) = with_courses(&campaign, &assembly);
+        // Half as long: half as many pieces. A wave of the campaign goes on.
+        let expected =
+            [line(Some(1), false), line(Some(1), true), local(1, 0, 2), local(1, 1, 2), local(1, 2, 2)];
+        assert_eq!(with.equation_columns[added], expected);
+        let (with, level) = with_level(&assembly, 1);
+        assert_eq!(with.equation_columns[level], [local(1, 0, 1), local(1, 1, 1)]);
+        assert!(with_level(&assembly, 0).1.is_empty() && with_level(&Assembly::default(), 1).1.is_empty());
+        let coefficients = [9.0, 9.0, 9.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(expected_level(&assembly, &coefficients), 3.0);
     }
 }

@@ -9,7 +9,7 @@ use crate::model::borders::Grid;
 use crate::model::linear::Linear;
 use crate::model::stability::stable;
 use crate::records::campaign::{Campaign, Track};
-use crate::simulation::beginnings::{set_by_first_samples, with_beginnings};
+use crate::simulation::beginnings::{expected_level, set_by_first_samples, with_beginnings, with_level};
 
 /// Outputs beyond this many standard deviations are those of an unstable model; the bound keeps its error finite.
 const LIMIT: f64 = 1e6;
@@ -43,6 +43,8 @@ pub(crate) struct Prepared<'a> {
     design: Design,
     /// Equation columns of beginnings that were added.
     added: Range<usize>,
+    /// Those of the level, where every fitted record has a course of its own.
+    level: Range<usize>,
 }
 
 impl<'a> Prepared<'a> {
@@ -55,8 +57,9 @@ impl<'a> Prepared<'a> {
     ) -> Self {
         let begun = started(assembly, number);
         let (with, added) = with_beginnings(campaign, &begun);
+        let (with, level) = with_level(&with, number);
         let design = Design::of(campaign, grid, &with, &[(number, track)]);
-        Self { grid, assembly, begun, design, added }
+        Self { grid, assembly, begun, design, added, level }
     }
 
     /// The output before the sensor, one value a sample; given ones before the first counted sample.
@@ -68,6 +71,7 @@ impl<'a> Prepared<'a> {
         }
         let b = convolve(&linear.b, &self.design.taps);
         let mut p = linear.padded(self.grid.len(), &self.design.assembly);
+        p.d[self.level.clone()].fill(expected_level(self.assembly, &linear.d));
         if let Begins::Measured { variance } = begins {
             set_by_first_samples(&mut p, &self.design, part, (self.added.clone(), variance));
         }
