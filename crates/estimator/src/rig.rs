@@ -18,6 +18,19 @@ pub enum Role {
     Free,
 }
 
+impl Role {
+    /// The word for it in a rig file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StepHigh => "step_high",
+            Self::StepLow => "step_low",
+            Self::Descendant => "descendant",
+            Self::Ascendant => "ascendant",
+            Self::Free => "free",
+        }
+    }
+}
+
 /// What a record is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Usage {
@@ -25,6 +38,16 @@ pub enum Usage {
     Fit,
     /// Models are judged on it; nothing is ever fitted to it.
     Holdout,
+}
+
+impl Usage {
+    /// The word for it in a rig file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fit => "fit",
+            Self::Holdout => "holdout",
+        }
+    }
 }
 
 /// One record of a rig.

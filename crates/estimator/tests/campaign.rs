@@ -72,7 +72,7 @@ proptest! {
             for t in 1..v.len() {
                 let expected =
                     if v[t] == experiment.satellite() { held } else { h.border(branch, v[t]) };
-                prop_assert_eq!(u[t], expected, "{} at {}", role_name(role), t);
+                prop_assert_eq!(u[t], expected, "{} at {}", role.name(), t);
             }
         }
         for (role, held) in [(Role::StepHigh, h.u_high()), (Role::StepLow, h.u_low())] {
@@ -111,8 +111,4 @@ fn the_held_out_record_is_drawn_anew_and_every_seed_anew() {
     assert_ne!(free[..holdout.len()], holdout[..]);
     assert_ne!(free, other);
     assert_eq!(free, drives(1)[0]);
-}
-
-fn role_name(role: Role) -> &'static str {
-    if role == Role::Descendant { "descendant" } else { "ascendant" }
 }

@@ -5,7 +5,6 @@ use crate::output::Artefacts;
 use crate::rig::RIG_FILE;
 use std::fmt::Write;
 use switchback_estimator::excitation::PlannedRecord;
-use switchback_estimator::rig::{Role, Usage};
 
 /// One CSV a record, with the columns `t` (s) and `v` (input units), and the `rig.toml` that names them all.
 pub fn artefacts(plan: &Plan) -> Artefacts {
@@ -54,28 +53,9 @@ fn manifest(plan: &Plan, records: &[PlannedRecord]) -> String {
             page,
             "\n[[record]]\nfile = \"{}.csv\"\nrole = \"{}\"\nuse = \"{}\"\n",
             record.name,
-            role(record.role),
-            usage(record.usage)
+            record.role.name(),
+            record.usage.name()
         );
     }
     page
-}
-
-/// The word for a role in a rig file.
-pub(super) fn role(role: Role) -> &'static str {
-    match role {
-        Role::StepHigh => "step_high",
-        Role::StepLow => "step_low",
-        Role::Descendant => "descendant",
-        Role::Ascendant => "ascendant",
-        Role::Free => "free",
-    }
-}
-
-/// The word for a use in a rig file.
-pub(super) fn usage(usage: Usage) -> &'static str {
-    match usage {
-        Usage::Fit => "fit",
-        Usage::Holdout => "holdout",
-    }
 }

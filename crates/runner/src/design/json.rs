@@ -1,6 +1,5 @@
 //! A plan as one JSON object.
 
-use super::artefacts::{role, usage};
 use super::words::lengths;
 use super::{Outlook, Plan, Prediction, Report};
 use serde_json::{Value, json};
@@ -44,8 +43,8 @@ pub fn json(report: &Report) -> String {
         },
         "records": records.iter().map(|record| json!({
             "file": format!("{}.csv", record.name),
-            "role": role(record.role),
-            "use": usage(record.usage),
+            "role": record.role.name(),
+            "use": record.usage.name(),
             "samples": record.v.len(),
             "seconds": plan.seconds(record.v.len()),
         })).collect::<Vec<_>>(),

@@ -1,6 +1,5 @@
 //! A plan told to a person.
 
-use super::artefacts::{role, usage};
 use super::{Outlook, Plan, Prediction, RELIABLE_PERIODS, Report};
 use crate::diagnosis::digits;
 use crate::identification::unit;
@@ -130,8 +129,8 @@ fn records(plan: &Plan) -> String {
     for record in plan.records() {
         rows.push([
             format!("{}.csv", record.name),
-            role(record.role).to_owned(),
-            usage(record.usage).to_owned(),
+            record.role.name().to_owned(),
+            record.usage.name().to_owned(),
             record.v.len().to_string(),
             duration(plan.seconds(record.v.len())),
         ]);

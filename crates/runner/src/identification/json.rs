@@ -5,7 +5,7 @@ use crate::output::stamped;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use switchback_estimator::estimators::{BorderDistance, BorderPoint};
-use switchback_estimator::rig::{Rig, Usage};
+use switchback_estimator::rig::Rig;
 
 /// Name and version of the layout.
 const SCHEMA: &str = "switchback/identify/1";
@@ -154,10 +154,7 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
             .zip(&identification.runs)
             .map(|(record, run)| RecordFit {
                 name: &record.name,
-                r#use: match record.usage {
-                    Usage::Fit => "fit",
-                    Usage::Holdout => "holdout",
-                },
+                r#use: record.usage.name(),
                 samples: record.record.len(),
                 fit_percent: run.as_ref().map(|run| run.fit_percent),
             })

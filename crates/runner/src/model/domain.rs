@@ -1,7 +1,7 @@
 //! What a model was identified on, and where an input leaves it.
 
 use serde::{Deserialize, Serialize};
-use switchback_estimator::rig::{Rig, Usage};
+use switchback_estimator::rig::Rig;
 
 /// The inputs that a model was identified on, input units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,7 +45,7 @@ impl Domain {
         let travels = inputs().flat_map(|v| travels(v, threshold));
         let record = |r: &switchback_estimator::rig::RigRecord| Source {
             name: r.name.clone(),
-            r#use: usage(r.usage).to_owned(),
+            r#use: r.usage.name().to_owned(),
             samples: r.record.len(),
         };
         Self {
@@ -118,14 +118,6 @@ impl Domain {
                 span(low, high, unit)
             )
         })
-    }
-}
-
-/// The name of a record's use.
-pub(super) fn usage(usage: Usage) -> &'static str {
-    match usage {
-        Usage::Fit => "fit",
-        Usage::Holdout => "holdout",
     }
 }
 

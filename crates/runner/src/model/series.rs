@@ -1,6 +1,5 @@
 //! Measured and simulated outputs of every record as one CSV file.
 
-use super::domain::usage;
 use crate::diagnosis::Report;
 use crate::identification::Identification;
 use std::fmt::Write;
@@ -32,7 +31,7 @@ fn table(rig: &Rig, names: &[&str], runs: impl Fn(usize, &RigRecord) -> Vec<Opti
         let runs = runs(number, record);
         let name = quoted(&record.name);
         for (t, (v, y)) in record.record.v().iter().zip(record.record.y()).enumerate() {
-            let _ = write!(text, "{name},{},{},{v},{y}", usage(record.usage), stamp(t, rig.sample_time));
+            let _ = write!(text, "{name},{},{},{v},{y}", record.usage.name(), stamp(t, rig.sample_time));
             for run in &runs {
                 let _ = match run {
                     Some(run) => write!(text, ",{}", run[t]),

@@ -4,7 +4,6 @@ use super::assemble::Loaded;
 use super::plan::Plan;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
-use switchback_estimator::rig::{Role, Usage};
 
 /// The rig file that gives the same rig as the files did, to be put into `folder` (none: the folder that the files are named from).
 pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
@@ -34,12 +33,11 @@ pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
         line("\n[[record]]".to_owned(), "");
         line(format!("file = {}", quoted(&relative(&record.path, folder))), "relative to this file");
         line(
-            format!("role = {}", quoted(role(record.role))),
+            format!("role = {}", quoted(record.role.name())),
             "free | descendant | ascendant | step_high | step_low",
         );
-        let usage = if record.usage == Usage::Fit { "fit" } else { "holdout" };
         line(
-            format!("use = {}", quoted(usage)),
+            format!("use = {}", quoted(record.usage.name())),
             "fit | holdout: models are judged on it, never fitted to it",
         );
         if let Some(share) = record.held_out {
@@ -63,16 +61,6 @@ fn columns(plan: &Plan) -> String {
         .iter()
         .filter_map(|(key, name)| Some(format!("{key} = {}", toml::Value::from(name.as_deref()?))));
     written.collect::<Vec<_>>().join(", ")
-}
-
-fn role(role: Role) -> &'static str {
-    match role {
-        Role::StepHigh => "step_high",
-        Role::StepLow => "step_low",
-        Role::Descendant => "descendant",
-        Role::Ascendant => "ascendant",
-        Role::Free => "free",
-    }
 }
 
 /// The path as seen from the folder.

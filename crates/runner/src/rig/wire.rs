@@ -41,7 +41,7 @@ pub(super) struct WireRecord {
     pub(super) holdout: Option<Spanned<f64>>,
 }
 
-#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum WireRole {
     StepHigh,
@@ -52,7 +52,7 @@ pub(super) enum WireRole {
     Free,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum WireUse {
     Fit,
@@ -76,9 +76,9 @@ pub(super) struct WrittenRig<'a> {
 #[derive(Debug, Serialize)]
 pub(super) struct WrittenRecord {
     pub(super) file: String,
-    pub(super) role: WireRole,
+    pub(super) role: &'static str,
     #[serde(rename = "use")]
-    pub(super) usage: WireUse,
+    pub(super) usage: &'static str,
 }
 
 impl From<WireRole> for Role {
@@ -93,32 +93,11 @@ impl From<WireRole> for Role {
     }
 }
 
-impl From<Role> for WireRole {
-    fn from(role: Role) -> Self {
-        match role {
-            Role::StepHigh => Self::StepHigh,
-            Role::StepLow => Self::StepLow,
-            Role::Descendant => Self::Descendant,
-            Role::Ascendant => Self::Ascendant,
-            Role::Free => Self::Free,
-        }
-    }
-}
-
 impl From<WireUse> for Usage {
     fn from(wire: WireUse) -> Self {
         match wire {
             WireUse::Fit => Self::Fit,
             WireUse::Holdout => Self::Holdout,
-        }
-    }
-}
-
-impl From<Usage> for WireUse {
-    fn from(usage: Usage) -> Self {
-        match usage {
-            Usage::Fit => Self::Fit,
-            Usage::Holdout => Self::Holdout,
         }
     }
 }

@@ -36,8 +36,8 @@ fn description(rig: &Rig) -> String {
             .iter()
             .map(|record| WrittenRecord {
                 file: file_name(record),
-                role: record.role.into(),
-                usage: record.usage.into(),
+                role: record.role.name(),
+                usage: record.usage.name(),
             })
             .collect(),
     };
