@@ -3,45 +3,12 @@
 
 mod common;
 
-use common::{Folder, listing};
+use common::{BLIND, Folder, STUDY, listing};
 use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-
-/// A study that would take minutes.
-const LONG: &str = r#"study = "consistency"
-question = "?"
-seed = 3
-replicates = 1000000
-[system]
-a = [-0.7]
-b = [0.3]
-interval = [-1.0, 1.0]
-[[border]]
-name = "spring"
-kind = "leaf_spring"
-stiffness = 1.0
-friction = 0.3
-[sweep]
-noise = [0.1]
-samples = [1000, 100000]
-points = [3]
-methods = ["efficient"]
-"#;
-
-/// An examination that would take hours.
-const BLIND: &str = r#"study = "blind"
-question = "?"
-seed = 4
-systems = 1
-sizes = [1.0]
-seeds = 20
-none = 300
-outside = 0
-pairs = 0
-"#;
 
 fn start(folder: &Folder, arguments: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_switchback"))
@@ -80,9 +47,10 @@ fn stop(mut process: Child, signal: &str) -> (Option<i32>, String) {
 fn a_stopped_study_leaves_the_old_report_as_it_was() {
     for signal in ["-INT", "-TERM", "-HUP"] {
         let folder = Folder::with_good_rig();
-        folder.write("study.toml", &LONG.replace("1000000", "10").replace("100000", "2000"));
+        folder.write("study.toml", STUDY);
         folder.switchback(&["study.toml", "--quiet", "--out", "out"]).assert().success();
-        folder.write("study.toml", LONG);
+        // One that would take minutes.
+        folder.write("study.toml", &STUDY.replace("replicates = 40", "replicates = 4000000"));
         let out = folder.path("out");
         let before: Vec<_> =
             listing(&out).iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
@@ -114,7 +82,7 @@ fn a_stopped_diagnosis_leaves_no_trace() {
 #[test]
 fn a_stopped_examination_keeps_its_keys_and_what_is_judged() {
     let folder = Folder::with_good_rig();
-    folder.write("blind.toml", &BLIND.replace("none = 300", "none = 300\nslice = 2"));
+    folder.write("blind.toml", &BLIND.replace("seeds = 1", "seeds = 20").replace("slice = 1", "slice = 2"));
     let process = start(&folder, &["blind.toml", "--quiet", "--out", "out"]);
     let key = folder.path("out/key.jsonl");
     until("the keys", || key.exists() && !is_staging(&folder.path("out")) && !is_staging(&folder.path(".")));

@@ -2,42 +2,8 @@
 
 mod common;
 
-use common::{Folder, listing};
+use common::{BLIND, Folder, STUDY, listing};
 use std::fs;
-
-/// A study that runs in a moment.
-const STUDY: &str = r#"study = "consistency"
-question = "?"
-seed = 3
-replicates = 10
-[system]
-a = [-0.7]
-b = [0.3]
-interval = [-1.0, 1.0]
-[[border]]
-name = "spring"
-kind = "leaf_spring"
-stiffness = 1.0
-friction = 0.3
-[sweep]
-noise = [0.1]
-samples = [200, 400]
-points = [3]
-methods = ["efficient"]
-"#;
-
-/// An examination of two rigs.
-const BLIND: &str = r#"study = "blind"
-question = "?"
-seed = 4
-systems = 1
-sizes = [1.0]
-seeds = 1
-none = 2
-outside = 0
-pairs = 0
-slice = 1
-"#;
 
 const FOREIGN: &str = "measured for three weeks\n";
 

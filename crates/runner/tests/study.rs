@@ -1,6 +1,9 @@
 //! `switchback SCENARIO.toml`, as a user runs it.
 
+mod common;
+
 use assert_cmd::Command;
+use common::STUDY;
 use std::fs;
 use std::path::{Path, PathBuf};
 use switchback::scenario::Engine;
@@ -12,27 +15,6 @@ fn switchback() -> Command {
 fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
-
-/// A scenario that runs in a moment; tests break one line of it.
-const SMALL: &str = r#"study = "consistency"
-question = "Is it consistent?"
-seed = 3
-replicates = 40
-[system]
-a = [-0.7]
-b = [0.3]
-interval = [-1.0, 1.0]
-[[border]]
-name = "spring"
-kind = "leaf_spring"
-stiffness = 1.0
-friction = 0.3
-[sweep]
-noise = [0.1]
-samples = [200, 1000]
-points = [3]
-methods = ["efficient"]
-"#;
 
 struct Folder(tempfile::TempDir);
 
@@ -69,7 +51,7 @@ fn refused(scenario: &str, words: &[&str]) {
 
 #[test]
 fn a_report_appears_where_the_scenario_s_name_says() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     let output = folder.run(&[]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     for file in
@@ -82,7 +64,7 @@ fn a_report_appears_where_the_scenario_s_name_says() {
 
 #[test]
 fn every_byte_is_the_same_at_one_two_and_eight_threads() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     let runs = ["1", "2", "8"].map(|threads| {
         let output = folder.run(&["--threads", threads, "--out", threads, "--quiet"]);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
@@ -102,9 +84,9 @@ fn every_byte_is_the_same_at_one_two_and_eight_threads() {
 
 #[test]
 fn the_engine_is_chosen_on_the_command_line_or_in_the_scenario_and_the_results_name_it() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     assert_eq!(folder.run(&["--engine", "direct", "--out", "flag", "--quiet"]).status.code(), Some(0));
-    let key = SMALL.replace("seed = 3", "seed = 3\nengine = \"direct\"");
+    let key = STUDY.replace("seed = 3", "seed = 3\nengine = \"direct\"");
     fs::write(folder.0.path().join("study.toml"), key).expect("it can be written");
     assert_eq!(folder.run(&["--out", "key", "--quiet"]).status.code(), Some(0));
     let results = ["flag", "key"].map(|name| switchback::results::read(&folder.0.path().join(name)));
@@ -119,7 +101,7 @@ fn the_engine_is_chosen_on_the_command_line_or_in_the_scenario_and_the_results_n
 
 #[test]
 fn an_expectation_that_does_not_hold_exits_1_after_the_report_is_written() {
-    let folder = Folder::with(&format!("{SMALL}[expect]\ninconsistent = [\"efficient\"]\n"));
+    let folder = Folder::with(&format!("{STUDY}[expect]\ninconsistent = [\"efficient\"]\n"));
     let output = folder.run(&[]);
     assert_eq!(output.status.code(), Some(1));
     assert!(folder.report().join("results.json").is_file());
@@ -127,11 +109,11 @@ fn an_expectation_that_does_not_hold_exits_1_after_the_report_is_written() {
 
 #[test]
 fn results_agree_with_themselves_and_not_with_another_truth() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     assert_eq!(folder.run(&["--out", "old", "--quiet"]).status.code(), Some(0));
     let coloured = "[[case]]\nname = \"as stated\"\ndisturbance = { kind = \"output\" }\n";
-    let other = SMALL.replace("[sweep]", &format!("{coloured}[sweep]"));
-    let same = SMALL.replace("[sweep]", "[[case]]\nname = \"as stated\"\n[sweep]");
+    let other = STUDY.replace("[sweep]", &format!("{coloured}[sweep]"));
+    let same = STUDY.replace("[sweep]", "[[case]]\nname = \"as stated\"\n[sweep]");
     for (name, scenario) in [("same", same), ("other", other)] {
         fs::write(folder.0.path().join("study.toml"), scenario).expect("it can be written");
         assert_eq!(folder.run(&["--out", name, "--quiet"]).status.code(), Some(0));
@@ -153,19 +135,19 @@ fn results_agree_with_themselves_and_not_with_another_truth() {
 
 #[test]
 fn bad_scenarios_are_refused_with_file_place_and_remedy() {
-    refused(&SMALL.replace("replicates", "replicats"), &["study.toml:4", "replicats", "replicates"]);
-    refused(&SMALL.replace("a = [-0.7]", "a = [-1.7]"), &["study.toml:6", "unstable"]);
+    refused(&STUDY.replace("replicates", "replicats"), &["study.toml:4", "replicats", "replicates"]);
+    refused(&STUDY.replace("a = [-0.7]", "a = [-1.7]"), &["study.toml:6", "unstable"]);
     refused(
-        &SMALL.replace("a = [-0.7]", "a = [-1.2, 0.5]").replace("b = [0.3]", "b = [0.3, -0.3]"),
+        &STUDY.replace("a = [-0.7]", "a = [-1.2, 0.5]").replace("b = [0.3]", "b = [0.3, -0.3]"),
         &["study.toml", "B(1)"],
     );
-    refused(&SMALL.replace("[200, 1000]", "[5, 1000]"), &["study.toml:16", "5", "period"]);
-    refused(&SMALL.replace("[0.1]", "[-0.1]"), &["study.toml:15", "noise"]);
-    refused(&SMALL.replace("friction = 0.3", "friction = \"much\""), &["study.toml:13", "friction"]);
-    refused(&SMALL.replace("stiffness = 1.0", "stiffness = -1.0"), &["study.toml", "Assumption 1"]);
-    refused(&SMALL.replace("\"efficient\"", "\"eficient\""), &["study.toml:18", "efficient"]);
+    refused(&STUDY.replace("[200, 1000]", "[5, 1000]"), &["study.toml:16", "5", "period"]);
+    refused(&STUDY.replace("[0.1]", "[-0.1]"), &["study.toml:15", "noise"]);
+    refused(&STUDY.replace("friction = 0.3", "friction = \"much\""), &["study.toml:13", "friction"]);
+    refused(&STUDY.replace("stiffness = 1.0", "stiffness = -1.0"), &["study.toml", "Assumption 1"]);
+    refused(&STUDY.replace("\"efficient\"", "\"eficient\""), &["study.toml:18", "efficient"]);
     refused(
-        &SMALL.replace("\"consistency\"", "\"consistence\""),
+        &STUDY.replace("\"consistency\"", "\"consistence\""),
         &["study.toml:1", "consistence", "\"blind\""],
     );
     refused("study = \"gap\"\n", &["study.toml:1", "no such study", "\"consistency\""]);
@@ -175,7 +157,7 @@ fn bad_scenarios_are_refused_with_file_place_and_remedy() {
 
 #[test]
 fn a_report_that_cannot_be_written_is_told_before_anything_is_computed() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     let output = folder.run(&["--out", "study.toml/inside"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("study.toml/inside"));
@@ -183,7 +165,7 @@ fn a_report_that_cannot_be_written_is_told_before_anything_is_computed() {
 
 #[test]
 fn a_missing_scenario_and_a_folder_are_refused() {
-    let folder = Folder::with(SMALL);
+    let folder = Folder::with(STUDY);
     for path in ["absent.toml", "."] {
         let output = switchback().current_dir(folder.0.path()).arg(path).output().expect("it runs");
         assert_eq!(output.status.code(), Some(2));

@@ -11,6 +11,7 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
+use crate::model::assembly::EquationColumn;
 use crate::records::campaign::Criterion;
 use crate::residuals::score::heldout_log_scores;
 use crate::residuals::spectrum::mean_square;
@@ -30,7 +31,11 @@ impl Plan {
         let spared =
             if explanation.effects().iter().all(moves_nothing) { self.cost_of_fitting(fit) } else { 0.0 };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
-        let simulated = self.judged.iter().zip(self.saved_in_simulation(fit));
+        let saved = match has_a_free_zero(fit) {
+            true => self.saved_about_the_mean(fit),
+            false => self.saved_in_simulation(fit),
+        };
+        let simulated = self.judged.iter().zip(saved);
         let simulated = simulated.filter(|(number, _)| is_held_out(number));
         let simulated = simulated.map(|(_, saved)| saved.into_iter().map(|x| x + spared).collect());
         let predicted = match self.campaign.criterion {
@@ -80,21 +85,37 @@ impl Plan {
 
     /// Squared error saved on each judged record by simulating with another model than the one under diagnosis, sample by sample.
     pub(super) fn saved_in_simulation(&self, fit: &Fit) -> Vec<Vec<f64>> {
-        let after = |number| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]);
+        let [before, after] = self.errors_before_and_after(fit).map(squared);
+        differences(&before, &after)
+    }
+
+    /// The same about the mean error of each record: a model whose zero is free from record to record says nothing of it in another one.
+    fn saved_about_the_mean(&self, fit: &Fit) -> Vec<Vec<f64>> {
+        let [before, after] = self.errors_before_and_after(fit).map(|errors| squared(about_the_mean(errors)));
+        differences(&before, &after)
+    }
+
+    /// Errors of the simulations by the model under diagnosis and by another one on each judged record.
+    fn errors_before_and_after(&self, fit: &Fit) -> [Vec<Vec<f64>>; 2] {
         let before = |number| {
             let at = self.judged.iter().position(|&judged| judged == number).unwrap_or_default();
             self.runs[at].clone()
         };
-        differences(&self.squared_errors(before), &self.squared_errors(after))
+        let after = |number| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]);
+        [self.errors(before), self.errors(after)]
     }
 
     /// Squared errors of a simulation on each judged record, sample by sample.
     pub(super) fn squared_errors(&self, run: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<f64>> {
-        let squares = |&number: &usize| {
+        squared(self.errors(run))
+    }
+
+    fn errors(&self, run: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<f64>> {
+        let of_record = |&number: &usize| {
             let track = &self.campaign.tracks[number];
-            track.y.iter().zip(run(number)).skip(track.from).map(|(y, x)| (y - x).powi(2)).collect()
+            track.y.iter().zip(run(number)).skip(track.from).map(|(y, x)| y - x).collect()
         };
-        self.judged.iter().map(squares).collect()
+        self.judged.iter().map(of_record).collect()
     }
 
     /// The mean of what hangs together as the errors of a model do.
@@ -102,6 +123,24 @@ impl Plan {
         let records: Vec<&[f64]> = records.iter().map(Vec::as_slice).collect();
         MeanInterval::of_remembering(&records, settling(fit).max(settling(&self.nominal.plain.fit)))
     }
+}
+
+/// Whether every record has a zero of its own.
+fn has_a_free_zero(fit: &Fit) -> bool {
+    fit.assembly.equation_columns.iter().any(|c| matches!(c, EquationColumn::Local { .. }))
+}
+
+fn squared(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    records.iter_mut().flatten().for_each(|x| *x *= *x);
+    records
+}
+
+fn about_the_mean(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    for record in &mut records {
+        let mean = record.iter().sum::<f64>() / record.len().max(1) as f64;
+        record.iter_mut().for_each(|x| *x -= mean);
+    }
+    records
 }
 
 /// Whether an effect is what the sensor makes of an output that is right: it clips, rounds, or is curved.
@@ -189,6 +228,18 @@ mod tests {
         let mut poor = good.clone();
         poor.fit.linear.f.iter_mut().for_each(|f| *f *= 0.8);
         assert!(plan.harms(&poor) && !plan.harms(good));
+        // Another zero harms, unless it is free from record to record; a wrong loop always does.
+        let local = EquationColumn::Local { track: 0, piece: 0, pieces: 1 };
+        let with_zero = |of: &Explanation, d: f64| {
+            let mut out = of.clone();
+            out.fit.assembly.equation_columns.push(local.clone());
+            out.fit.linear.d.push(d);
+            out
+        };
+        assert!(!plan.harms(&with_zero(good, 0.3)) && plan.harms(&with_zero(&poor, 0.0)));
+        let mut off = good.clone();
+        off.fit.linear.f.iter_mut().for_each(|f| *f += 0.3);
+        assert!(plan.harms(&off));
         for effect in [Effect::Backlash, Effect::ColouredNoise] {
             assert!(plan.is_gain(&good.fit, &poor.fit, effect));
             assert!(

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use switchback_estimator::estimators::free::fit_percent;
 use switchback_estimator::rig::{Role, Usage};
 
 use super::band::variances;
@@ -110,24 +111,14 @@ impl PortableModel {
         Simulated {
             low: physical(&end(-1.0)),
             high: physical(&end(1.0)),
-            fit_percent: input.y.and_then(|_| fit_percent(&input.track.y[from..], &y_run[from..])),
+            fit_percent: (input.y.is_some() && from < y_run.len())
+                .then(|| fit_percent(&input.track.y[from..], &y_run[from..])),
             y: physical(&y_run),
             start: from - input.before,
             record: record.map(|number| model.clock.records[number].name.clone()),
             notes: if is_new { notes(&model.assembly) } else { Vec::new() },
         }
     }
-}
-
-/// The figure of a diagnosis; nothing where no sample is simulated.
-fn fit_percent(measured: &[f64], simulated: &[f64]) -> Option<f64> {
-    if measured.is_empty() {
-        return None;
-    }
-    let mean = measured.iter().sum::<f64>() / measured.len() as f64;
-    let energy: f64 = measured.iter().map(|y| (y - mean).powi(2)).sum();
-    let missed: f64 = measured.iter().zip(simulated).map(|(y, x)| (y - x).powi(2)).sum();
-    Some(100.0 * (1.0 - (missed / energy.max(1e-300)).sqrt()))
 }
 
 impl Wire {

@@ -1,6 +1,6 @@
 //! The data a verb works on: files of measurements and how to read them, or one rig file.
 
-use crate::options::Quiet;
+use crate::options::{Quiet, positive};
 use crate::rig::{
     self, ColumnNames, HELD_OUT, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
     in_shell,
@@ -230,11 +230,4 @@ fn is_same(a: &Path, b: &Path) -> bool {
     let parts =
         |path: &Path| -> PathBuf { path.components().filter(|part| *part != Component::CurDir).collect() };
     parts(a) == parts(b)
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a positive number".to_owned()),
-    }
 }

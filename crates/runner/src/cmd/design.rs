@@ -2,7 +2,7 @@
 
 use crate::design::{self, DesignError, Forecast, Length, Outlook, Plan, PlanMethod, Report, Request, Truth};
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::{Force, Quiet, positive};
 use crate::rig;
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -201,13 +201,6 @@ fn two_numbers(text: &str) -> Result<[f64; 2], String> {
 fn working_interval(text: &str) -> Result<Interval, String> {
     let [low, high] = two_numbers(text)?;
     Interval::new(low, high).map_err(|error| error.to_string())
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("give a positive number".to_owned()),
-    }
 }
 
 /// `0.01`, `1%` or `1 %`.

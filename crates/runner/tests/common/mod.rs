@@ -28,6 +28,40 @@ role = "descendant"
 use = "holdout"
 "#;
 
+/// A scenario that runs in a moment; tests change a line of it.
+pub const STUDY: &str = r#"study = "consistency"
+question = "Is it consistent?"
+seed = 3
+replicates = 40
+[system]
+a = [-0.7]
+b = [0.3]
+interval = [-1.0, 1.0]
+[[border]]
+name = "spring"
+kind = "leaf_spring"
+stiffness = 1.0
+friction = 0.3
+[sweep]
+noise = [0.1]
+samples = [200, 1000]
+points = [3]
+methods = ["efficient"]
+"#;
+
+/// An examination of one or two rigs.
+pub const BLIND: &str = r#"study = "blind"
+question = "?"
+seed = 4
+systems = 1
+sizes = [1.0]
+seeds = 1
+none = 2
+outside = 0
+pairs = 0
+slice = 1
+"#;
+
 pub struct Folder {
     root: TempDir,
 }

@@ -219,7 +219,8 @@ fn other(branch: Branch) -> Branch {
     }
 }
 
-/// `100·(1 − ‖y − ŷ‖ / ‖y − ȳ‖)`: 100 for a perfect prediction, 0 for the mean, negative for worse.
+/// `100·(1 − ‖y − ŷ‖ / ‖y − ȳ‖)`: 100 for a perfect prediction, 0 for the mean, negative for worse; −∞ where `y` never moves, since
+/// there is nothing to explain. Both have one value a sample.
 ///
 /// ```
 /// use switchback_estimator::estimators::free::fit_percent;
