@@ -90,6 +90,21 @@ fn jitter_is_accepted_and_told_up_to_one_percent() {
 }
 
 #[test]
+fn stamps_rounded_to_a_millisecond_tell_the_rate_resampled_or_not() {
+    for rate in [30.0, 60.0, 300.0] {
+        let mut text = String::from("time [s],travel,force\n");
+        for (k, (_, v, y)) in rows().enumerate() {
+            text += &format!("{:.3},{v},{y}\n", k as f64 / rate);
+        }
+        for flags in [&["a.csv"][..], &["a.csv", "--resample"]] {
+            let loaded = Bench::new().with("a.csv", &text).load(flags).expect("a good file");
+            assert_eq!(loaded.rig.sample_time, 1.0 / rate, "{flags:?}");
+            assert!(loaded.told.to_string().contains(&format!("({rate} Hz)")), "{}", loaded.told);
+        }
+    }
+}
+
+#[test]
 fn rows_without_time_need_a_rate() {
     let text: String = std::iter::once("travel,force\n".to_owned())
         .chain(rows().map(|(_, v, y)| format!("{v},{y}\n")))

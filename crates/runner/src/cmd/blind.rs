@@ -13,9 +13,8 @@ use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
 use thiserror::Error;
 
-/// What the folder gets.
-const FILES: [&str; 11] = [
-    KEY_FILE,
+/// What the folder gets beside the key.
+const REPORT: [&str; 10] = [
     "results.json",
     "summary.txt",
     "answers.csv",
@@ -46,7 +45,8 @@ pub fn run(scenario: &Path, out: Option<&Path>, page: Page, force: Force) -> Com
     let study = blind::read(scenario)?;
     let default = Path::new("reports").join(&study.name);
     let out = out.unwrap_or(&default);
-    let folder = force.claim(out, &FILES)?;
+    force.claim(out, &REPORT)?;
+    let folder = force.claim(out, &[KEY_FILE])?;
     page.say(&format!("{}: {}", study.name, study.question))?;
 
     let tickets = blind::design(&study).map_err(StudyError)?;
@@ -107,7 +107,7 @@ fn conclude(
 ) -> CommandResult {
     let scores = blind::score(cases, &study.expect);
     let report = blind::artefacts(study, hash, cases, &scores)?;
-    force.claim(out, &[])?.commit(&report)?;
+    force.claim(out, &REPORT)?.commit(&report)?;
     let words = || format!("{}\nwritten to {}\n", blind::summary(&scores), out.display());
     page.quiet.tell_or(page.json, || report.text("results.json"), words)?;
     let broken = scores.measures.iter().any(blind::Measure::is_unexpected);

@@ -113,7 +113,11 @@ pub fn run(args: &Args) -> CommandResult {
     }
     let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
     let request = request(args, source.as_ref())?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let inputs: Vec<&Path> =
+        source.iter().flat_map(|source| &source.files).chain(&args.from).map(PathBuf::as_path).collect();
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &inputs)?;
+    // What a former plan without `--free-only` left, if nothing was measured into it.
+    let folder = folder.map(|folder| folder.clearing(&["descendant.csv", "ascendant.csv"]));
     let (plan, outlook) = match source {
         Some(source) => foresee(args, request, source.truth)?,
         None => (Plan::new(request, length(args))?, None),
@@ -131,14 +135,17 @@ pub fn run(args: &Args) -> CommandResult {
 struct Source {
     rig: Rig,
     truth: Truth,
+    /// The rig's records.
+    files: Vec<PathBuf>,
 }
 
 impl Source {
     fn read(args: &Args, file: &Path) -> Result<Self, DesignError> {
-        let mut rig = rig::read(file)?;
+        let rig::Loaded { mut rig, plan, .. } = rig::load(file)?;
+        let files = plan.records.into_iter().map(|record| record.path).collect();
         rig.order = args.order.map(usize::from).or(rig.order);
         let truth = Truth::of(&rig, file)?;
-        Ok(Self { rig, truth })
+        Ok(Self { rig, truth, files })
     }
 }
 

@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> CommandResult {
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
     let made = recipe.make().map_err(RigCommandError::from)?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;

@@ -102,7 +102,7 @@ const HEADER: &str = "t,v,y,y_low,y_high";
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let input = played(args, file.header.sample_time)?;
-    let target = args.force.claim_file(args.out.as_deref())?;
+    let target = args.force.claim_file(args.out.as_deref(), &[&args.file, &args.model])?;
     let shown = || args.file.display().to_string();
     let run =
         file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;

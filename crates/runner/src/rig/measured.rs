@@ -248,7 +248,7 @@ impl Signals<'_> {
         stamps.check_order()?;
         let too_short =
             DataProblem::TooShort { found: series.v.len(), needed: super::assemble::samples_needed(None) };
-        let step = declared.or_else(|| stamps.typical_step()).ok_or((None, too_short))?;
+        let step = declared.or_else(|| stamps.mean_step()).ok_or((None, too_short))?;
         let (even, pieces, told) = resample::resample(&series, stamps.t, step);
         let interruptions =
             pieces.iter().skip(1).map(|piece| self.empty_cell(even.rows[piece.start])).collect();
