@@ -185,6 +185,7 @@ impl DataArgs {
             PlannedRecord {
                 named: path.display().to_string(),
                 path,
+                columns: ColumnNames::default(),
                 role: Role::Free,
                 usage: if is_held { Usage::Holdout } else { Usage::Fit },
                 held_out: match hold {

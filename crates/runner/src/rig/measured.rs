@@ -1,11 +1,14 @@
 //! One file of a plan: its columns as evenly sampled pieces.
 
-use super::plan::{ColumnNames, Sampling, Voice};
+use super::clock::Clock;
+use super::guess;
+use super::plan::{ColumnNames, NO_TIME, Sampling};
 use super::problem::RigProblem;
 use super::resample::{self, Resampled};
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
-use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
+use super::voice::Voice;
+use crate::input::{Column, DataError, DataProblem, Kind, Place, Table};
 use std::ops::Range;
 use std::path::Path;
 
@@ -67,14 +70,14 @@ impl Measured {
                 return Err(problems);
             }
         };
-        let signals = Signals { table: &table, selection: &selection };
+        let signals = Signals { table: &table, selection: &selection, request };
         problems
             .extend(signals.faults().into_iter().map(|(row, problem)| at(Some(table.places[row]), problem)));
         if !problems.is_empty() {
             return Err(problems);
         }
         let rows = signals.complete_rows();
-        let even = signals.sampled(&rows, request).map_err(|(sample, problem)| {
+        let even = signals.sampled(&rows).map_err(|(sample, problem)| {
             vec![at(sample.map(|sample| table.places[rows[sample]]), problem)]
         })?;
         Ok(even.measured(table, selection))
@@ -109,6 +112,7 @@ impl Measured {
 struct Signals<'a> {
     table: &'a Table,
     selection: &'a Selection,
+    request: Request<'a>,
 }
 
 /// Even samples, before they are told apart from the table they come from.
@@ -119,6 +123,7 @@ struct Even {
     series: Series,
     pieces: Vec<Range<usize>>,
     interruptions: Vec<DataProblem>,
+    notes: Vec<String>,
 }
 
 /// The columns taken, and the rows they come from.
@@ -130,9 +135,10 @@ pub(super) struct Series {
 }
 
 impl Even {
-    fn measured(self, table: Table, selection: Selection) -> Measured {
-        let Series { v, y, predicted, rows } = self.series;
-        let Self { sample_time, start, source, pieces, interruptions, .. } = self;
+    fn measured(self, mut table: Table, selection: Selection) -> Measured {
+        table.notes.extend(self.notes);
+        let Self { sample_time, start, source, series, pieces, interruptions, .. } = self;
+        let Series { v, y, predicted, rows } = series;
         Measured {
             table,
             selection,
@@ -157,21 +163,46 @@ impl Signals<'_> {
     /// The columns that must have a value for a row to be a sample.
     fn parts(&self) -> impl Iterator<Item = &Column> {
         let Selection { time, input, output, .. } = *self.selection;
-        [time, Some(input), output].into_iter().flatten().map(|k| self.column(k))
+        [time, Some(input), output.filter(|_| self.request.needs_output)]
+            .into_iter()
+            .flatten()
+            .map(|k| self.column(k))
     }
 
     /// Cells that are neither a value nor missing, and missing predictions.
     fn faults(&self) -> Vec<(usize, DataProblem)> {
         let prediction = self.selection.prediction.map(|k| self.column(k));
         let mut problems: Vec<(usize, DataProblem)> =
-            self.parts().chain(prediction).flat_map(column_faults).collect();
+            self.parts().chain(prediction).flat_map(|column| self.column_faults(column)).collect();
         if let Some(column) = prediction
             && let Some(row) = column.values.iter().position(|value| value.is_nan())
             && column.fault_count == 0
         {
-            problems.push((row, DataProblem::EmptyCell { column: column.label(), is_prediction: true }));
+            let remedy = "a prediction must cover every sample: fill the gap, or leave the column y_sim out"
+                .to_owned();
+            problems.push((row, DataProblem::EmptyCell { column: column.label(), remedy }));
         }
         problems.sort_by_key(|(row, _)| *row);
+        problems
+    }
+
+    fn column_faults(&self, column: &Column) -> Vec<(usize, DataProblem)> {
+        let is_time = self.selection.time.is_some_and(|time| std::ptr::eq(self.column(time), column));
+        let told = |cell: &str| match column.kind {
+            Kind::Stamp => DataProblem::NotAStamp { column: column.label(), cell: cell.to_owned() },
+            Kind::Text if is_time => DataProblem::NotATime {
+                column: column.label(),
+                cell: cell.to_owned(),
+                remedy: self.request.voice.no_times(),
+            },
+            _ => fault(column, cell),
+        };
+        let mut problems: Vec<(usize, DataProblem)> =
+            column.faults.iter().map(|fault| (fault.row, told(&fault.cell))).collect();
+        let count = column.fault_count - column.faults.len();
+        if let (Some((row, _)), true) = (problems.last(), count > 0) {
+            problems.push((*row, DataProblem::More { column: column.label(), count }));
+        }
         problems
     }
 
@@ -192,37 +223,41 @@ impl Signals<'_> {
         }
     }
 
-    fn sampled(&self, rows: &[usize], request: Request<'_>) -> Result<Even, Fault> {
+    fn sampled(&self, rows: &[usize]) -> Result<Even, Fault> {
         let series = self.series(rows.to_vec());
         match self.selection.time {
-            Some(time) => self.clocked(series, self.column(time), request),
-            None => self.unclocked(series, request),
+            Some(time) => self.clocked(series, self.column(time)),
+            None => self.unclocked(series),
         }
     }
 
     /// Without a time column a row is a sample, and a row without values a dropout.
-    fn unclocked(&self, series: Series, request: Request<'_>) -> Result<Even, Fault> {
-        let sample_time =
-            request.sampling.sample_time.ok_or_else(|| (None, self.no_sample_time(request.voice)))?;
+    fn unclocked(&self, series: Series) -> Result<Even, Fault> {
+        let sample_time = self.request.sampling.sample_time.ok_or_else(|| (None, self.no_sample_time()))?;
         let starts: Vec<usize> =
             (1..series.rows.len()).filter(|&k| series.rows[k] > series.rows[k - 1] + 1).collect();
         let interruptions = starts.iter().map(|&k| self.empty_cell(series.rows[k - 1] + 1)).collect();
         let pieces = pieces(&starts, series.rows.len());
-        Ok(Even { sample_time, start: 0.0, source: ClockSource::Given, series, pieces, interruptions })
+        let source = ClockSource::Given;
+        Ok(Even { sample_time, start: 0.0, source, series, pieces, interruptions, notes: Vec::new() })
     }
 
-    fn clocked(&self, series: Series, column: &Column, request: Request<'_>) -> Result<Even, Fault> {
-        let unit = self.seconds(column).map_err(|problem| (None, problem))?;
+    fn clocked(&self, series: Series, column: &Column) -> Result<Even, Fault> {
+        let voice = self.request.voice;
         let raw: Vec<f64> = series.rows.iter().map(|&row| column.values[row]).collect();
-        let t: Vec<f64> = raw.iter().map(|stamp| unit * stamp).collect();
-        let resolution: Vec<f64> = raw.iter().map(|stamp| resolution(*stamp, unit)).collect();
+        let clock = Clock::of(column, &raw, voice).map_err(|problem| (None, problem))?;
+        let t: Vec<f64> = raw.iter().map(|stamp| clock.seconds(*stamp)).collect();
+        let resolution: Vec<f64> = raw.iter().map(|stamp| resolution(*stamp, clock.unit)).collect();
         let label = column.label();
-        let stamps = Stamps { column: &label, t: &t, resolution: &resolution };
-        let declared = request.sampling.sample_time;
+        let rows = series.rows.clone();
+        let written = |k: usize| column.written(rows[k]);
+        let stamps = Stamps { column: &label, t: &t, resolution: &resolution, written: &written, voice };
+        let declared = self.request.sampling.sample_time;
         let start = if column.kind == Kind::Stamp { 0.0 } else { t.first().copied().unwrap_or(0.0) };
-        if request.sampling.resample {
+        if self.request.sampling.resample {
             let even = self.resampled(series, &stamps, declared)?;
-            return Ok(Even { start, ..even });
+            let notes = clock.notes(&raw, even.sample_time, voice);
+            return Ok(Even { start, notes, ..even });
         }
         let timing = stamps.judge(declared)?;
         if timing.sample_time.is_nan() {
@@ -241,7 +276,8 @@ impl Signals<'_> {
         };
         let interruptions = timing.dropouts.iter().map(told).collect();
         let pieces = pieces(&timing.dropouts, series.rows.len());
-        Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions })
+        let notes = clock.notes(&raw, timing.sample_time, voice);
+        Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions, notes })
     }
 
     fn resampled(&self, series: Series, stamps: &Stamps<'_>, declared: Option<f64>) -> Result<Even, Fault> {
@@ -259,67 +295,51 @@ impl Signals<'_> {
             series: even,
             pieces,
             interruptions,
+            notes: Vec::new(),
         })
     }
 
-    /// Seconds in the unit of the time column; seconds where it names none.
-    fn seconds(&self, column: &Column) -> Result<f64, DataProblem> {
-        match &column.unit {
-            _ if column.kind == Kind::Stamp => Ok(1.0),
-            None => Ok(1.0),
-            Some(unit) => unit::seconds(unit).ok_or_else(|| DataProblem::NoSampleTime {
-                reason: format!("`{unit}`, the unit of `{}`, is no time", column.label()),
-                remedy: "write s, ms, us, min or h, or name another column with `--time`; `--time none --rate HZ` goes without one".to_owned(),
-            }),
+    fn no_sample_time(&self) -> DataProblem {
+        let Request { names, voice, .. } = self.request;
+        let is_left_out = names.time.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(NO_TIME));
+        let unread = || self.table.columns.iter().find_map(guess::unread_time);
+        if let (false, Some((column, cell))) = (is_left_out, unread()) {
+            let reason = format!("the times of `{column}`, as `{cell}`, cannot be read");
+            return DataProblem::NoSampleTime { reason, remedy: voice.no_times() };
         }
-    }
-
-    fn no_sample_time(&self, voice: &Voice) -> DataProblem {
         let reason = match self.selection.index {
+            _ if is_left_out => "the time column is left out, as asked for".to_owned(),
             Some(index) => format!(
                 "the column `{}` only counts the samples, and there is no time column",
                 self.column(index).label()
             ),
             None => format!("there is no time column among {}", self.table.listing()),
         };
-        let remedy = match voice {
-            Voice::Manifest => {
-                "write `sample_time = SECONDS`, or name the time column in `columns`".to_owned()
-            }
-            Voice::CommandLine(command) => format!(
-                "give it in seconds, `{command} --sample-time 0.01`, or as a rate in hertz, `{command} --rate 100`"
-            ),
-        };
-        DataProblem::NoSampleTime { reason, remedy }
+        DataProblem::NoSampleTime { reason, remedy: voice.sample_time_wanted() }
     }
 
     fn empty_cell(&self, row: usize) -> DataProblem {
         let empty = self.parts().find(|part| part.values[row.min(part.values.len() - 1)].is_nan());
         let column = empty.map_or_else(|| self.column(self.selection.input).label(), Column::label);
-        DataProblem::EmptyCell { column, is_prediction: false }
+        DataProblem::EmptyCell { column, remedy: self.request.voice.whole() }
     }
 }
 
-fn column_faults(column: &Column) -> Vec<(usize, DataProblem)> {
-    let named = || column.label();
-    let mut problems: Vec<(usize, DataProblem)> = column
-        .faults
-        .iter()
-        .map(|fault| {
-            let cell = fault.cell.clone();
-            let problem = match column.kind {
-                Kind::Stamp => DataProblem::NotAStamp { column: named(), cell },
-                _ if cell.parse::<f64>().is_ok() => DataProblem::NotFinite { column: named(), cell },
-                _ => DataProblem::NotANumber { column: named(), cell },
-            };
-            (fault.row, problem)
-        })
-        .collect();
-    let count = column.fault_count - column.faults.len();
-    if let (Some((row, _)), true) = (problems.last(), count > 0) {
-        problems.push((*row, DataProblem::More { column: named(), count }));
+/// What is wrong with a cell that holds no value, by its text.
+fn fault(column: &Column, cell: &str) -> DataProblem {
+    let (column, cell) = (column.label(), cell.to_owned());
+    let is_finite = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    match cell.parse::<f64>() {
+        // A point is read wherever it is the file's own sign.
+        Ok(x) if x.is_finite() => {
+            DataProblem::OtherDecimal { column, cell, found: "a point", elsewhere: "a comma" }
+        }
+        Ok(_) => DataProblem::NotFinite { column, cell },
+        Err(_) if !cell.contains('.') && is_finite(&cell.replacen(',', ".", 1)) => {
+            DataProblem::OtherDecimal { column, cell, found: "a comma", elsewhere: "a point" }
+        }
+        Err(_) => DataProblem::NotANumber { column, cell },
     }
-    problems
 }
 
 /// The ranges between the starts given.

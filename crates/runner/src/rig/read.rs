@@ -1,9 +1,10 @@
 //! From a rig file to a [`Plan`], and from that to a [`Rig`].
 
 use super::assemble::{Loaded, Located, assemble};
-use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling, Voice};
+use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
-use super::wire::{WireRecord, WireRig};
+use super::voice::Voice;
+use super::wire::{WireColumns, WireRecord, WireRig};
 use crate::input::{DataProblem, FileError, TomlError, TomlFile};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -112,10 +113,9 @@ fn plan(file: &TomlFile) -> Result<(Plan, Vec<Range<usize>>), Vec<TomlError>> {
     if !problems.is_empty() {
         return Err(problems);
     }
-    let columns = wire.columns;
     let plan = Plan {
         name: wire.name.map(Spanned::into_inner).unwrap_or_default(),
-        columns: ColumnNames { time: columns.time, input: columns.input, output: columns.output },
+        columns: names(&wire.columns),
         sampling: Sampling {
             sample_time: wire.sample_time.map(Spanned::into_inner),
             resample: wire.resample,
@@ -141,6 +141,10 @@ fn refuse_other_kinds(file: &TomlFile) -> Result<(), TomlError> {
         ));
     }
     Ok(())
+}
+
+fn names(WireColumns { time, input, output }: &WireColumns) -> ColumnNames {
+    ColumnNames { time: time.clone(), input: input.clone(), output: output.clone() }
 }
 
 fn missing(file: &TomlFile, span: Range<usize>, key: &str) -> TomlError {
@@ -233,6 +237,7 @@ fn planned(
     let record = PlannedRecord {
         path: file.path().parent().unwrap_or(Path::new("")).join(&named),
         named,
+        columns: names(&wire.columns),
         role: wire.role.into(),
         usage,
         held_out: wire.holdout.as_ref().map(|share| *share.get_ref()),

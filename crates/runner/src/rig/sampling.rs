@@ -1,5 +1,6 @@
 //! Are the time stamps those of even sampling, and of which sample time?
 
+use super::voice::Voice;
 use crate::input::DataProblem;
 
 /// What the stamps of a record tell.
@@ -17,7 +18,7 @@ pub(super) struct Timing {
 const JITTER: f64 = 0.01;
 
 /// The stamps of a record that nobody has judged yet: its time column in seconds and how finely it is written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Stamps<'a> {
     /// What messages call the column.
     pub(super) column: &'a str,
@@ -25,6 +26,10 @@ pub(super) struct Stamps<'a> {
     pub(super) t: &'a [f64],
     /// Seconds that the last digit of each stamp is worth.
     pub(super) resolution: &'a [f64],
+    /// Each stamp as it stands in the file.
+    pub(super) written: &'a dyn Fn(usize) -> String,
+    /// Who asks.
+    pub(super) voice: &'a Voice,
 }
 
 /// Where in a record something is wrong (none: everywhere), and what.
@@ -78,8 +83,9 @@ impl Stamps<'_> {
                 Some(k),
                 DataProblem::NotIncreasing {
                     column: self.column.to_owned(),
-                    before: rounded(self.t[k - 1]),
-                    now: rounded(self.t[k]),
+                    before: (self.written)(k - 1),
+                    now: (self.written)(k),
+                    remedy: self.voice.not_increasing(),
                 },
             )),
             None => Ok(()),
@@ -115,13 +121,13 @@ impl Stamps<'_> {
 
     /// The step into the `k`-th gap, a gap of a designed experiment.
     pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
-        let (before, now) = (self.t[k - 1], self.t[k]);
         DataProblem::Gap {
             column: self.column.to_owned(),
-            before: rounded(before),
-            now: rounded(now),
-            step: rounded(now - before),
-            sample_time,
+            before: (self.written)(k - 1),
+            now: (self.written)(k),
+            step: rounded(self.t[k] - self.t[k - 1]),
+            sample_time: rounded(sample_time),
+            remedy: self.voice.whole(),
         }
     }
 
@@ -157,18 +163,19 @@ impl Stamps<'_> {
         DataProblem::OtherSampleTime {
             column: self.column.to_owned(),
             mean_step: rounded(mean_step),
-            sample_time,
+            sample_time: rounded(sample_time),
+            remedy: self.voice.other_sample_time(rounded(mean_step)),
         }
     }
 
     fn uneven(&self, k: usize, sample_time: f64) -> DataProblem {
-        let (before, now) = (self.t[k - 1], self.t[k]);
         DataProblem::Uneven {
             column: self.column.to_owned(),
-            before: rounded(before),
-            now: rounded(now),
-            step: rounded(now - before),
+            before: (self.written)(k - 1),
+            now: (self.written)(k),
+            step: rounded(self.t[k] - self.t[k - 1]),
             sample_time: rounded(sample_time),
+            remedy: self.voice.uneven(),
         }
     }
 }
@@ -212,7 +219,9 @@ mod tests {
 
     fn judged(t: &[f64], declared: Option<f64>) -> Result<Timing, Fault> {
         let resolution: Vec<f64> = t.iter().map(|t| resolution(*t, 1.0)).collect();
-        Stamps { column: "t", t, resolution: &resolution }.judge(declared)
+        let written = |k: usize| t[k].to_string();
+        Stamps { column: "t", t, resolution: &resolution, written: &written, voice: &Voice::Manifest }
+            .judge(declared)
     }
 
     #[test]

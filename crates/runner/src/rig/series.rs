@@ -1,8 +1,9 @@
 //! One file as an input to be played: `v`, perhaps with a measured `y` beside it.
 
 use super::measured::{Measured, Request};
-use super::plan::{ColumnNames, Sampling, Voice};
+use super::plan::{ColumnNames, Sampling};
 use super::problem::RigError;
+use super::voice::Voice;
 use std::path::Path;
 
 /// An evenly sampled input, and what was measured beside it.
@@ -36,7 +37,7 @@ pub fn read_input(
     sampling: Sampling,
     command: &str,
 ) -> Result<InputSeries, RigError> {
-    let voice = Voice::CommandLine(command.to_owned());
+    let voice = Voice::Simulation(command.to_owned());
     let request = Request { names, sampling, voice: &voice, needs_output: false };
     let measured = Measured::read(path, request).map_err(RigError::new)?;
     if let Some(interruption) = measured.first_interruption() {

@@ -2,8 +2,9 @@
 
 use super::assemble::Divided;
 use super::measured::{ClockSource, Measured};
-use super::plan::{HELD_OUT, Plan, Voice};
+use super::plan::{HELD_OUT, Plan};
 use super::sampling::rounded;
+use super::voice::Voice;
 use std::fmt::{self, Display};
 use switchback_estimator::rig::Usage;
 
@@ -87,10 +88,7 @@ fn columns(plan: &Plan, first: &Measured) -> String {
     let mut line = parts.join(", ");
     if !selection.rivals.is_empty() {
         let rivals: Vec<String> = selection.rivals.iter().map(|&k| label(k)).collect();
-        let how = match plan.voice {
-            Voice::Manifest => "`columns = { input = …, output = … }`",
-            Voice::CommandLine(_) => "`--input NAME` or `--output NAME`",
-        };
+        let how = plan.voice.other_column();
         line += &format!("; there {} also {} (take another by {how})", are(rivals.len()), rivals.join(", "));
     }
     line

@@ -39,6 +39,8 @@ pub(super) struct WireRecord {
     #[serde(rename = "use")]
     pub(super) usage: Option<WireUse>,
     pub(super) holdout: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub(super) columns: WireColumns,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize)]

@@ -74,7 +74,7 @@ impl Count {
     fn of(cells: &[&str], decimal: Decimal) -> Self {
         let read = cells.iter().map(|text| cell::read(text, decimal));
         read.fold(Self { numbers: 0, texts: 0 }, |Self { numbers, texts }, cell| match cell {
-            Cell::Number(_) | Cell::Stamp(_) => Self { numbers: numbers + 1, texts },
+            Cell::Number(_) | Cell::Stamp(_) | Cell::Clock(_) => Self { numbers: numbers + 1, texts },
             Cell::Text => Self { numbers, texts: texts + 1 },
             Cell::Missing => Self { numbers, texts },
         })

@@ -37,6 +37,10 @@ pub enum DataProblem {
     NotMatlab { reason: String },
     #[error("the header has {found} cells, the rows {expected}")]
     HeaderWidth { found: usize, expected: usize },
+    #[error(
+        "the comma separates columns and decimals both: the header has {found} cells, the rows {expected}"
+    )]
+    CommasTwice { found: usize, expected: usize },
     #[error("the row has {found} cells, but the table has {expected} columns")]
     Ragged { found: usize, expected: usize },
     #[error("there is no column `{asked}`; the columns are {known}")]
@@ -52,7 +56,7 @@ pub enum DataProblem {
     #[error("column y is missing: play {input} and add the measured y")]
     NotMeasured { input: String },
     #[error("column `{column}`: the cell is empty or NaN")]
-    EmptyCell { column: String, is_prediction: bool },
+    EmptyCell { column: String, remedy: String },
     #[error("column `{column}`: `{cell}` is not a number")]
     NotANumber { column: String, cell: String },
     #[error("column `{column}`: `{cell}` is not an ISO 8601 time as in the rows above")]
@@ -61,24 +65,30 @@ pub enum DataProblem {
     NotFinite { column: String, cell: String },
     #[error("column `{column}`: {count} more cells like this")]
     More { column: String, count: usize },
+    #[error("column `{column}`: `{cell}` is no time that can be read")]
+    NotATime { column: String, cell: String, remedy: String },
+    #[error(
+        "column `{column}`: the decimal sign of `{cell}` is {found}, but that of other columns {elsewhere}"
+    )]
+    OtherDecimal { column: String, cell: String, found: &'static str, elsewhere: &'static str },
     #[error("column `{column}`: the time stamp {now} does not lie after the one before it, {before}")]
-    NotIncreasing { column: String, before: f64, now: f64 },
+    NotIncreasing { column: String, before: String, now: String, remedy: String },
     #[error(
         "column `{column}`: {before} is followed by {now}, a step of {step} s where the sample time is {sample_time} s"
     )]
-    Gap { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
+    Gap { column: String, before: String, now: String, step: f64, sample_time: f64, remedy: String },
     #[error(
-        "column `{column}`: uneven sampling: {before} is followed by {now}, a step of {step} s where the typical one is {sample_time} s"
+        "column `{column}`: uneven sampling: {before} is followed by {now}, a step of {step} s where the mean one is {sample_time} s"
     )]
-    Uneven { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
+    Uneven { column: String, before: String, now: String, step: f64, sample_time: f64, remedy: String },
     #[error(
         "column `{column}`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s"
     )]
-    OtherSampleTime { column: String, mean_step: f64, sample_time: f64 },
+    OtherSampleTime { column: String, mean_step: f64, sample_time: f64, remedy: String },
     #[error("the sample time is not known: {reason}")]
     NoSampleTime { reason: String, remedy: String },
     #[error("the sample time is {here} s here, but {there} s in {other}")]
-    SampleTimesDiffer { here: f64, there: f64, other: String },
+    SampleTimesDiffer { here: f64, there: f64, other: String, remedy: String },
     #[error("the column is `{here}` here, but `{there}` in {other}")]
     UnitsDiffer { here: String, there: String, other: String },
     #[error("the input `{column}` never moves, in this file nor in any other that is fitted")]
@@ -86,13 +96,13 @@ pub enum DataProblem {
     #[error(
         "cut, the record leaves {fitted} samples to fit and {held_out} held out; each side needs at least {needed} in one piece"
     )]
-    CutTooShort { fitted: usize, held_out: usize, needed: usize },
+    CutTooShort { fitted: usize, held_out: usize, needed: usize, remedy: String },
     #[error("the record has {found} samples; at least {needed} are needed")]
     TooShort { found: usize, needed: usize },
     #[error(
         "dropouts cut the {rows} rows into pieces so short that {left} rows are left in usable ones (of {needed} samples or more)"
     )]
-    Shattered { rows: usize, left: usize, needed: usize },
+    Shattered { rows: usize, left: usize, needed: usize, remedy: String },
 }
 
 impl DataProblem {
@@ -117,32 +127,29 @@ impl DataProblem {
             Self::LookAlike { meant, .. } => {
                 format!("write `{meant}` if that is meant, else give the column another name")
             }
-            Self::EmptyCell { is_prediction: true, .. } => {
-                "a prediction must cover every sample: fill the gap, or leave the column y_sim out".to_owned()
+            Self::OtherDecimal { .. } => "write all numbers of the file with the same decimal sign".to_owned(),
+            Self::CommasTwice { .. } => {
+                "save the file with semicolons or tabs between columns, or with decimal points".to_owned()
             }
-            Self::EmptyCell { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
             Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } | Self::More { .. } => {
                 "write a finite number, or leave the cell empty where nothing was measured".to_owned()
             }
-            Self::NotIncreasing { .. } => {
-                "sort the rows by time and remove repeated ones; give runs that start anew files of their own; where stamps are too coarse to tell the rows apart, use `--time none` with `--rate HZ`".to_owned()
-            }
-            Self::Gap { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
-            Self::Uneven { .. } => {
-                "add `--resample` (`resample = true` in a rig file) to interpolate linearly to the typical step, or `--time none --rate HZ` if the stamps, not the samples, are uneven".to_owned()
-            }
-            Self::OtherSampleTime { mean_step, .. } => {
-                format!("write `sample_time = {mean_step}` (`--sample-time {mean_step}`), or leave it out: the time column tells it")
-            }
-            Self::SampleTimesDiffer { .. } => "diagnose records of different sample times one by one, or resample them to one".to_owned(),
             Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
             Self::NeverMoves { column } => format!("fit to records in which `{column}` rises and falls; check that the column holds the input"),
-            Self::CutTooShort { .. } => "take a longer record, or hold out another file (`--holdout FILE`, in a rig file `use = \"holdout\"`)".to_owned(),
-            Self::Doubtful { remedy, .. } | Self::NoSampleTime { remedy, .. } => remedy.clone(),
+            Self::Doubtful { remedy, .. }
+            | Self::NoSampleTime { remedy, .. }
+            | Self::EmptyCell { remedy, .. }
+            | Self::NotATime { remedy, .. }
+            | Self::NotIncreasing { remedy, .. }
+            | Self::Gap { remedy, .. }
+            | Self::Uneven { remedy, .. }
+            | Self::OtherSampleTime { remedy, .. }
+            | Self::SampleTimesDiffer { remedy, .. }
+            | Self::CutTooShort { remedy, .. }
+            | Self::Shattered { remedy, .. } => remedy.clone(),
             Self::TooShort { .. } => {
                 "take a longer record; the fit needs more samples than there are coefficients".to_owned()
             }
-            Self::Shattered { .. } => "check the time column, or add `--resample` (`resample = true` in a rig file) to interpolate".to_owned(),
         }
     }
 }

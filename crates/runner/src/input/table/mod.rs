@@ -48,6 +48,8 @@ pub(crate) struct Column {
     pub(crate) kind: Kind,
     /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
     pub(crate) values: Vec<f64>,
+    /// The cells as they stand in the file, of stamps only.
+    pub(crate) stamps: Vec<String>,
     /// The first cells that are neither a value nor missing.
     pub(crate) faults: Vec<Fault>,
     /// How many such cells there are.
@@ -85,9 +87,15 @@ impl Column {
         }
     }
 
-    /// Whether it holds numbers that can be an input or output.
+    /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
     pub(crate) fn is_number(&self) -> bool {
-        self.kind == Kind::Number && self.values.iter().any(|value| value.is_finite())
+        let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
+        self.kind == Kind::Number && is_meant()
+    }
+
+    /// A cell as it stands in the file, a number up to zeros that say nothing.
+    pub(crate) fn written(&self, row: usize) -> String {
+        self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
     }
 }
 
@@ -164,6 +172,7 @@ fn columns(head: &Head, width: usize) -> Vec<Column> {
         unit,
         kind: Kind::Number,
         values: Vec::new(),
+        stamps: Vec::new(),
         faults: Vec::new(),
         fault_count: 0,
     };
