@@ -6,7 +6,7 @@
 use crate::cmd;
 use crate::failure::CommandResult;
 use crate::input::closest;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use miette::Diagnostic;
 use std::ffi::OsString;
 use std::path::Path;
@@ -53,7 +53,17 @@ pub fn run(words: Vec<OsString>) -> CommandResult {
     if let Some(word) = words.get(1).and_then(|word| word.to_str()) {
         refuse_misspelt_verb(word)?;
     }
-    Cli::parse_from(words).run()
+    let matches = command().get_matches_from(words);
+    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).run()
+}
+
+/// The command line as clap reads it: `-1` is a value wherever one is expected, so that its own parser says what is wrong with it.
+fn command() -> clap::Command {
+    fn valued(argument: clap::Arg) -> clap::Arg {
+        let takes_value = argument.get_action().takes_values() && argument.get_long().is_some();
+        if takes_value { argument.allow_negative_numbers(true) } else { argument }
+    }
+    Cli::command().mut_args(valued).mut_subcommands(|verb| verb.mut_args(valued))
 }
 
 /// The first word is neither a verb nor a file.

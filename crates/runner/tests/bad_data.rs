@@ -184,6 +184,75 @@ fn all_faulty_cells_are_told_at_once() {
 }
 
 #[test]
+fn stamps_are_told_as_they_stand_in_the_file() {
+    let text = table("time,travel,force", |k, line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let second = if k == 99 { 5 } else { 7 };
+        Some(format!("2024-03-05T12:00:{second:02}.{:06},{},{}", 100 * k, cells[1], cells[2]))
+    });
+    refused(
+        &text,
+        &[],
+        &[
+            "bench.csv:101: column `time`: the time stamp 2024-03-05T12:00:05.009900 does not lie after the one before it, \
+             2024-03-05T12:00:07.009800",
+        ],
+    );
+}
+
+#[test]
+fn times_that_are_none_lead_to_iso_or_to_none() {
+    let text = table("timestamp,travel,force", |k, line| {
+        let (_, rest) = line.split_once(',')?;
+        Some(format!("05.03.2024 12:00:00.{:06},{rest}", 100 * k))
+    });
+    refused(
+        &text,
+        &[],
+        &["`05.03.2024 12:00:00.000000`, cannot be read", "2024-03-05T12:00:00.01", "--time none --rate HZ"],
+    );
+    refused(
+        &text,
+        &["--time", "timestamp"],
+        &["bench.csv:2: column `timestamp`", "is no time that can be read", "ISO 8601"],
+    );
+}
+
+#[test]
+fn decimal_signs_that_do_not_agree_are_named() {
+    let text: String = std::iter::once("time;travel;force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{t};{};{y}\n", format!("{v:.3}").replace('.', ","))))
+        .collect();
+    let cell = format!("{:.3}", rows().next().expect("a row").1).replace('.', ",");
+    refused(&text, &[], &["bench.csv:2: column `travel`", &format!("`{cell}` is a comma"), "597 more cells"]);
+    let message = Bench::new().with("a.csv", &text).refusal(&["a.csv"]);
+    assert_eq!(message.matches("help: ").count(), 1, "a remedy is told once: {message}");
+    let comma = |x: f64| format!("{x:.3}").replace('.', ",");
+    let twice: String = std::iter::once("time,travel,force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{},{},{}\n", comma(t), comma(v), comma(y))))
+        .collect();
+    refused(&twice, &[], &["bench.csv:1: the comma separates columns and decimals both"]);
+}
+
+#[test]
+fn remedies_are_those_of_the_command_line() {
+    let good = table("time [s],travel,force", |_, line| Some(line));
+    let message = Bench::new().with("a.csv", &good).refusal(&["a.csv", "--rate", "103"]);
+    assert!(message.contains("`--rate 100`") && !message.contains("sample_time ="), "{message}");
+    let message = Bench::new().with("a.csv", &good).refusal(&["a.csv", "--time", "none"]);
+    assert!(
+        message.contains("--time none --rate 100") && !message.contains("there is no time column"),
+        "{message}"
+    );
+    let slow: String = std::iter::once("time [s],travel,force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{},{v},{y}\n", 2.0 * t)))
+        .collect();
+    let bench = Bench::new().with("a.csv", &good).with("b.csv", &slow);
+    assert!(bench.refusal(&["a.csv", "b.csv", "--resample"]).contains("`--resample --rate 100`"));
+    assert!(bench.load(&["a.csv", "b.csv", "--resample", "--rate", "100"]).is_ok());
+}
+
+#[test]
 fn a_file_that_holds_no_table_is_told() {
     refused("", &[], &["the file is empty"]);
     refused("Dear reader,\nthis is a letter.\n", &[], &["no table was found"]);
@@ -260,9 +329,14 @@ fn everything_wrong_in_a_rig_file_is_told_at_once() {
     );
     let message = bench.refusal(&["rig.toml"]);
     println!("{message}");
-    for told in
-        ["4 things are wrong", "rig.toml:2:15", "unknown key `oder`", "`order = 99`", "unknown key `rule`"]
-    {
+    for told in [
+        "5 things are wrong",
+        "rig.toml:2:15",
+        "unknown key `oder`",
+        "`order = 99`",
+        "a.csv does not exist",
+        "unknown key `rule`",
+    ] {
         assert!(message.contains(told), "`{told}` is not in:\n{message}");
     }
     let bench = bench.with("rig.toml", "name = \"a\"\n[[record]]\nfile = \"a.csv\"\nuse = \"fit\"\n[[record]]\nfile = \"b.csv\"\nuse = \"holdout\"\n");

@@ -2,12 +2,16 @@
 
 mod closest;
 mod decode;
+pub(crate) mod json_file;
+mod kinds;
 mod mat;
 mod table;
+mod terms;
 mod text_file;
 mod toml_file;
 
 pub(crate) use closest::closest;
+pub(crate) use kinds::FileKind;
 pub(crate) use table::{Column, Kind, Table, TableError, unit};
 pub use table::{DataError, DataProblem, Place};
 pub use text_file::{FileError, read_text};

@@ -4,8 +4,10 @@ mod force;
 mod positive;
 mod quiet;
 mod threads;
+mod whole;
 
 pub use force::Force;
-pub use positive::positive;
+pub use positive::{number, positive};
 pub use quiet::Quiet;
 pub use threads::Threads;
+pub use whole::whole;

@@ -95,6 +95,32 @@ fn read_all(plan: &Plan) -> Result<Vec<Measured>, Vec<Located>> {
     })
 }
 
+/// What is wrong with the records of a plan that is wrong itself, as far as that does not follow from its own faults.
+pub(super) fn probe(plan: &Plan) -> Vec<Located> {
+    let mut found = read_all(plan).err().unwrap_or_default();
+    found.retain(|located| match &located.problem {
+        RigProblem::File(_) => true,
+        RigProblem::Data(error) => matches!(
+            error.problem,
+            DataProblem::Empty
+                | DataProblem::NoTable
+                | DataProblem::HeaderWidth { .. }
+                | DataProblem::CommasTwice { .. }
+                | DataProblem::Ragged { .. }
+                | DataProblem::UnknownColumn { .. }
+                | DataProblem::DuplicateColumn { .. }
+                | DataProblem::SameColumn { .. }
+                | DataProblem::LookAlike { .. }
+                | DataProblem::NotANumber { .. }
+                | DataProblem::OtherDecimal { .. }
+                | DataProblem::NotFinite { .. }
+                | DataProblem::More { .. }
+        ),
+        RigProblem::Toml(_) | RigProblem::Asked { .. } => false,
+    });
+    found
+}
+
 /// All files must speak of the same quantities at the same sample time.
 fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located>> {
     let first = &measured[0];

@@ -8,7 +8,7 @@ use super::resample::{self, Resampled};
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
 use super::voice::Voice;
-use crate::input::{Column, DataError, DataProblem, Kind, Place, Table};
+use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
 use std::ops::Range;
 use std::path::Path;
 
@@ -60,7 +60,8 @@ impl Measured {
     /// # Errors
     /// All that is wrong with it.
     pub(super) fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
-        let table = Table::read(path).map_err(|error| vec![error.into()])?;
+        let table = Table::read(path, if request.needs_output { 2 } else { 1 })
+            .map_err(|error| vec![error.into()])?;
         let at = |place, problem| RigProblem::Data(DataError { path: table.path.clone(), place, problem });
         let mut problems: Vec<RigProblem> = table.faults.iter().cloned().map(RigProblem::Data).collect();
         let selection = match Selection::of(&table, request.names, request.voice, request.needs_output) {
@@ -97,6 +98,19 @@ impl Measured {
             _ => self.rows[self.pieces[1].start],
         };
         Some(DataError { path: self.table.path.clone(), place: Some(self.table.places[row]), problem })
+    }
+
+    /// The time of every sample as it stands in the file; none without a time column, or where rows were interpolated.
+    pub(super) fn times(&self) -> Option<Vec<String>> {
+        let column = &self.table.columns[self.selection.time?];
+        let is_read = !matches!(self.source, ClockSource::Resampled(_));
+        is_read.then(|| self.rows.iter().map(|&row| column.written(row)).collect())
+    }
+
+    /// The unit of these times where it is not the second.
+    pub(super) fn time_unit(&self) -> Option<String> {
+        let unit = self.table.columns[self.selection.time?].unit.clone()?;
+        (unit::seconds(&unit) != Some(1.0)).then_some(unit)
     }
 
     pub(super) fn input(&self) -> &Column {
@@ -200,8 +214,9 @@ impl Signals<'_> {
         let mut problems: Vec<(usize, DataProblem)> =
             column.faults.iter().map(|fault| (fault.row, told(&fault.cell))).collect();
         let count = column.fault_count - column.faults.len();
-        if let (Some((row, _)), true) = (problems.last(), count > 0) {
-            problems.push((*row, DataProblem::More { column: column.label(), count }));
+        if let (Some((row, last)), true) = (problems.last(), count > 0) {
+            let remedy = last.remedy();
+            problems.push((*row, DataProblem::More { column: column.label(), count, remedy }));
         }
         problems
     }

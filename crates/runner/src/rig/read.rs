@@ -1,11 +1,11 @@
 //! From a rig file to a [`Plan`], and from that to a [`Rig`].
 
-use super::assemble::{Loaded, Located, assemble};
+use super::assemble::{Loaded, Located, assemble, probe};
 use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
-use super::voice::Voice;
+use super::voice::{Voice, in_shell};
 use super::wire::{WireColumns, WireRecord, WireRig};
-use crate::input::{DataProblem, FileError, TomlError, TomlFile};
+use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
@@ -30,12 +30,30 @@ pub fn read(path: &Path) -> Result<Rig, RigError> {
 /// As [`read`].
 pub fn load(path: &Path) -> Result<Loaded, RigError> {
     let file = TomlFile::read(path)?;
-    let (plan, spans) = plan(&file)
-        .map_err(|problems| RigError::new(problems.into_iter().map(RigProblem::Toml).collect()))?;
-    assemble(&plan).map_err(|problems| {
-        let placed = |located: Located| placed_in(&file, &plan, &spans, located);
-        RigError::new(problems.into_iter().map(placed).collect())
-    })
+    refuse_other_kinds(&file)?;
+    let Draft { plan, spans, problems } = draft(&file);
+    let found = match problems.is_empty() {
+        true => match assemble(&plan) {
+            Ok(loaded) => return Ok(loaded),
+            Err(found) => found,
+        },
+        // Faults of the records that do not come from those of the rig file.
+        false => probe(&plan),
+    };
+    let mut placed: Vec<(usize, RigProblem)> =
+        problems.into_iter().map(|problem| (problem.line(), problem.into())).collect();
+    placed.extend(found.into_iter().map(|located| {
+        let record = located.record;
+        let problem = placed_in(&file, &plan, &spans, located);
+        let line = match (&problem, record) {
+            (RigProblem::Toml(problem), _) => problem.line(),
+            (_, Some(record)) => file.line(&spans[record]),
+            (_, None) => usize::MAX,
+        };
+        (line, problem)
+    }));
+    placed.sort_by_key(|(line, _)| *line);
+    Err(RigError::new(placed.into_iter().map(|(_, problem)| problem).collect()))
 }
 
 /// Reads the files of a plan made elsewhere.
@@ -77,42 +95,53 @@ fn placed_in(file: &TomlFile, plan: &Plan, spans: &[Range<usize>], located: Loca
     }
 }
 
-/// The plan, and where each record's file is named.
-fn plan(file: &TomlFile) -> Result<(Plan, Vec<Range<usize>>), Vec<TomlError>> {
-    refuse_other_kinds(file).map_err(|error| vec![error])?;
+/// What a rig file says, as far as it can be read.
+struct Draft {
+    plan: Plan,
+    /// Where each record's file is named.
+    spans: Vec<Range<usize>>,
+    /// What is wrong in it.
+    problems: Vec<TomlError>,
+}
+
+fn draft(file: &TomlFile) -> Draft {
     let (wire, mut problems) = file.parse_all::<WireRig>();
-    let Some(wire) = wire else { return Err(problems) };
-    let is_whole = problems.is_empty();
+    let wire = wire.unwrap_or_default();
+    let keys = Keys::of(file);
     let mut noted = |problem: Result<(), TomlError>| problems.extend(problem.err());
     let order = wire.order.as_ref().map_or(Ok(None), |order| check_order(file, order).map(Some));
     let interval = wire.interval.as_ref().map_or(Ok(None), |ends| check_interval(file, ends).map(Some));
-    noted(check_name(file, &wire, is_whole));
+    noted(check_name(file, &wire, keys.lacks("name")));
     noted(wire.sample_time.as_ref().map_or(Ok(()), |time| check_sample_time(file, time)));
     let order = order.map_err(|error| noted(Err(error))).unwrap_or_default();
     let interval = interval.map_err(|error| noted(Err(error))).unwrap_or_default();
-    if let (Some(name), true) = (&wire.name, wire.record.is_empty() && is_whole) {
+    if wire.record.is_empty() && keys.lacks("record") {
         noted(Err(file.error(
-            name.span(),
+            wire.name.as_ref().map_or(0..0, Spanned::span),
             "the rig has no record",
             "add a table [[record]] with `file`, `role` and `use` for every CSV file",
         )));
+        if keys.lacks("sample_time") {
+            noted(Err(file.error(
+                0..0,
+                "missing key `sample_time`",
+                "add `sample_time = SECONDS`; it may be left out only where a time column tells it",
+            )));
+        }
     }
-    let found: Vec<_> = wire.record.iter().map(|record| planned(file, record, is_whole)).collect();
     let (mut records, mut spans) = (Vec::new(), Vec::new());
-    for record in found {
-        match record {
-            Ok((record, span)) => {
-                records.push(record);
-                spans.push(span);
-            }
-            Err(found) => found.into_iter().for_each(|error| noted(Err(error))),
+    for (k, wire) in wire.record.iter().enumerate() {
+        let (record, span) = planned(file, wire);
+        for error in record_faults(file, wire, &keys.of_record(k)) {
+            noted(Err(error));
+        }
+        if wire.get_ref().file.is_some() {
+            records.push(record);
+            spans.push(span);
         }
     }
     noted(check_uses(file, &records, &spans));
     check_twins(file, &records, &spans).into_iter().for_each(|error| noted(Err(error)));
-    if !problems.is_empty() {
-        return Err(problems);
-    }
     let plan = Plan {
         name: wire.name.map(Spanned::into_inner).unwrap_or_default(),
         columns: names(&wire.columns),
@@ -127,20 +156,43 @@ fn plan(file: &TomlFile) -> Result<(Plan, Vec<Range<usize>>), Vec<TomlError>> {
         records,
         voice: Voice::Manifest,
     };
-    Ok((plan, spans))
+    Draft { plan, spans, problems }
+}
+
+/// The keys of a table as they are written, whether their values can be used or not.
+struct Keys(Option<toml::Table>);
+
+impl Keys {
+    fn of(file: &TomlFile) -> Self {
+        Self(file.text().parse().ok())
+    }
+
+    fn of_record(&self, k: usize) -> Self {
+        let record = self.0.as_ref().and_then(|table| table.get("record")?.get(k)?.as_table());
+        Self(record.cloned())
+    }
+
+    /// Whether a key is missing rather than misspelt.
+    fn lacks(&self, key: &str) -> bool {
+        let Some(table) = &self.0 else { return false };
+        !table.contains_key(key) && table.keys().all(|other| closest(other, [key]).is_none())
+    }
 }
 
 /// A file of the wrong kind is told as such, rather than by its first unknown key.
 fn refuse_other_kinds(file: &TomlFile) -> Result<(), TomlError> {
-    let table: Option<toml::Table> = file.text().parse().ok();
-    if table.is_some_and(|table| table.contains_key("study") && !table.contains_key("record")) {
-        return Err(file.error(
-            0..0,
-            "this is a scenario, but a rig file is wanted",
-            format!("run a scenario with `switchback {}`", file.path().display()),
-        ));
-    }
-    Ok(())
+    let path = file.path().display().to_string();
+    let shown = in_shell(&path);
+    let (kind, remedy) = match FileKind::of(file.path()) {
+        Some(FileKind::Scenario) => ("a scenario", format!("run a scenario with `switchback {shown}`")),
+        Some(FileKind::Data) => (
+            "data",
+            format!("write its rig file first: `switchback init {shown} --out rig.toml`, and give that"),
+        ),
+        Some(FileKind::Json(kind)) => (kind, "give a rig file, or files of measurements".to_owned()),
+        Some(FileKind::Rig) | None => return Ok(()),
+    };
+    Err(file.error(0..0, format!("this is {kind}, but a rig file is wanted"), remedy))
 }
 
 fn names(WireColumns { time, input, output }: &WireColumns) -> ColumnNames {
@@ -151,13 +203,12 @@ fn missing(file: &TomlFile, span: Range<usize>, key: &str) -> TomlError {
     file.error(span, format!("missing key `{key}`"), format!("add `{key} = …`"))
 }
 
-/// Where keys were refused already, one that is missing may be among them.
-fn check_name(file: &TomlFile, wire: &WireRig, is_whole: bool) -> Result<(), TomlError> {
+fn check_name(file: &TomlFile, wire: &WireRig, is_missing: bool) -> Result<(), TomlError> {
     match &wire.name {
         Some(name) if name.get_ref().trim().is_empty() => {
             Err(file.error(name.span(), "`name` is empty", "give the rig a name"))
         }
-        None if is_whole => Err(missing(file, 0..0, "name")),
+        None if is_missing => Err(missing(file, 0..0, "name")),
         _ => Ok(()),
     }
 }
@@ -199,37 +250,9 @@ fn check_interval(file: &TomlFile, ends: &Spanned<Vec<f64>>) -> Result<Interval,
     })
 }
 
-fn planned(
-    file: &TomlFile,
-    record: &Spanned<WireRecord>,
-    is_whole: bool,
-) -> Result<(PlannedRecord, Range<usize>), Vec<TomlError>> {
+/// A record, and where its file is named.
+fn planned(file: &TomlFile, record: &Spanned<WireRecord>) -> (PlannedRecord, Range<usize>) {
     let wire = record.get_ref();
-    let mut problems = Vec::new();
-    if let (None, true) = (&wire.file, is_whole) {
-        problems.push(missing(file, record.span(), "file"));
-    }
-    if let (None, true) = (wire.usage, is_whole) {
-        problems.push(missing(file, record.span(), "use"));
-    }
-    let usage = wire.usage.map_or(Usage::Fit, Usage::from);
-    if let Some(share) = &wire.holdout {
-        let told = |message: String, remedy: &str| file.error(share.span(), message, remedy);
-        if !(*share.get_ref() > 0.0 && *share.get_ref() < 1.0) {
-            let message = format!("`holdout = {}` is no share of a record", share.get_ref());
-            problems.push(told(
-                message,
-                "give a number between 0 and 1: that share of the record, at its end, is held out",
-            ));
-        } else if usage == Usage::Holdout {
-            let message =
-                "`holdout` says which share of a fit record is held out, but all of this one is".to_owned();
-            problems.push(told(message, "leave `holdout` out, or write `use = \"fit\"`"));
-        }
-    }
-    if !problems.is_empty() {
-        return Err(problems);
-    }
     let (named, span) = match &wire.file {
         Some(named) => (named.get_ref().clone(), named.span()),
         None => (String::new(), record.span()),
@@ -239,10 +262,35 @@ fn planned(
         named,
         columns: names(&wire.columns),
         role: wire.role.into(),
-        usage,
+        usage: wire.usage.map_or(Usage::Fit, Usage::from),
         held_out: wire.holdout.as_ref().map(|share| *share.get_ref()),
     };
-    Ok((record, span))
+    (record, span)
+}
+
+fn record_faults(file: &TomlFile, record: &Spanned<WireRecord>, keys: &Keys) -> Vec<TomlError> {
+    let wire = record.get_ref();
+    let mut problems = Vec::new();
+    for (key, is_there) in [("file", wire.file.is_some()), ("use", wire.usage.is_some())] {
+        if !is_there && keys.lacks(key) {
+            problems.push(missing(file, record.span(), key));
+        }
+    }
+    if let Some(share) = &wire.holdout {
+        let told = |message: String, remedy: &str| file.error(share.span(), message, remedy);
+        if !(*share.get_ref() > 0.0 && *share.get_ref() < 1.0) {
+            let message = format!("`holdout = {}` is no share of a record", share.get_ref());
+            problems.push(told(
+                message,
+                "give a number between 0 and 1: that share of the record, at its end, is held out",
+            ));
+        } else if wire.usage.map(Usage::from) == Some(Usage::Holdout) {
+            let message =
+                "`holdout` says which share of a fit record is held out, but all of this one is".to_owned();
+            problems.push(told(message, "leave `holdout` out, or write `use = \"fit\"`"));
+        }
+    }
+    problems
 }
 
 fn check_uses(file: &TomlFile, records: &[PlannedRecord], spans: &[Range<usize>]) -> Result<(), TomlError> {

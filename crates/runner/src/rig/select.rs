@@ -57,7 +57,9 @@ impl Selection {
         }
         let taken: Vec<usize> = [time, input, output, prediction].into_iter().flatten().collect();
         let free = |k: &usize| !taken.contains(k);
-        let time = time.or_else(|| if has_no_time { None } else { clock(table, &free) });
+        // A single column is a signal, however evenly it rises.
+        let has_clock = !has_no_time && table.columns.len() > 1;
+        let time = time.or_else(|| if has_clock { clock(table, &free) } else { None });
         let index = (0..table.columns.len()).filter(free).find(|&k| guess::is_index(&table.columns[k]));
         let is_signal = |k: &usize| {
             free(k) && Some(*k) != time && Some(*k) != index && table.columns[*k].is_number()

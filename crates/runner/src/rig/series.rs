@@ -15,7 +15,11 @@ pub struct InputSeries {
     pub start: f64,
     /// The input, at least one sample, finite.
     pub v: Vec<f64>,
-    /// The output, where the file has one; as many samples.
+    /// The time of every sample as it stands in the file, where it has one and no rows were interpolated.
+    pub times: Option<Vec<String>>,
+    /// The unit of these times where it is not the second.
+    pub time_unit: Option<String>,
+    /// The output, where the file has one; as many samples, NaN where none was measured.
     pub y: Option<Vec<f64>>,
     /// Name of the input's column, with its unit where the file gives one.
     pub input_label: String,
@@ -49,6 +53,8 @@ pub fn read_input(
         input_label: measured.input().label(),
         output_label: measured.output().map(crate::input::Column::label),
         notes: measured.table.notes.clone(),
+        times: measured.times(),
+        time_unit: measured.time_unit(),
         v: measured.v,
         y: measured.y,
     })

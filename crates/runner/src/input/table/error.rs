@@ -64,7 +64,7 @@ pub enum DataProblem {
     #[error("column `{column}`: `{cell}` is not finite")]
     NotFinite { column: String, cell: String },
     #[error("column `{column}`: {count} more cells like this")]
-    More { column: String, count: usize },
+    More { column: String, count: usize, remedy: String },
     #[error("column `{column}`: `{cell}` is no time that can be read")]
     NotATime { column: String, cell: String, remedy: String },
     #[error(
@@ -131,7 +131,7 @@ impl DataProblem {
             Self::CommasTwice { .. } => {
                 "save the file with semicolons or tabs between columns, or with decimal points".to_owned()
             }
-            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } | Self::More { .. } => {
+            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } => {
                 "write a finite number, or leave the cell empty where nothing was measured".to_owned()
             }
             Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
@@ -139,6 +139,7 @@ impl DataProblem {
             Self::Doubtful { remedy, .. }
             | Self::NoSampleTime { remedy, .. }
             | Self::EmptyCell { remedy, .. }
+            | Self::More { remedy, .. }
             | Self::NotATime { remedy, .. }
             | Self::NotIncreasing { remedy, .. }
             | Self::Gap { remedy, .. }

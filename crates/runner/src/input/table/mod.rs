@@ -100,16 +100,17 @@ impl Column {
 }
 
 impl Table {
-    /// Reads a file of measurements: text, or with the feature `matlab` a `.mat` file.
+    /// Reads a file of measurements of so many columns at least, one or two: text, or with the feature `matlab` a `.mat` file.
     ///
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
-    pub(crate) fn read(path: &Path) -> Result<Self, TableError> {
+    pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat")) {
             return super::mat::read(path);
         }
         let decoded = read_decoded(path).map_err(TableError::File)?;
-        let mut table = Self::parse(&path.display().to_string(), &decoded.text).map_err(TableError::Data)?;
+        let mut table =
+            Self::parse(&path.display().to_string(), &decoded.text, least).map_err(TableError::Data)?;
         if let Some(encoding) = decoded.encoding {
             table.notes.insert(0, format!("text in {encoding}"));
         }
@@ -117,12 +118,13 @@ impl Table {
     }
 
     /// The table in a text.
-    pub(crate) fn parse(path: &str, text: &str) -> Result<Self, DataError> {
+    pub(crate) fn parse(path: &str, text: &str, least: usize) -> Result<Self, DataError> {
         let fail = |place, problem| DataError { path: path.to_owned(), place, problem };
         if text.trim().is_empty() {
             return Err(fail(None, DataProblem::Empty));
         }
-        let dialect = Dialect::of(text).ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let single = || if least <= 1 { Dialect::single(text) } else { None };
+        let dialect = Dialect::of(text).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
         let head = Head::find(text, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
         let mut table = Self {
             path: path.to_owned(),
