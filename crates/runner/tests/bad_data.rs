@@ -271,6 +271,38 @@ fn a_record_that_stands_still_is_told() {
 }
 
 #[test]
+fn an_output_that_never_changes_is_told_by_its_name() {
+    let text =
+        table("time,travel,force", |_, line| line.rsplit_once(',').map(|(rest, _)| format!("{rest},3")));
+    refused(&text, &[], &["the output `force` never changes", "check the sensor"]);
+    refused("t,v,y\n0,1,2\n", &[], &["the record has 1 sample;"]);
+    let short: String = table("time,travel,force", |k, line| (k < 40).then_some(line));
+    let bench = Bench::new().with("a.csv", short);
+    for verb in ["gap", "identify"] {
+        let output = bench.switchback(&[verb, "a.csv"]).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!told.contains("in the rig file") && !told.contains("knots or"), "{told}");
+    }
+}
+
+#[test]
+fn values_that_cannot_have_been_measured_are_warned_of_and_used() {
+    let with = |k: usize, cell: &str| -> String {
+        let text = table("time,travel,force", |row, line| match (row == k, line.rsplit_once(',')) {
+            (true, Some((rest, _))) => Some(format!("{rest},{cell}")),
+            _ => Some(line),
+        });
+        let loaded = Bench::new().with("a.csv", text).load(&["a.csv"]).expect("a usable file");
+        loaded.told.warnings.join("\n")
+    };
+    assert_eq!(with(98, "60"), "");
+    let far = with(98, "1e300");
+    assert!(far.contains("a.csv:100: `force` is 1e300, ") && far.contains("leave the cell empty"), "{far}");
+    let sentinel = with(98, "-9999");
+    assert!(sentinel.contains("a.csv:100: `force` is -9999, "), "{sentinel}");
+}
+
+#[test]
 fn flags_that_do_not_go_together_are_refused() {
     let good = table("t,v,y", |_, line| Some(line));
     refused(&good, &["--holdout", "1.5"], &["--holdout 1.5 is no share"]);

@@ -77,6 +77,7 @@ fn numbers_that_cannot_be_are_told_in_plain_words() {
     plain(&["rig", "--out", "x", "--size", "large"], &["give a number"]);
     plain(&["design", "--out", "x", "--order", "0"], &["give a whole number from 1 to 20"]);
     plain(&["design", "--out", "x", "--periods", "0"], &["give a whole number from 1"]);
+    plain(&["gap", "rig.toml", "--foo"], &["unexpected argument '--foo'"]);
     let folder = Folder::with_good_rig();
     let output = folder.switchback(&["gap", "again.csv", "--input", "-1"]).output().expect("it runs");
     let told = String::from_utf8_lossy(&output.stderr).into_owned();

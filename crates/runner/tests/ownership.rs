@@ -154,6 +154,19 @@ fn what_a_former_diagnosis_left_is_removed() {
 }
 
 #[test]
+fn what_is_written_does_not_ask_for_out() {
+    let folder = Folder::with_good_rig();
+    let made = ["rig", "--effect", "backlash", "--size", "0.7", "--seed", "3", "--out", "made"];
+    assert_eq!(folder.switchback(&made).output().expect("it runs").status.code(), Some(0));
+    let output = folder.switchback(&["gap", "made/rig.toml", "--out", "out"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let verdict = fs::read_to_string(folder.path("out/verdict.txt")).expect("a verdict");
+    assert!(!verdict.contains("--out"), "{verdict}");
+    assert!(!String::from_utf8_lossy(&output.stdout).contains("--out"));
+    println!("{verdict}");
+}
+
+#[test]
 fn nothing_that_is_read_is_written() {
     let folder = Folder::with_good_rig();
     folder.write("m.csv", &fs::read_to_string(folder.path("again.csv")).expect("a record"));

@@ -371,3 +371,22 @@ fn what_does_not_fit_in_a_model_is_named_by_its_keys_and_not_by_types() {
         &["this is a diagnosis, but a model is wanted"],
     );
 }
+
+#[test]
+fn a_model_of_other_units_is_refused() {
+    let folder = Folder::with_good_rig();
+    let measured = fs::read_to_string(folder.path("again.csv")).expect("a record");
+    let with = |header: &str| measured.replacen("t,v,y", header, 1);
+    folder.write("mm.csv", &with("t,travel [mm],force [N]"));
+    folder.write("m.csv", &with("t,travel [m],force [N]"));
+    folder.write("kn.csv", &with("t,travel [mm],force [kN]"));
+    run(&folder, &["identify", "mm.csv", "--json", "--out", "found"]);
+    let input = "the model was identified on travel in mm, this";
+    refused(&folder, &["simulate", "found/model.json", "m.csv"], &["m.csv: ", input, "file has m", "to mm"]);
+    refused(&folder, &["simulate", "found/model.json", "kn.csv"], &["force in N, this file has kN"]);
+    refused(&folder, &["gap", "m.csv", "--model", "found/model.json"], &[input, "rig has m"]);
+    simulated(&folder, "found/model.json", "mm.csv");
+    simulated(&folder, "found/model.json", "again.csv");
+    let (_, told) = written(&folder, "kn.csv", &["--output", "none"]);
+    assert!(told.contains("begins at rest"), "{told}");
+}

@@ -92,7 +92,7 @@ fn artefacts(report: &Report) -> Artefacts {
         artefacts.add(name, file.text());
     }
     artefacts.add("series.csv", model::diagnosed_series(report));
-    artefacts.add("verdict.txt", diagnosis::words(report, None));
+    artefacts.add("verdict.txt", diagnosis::verdict(report));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);
     }

@@ -87,6 +87,8 @@ pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let input = played(args, file.header.sample_time)?;
     let target = args.force.claim_file(args.out.as_deref(), &[&args.file, &args.model])?;
+    let labels = [input.input_label.as_str(), input.output_label.as_deref().unwrap_or_default()];
+    file.header.check_units(labels, (&args.file, "file"))?;
     let run = free_run(&file, &input)
         .ok_or_else(|| SimulateError::NoRun { input: args.file.display().to_string() })?;
     let page = Page::of(&file, &input, &run);
@@ -213,7 +215,11 @@ impl<'a> Page<'a> {
             samples: input.v.len() - run.start,
             fit_percent: run.fit_percent.filter(|fit| fit.is_finite()),
             covered: input.y.as_ref().and_then(|y| run.covered(y)),
-            warnings: header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
+            warnings: [
+                input.warnings.clone(),
+                header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
+            ]
+            .concat(),
             notes: [input.notes.as_slice(), &run.notes].concat(),
             version: env!("CARGO_PKG_VERSION"),
         }

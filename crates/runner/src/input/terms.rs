@@ -87,20 +87,20 @@ impl Terms {
             "variant identifier" | "field identifier" => "one of the names known here",
             other if other.starts_with("enum ") => "one of the names known here",
             other if other.starts_with("struct ") => self.object(),
-            other => return counted(other).unwrap_or_else(|| other.to_owned()),
+            other => return self.counted(other).unwrap_or_else(|| other.to_owned()),
         };
         told.to_owned()
     }
-}
 
-/// `a tuple of size 3`, `an array of length 3`, `tuple variant X with 3 elements` and the like.
-fn counted(theirs: &str) -> Option<String> {
-    let is_list = theirs.contains("tuple") || theirs.contains("array");
-    let count: usize = theirs.split(' ').find_map(|word| word.parse().ok()).filter(|_| is_list)?;
-    Some(match count {
-        2 => "two numbers, [low, high]".to_owned(),
-        count => format!("a list of {count} entries"),
-    })
+    /// `a tuple of size 3`, `an array of length 3`, `tuple variant X with 3 elements` and the like.
+    fn counted(self, theirs: &str) -> Option<String> {
+        let is_list = theirs.contains("tuple") || theirs.contains("array");
+        let count: usize = theirs.split(' ').find_map(|word| word.parse().ok()).filter(|_| is_list)?;
+        Some(match (self, count) {
+            (Self::Toml, 2) => "two numbers, [low, high]".to_owned(),
+            (_, count) => format!("a list of {count} entries"),
+        })
+    }
 }
 
 #[cfg(test)]
@@ -121,10 +121,7 @@ mod tests {
                 "invalid type: sequence, expected struct variant BorderColumn::Bristle",
                 "expected an object, found a list",
             ),
-            (
-                "invalid length 1, expected a tuple of size 2",
-                "expected two numbers, [low, high], found 1 entries",
-            ),
+            ("invalid length 1, expected a tuple of size 2", "expected a list of 2 entries, found 1 entries"),
             ("unknown variant `x`, expected `a` or `b`", "`x` is not known here, expected `a` or `b`"),
             ("unknown field `x`, there are no fields", "unknown field `x`, no field is known here"),
             ("missing field `a`", "there is no field `a`"),

@@ -6,7 +6,7 @@ use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
 use super::told::{self, Told};
 use super::voice::Voice;
-use crate::input::{DataError, DataProblem};
+use crate::input::{Column, DataError, DataProblem};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
@@ -192,7 +192,7 @@ fn rig_records(divided: &Divided, record: &PlannedRecord, name: &str) -> Result<
 }
 
 /// `force [N]`, or the name; a column that is called as its signal is called that.
-fn label(column: &crate::input::Column, signal: &str, otherwise: &str) -> String {
+fn label(column: &Column, signal: &str, otherwise: &str) -> String {
     let is_nameless = column.name.eq_ignore_ascii_case(signal) || column.name.starts_with("column ");
     match (&column.unit, is_nameless) {
         (_, false) => column.label(),
@@ -201,14 +201,19 @@ fn label(column: &crate::input::Column, signal: &str, otherwise: &str) -> String
     }
 }
 
-/// A system that was never moved cannot be identified.
+/// A system that was never moved, or never answered, cannot be identified.
 fn check_motion(plan: &Plan, rig: &Rig, first: &Measured) -> Result<(), Vec<Located>> {
-    let stands = |record: &RigRecord| record.record.v().windows(2).all(|pair| pair[0] == pair[1]);
-    if !rig.fit_records().all(stands) {
+    let stands = |of: fn(&Record) -> &[f64]| {
+        rig.fit_records().all(|record| of(&record.record).windows(2).all(|pair| pair[0] == pair[1]))
+    };
+    let problem = if stands(Record::v) {
+        DataProblem::NeverMoves { column: first.input().label() }
+    } else if stands(Record::y) {
+        DataProblem::NeverChanges { column: first.output().map(Column::label).unwrap_or_default() }
+    } else {
         return Ok(());
-    }
+    };
     let record = plan.records.iter().position(|record| record.usage == Usage::Fit).unwrap_or(0);
-    let problem = DataProblem::NeverMoves { column: first.input().label() };
     let path = plan.records[record].path.display().to_string();
     Err(vec![Located { record: Some(record), problem: DataError { path, place: None, problem }.into() }])
 }

@@ -31,6 +31,7 @@ mod resample;
 mod sampling;
 mod select;
 mod series;
+mod spikes;
 mod told;
 mod voice;
 mod wire;

@@ -25,6 +25,8 @@ pub struct InputSeries {
     pub input_label: String,
     /// Name of the output's column.
     pub output_label: Option<String>,
+    /// Values that cannot have been measured, one sentence each.
+    pub warnings: Vec<String>,
     /// How the file was read, where that is not how such files usually look.
     pub notes: Vec<String>,
 }
@@ -52,6 +54,7 @@ pub fn read_input(
         start: measured.start,
         input_label: measured.input().label(),
         output_label: measured.output().map(crate::input::Column::label),
+        warnings: super::spikes::warnings(&measured),
         notes: measured.table.notes.clone(),
         times: measured.times(),
         time_unit: measured.time_unit(),

@@ -93,16 +93,22 @@ pub enum DataProblem {
     UnitsDiffer { here: String, there: String, other: String },
     #[error("the input `{column}` never moves, in this file nor in any other that is fitted")]
     NeverMoves { column: String },
+    #[error("the output `{column}` never changes, in this file nor in any other that is fitted")]
+    NeverChanges { column: String },
     #[error(
-        "cut, the record leaves {fitted} samples to fit and {held_out} held out; each side needs at least {needed} in one piece"
+        "cut, the record leaves {} to fit and {held_out} held out; each side needs at least {needed} in one piece", samples(*fitted)
     )]
     CutTooShort { fitted: usize, held_out: usize, needed: usize, remedy: String },
-    #[error("the record has {found} samples; at least {needed} are needed")]
+    #[error("the record has {}; at least {needed} are needed", samples(*found))]
     TooShort { found: usize, needed: usize },
     #[error(
         "dropouts cut the {rows} rows into pieces so short that {left} rows are left in usable ones (of {needed} samples or more)"
     )]
     Shattered { rows: usize, left: usize, needed: usize, remedy: String },
+}
+
+fn samples(count: usize) -> String {
+    format!("{count} sample{}", if count == 1 { "" } else { "s" })
 }
 
 impl DataProblem {
@@ -136,6 +142,9 @@ impl DataProblem {
             }
             Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
             Self::NeverMoves { column } => format!("fit to records in which `{column}` rises and falls; check that the column holds the input"),
+            Self::NeverChanges { column } => {
+                format!("check the sensor, and that `{column}` is the column of the output")
+            }
             Self::Doubtful { remedy, .. }
             | Self::NoSampleTime { remedy, .. }
             | Self::EmptyCell { remedy, .. }
