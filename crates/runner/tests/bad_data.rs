@@ -224,7 +224,15 @@ fn decimal_signs_that_do_not_agree_are_named() {
         .chain(rows().map(|(t, v, y)| format!("{t};{};{y}\n", format!("{v:.3}").replace('.', ","))))
         .collect();
     let cell = format!("{:.3}", rows().next().expect("a row").1).replace('.', ",");
-    refused(&text, &[], &["bench.csv:2: column `travel`", &format!("`{cell}` is a comma"), "597 more cells"]);
+    refused(
+        &text,
+        &[],
+        &[
+            "bench.csv:2: column `travel`",
+            &format!("`{cell}` is a comma, but not that of other columns"),
+            "597 more cells",
+        ],
+    );
     let message = Bench::new().with("a.csv", &text).refusal(&["a.csv"]);
     assert_eq!(message.matches("help: ").count(), 1, "a remedy is told once: {message}");
     let comma = |x: f64| format!("{x:.3}").replace('.', ",");

@@ -220,7 +220,8 @@ fn timed(name: &str, time: impl Fn(usize) -> String) -> String {
 
 #[test]
 fn counts_since_1970_are_told_by_their_size() {
-    let epochs: [(&str, fn(usize) -> String); 4] = [
+    type Printed = fn(usize) -> String;
+    let epochs: [(&str, Printed); 4] = [
         ("seconds", |k| format!("{:.2}", 1_700_000_000.0 + k as f64 / 100.0)),
         ("milliseconds", |k| (1_700_000_000_000 + 10 * k).to_string()),
         ("microseconds", |k| (1_700_000_000_000_000 + 10_000 * k).to_string()),

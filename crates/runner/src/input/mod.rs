@@ -13,6 +13,6 @@ mod toml_file;
 pub(crate) use closest::closest;
 pub(crate) use kinds::FileKind;
 pub(crate) use table::{Column, Kind, Table, TableError, unit};
-pub use table::{DataError, DataProblem, Place};
+pub use table::{DataError, DataProblem, Place, Step};
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};

@@ -8,20 +8,11 @@ use thiserror::Error;
 
 /// A signal is in another unit than the model's.
 #[derive(Debug, Error, Diagnostic)]
-#[error("{file}: the model was identified on {name} in {model}, this {what} has {data}")]
-#[diagnostic(help("bring `{label}` to {model}, or correct the header if only that is wrong"))]
+#[error("{message}")]
+#[diagnostic(help("{remedy}"))]
 pub struct UnitError {
-    /// The file with the signal.
-    file: String,
-    /// The model's name of it.
-    name: String,
-    /// The model's unit.
-    model: String,
-    /// The signal's unit.
-    data: String,
-    /// The signal's label.
-    label: String,
-    what: &'static str,
+    message: String,
+    remedy: String,
 }
 
 impl Header {
@@ -39,13 +30,14 @@ impl Header {
             let (model, data) = (unit(own), unit(label));
             if !model.is_empty() && !data.is_empty() && plain(model) != plain(data) {
                 let name = own.split_once('[').map_or(own.as_str(), |(name, _)| name.trim());
+                let file = file.display();
                 return Err(UnitError {
-                    file: file.display().to_string(),
-                    name: name.to_owned(),
-                    model: model.to_owned(),
-                    data: data.to_owned(),
-                    label: label.to_owned(),
-                    what,
+                    message: format!(
+                        "{file}: the model was identified on {name} in {model}, this {what} has {data}"
+                    ),
+                    remedy: format!(
+                        "bring `{label}` to {model}, or correct the header if only that is wrong"
+                    ),
                 });
             }
         }

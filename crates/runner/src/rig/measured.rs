@@ -1,13 +1,13 @@
 //! One file of a plan: its columns as evenly sampled pieces.
 
 use super::clock::Clock;
-use super::guess;
 use super::plan::{ColumnNames, NO_TIME, Sampling};
 use super::problem::RigProblem;
 use super::resample::{self, Resampled};
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
 use super::voice::Voice;
+use super::{faults, guess};
 use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
 use std::ops::Range;
 use std::path::Path;
@@ -202,23 +202,7 @@ impl Signals<'_> {
 
     fn column_faults(&self, column: &Column) -> Vec<(usize, DataProblem)> {
         let is_time = self.selection.time.is_some_and(|time| std::ptr::eq(self.column(time), column));
-        let told = |cell: &str| match column.kind {
-            Kind::Stamp => DataProblem::NotAStamp { column: column.label(), cell: cell.to_owned() },
-            Kind::Text if is_time => DataProblem::NotATime {
-                column: column.label(),
-                cell: cell.to_owned(),
-                remedy: self.request.voice.no_times(),
-            },
-            _ => fault(column, cell),
-        };
-        let mut problems: Vec<(usize, DataProblem)> =
-            column.faults.iter().map(|fault| (fault.row, told(&fault.cell))).collect();
-        let count = column.fault_count - column.faults.len();
-        if let (Some((row, last)), true) = (problems.last(), count > 0) {
-            let remedy = last.remedy();
-            problems.push((*row, DataProblem::More { column: column.label(), count, remedy }));
-        }
-        problems
+        faults::of(column, is_time.then(|| self.request.voice.no_times()))
     }
 
     fn complete_rows(&self) -> Vec<usize> {
@@ -337,23 +321,6 @@ impl Signals<'_> {
         let empty = self.parts().find(|part| part.values[row.min(part.values.len() - 1)].is_nan());
         let column = empty.map_or_else(|| self.column(self.selection.input).label(), Column::label);
         DataProblem::EmptyCell { column, remedy: self.request.voice.whole() }
-    }
-}
-
-/// What is wrong with a cell that holds no value, by its text.
-fn fault(column: &Column, cell: &str) -> DataProblem {
-    let (column, cell) = (column.label(), cell.to_owned());
-    let is_finite = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
-    match cell.parse::<f64>() {
-        // A point is read wherever it is the file's own sign.
-        Ok(x) if x.is_finite() => {
-            DataProblem::OtherDecimal { column, cell, found: "a point", elsewhere: "a comma" }
-        }
-        Ok(_) => DataProblem::NotFinite { column, cell },
-        Err(_) if !cell.contains('.') && is_finite(&cell.replacen(',', ".", 1)) => {
-            DataProblem::OtherDecimal { column, cell, found: "a comma", elsewhere: "a point" }
-        }
-        Err(_) => DataProblem::NotANumber { column, cell },
     }
 }
 

@@ -19,8 +19,10 @@
 //! ```
 
 mod assemble;
+mod check;
 mod clock;
 mod cut;
+mod faults;
 mod guess;
 mod manifest;
 mod measured;

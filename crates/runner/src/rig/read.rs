@@ -1,20 +1,16 @@
 //! From a rig file to a [`Plan`], and from that to a [`Rig`].
 
 use super::assemble::{Loaded, Located, assemble, probe};
+use super::check;
 use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
 use super::voice::{Voice, in_shell};
 use super::wire::{WireColumns, WireRecord, WireRig};
 use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest};
-use std::collections::HashSet;
 use std::ops::Range;
-use std::path::{Component, Path};
-use switchback_estimator::hysteresis::Interval;
+use std::path::Path;
 use switchback_estimator::rig::{Rig, Usage};
 use toml::Spanned;
-
-/// Highest order that a rig file may ask for; beyond it the coefficients drown in rounding errors.
-const MAX_ORDER: i64 = 20;
 
 /// Reads a rig file and the files of measurements it names, which lie relative to its folder.
 ///
@@ -109,10 +105,10 @@ fn draft(file: &TomlFile) -> Draft {
     let wire = wire.unwrap_or_default();
     let keys = Keys::of(file);
     let mut noted = |problem: Result<(), TomlError>| problems.extend(problem.err());
-    let order = wire.order.as_ref().map_or(Ok(None), |order| check_order(file, order).map(Some));
-    let interval = wire.interval.as_ref().map_or(Ok(None), |ends| check_interval(file, ends).map(Some));
-    noted(check_name(file, &wire, keys.lacks("name")));
-    noted(wire.sample_time.as_ref().map_or(Ok(()), |time| check_sample_time(file, time)));
+    let order = wire.order.as_ref().map_or(Ok(None), |order| check::order(file, order).map(Some));
+    let interval = wire.interval.as_ref().map_or(Ok(None), |ends| check::interval(file, ends).map(Some));
+    noted(check::name(file, &wire, keys.lacks("name")));
+    noted(wire.sample_time.as_ref().map_or(Ok(()), |time| check::sample_time(file, time)));
     let order = order.map_err(|error| noted(Err(error))).unwrap_or_default();
     let interval = interval.map_err(|error| noted(Err(error))).unwrap_or_default();
     if wire.record.is_empty() && keys.lacks("record") {
@@ -140,8 +136,8 @@ fn draft(file: &TomlFile) -> Draft {
             spans.push(span);
         }
     }
-    noted(check_uses(file, &records, &spans));
-    check_twins(file, &records, &spans).into_iter().for_each(|error| noted(Err(error)));
+    noted(check::uses(file, &records, &spans));
+    check::twins(file, &records, &spans).into_iter().for_each(|error| noted(Err(error)));
     let plan = Plan {
         name: wire.name.map(Spanned::into_inner).unwrap_or_default(),
         columns: names(&wire.columns),
@@ -199,57 +195,6 @@ fn names(WireColumns { time, input, output }: &WireColumns) -> ColumnNames {
     ColumnNames { time: time.clone(), input: input.clone(), output: output.clone() }
 }
 
-fn missing(file: &TomlFile, span: Range<usize>, key: &str) -> TomlError {
-    file.error(span, format!("missing key `{key}`"), format!("add `{key} = …`"))
-}
-
-fn check_name(file: &TomlFile, wire: &WireRig, is_missing: bool) -> Result<(), TomlError> {
-    match &wire.name {
-        Some(name) if name.get_ref().trim().is_empty() => {
-            Err(file.error(name.span(), "`name` is empty", "give the rig a name"))
-        }
-        None if is_missing => Err(missing(file, 0..0, "name")),
-        _ => Ok(()),
-    }
-}
-
-fn check_sample_time(file: &TomlFile, time: &Spanned<f64>) -> Result<(), TomlError> {
-    let sample_time = *time.get_ref();
-    if sample_time.is_finite() && sample_time > 0.0 {
-        return Ok(());
-    }
-    Err(file.error(
-        time.span(),
-        format!("`sample_time = {sample_time}` is no time between samples"),
-        "give a positive number of seconds, or leave it out where a time column tells it",
-    ))
-}
-
-fn check_order(file: &TomlFile, order: &Spanned<i64>) -> Result<usize, TomlError> {
-    let found = *order.get_ref();
-    usize::try_from(found).ok().filter(|_| (1..=MAX_ORDER).contains(&found)).ok_or_else(|| {
-        file.error(
-            order.span(),
-            format!("`order = {found}` is no order of the linear part"),
-            format!("give a whole number from 1 to {MAX_ORDER}, or leave `order` out to have it chosen from the data"),
-        )
-    })
-}
-
-fn check_interval(file: &TomlFile, ends: &Spanned<Vec<f64>>) -> Result<Interval, TomlError> {
-    let found = match ends.get_ref()[..] {
-        [low, high] => Interval::new(low, high).map_err(|error| error.to_string()),
-        ref other => Err(format!("{} numbers are no interval; it has two ends", other.len())),
-    };
-    found.map_err(|reason| {
-        file.error(
-            ends.span(),
-            format!("`interval`: {reason}"),
-            "write `[h_m, h_M]`, the lower end first, or leave `interval` out to use the range of the records",
-        )
-    })
-}
-
 /// A record, and where its file is named.
 fn planned(file: &TomlFile, record: &Spanned<WireRecord>) -> (PlannedRecord, Range<usize>) {
     let wire = record.get_ref();
@@ -273,7 +218,7 @@ fn record_faults(file: &TomlFile, record: &Spanned<WireRecord>, keys: &Keys) -> 
     let mut problems = Vec::new();
     for (key, is_there) in [("file", wire.file.is_some()), ("use", wire.usage.is_some())] {
         if !is_there && keys.lacks(key) {
-            problems.push(missing(file, record.span(), key));
+            problems.push(check::missing(file, record.span(), key));
         }
     }
     if let Some(share) = &wire.holdout {
@@ -288,33 +233,6 @@ fn record_faults(file: &TomlFile, record: &Spanned<WireRecord>, keys: &Keys) -> 
             let message =
                 "`holdout` says which share of a fit record is held out, but all of this one is".to_owned();
             problems.push(told(message, "leave `holdout` out, or write `use = \"fit\"`"));
-        }
-    }
-    problems
-}
-
-fn check_uses(file: &TomlFile, records: &[PlannedRecord], spans: &[Range<usize>]) -> Result<(), TomlError> {
-    match spans.first() {
-        Some(first) if records.iter().all(|record| record.usage != Usage::Fit) => Err(file.error(
-            first.clone(),
-            "no record has `use = \"fit\"`, so there is nothing to identify from",
-            "write `use = \"fit\"` for at least one record",
-        )),
-        _ => Ok(()),
-    }
-}
-
-fn check_twins(file: &TomlFile, records: &[PlannedRecord], spans: &[Range<usize>]) -> Vec<TomlError> {
-    let mut seen = HashSet::new();
-    let mut problems = Vec::new();
-    for (record, span) in records.iter().zip(spans) {
-        let parts = Path::new(&record.named).components().filter(|part| *part != Component::CurDir);
-        if !seen.insert(parts.collect::<Vec<_>>()) {
-            problems.push(file.error(
-                span.clone(),
-                format!("`{}` is listed twice", record.named),
-                "list each file once; a hold-out that is also fitted proves nothing",
-            ));
         }
     }
     problems

@@ -1,7 +1,7 @@
 //! Are the time stamps those of even sampling, and of which sample time?
 
 use super::voice::Voice;
-use crate::input::DataProblem;
+use crate::input::{DataProblem, Step};
 
 /// What the stamps of a record tell.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,17 +79,23 @@ impl Stamps<'_> {
     /// Time must increase, resampled or not.
     pub(super) fn check_order(&self) -> Result<(), Fault> {
         match self.steps().find(|(_, step)| *step <= 0.0) {
-            Some((k, _)) => Err((
-                Some(k),
-                DataProblem::NotIncreasing {
-                    column: self.column.to_owned(),
-                    before: (self.written)(k - 1),
-                    now: (self.written)(k),
-                    remedy: self.voice.not_increasing(),
-                },
-            )),
+            Some((k, _)) => {
+                let step = self.step_to(k, f64::NAN, self.voice.not_increasing());
+                Err((Some(k), DataProblem::NotIncreasing(step)))
+            }
             None => Ok(()),
         }
+    }
+
+    fn step_to(&self, k: usize, sample_time: f64, remedy: String) -> Box<Step> {
+        Box::new(Step {
+            column: self.column.to_owned(),
+            before: (self.written)(k - 1),
+            now: (self.written)(k),
+            step: rounded(self.t[k] - self.t[k - 1]),
+            sample_time: rounded(sample_time),
+            remedy,
+        })
     }
 
     /// The sample time that the stamps tell: the mean of the steps that are not over gaps, that is the time they span over their number.
@@ -121,14 +127,7 @@ impl Stamps<'_> {
 
     /// The step into the `k`-th gap, a gap of a designed experiment.
     pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
-        DataProblem::Gap {
-            column: self.column.to_owned(),
-            before: (self.written)(k - 1),
-            now: (self.written)(k),
-            step: rounded(self.t[k] - self.t[k - 1]),
-            sample_time: rounded(sample_time),
-            remedy: self.voice.whole(),
-        }
+        DataProblem::Gap(self.step_to(k, sample_time, self.voice.whole()))
     }
 
     fn steps(&self) -> impl Iterator<Item = (usize, f64)> {
@@ -169,14 +168,7 @@ impl Stamps<'_> {
     }
 
     fn uneven(&self, k: usize, sample_time: f64) -> DataProblem {
-        DataProblem::Uneven {
-            column: self.column.to_owned(),
-            before: (self.written)(k - 1),
-            now: (self.written)(k),
-            step: rounded(self.t[k] - self.t[k - 1]),
-            sample_time: rounded(sample_time),
-            remedy: self.voice.uneven(),
-        }
+        DataProblem::Uneven(self.step_to(k, sample_time, self.voice.uneven()))
     }
 }
 
@@ -271,7 +263,7 @@ mod tests {
         let timing = judged(&shaken(0.009), None).unwrap();
         assert!(timing.jitter > 0.004 && timing.jitter < 0.01, "{}", timing.jitter);
         let (index, problem) = judged(&shaken(0.05), None).unwrap_err();
-        assert!(matches!(problem, DataProblem::Uneven { .. }) && index.is_some(), "{problem}");
+        assert!(matches!(problem, DataProblem::Uneven(_)) && index.is_some(), "{problem}");
         assert!(judged(&shaken(0.05), Some(0.01)).is_ok(), "a declared sample time forgives it");
     }
 
@@ -300,7 +292,7 @@ mod tests {
     #[test]
     fn time_never_stands_still_or_runs_back() {
         for t in [[0.0, 0.01, 0.01], [0.0, 0.01, 0.005]] {
-            assert!(matches!(judged(&t, None), Err((Some(2), DataProblem::NotIncreasing { .. }))));
+            assert!(matches!(judged(&t, None), Err((Some(2), DataProblem::NotIncreasing(_)))));
         }
     }
 }

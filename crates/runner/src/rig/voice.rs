@@ -48,7 +48,7 @@ impl Voice {
     pub(super) fn whole(&self) -> String {
         match self {
             Self::Simulation(_) => {
-                "an input to be played must be whole: fill in what is missing, or play its pieces as files of their own".to_owned()
+                "an input to be played must be whole: fill in what is missing, add `--resample` to interpolate gaps of up to ten samples, or play its pieces as files of their own".to_owned()
             }
             _ => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
         }

@@ -67,20 +67,14 @@ pub enum DataProblem {
     More { column: String, count: usize, remedy: String },
     #[error("column `{column}`: `{cell}` is no time that can be read")]
     NotATime { column: String, cell: String, remedy: String },
-    #[error(
-        "column `{column}`: the decimal sign of `{cell}` is {found}, but that of other columns {elsewhere}"
-    )]
-    OtherDecimal { column: String, cell: String, found: &'static str, elsewhere: &'static str },
-    #[error("column `{column}`: the time stamp {now} does not lie after the one before it, {before}")]
-    NotIncreasing { column: String, before: String, now: String, remedy: String },
-    #[error(
-        "column `{column}`: {before} is followed by {now}, a step of {step} s where the sample time is {sample_time} s"
-    )]
-    Gap { column: String, before: String, now: String, step: f64, sample_time: f64, remedy: String },
-    #[error(
-        "column `{column}`: uneven sampling: {before} is followed by {now}, a step of {step} s where the mean one is {sample_time} s"
-    )]
-    Uneven { column: String, before: String, now: String, step: f64, sample_time: f64, remedy: String },
+    #[error("column `{column}`: the decimal sign of `{cell}` is a {found}, but not that of other columns")]
+    OtherDecimal { column: String, cell: String, found: &'static str },
+    #[error("column `{}`: the time stamp {} does not lie after the one before it, {}", .0.column, .0.now, .0.before)]
+    NotIncreasing(Box<Step>),
+    #[error("column `{}`: {} is followed by {}, a step of {} s where the sample time is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
+    Gap(Box<Step>),
+    #[error("column `{}`: uneven sampling: {} is followed by {}, a step of {} s where the mean one is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
+    Uneven(Box<Step>),
     #[error(
         "column `{column}`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s"
     )]
@@ -105,6 +99,21 @@ pub enum DataProblem {
         "dropouts cut the {rows} rows into pieces so short that {left} rows are left in usable ones (of {needed} samples or more)"
     )]
     Shattered { rows: usize, left: usize, needed: usize, remedy: String },
+}
+
+/// From one time stamp to the next.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs, reason = "the messages explain the fields")]
+pub struct Step {
+    pub column: String,
+    /// The stamps as they stand in the file.
+    pub before: String,
+    pub now: String,
+    /// Seconds between them.
+    pub step: f64,
+    /// Seconds that were expected.
+    pub sample_time: f64,
+    pub remedy: String,
 }
 
 fn samples(count: usize) -> String {
@@ -150,13 +159,11 @@ impl DataProblem {
             | Self::EmptyCell { remedy, .. }
             | Self::More { remedy, .. }
             | Self::NotATime { remedy, .. }
-            | Self::NotIncreasing { remedy, .. }
-            | Self::Gap { remedy, .. }
-            | Self::Uneven { remedy, .. }
             | Self::OtherSampleTime { remedy, .. }
             | Self::SampleTimesDiffer { remedy, .. }
             | Self::CutTooShort { remedy, .. }
             | Self::Shattered { remedy, .. } => remedy.clone(),
+            Self::NotIncreasing(step) | Self::Gap(step) | Self::Uneven(step) => step.remedy.clone(),
             Self::TooShort { .. } => {
                 "take a longer record; the fit needs more samples than there are coefficients".to_owned()
             }

@@ -11,7 +11,7 @@ mod head;
 mod lines;
 pub(crate) mod unit;
 
-pub use error::{DataError, DataProblem, Place};
+pub use error::{DataError, DataProblem, Place, Step};
 
 use super::decode::read_decoded;
 use super::text_file::FileError;
