@@ -127,7 +127,8 @@ impl Voice {
             Self::Manifest => {
                 "write `sample_time = SECONDS`, or name the time column in `columns`".to_owned()
             }
-            Self::CommandLine(command) | Self::Simulation(command) => format!(
+            Self::Simulation(_) => format!("take {}", self.without_time()),
+            Self::CommandLine(command) => format!(
                 "give it in seconds, `{command} --sample-time 0.01`, or as a rate in hertz, `{command} --rate 100`"
             ),
         }
