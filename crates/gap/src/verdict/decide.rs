@@ -35,6 +35,11 @@ pub(crate) fn unresolved(odds: &Odds) -> Verdict {
     naming_nothing(Status::None, None, odds.none + odds.unexplained)
 }
 
+/// The verdict where the fit records lack nothing and the held-out records are missed all the same: none of the candidates is the cause.
+pub(crate) fn held_out_differs(odds: &Odds) -> Verdict {
+    naming_nothing(Status::Unexplained, None, odds.none + odds.unexplained)
+}
+
 /// The verdict where identifying the model anew closes as much of the gap as any cause; `verdict` is that which tells one.
 pub(crate) fn parameters_are_off(verdict: &Verdict) -> Verdict {
     naming_nothing(Status::Refit, None, verdict.probability)

@@ -71,10 +71,15 @@ fn size(report: &Report) -> String {
     )
 }
 
-/// What the gap was measured on.
+/// What the gap was measured on: where no held-out record can be judged, the fit records are.
 fn judged(report: &Report) -> &'static str {
+    let records = &report.diagnosis.gap.per_record;
+    let is_held_out = |name: &str| report.rig.holdout_records().any(|record| record.name == name);
+    if records.iter().any(|record| is_held_out(&record.record)) {
+        return "held-out records";
+    }
     match report.rig.holdout_records().next() {
-        Some(_) => "held-out records",
+        Some(_) => "the fit records (no held-out record can be judged)",
         None => "the fit records (none is held out)",
     }
 }
