@@ -40,6 +40,7 @@ fn silent(status: Status) -> Diagnosis {
             calibrated: true,
             corrected_by: None,
             refit: None,
+            held_out_error_ratio: None,
         },
         gap: Gap {
             before: nothing,

@@ -261,15 +261,9 @@ impl Plan {
         } else if verdict.status == Status::Unexplained && self.resolves_no_gap(&explanation.fit) {
             verdict = unresolved(&odds);
         } else if verdict.status == Status::None
-            && let Some(times) = self.held_out_errors_beyond_chance(&self.nominal.plain.fit)
+            && let Some(ratio) = self.held_out_errors_beyond_chance(&self.nominal.plain.fit)
         {
-            verdict = held_out_differs(&odds);
-            self.limitations.push(format!(
-                "the fit records show nothing missing, but on the held-out records the same model errs {:.2} times as much as on them, in \
-                 root mean square: something differs between the records, such as an offset, a gain, a sign or a load; compare how they \
-                 were taken",
-                times.sqrt()
-            ));
+            verdict = held_out_differs(&odds, ratio);
         }
         verdict.calibrated = self.is_calibrated;
         let augmented = match verdict.status {
