@@ -289,7 +289,7 @@ fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usiz
     if held_out.is_empty() {
         limitations.push(
             "no held-out record can be judged (there is none, it is too short, or its input never moves): gap and closure are \
-             measured on the records the models were fitted to, which flatters them; hold out a record in which the input moves"
+             measured on the records the models were fitted to, which flatters them; hold a record out in which the input moves"
                 .into(),
         );
         return numbers(true);

@@ -225,7 +225,8 @@ pub fn merged(mut parts: Vec<Part>) -> Result<(Study, String, Vec<Case>), MergeE
             return Err(MergeError::Strange { folder: part.name(), what, first: first.name() });
         }
     }
-    if let Some([one, other]) = parts.array_windows().find(|[x, y]| x.label.shard == y.label.shard) {
+    let mut neighbours = parts.iter().zip(parts.iter().skip(1));
+    if let Some((one, other)) = neighbours.find(|(x, y)| x.label.shard == y.label.shard) {
         return Err(MergeError::Twice { folder: other.name(), first: one.name(), shard: one.label.shard });
     }
     let of = first.label.shard.of;
