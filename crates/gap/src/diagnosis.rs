@@ -54,6 +54,9 @@ pub struct Verdict {
     pub corrected_by: Option<Effect>,
     /// The model identified anew (status `refit`).
     pub refit: Option<Refit>,
+    /// How many times as much, in root mean square, the model errs on the held-out records as on those it was fitted to, where these show
+    /// nothing missing and that is beyond chance (status `unexplained`): the records were taken under other conditions.
+    pub held_out_error_ratio: Option<f64>,
 }
 
 /// A model of the same kind, identified anew, that closes the gap without any cause.

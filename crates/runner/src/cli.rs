@@ -41,6 +41,7 @@ enum Verb {
     Identify(cmd::identify::Args),
     Init(cmd::init::Args),
     Man(cmd::man::Args),
+    Merge(cmd::merge::Args),
     Rig(cmd::rig::Args),
     Simulate(cmd::simulate::Args),
 }
@@ -115,6 +116,7 @@ impl Cli {
             Some(Verb::Identify(args)) => cmd::identify::run(&args),
             Some(Verb::Init(args)) => cmd::init::run(&args),
             Some(Verb::Man(args)) => cmd::man::run(&args),
+            Some(Verb::Merge(args)) => cmd::merge::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),

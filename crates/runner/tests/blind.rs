@@ -40,6 +40,7 @@ fn silent(status: Status) -> Diagnosis {
             calibrated: true,
             corrected_by: None,
             refit: None,
+            held_out_error_ratio: None,
         },
         gap: Gap {
             before: nothing,
@@ -213,5 +214,5 @@ fn the_shipped_scenarios_can_be_read_and_the_full_one_is_as_large_as_it_must_be(
     assert_eq!(count(Kind::Single), 20 * 3 * 4 * 20);
     assert_eq!([Kind::None, Kind::Outside, Kind::Pair].map(count), [300, 300, 200]);
     let slice = blind::design(&blind::read(&scenarios.join("blind-slice.toml")).unwrap()).unwrap();
-    assert_eq!(slice.len(), 50);
+    assert_eq!(slice.len(), 100);
 }

@@ -178,7 +178,7 @@ fn settling(fit: &Fit) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::nominal::order::{Choice, structure};
     use crate::records::campaign::Campaign;
@@ -189,7 +189,7 @@ mod tests {
     use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
 
     /// The plan of a first-order rig with straight borders, its second record held out.
-    fn plan() -> Plan {
+    pub(in crate::diagnose) fn plan() -> Plan {
         let mut noise = white();
         let mut record = |name: &str, usage, phase: f64| {
             let v: Vec<f64> = (0..600)

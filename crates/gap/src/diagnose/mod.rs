@@ -6,6 +6,7 @@ mod harm;
 mod held_out;
 mod judged;
 mod nominal;
+mod other_conditions;
 mod parameters;
 mod refit;
 mod report;
@@ -27,7 +28,7 @@ use crate::phase::Phase;
 use crate::records::campaign::Campaign;
 use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
-use crate::verdict::decide::{parameters_are_off, unresolved, verdict};
+use crate::verdict::decide::{held_out_differs, parameters_are_off, unresolved, verdict};
 use crate::verdict::odds::{Leavings, holds_together, odds, odds_together};
 use crate::verdict::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
@@ -259,6 +260,10 @@ impl Plan {
             verdict = parameters_are_off(&verdict);
         } else if verdict.status == Status::Unexplained && self.resolves_no_gap(&explanation.fit) {
             verdict = unresolved(&odds);
+        } else if verdict.status == Status::None
+            && let Some(ratio) = self.held_out_errors_beyond_chance(&self.nominal.plain.fit)
+        {
+            verdict = held_out_differs(&odds, ratio);
         }
         verdict.calibrated = self.is_calibrated;
         let augmented = match verdict.status {
@@ -283,8 +288,8 @@ fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usiz
     let held_out = numbers(false);
     if held_out.is_empty() {
         limitations.push(
-            "no record with use = \"holdout\" is long enough: gap and closure are measured on the records the models were \
-             fitted to, which flatters them; hold a record out"
+            "no held-out record can be judged (there is none, it is too short, or its input never moves): gap and closure are \
+             measured on the records the models were fitted to, which flatters them; hold a record out in which the input moves"
                 .into(),
         );
         return numbers(true);

@@ -85,12 +85,69 @@ pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range
     (out, added)
 }
 
-/// The mean of the courses of the fitted records: what is to be expected of another one.
-pub(crate) fn expected_level(assembly: &Assembly, coefficients: &[f64]) -> f64 {
-    let of_courses = assembly.equation_columns.iter().zip(coefficients);
-    let levels = of_courses.filter(|(c, _)| matches!(c, EquationColumn::Local { .. })).map(|(_, d)| *d);
-    let (sum, count) = levels.fold((0.0, 0.0), |(sum, count), d| (sum + d, count + 1.0));
-    sum / f64::max(count, 1.0)
+/// What the courses of the fitted records tell of the level of another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Level {
+    /// The mean of all courses: what is to be expected where nothing of a record is known.
+    mean: f64,
+    /// Variance of the first value of a course about it.
+    spread: f64,
+    /// Regression of a course's mean on its first value, both about the mean of all: 0 where what a record begins with tells nothing
+    /// of the rest, 1 where it keeps its level.
+    persistence: f64,
+}
+
+impl Level {
+    /// That of the fitted records; nothing without courses.
+    pub(crate) fn of(assembly: &Assembly, coefficients: &[f64]) -> Option<Self> {
+        let mut courses: Vec<(usize, Vec<f64>)> = Vec::new();
+        for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
+            let EquationColumn::Local { track, .. } = *column else { continue };
+            match courses.last_mut() {
+                Some((last, values)) if *last == track => values.push(*d),
+                _ => courses.push((track, vec![*d])),
+            }
+        }
+        let count: usize = courses.iter().map(|(_, values)| values.len()).sum();
+        let mean = courses.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64;
+        let about: Vec<[f64; 2]> = courses
+            .iter()
+            .map(|(_, values)| [values[0] - mean, values.iter().sum::<f64>() / values.len() as f64 - mean])
+            .collect();
+        let sum = |of: fn(&[f64; 2]) -> f64| about.iter().map(of).sum::<f64>();
+        let energy = sum(|[first, _]| first * first);
+        let persistence = if energy > 0.0 { sum(|[first, all]| first * all) / energy } else { 0.0 };
+        (count > 0).then(|| Self {
+            mean,
+            spread: energy / about.len() as f64,
+            persistence: persistence.clamp(0.0, 1.0),
+        })
+    }
+
+    /// The best linear prediction of a record's level from `n` equation errors about the mean level, whose variance is given: what they
+    /// average is the first value and noise.
+    fn given(self, errors: &[f64], variance: f64) -> f64 {
+        let n = errors.len().max(1) as f64;
+        let known = self.spread / (self.spread + variance / n).max(f64::MIN_POSITIVE);
+        self.mean + self.persistence * known * errors.iter().sum::<f64>() / n
+    }
+}
+
+/// Sets the level of a record that was not fitted: what is to be expected of it, corrected by the equation errors before the first
+/// counted sample, of the given variance, where there are any.
+pub(crate) fn set_level(
+    p: &mut Linear,
+    level: Level,
+    columns: Range<usize>,
+    measured: Option<(&Design, &DesignTrack, f64)>,
+) {
+    p.d[columns.clone()].fill(level.mean);
+    if let Some((design, track, variance)) = measured {
+        let first = p.a.len().max(p.b.len() + design.taps.len());
+        let errors = design.errors_from(track, p, first);
+        let known = &errors[..track.from.saturating_sub(first).min(errors.len())];
+        p.d[columns].fill(level.given(known, variance));
+    }
 }
 
 /// Sets the coefficients of added columns by the equation errors before the first counted sample, the only ones a simulation may look
@@ -241,7 +298,25 @@ mod tests {
         let (with, level) = with_level(&assembly, 1);
         assert_eq!(with.equation_columns[level], [local(1, 0, 1), local(1, 1, 1)]);
         assert!(with_level(&assembly, 0).1.is_empty() && with_level(&Assembly::default(), 1).1.is_empty());
-        let coefficients = [9.0, 9.0, 9.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        assert_eq!(expected_level(&assembly, &coefficients), 3.0);
+        assert_eq!(Level::of(&Assembly::default(), &[]), None);
+    }
+
+    /// The oracle: Gaussian conditioning worked out by hand.
+    #[test]
+    fn the_level_of_a_record_is_predicted_from_what_it_begins_with() {
+        let local = |track, piece| EquationColumn::Local { track, piece, pieces: 1 };
+        let columns = [local(0, 0), local(0, 1), local(1, 0), local(1, 1)];
+        let assembly = Assembly { equation_columns: columns.into(), ..Assembly::default() };
+        // Two records that keep half of what they begin with on the mean.
+        let level = Level::of(&assembly, &[3.0, 1.0, -1.0, 1.0]).expect("courses");
+        assert_eq!(level, Level { mean: 1.0, spread: 4.0, persistence: 0.5 });
+        // Four errors of variance 16 average to the first value with variance 4: half of it is noise.
+        let given = level.given(&[2.0, 6.0, 4.0, 4.0], 16.0);
+        assert!((given - (1.0 + 0.5 * 0.5 * 4.0)).abs() < 1e-12, "{given}");
+        assert_eq!(level.given(&[], 16.0), 1.0);
+        // One record tells nothing of how records differ.
+        let one = Assembly { equation_columns: vec![local(0, 0), local(0, 1)], ..Assembly::default() };
+        let alone = Level::of(&one, &[3.0, 1.0]).expect("a course");
+        assert_eq!((alone.mean, alone.persistence), (2.0, 0.0));
     }
 }

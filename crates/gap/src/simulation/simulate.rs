@@ -9,7 +9,7 @@ use crate::model::borders::Grid;
 use crate::model::linear::Linear;
 use crate::model::stability::stable;
 use crate::records::campaign::{Campaign, Track};
-use crate::simulation::beginnings::{expected_level, set_by_first_samples, with_beginnings, with_level};
+use crate::simulation::beginnings::{Level, set_by_first_samples, set_level, with_beginnings, with_level};
 
 /// Outputs beyond this many standard deviations are those of an unstable model; the bound keeps its error finite.
 const LIMIT: f64 = 1e6;
@@ -71,7 +71,13 @@ impl<'a> Prepared<'a> {
         }
         let b = convolve(&linear.b, &self.design.taps);
         let mut p = linear.padded(self.grid.len(), &self.design.assembly);
-        p.d[self.level.clone()].fill(expected_level(self.assembly, &linear.d));
+        if let Some(level) = Level::of(self.assembly, &linear.d).filter(|_| !self.level.is_empty()) {
+            let measured = match begins {
+                Begins::Measured { variance } => Some((&self.design, part, variance)),
+                Begins::Rest => None,
+            };
+            set_level(&mut p, level, self.level.clone(), measured);
+        }
         if let Begins::Measured { variance } = begins {
             set_by_first_samples(&mut p, &self.design, part, (self.added.clone(), variance));
         }

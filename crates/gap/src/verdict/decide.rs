@@ -27,12 +27,20 @@ fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Ver
         calibrated: true,
         corrected_by: None,
         refit: None,
+        held_out_error_ratio: None,
     }
 }
 
 /// The verdict where the judged records resolve no gap and no candidate explains what is left: whatever it is, it shows nowhere.
 pub(crate) fn unresolved(odds: &Odds) -> Verdict {
     naming_nothing(Status::None, None, odds.none + odds.unexplained)
+}
+
+/// The verdict where the fit records lack nothing and the held-out records are missed all the same: none of the candidates is the cause.
+/// `ratio` is how many times as much the model errs there, in root mean square.
+pub(crate) fn held_out_differs(odds: &Odds, ratio: f64) -> Verdict {
+    let unexplained = naming_nothing(Status::Unexplained, None, odds.none + odds.unexplained);
+    Verdict { held_out_error_ratio: Some(ratio), ..unexplained }
 }
 
 /// The verdict where identifying the model anew closes as much of the gap as any cause; `verdict` is that which tells one.

@@ -40,6 +40,11 @@ pub fn artefacts(
     Ok(artefacts)
 }
 
+/// The answers alone: what a part of an examination tells before the others are judged.
+pub(super) fn answers(cases: &[Case]) -> String {
+    tables::answers(cases)
+}
+
 /// The table of measures, as printed: measure, what must be reached, what was and its 95 % interval, how many
 /// rigs tell.
 pub fn summary(scores: &Scores) -> String {

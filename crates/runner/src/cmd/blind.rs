@@ -1,20 +1,22 @@
 //! `switchback SCENARIO.toml` with `study = "blind"`.
 
-use crate::blind::{self, Case, Examiner, Journal, KEY_FILE, Sealed, Study};
+use crate::blind::{self, Case, Examiner, Journal, KEY_FILE, PART_FILE, Part, Sealed, Study, Ticket};
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
-use crate::output::{Artefacts, sha256};
+use crate::input::read_text;
+use crate::options::{Force, Quiet, Shard};
+use crate::output::{Artefacts, OutputFolder, sha256};
 use crate::progress::Meter;
 use crate::study::Progress;
 use miette::Diagnostic;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
 use thiserror::Error;
 
-/// What the folder gets beside the key.
-const REPORT: [&str; 10] = [
+/// What the folder gets.
+const FILES: [&str; 11] = [
+    KEY_FILE,
     "results.json",
     "summary.txt",
     "answers.csv",
@@ -33,40 +35,91 @@ const REPORT: [&str; 10] = [
 #[diagnostic(help("this is a mistake of the program; another seed may avoid it"))]
 pub struct StudyError(#[from] MakeError);
 
-/// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report into `out`, prints the summary.
+/// Where the report goes.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'a> {
+    /// The folder asked for.
+    pub out: Option<&'a Path>,
+    /// Whether files of others may be replaced there.
+    pub force: Force,
+}
+
+impl Place<'_> {
+    /// The folder asked for, or the one that belongs to a study.
+    fn folder(self, study: &Study) -> PathBuf {
+        self.out.map_or_else(|| Path::new("reports").join(&study.name), Path::to_owned)
+    }
+}
+
+/// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report, prints the summary.
 ///
-/// Interrupted, it is taken up where it stood by starting it again: what is judged is kept in `out` until the report is written.
+/// Interrupted, it is taken up where it stood by starting it again: what is judged is kept in the folder until the report is written.
 ///
 /// Runs on the rayon pool that it is called from. Only the printed time depends on it.
 ///
 /// # Errors
 /// A scenario that cannot be used, or a folder that cannot be written.
-pub fn run(scenario: &Path, out: Option<&Path>, page: Page, force: Force) -> CommandResult {
+pub fn run(scenario: &Path, place: Place<'_>, page: Page) -> CommandResult {
     let study = blind::read(scenario)?;
-    let default = Path::new("reports").join(&study.name);
-    let out = out.unwrap_or(&default);
-    force.claim(out, &REPORT)?;
-    let folder = force.claim(out, &[KEY_FILE])?;
-    page.say(&format!("{}: {}", study.name, study.question))?;
-
+    let out = place.folder(&study);
+    place.force.claim(&out, &FILES)?;
+    // What a former run left stays until there is another report.
+    let folder = place.force.claim(&out, &[KEY_FILE])?;
     let tickets = blind::design(&study).map_err(StudyError)?;
+    let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;
+    let outcome = conclude(&study, &keys, &cases, Place { out: Some(&out), ..place }, page)?;
+    journal.close()?;
+    Ok(outcome)
+}
+
+/// The same for one part of the rigs, which is judged and not scored: [`merge`](super::merge) makes the report.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_part(scenario: &Path, shard: Shard, place: Place<'_>, page: Page) -> CommandResult {
+    let study = blind::read(scenario)?;
+    let text = read_text(scenario)?;
+    let default = Path::new("reports").join(format!("{}-part-{}-of-{}", study.name, shard.number, shard.of));
+    let out = place.out.unwrap_or(&default);
+    let name = scenario.file_name().unwrap_or_default().to_string_lossy();
+    let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
+    place.force.claim(out, &files)?;
+    let folder = place.force.claim(out, &[KEY_FILE])?;
+    let tickets = blind::design(&study).map_err(StudyError)?.into_iter().enumerate();
+    let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
+    let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;
+    let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
+    place.force.claim(out, &[])?.commit(&part.artefacts())?;
+    journal.close()?;
+    page.say(&format!("part {shard} written to {}", out.display()))?;
+    Ok(Outcome::Done)
+}
+
+/// Rigs that were judged, with their key file.
+struct Judged {
+    keys: String,
+    cases: Vec<Case>,
+    journal: Journal,
+}
+
+/// Makes and seals the rigs, writes the key, diagnoses and opens.
+fn judge(study: &Study, tickets: Vec<Ticket>, folder: OutputFolder, page: Page) -> miette::Result<Judged> {
+    page.say(&format!("{}: {}", study.name, study.question))?;
     let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
-    let mut journal = Journal::open(out, JUDGING_SOURCES)?;
+    let out = folder.path().to_owned();
+    let mut journal = Journal::open(&out, JUDGING_SOURCES)?;
     let sealed = blind::seal(tickets, &journal.keys(), &|| meter.advanced(1)).map_err(StudyError)?;
     meter.finish();
-    let key = blind::key_file(&sealed);
-    let hash = sha256(&key);
+    let keys = blind::key_file(&sealed);
+    let hash = sha256(&keys);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
-    folder.commit(&only(KEY_FILE, key))?;
+    folder.commit(&only(KEY_FILE, keys.clone()))?;
     journal.keep_keys(&hash)?;
     page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join(KEY_FILE).display()))?;
     page.say(&format!("SHA-256 {hash}"))?;
-
     let cases = examine(sealed, &mut journal, page)?;
-    let outcome = conclude(&study, &hash, &cases, (out, force), page)?;
-    journal.close()?;
-    Ok(outcome)
+    Ok(Judged { keys, cases, journal })
 }
 
 /// Rigs diagnosed before their keys are opened and they are kept; bounds memory and what an interruption costs, changes no result.
@@ -96,18 +149,18 @@ fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Re
 }
 
 /// The SHA-256 of the sources that make, diagnose and judge: the program may be built anew meanwhile, or elsewhere.
-const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
+pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 
-fn conclude(
-    study: &Study,
-    hash: &str,
-    cases: &[Case],
-    (out, force): (&Path, Force),
-    page: Page,
-) -> CommandResult {
+/// Scores, writes the report, prints the summary.
+///
+/// # Errors
+/// A folder that cannot be written.
+pub fn conclude(study: &Study, keys: &str, cases: &[Case], place: Place<'_>, page: Page) -> CommandResult {
+    let out = place.folder(study);
     let scores = blind::score(cases, &study.expect);
-    let report = blind::artefacts(study, hash, cases, &scores)?;
-    force.claim(out, &REPORT)?.commit(&report)?;
+    let mut report = blind::artefacts(study, &sha256(keys), cases, &scores)?;
+    report.add(KEY_FILE, keys);
+    place.force.claim(&out, &FILES)?.commit(&report)?;
     let words = || format!("{}\nwritten to {}\n", blind::summary(&scores), out.display());
     page.quiet.tell_or(page.json, || report.text("results.json"), words)?;
     let broken = scores.measures.iter().any(blind::Measure::is_unexpected);

@@ -9,6 +9,7 @@ pub mod gap;
 pub mod identify;
 pub mod init;
 pub mod man;
+pub mod merge;
 pub mod rig;
 pub mod simulate;
 pub mod study;

@@ -2,7 +2,7 @@
 
 use crate::failure::{CommandResult, Outcome};
 use crate::input::FileKind;
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Force, Quiet, Shard, Threads};
 use crate::progress::Meter;
 use crate::results::to_json;
 use crate::rig::in_shell;
@@ -28,6 +28,10 @@ pub struct Args {
     /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
     engine: Option<Engine>,
+
+    /// Run one of N equal parts of an examination, counted from 1; `switchback merge` makes the report of all of them
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
 
     /// Print results.json instead of words.
     #[arg(long)]
@@ -62,8 +66,16 @@ pub fn run(args: &Args) -> CommandResult {
             return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
         }
         let page = super::blind::Page { json: args.json, quiet: args.quiet };
-        let run = || super::blind::run(file, args.out.as_deref(), page, args.force);
+        let place = super::blind::Place { out: args.out.as_deref(), force: args.force };
+        let run = || match args.shard {
+            Some(shard) => super::blind::run_part(file, shard, place, page),
+            None => super::blind::run(file, place, page),
+        };
         return args.threads.install(run)?;
+    }
+    if args.shard.is_some() {
+        let path = file.display();
+        return Err(miette!("{path} is a consistency study, of which no part runs alone; leave out --shard"));
     }
     let read = Scenario::read(file)?;
     let scenario = match args.engine {

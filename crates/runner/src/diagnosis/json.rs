@@ -37,6 +37,7 @@ struct Verdict {
     calibrated: bool,
     corrected_by: Option<&'static str>,
     refit: Option<Refit>,
+    held_out_error_ratio: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -142,7 +143,9 @@ struct Next<'a> {
 /// `gain` in penalised deviance over the best single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
 /// the augmented model that is no cause of its own; `calibrated` tells whether the probability was calibrated for such records; `refit`
-/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it.
+/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it;
+/// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
+/// conditions than the fit records, which show nothing missing.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -186,6 +189,7 @@ fn verdict(diagnosis: &Diagnosis) -> Verdict {
             delay: refit.delay,
             closure: interval(&refit.closure),
         }),
+        held_out_error_ratio: verdict.held_out_error_ratio,
     }
 }
 

@@ -26,7 +26,8 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     sentences.extend(uncalibrated(report));
     if diagnosis.verdict.status != Status::Refit {
         sentences.extend(identified_anew(diagnosis));
-        sentences.extend(tells.then(|| closure(report)).into_iter().flatten());
+        let adds = tells && diagnosis.verdict.held_out_error_ratio.is_none();
+        sentences.extend(adds.then(|| closure(report)).into_iter().flatten());
     }
     sentences.extend(tells.then(|| remainder(diagnosis, &units)));
     sentences
@@ -71,10 +72,15 @@ fn size(report: &Report) -> String {
     )
 }
 
-/// What the gap was measured on.
+/// What the gap was measured on: where no held-out record can be judged, the fit records are.
 fn judged(report: &Report) -> &'static str {
+    let records = &report.diagnosis.gap.per_record;
+    let is_held_out = |name: &str| report.rig.holdout_records().any(|record| record.name == name);
+    if records.iter().any(|record| is_held_out(&record.record)) {
+        return "held-out records";
+    }
     match report.rig.holdout_records().next() {
-        Some(_) => "held-out records",
+        Some(_) => "the fit records (no held-out record can be judged)",
         None => "the fit records (none is held out)",
     }
 }
@@ -139,6 +145,11 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
         Status::Ambiguous => {
             format!("Cause: not settled between {}, together {p}.", rivals(&verdict.class, diagnosis, units))
         }
+        Status::Unexplained if let Some(ratio) = verdict.held_out_error_ratio => format!(
+            "The fit records show nothing missing, but on the held-out ones the same model errs {} times as much: the records were taken \
+             under other conditions (an offset, a gain, a sign, a load?). No candidate is the cause, probability {p}.",
+            digits(ratio, 2)
+        ),
         Status::Unexplained => {
             let stage = verdict
                 .stage

@@ -1,0 +1,247 @@
+//! Parts of an examination, judged apart, and the whole that they make.
+//!
+//! The folder of a part holds `part.json` (which part of which scenario, and what made and judged it), the scenario as it was, the keys of
+//! its rigs, its answers, and `cases.jsonl`, a line a rig with all that a report is made of.
+
+use super::case::Case;
+use super::journal::KEY_FILE;
+use super::report::answers;
+use super::scenario::{BlindError, Study, read};
+use crate::input::{FileError, read_text};
+use crate::options::Shard;
+use crate::output::{Artefacts, sha256, stamped};
+use miette::Diagnostic;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// What tells that a folder holds a part.
+pub const PART_FILE: &str = "part.json";
+const CASES_FILE: &str = "cases.jsonl";
+const SCHEMA: &str = "switchback/part/1";
+
+/// Which part of what.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Label {
+    /// The scenario's file name.
+    scenario: String,
+    shard: Shard,
+    /// SHA-256 of the sources that made and judged.
+    program: String,
+    /// SHA-256 of the keys of its rigs.
+    key_sha256: String,
+}
+
+#[derive(Deserialize)]
+struct WrittenLabel {
+    schema: String,
+    #[serde(flatten)]
+    label: Label,
+}
+
+/// A part of an examination that was judged.
+#[derive(Debug, Clone)]
+pub struct Part {
+    folder: PathBuf,
+    label: Label,
+    scenario: String,
+    keys: String,
+    cases: Vec<Case>,
+}
+
+/// Why folders make no whole.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum MergeError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] FileError),
+    /// A part's scenario cannot be used.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scenario(#[from] BlindError),
+    /// The folder holds something else.
+    #[error("{folder}: holds no part of an examination")]
+    #[diagnostic(help(
+        "give folders that `switchback SCENARIO.toml --shard K/N --out DIR` has written to its end"
+    ))]
+    NoPart {
+        /// The folder.
+        folder: String,
+    },
+    /// A file of a part is not as it was written.
+    #[error("{folder}: {file} is not what was judged there")]
+    #[diagnostic(help("run this part again"))]
+    Changed {
+        /// The folder.
+        folder: String,
+        /// The file that was changed.
+        file: &'static str,
+    },
+    /// Two parts belong to different wholes.
+    #[error("{folder}: {what} differs from that of {first}")]
+    #[diagnostic(help(
+        "merge parts of one scenario, run by one version of the program with one number of parts"
+    ))]
+    Strange {
+        /// The folder.
+        folder: String,
+        /// What differs.
+        what: &'static str,
+        /// The folder that it was compared with.
+        first: String,
+    },
+    /// A part is given twice.
+    #[error("{folder} and {first} are the same part, {shard}")]
+    #[diagnostic(help("give every part once"))]
+    Twice {
+        /// One folder.
+        folder: String,
+        /// The other.
+        first: String,
+        /// Which part.
+        shard: Shard,
+    },
+    /// Parts are missing.
+    #[error("of {scenario} these parts are missing: {missing}")]
+    #[diagnostic(help("run them: switchback {scenario} --shard {first} --out DIR"))]
+    Missing {
+        /// The scenario's file name.
+        scenario: String,
+        /// The parts.
+        missing: String,
+        /// The first of them.
+        first: Shard,
+    },
+}
+
+impl Part {
+    /// A part that was just judged: the scenario's file and text, which part, the sources that judged, its keys and cases.
+    pub fn new(
+        file: &Path,
+        text: String,
+        (shard, program): (Shard, &str),
+        keys: String,
+        cases: Vec<Case>,
+    ) -> Self {
+        let scenario = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let label = Label { scenario, shard, program: program.to_owned(), key_sha256: sha256(&keys) };
+        Self { folder: PathBuf::new(), label, scenario: text, keys, cases }
+    }
+
+    /// All files of its folder.
+    pub fn artefacts(&self) -> Artefacts {
+        let mut artefacts = Artefacts::default();
+        artefacts.add(PART_FILE, stamped(SCHEMA, &self.label));
+        artefacts.add(self.label.scenario.as_str(), self.scenario.as_str());
+        artefacts.add(KEY_FILE, self.keys.as_str());
+        artefacts.add("answers.csv", answers(&self.cases));
+        let cases = self.cases.iter().fold(String::new(), |mut lines, case| {
+            let line = serde_json::to_string(case).expect("names and numbers are JSON");
+            let _ = writeln!(lines, "{line}");
+            lines
+        });
+        artefacts.add(CASES_FILE, cases);
+        artefacts
+    }
+
+    /// Reads the folder of a part.
+    ///
+    /// # Errors
+    /// [`MergeError`] if it holds none, or a file is not as it was written.
+    pub fn read(folder: &Path) -> Result<Self, MergeError> {
+        let name = || folder.display().to_string();
+        let no_part = || MergeError::NoPart { folder: name() };
+        let changed = |file| MergeError::Changed { folder: name(), file };
+        if !folder.join(PART_FILE).is_file() {
+            return Err(no_part());
+        }
+        let written: WrittenLabel =
+            serde_json::from_str(&read_text(&folder.join(PART_FILE))?).map_err(|_| no_part())?;
+        if written.schema != SCHEMA {
+            return Err(no_part());
+        }
+        let label = written.label;
+        let scenario = read_text(&folder.join(&label.scenario))?;
+        let keys = read_text(&folder.join(KEY_FILE))?;
+        if sha256(&keys) != label.key_sha256 {
+            return Err(changed(KEY_FILE));
+        }
+        // Cases hold names, which live as long as the program: so does the text, which is read once.
+        let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
+        let cases: Vec<Case> = text
+            .lines()
+            .map(serde_json::from_str)
+            .collect::<Result<_, _>>()
+            .map_err(|_| changed(CASES_FILE))?;
+        let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id)).collect();
+        let sealed: Vec<Option<usize>> = keys.lines().map(id_of).collect();
+        if judged != sealed {
+            return Err(changed(CASES_FILE));
+        }
+        Ok(Self { folder: folder.to_owned(), label, scenario, keys, cases })
+    }
+
+    /// SHA-256 of the sources that made and judged it.
+    pub fn program(&self) -> &str {
+        &self.label.program
+    }
+
+    fn name(&self) -> String {
+        self.folder.display().to_string()
+    }
+
+    /// What tells that another part belongs to another whole.
+    fn differs_in(&self, other: &Self) -> Option<&'static str> {
+        [
+            (self.label.scenario != other.label.scenario || self.scenario != other.scenario, "the scenario"),
+            (self.label.program != other.label.program, "the version of the program"),
+            (self.label.shard.of != other.label.shard.of, "the number of parts"),
+        ]
+        .into_iter()
+        .find_map(|(differs, what)| differs.then_some(what))
+    }
+}
+
+/// The number of the rig of a line of a key file.
+fn id_of(line: &str) -> Option<usize> {
+    let value: serde_json::Value = serde_json::from_str(line).ok()?;
+    value["id"].as_u64().map(|id| id as usize)
+}
+
+/// The whole that parts make: its study, its key file and its cases by their number in the design.
+///
+/// # Errors
+/// [`MergeError`] if they are parts of different wholes, one of them is there twice, or some are missing.
+pub fn merged(mut parts: Vec<Part>) -> Result<(Study, String, Vec<Case>), MergeError> {
+    parts.sort_by_key(|part| part.label.shard);
+    let Some(first) = parts.first() else {
+        return Err(MergeError::NoPart { folder: ".".to_owned() });
+    };
+    for part in &parts[1..] {
+        if let Some(what) = first.differs_in(part) {
+            return Err(MergeError::Strange { folder: part.name(), what, first: first.name() });
+        }
+    }
+    let mut neighbours = parts.iter().zip(parts.iter().skip(1));
+    if let Some((one, other)) = neighbours.find(|(x, y)| x.label.shard == y.label.shard) {
+        return Err(MergeError::Twice { folder: other.name(), first: one.name(), shard: one.label.shard });
+    }
+    let of = first.label.shard.of;
+    let is_missing = |shard: &Shard| parts.iter().all(|part| part.label.shard != *shard);
+    let missing: Vec<Shard> = (1..=of).map(|number| Shard { number, of }).filter(is_missing).collect();
+    if let Some(&first_missing) = missing.first() {
+        let all: Vec<String> = missing.iter().map(Shard::to_string).collect();
+        let scenario = first.label.scenario.clone();
+        return Err(MergeError::Missing { scenario, missing: all.join(", "), first: first_missing });
+    }
+    let study = read(&first.folder.join(&first.label.scenario))?;
+    let mut lines: Vec<&str> = parts.iter().flat_map(|part| part.keys.lines()).collect();
+    lines.sort_by_key(|line| id_of(line));
+    let keys = lines.iter().fold(String::new(), |text, line| text + line + "\n");
+    let mut cases: Vec<Case> = parts.iter().flat_map(|part| part.cases.clone()).collect();
+    cases.sort_by_key(|case| case.id);
+    Ok((study, keys, cases))
+}
