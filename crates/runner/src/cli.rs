@@ -6,7 +6,8 @@
 use crate::cmd;
 use crate::failure::CommandResult;
 use crate::input::closest;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use miette::Diagnostic;
 use std::ffi::OsString;
 use std::path::Path;
@@ -54,7 +55,27 @@ pub fn run(words: Vec<OsString>) -> CommandResult {
     if let Some(word) = words.get(1).and_then(|word| word.to_str()) {
         refuse_misspelt_verb(word)?;
     }
-    Cli::parse_from(words).run()
+    let parsed = command().try_get_matches_from(words).and_then(|matches| Cli::from_arg_matches(&matches));
+    parsed.unwrap_or_else(|error| without_tip(error).exit()).run()
+}
+
+/// No verb takes a value that looks like an option, so that "to pass it as a value, use `--`" leads nowhere.
+fn without_tip(mut error: clap::Error) -> clap::Error {
+    let tips = error.get(ContextKind::Suggested);
+    if matches!(tips, Some(ContextValue::StyledStrs(tips)) if tips.iter().any(|tip| tip.to_string().contains(" as a value, use ")))
+    {
+        error.remove(ContextKind::Suggested);
+    }
+    error
+}
+
+/// The command line as clap reads it: `-1` is a value wherever one is expected, so that its own parser says what is wrong with it.
+fn command() -> clap::Command {
+    fn valued(argument: clap::Arg) -> clap::Arg {
+        let takes_value = argument.get_action().takes_values() && argument.get_long().is_some();
+        if takes_value { argument.allow_negative_numbers(true) } else { argument }
+    }
+    Cli::command().mut_args(valued).mut_subcommands(|verb| verb.mut_args(valued))
 }
 
 /// The first word is neither a verb nor a file.

@@ -90,6 +90,21 @@ fn jitter_is_accepted_and_told_up_to_one_percent() {
 }
 
 #[test]
+fn stamps_rounded_to_a_millisecond_tell_the_rate_resampled_or_not() {
+    for rate in [30.0, 60.0, 300.0] {
+        let mut text = String::from("time [s],travel,force\n");
+        for (k, (_, v, y)) in rows().enumerate() {
+            text += &format!("{:.3},{v},{y}\n", k as f64 / rate);
+        }
+        for flags in [&["a.csv"][..], &["a.csv", "--resample"]] {
+            let loaded = Bench::new().with("a.csv", &text).load(flags).expect("a good file");
+            assert_eq!(loaded.rig.sample_time, 1.0 / rate, "{flags:?}");
+            assert!(loaded.told.to_string().contains(&format!("({rate} Hz)")), "{}", loaded.told);
+        }
+    }
+}
+
+#[test]
 fn rows_without_time_need_a_rate() {
     let text: String = std::iter::once("travel,force\n".to_owned())
         .chain(rows().map(|(_, v, y)| format!("{v},{y}\n")))
@@ -169,6 +184,83 @@ fn all_faulty_cells_are_told_at_once() {
 }
 
 #[test]
+fn stamps_are_told_as_they_stand_in_the_file() {
+    let text = table("time,travel,force", |k, line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let second = if k == 99 { 5 } else { 7 };
+        Some(format!("2024-03-05T12:00:{second:02}.{:06},{},{}", 100 * k, cells[1], cells[2]))
+    });
+    refused(
+        &text,
+        &[],
+        &[
+            "bench.csv:101: column `time`: the time stamp 2024-03-05T12:00:05.009900 does not lie after the one before it, \
+             2024-03-05T12:00:07.009800",
+        ],
+    );
+}
+
+#[test]
+fn times_that_are_none_lead_to_iso_or_to_none() {
+    let text = table("timestamp,travel,force", |k, line| {
+        let (_, rest) = line.split_once(',')?;
+        Some(format!("05.03.2024 12:00:00.{:06},{rest}", 100 * k))
+    });
+    refused(
+        &text,
+        &[],
+        &["`05.03.2024 12:00:00.000000`, cannot be read", "2024-03-05T12:00:00.01", "--time none --rate HZ"],
+    );
+    refused(
+        &text,
+        &["--time", "timestamp"],
+        &["bench.csv:2: column `timestamp`", "is no time that can be read", "ISO 8601"],
+    );
+}
+
+#[test]
+fn decimal_signs_that_do_not_agree_are_named() {
+    let text: String = std::iter::once("time;travel;force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{t};{};{y}\n", format!("{v:.3}").replace('.', ","))))
+        .collect();
+    let cell = format!("{:.3}", rows().next().expect("a row").1).replace('.', ",");
+    refused(
+        &text,
+        &[],
+        &[
+            "bench.csv:2: column `travel`",
+            &format!("`{cell}` is a comma, but not that of other columns"),
+            "597 more cells",
+        ],
+    );
+    let message = Bench::new().with("a.csv", &text).refusal(&["a.csv"]);
+    assert_eq!(message.matches("help: ").count(), 1, "a remedy is told once: {message}");
+    let comma = |x: f64| format!("{x:.3}").replace('.', ",");
+    let twice: String = std::iter::once("time,travel,force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{},{},{}\n", comma(t), comma(v), comma(y))))
+        .collect();
+    refused(&twice, &[], &["bench.csv:1: the comma separates columns and decimals both"]);
+}
+
+#[test]
+fn remedies_are_those_of_the_command_line() {
+    let good = table("time [s],travel,force", |_, line| Some(line));
+    let message = Bench::new().with("a.csv", &good).refusal(&["a.csv", "--rate", "103"]);
+    assert!(message.contains("`--rate 100`") && !message.contains("sample_time ="), "{message}");
+    let message = Bench::new().with("a.csv", &good).refusal(&["a.csv", "--time", "none"]);
+    assert!(
+        message.contains("--time none --rate 100") && !message.contains("there is no time column"),
+        "{message}"
+    );
+    let slow: String = std::iter::once("time [s],travel,force\n".to_owned())
+        .chain(rows().map(|(t, v, y)| format!("{},{v},{y}\n", 2.0 * t)))
+        .collect();
+    let bench = Bench::new().with("a.csv", &good).with("b.csv", &slow);
+    assert!(bench.refusal(&["a.csv", "b.csv", "--resample"]).contains("`--resample --rate 100`"));
+    assert!(bench.load(&["a.csv", "b.csv", "--resample", "--rate", "100"]).is_ok());
+}
+
+#[test]
 fn a_file_that_holds_no_table_is_told() {
     refused("", &[], &["the file is empty"]);
     refused("Dear reader,\nthis is a letter.\n", &[], &["no table was found"]);
@@ -184,6 +276,38 @@ fn a_record_that_stands_still_is_told() {
     let text: String =
         std::iter::once("t,v,y\n".to_owned()).chain(rows().map(|(t, _, y)| format!("{t},1,{y}\n"))).collect();
     refused(&text, &[], &["the input `v` never moves", "rises and falls"]);
+}
+
+#[test]
+fn an_output_that_never_changes_is_told_by_its_name() {
+    let text =
+        table("time,travel,force", |_, line| line.rsplit_once(',').map(|(rest, _)| format!("{rest},3")));
+    refused(&text, &[], &["the output `force` never changes", "check the sensor"]);
+    refused("t,v,y\n0,1,2\n", &[], &["the record has 1 sample;"]);
+    let short: String = table("time,travel,force", |k, line| (k < 40).then_some(line));
+    let bench = Bench::new().with("a.csv", short);
+    for verb in ["gap", "identify"] {
+        let output = bench.switchback(&[verb, "a.csv"]).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!told.contains("in the rig file") && !told.contains("knots or"), "{told}");
+    }
+}
+
+#[test]
+fn values_that_cannot_have_been_measured_are_warned_of_and_used() {
+    let with = |k: usize, cell: &str| -> String {
+        let text = table("time,travel,force", |row, line| match (row == k, line.rsplit_once(',')) {
+            (true, Some((rest, _))) => Some(format!("{rest},{cell}")),
+            _ => Some(line),
+        });
+        let loaded = Bench::new().with("a.csv", text).load(&["a.csv"]).expect("a usable file");
+        loaded.told.warnings.join("\n")
+    };
+    assert_eq!(with(98, "60"), "");
+    let far = with(98, "1e300");
+    assert!(far.contains("a.csv:100: `force` is 1e300, ") && far.contains("leave the cell empty"), "{far}");
+    let sentinel = with(98, "-9999");
+    assert!(sentinel.contains("a.csv:100: `force` is -9999, "), "{sentinel}");
 }
 
 #[test]
@@ -245,9 +369,14 @@ fn everything_wrong_in_a_rig_file_is_told_at_once() {
     );
     let message = bench.refusal(&["rig.toml"]);
     println!("{message}");
-    for told in
-        ["4 things are wrong", "rig.toml:2:15", "unknown key `oder`", "`order = 99`", "unknown key `rule`"]
-    {
+    for told in [
+        "5 things are wrong",
+        "rig.toml:2:15",
+        "unknown key `oder`",
+        "`order = 99`",
+        "a.csv does not exist",
+        "unknown key `rule`",
+    ] {
         assert!(message.contains(told), "`{told}` is not in:\n{message}");
     }
     let bench = bench.with("rig.toml", "name = \"a\"\n[[record]]\nfile = \"a.csv\"\nuse = \"fit\"\n[[record]]\nfile = \"b.csv\"\nuse = \"holdout\"\n");

@@ -318,3 +318,36 @@ fn an_unwritable_output_folder_is_refused_before_anything_is_computed() {
     assert!(stderr.contains("help: give the path of a folder"), "{stderr}");
     assert_eq!(folder.listing(), before);
 }
+
+#[test]
+fn all_that_is_wrong_in_a_rig_file_and_its_records_is_told_by_line() {
+    let folder = Folder::with_good_rig();
+    folder.write("rig.toml", "");
+    let told = |folder: &Folder| {
+        let output = folder.switchback(&["gap", "rig.toml"]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let empty = told(&folder);
+    for word in ["3 things are wrong", "missing key `name`", "no record", "missing key `sample_time`"] {
+        assert!(empty.contains(word), "`{word}` is not in: {empty}");
+    }
+    folder.write(
+        "rig.toml",
+        "name = \"a\"\norder = 0\n[[record]]\nfile = \"nowhere.csv\"\nuse = \"fit\"\n[[record]]\nfile = \"again.csv\"\n\
+         columns = { input = \"vv\" }\nuse = \"holdout\"\nholdout = 2\n",
+    );
+    let all = told(&folder);
+    let places = [
+        "4 things are wrong",
+        "rig.toml:2:9",
+        "nowhere.csv does not exist",
+        "no column `vv`",
+        "rig.toml:10:11",
+    ];
+    let found: Vec<usize> = places
+        .iter()
+        .map(|place| all.find(place).unwrap_or_else(|| panic!("`{place}` is not in: {all}")))
+        .collect();
+    assert!(found.is_sorted(), "{all}");
+}

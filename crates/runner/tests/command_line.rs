@@ -60,6 +60,47 @@ fn misspelt_methods_effects_and_options_get_a_suggestion() {
 }
 
 #[test]
+fn numbers_that_cannot_be_are_told_in_plain_words() {
+    let plain = |arguments: &[&str], words: &[&str]| {
+        refused(arguments, words);
+        let told =
+            String::from_utf8_lossy(&switchback(arguments).output().expect("it runs").stderr).into_owned();
+        for word in ["invalid digit", "invalid float", "..=", "use '--"] {
+            assert!(!told.contains(word), "`{word}` is in: {told}");
+        }
+    };
+    let whole = "give a whole number from 1 to 65535";
+    plain(&["gap", "rig.toml", "--threads", "-1"], &[whole]);
+    plain(&["gap", "rig.toml", "--threads", "two"], &[whole]);
+    plain(&["gap", "rig.toml", "--threads", "0"], &[whole]);
+    plain(&["rig", "--out", "x", "--seed", "x"], &["give a whole number, 0 or more"]);
+    plain(&["rig", "--out", "x", "--size", "large"], &["give a number"]);
+    plain(&["design", "--out", "x", "--order", "0"], &["give a whole number from 1 to 20"]);
+    plain(&["design", "--out", "x", "--periods", "0"], &["give a whole number from 1"]);
+    plain(&["gap", "rig.toml", "--foo"], &["unexpected argument '--foo'"]);
+    let folder = Folder::with_good_rig();
+    let output = folder.switchback(&["gap", "again.csv", "--input", "-1"]).output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("there is no column `-1`"), "{told}");
+}
+
+#[test]
+fn a_file_of_the_wrong_kind_is_told_with_the_verb_that_takes_it() {
+    let folder = Folder::with_good_rig();
+    let told = |arguments: &[&str]| {
+        let output = folder.switchback(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let data = told(&["again.csv"]);
+    assert!(data.contains("this is data") && data.contains("`switchback gap again.csv`"), "{data}");
+    let rig = told(&["rig.toml"]);
+    assert!(rig.contains("this is a rig") && rig.contains("`switchback gap rig.toml`"), "{rig}");
+    let from = told(&["design", "--from", "again.csv"]);
+    assert!(from.contains("this is data") && from.contains("`switchback init again.csv"), "{from}");
+}
+
+#[test]
 fn quiet_verbs_say_nothing_but_the_json_that_was_asked_for() {
     let folder = Folder::with_good_rig();
     for verb in ["gap", "identify"] {

@@ -254,12 +254,20 @@ fn what_cannot_be_is_refused_with_the_remedy() {
             &["not an interval"],
         ),
         (&["design", "--order", "2", "--interval", "-1,1", "--rate", "-5", "--out", "x"], &["--rate"]),
-        (&plan(&["--out", "x", "--periods", "2"]), &["periods = 2", "at least 3"]),
+        (&plan(&["--out", "x", "--periods", "2"]), &["`--periods 2` is too few", "`--periods 3` or more"]),
         (&plan(&["--out", "x", "--duration", "1"]), &["--duration", "2.3 s"]),
         (&plan(&["--out", "x", "--duration", "1e9"]), &["a file should hold"]),
         (&plan(&["--out", "x", "--max-speed", "500"]), &["8000/s", "6.25", "--free-only"]),
         (&plan(&["--out", "x", "--max-speed", "1", "--free-only"]), &["one stroke", "--periods 2182"]),
-        (&plan(&["--out", "x", "--amplitude", "5,100"]), &["largest = 100"]),
+        (
+            &plan(&["--out", "x", "--amplitude", "5,100"]),
+            &["`--amplitude`", "the largest move, 100, does not fit into the interval −40…40", "MAX ≤ 80"],
+        ),
+        (&plan(&["--out", "x", "--amplitude", "-1,100"]), &["the smallest move, -1, is not positive"]),
+        (
+            &plan(&["--out", "x", "--amplitude", "20,10"]),
+            &["the largest move, 10, is less than the smallest, 20"],
+        ),
         (&plan(&["--out", "x", "--precision", "0.01"]), &["--from"]),
         (&["design", "--from", "none.toml", "--precision", "0.01"], &["none.toml"]),
     ] {

@@ -189,6 +189,77 @@ fn the_manifest_that_init_writes_gives_the_same_rig() {
 }
 
 #[test]
+fn columns_that_are_called_otherwise_in_another_file_are_named_there() {
+    let first = with_header("time [s],travel [mm],force [N]", ",", point, "\n");
+    let second = with_header("t,position [mm],load [N],pos 2", ",", point, "\n");
+    let second: String = second
+        .lines()
+        .enumerate()
+        .map(|(k, line)| match k {
+            0 => format!("{line}\n"),
+            _ => format!("{line},{}\n", k % 5),
+        })
+        .collect();
+    let bench = Bench::new().with("a.csv", first).with("b.csv", second);
+    let direct = bench.load(&["a.csv", "b.csv"]).expect("good files");
+    let manifest = switchback::rig::manifest(&direct, Some(&bench.path("")));
+    assert!(
+        manifest.contains("columns = { time = \"t\", input = \"position\", output = \"load\" }"),
+        "{manifest}"
+    );
+    std::fs::write(bench.path("rig.toml"), &manifest).expect("writable");
+    let again = bench.load(&["rig.toml"]).unwrap_or_else(|error| panic!("{error}\n{manifest}"));
+    assert_eq!(again.rig, direct.rig, "{manifest}");
+}
+
+/// The table with its time printed otherwise.
+fn timed(name: &str, time: impl Fn(usize) -> String) -> String {
+    let body: String = rows().enumerate().map(|(k, (_, v, y))| format!("{},{v},{y}\n", time(k))).collect();
+    format!("{name},travel [mm],force [N]\n{body}")
+}
+
+#[test]
+fn counts_since_1970_are_told_by_their_size() {
+    type Printed = fn(usize) -> String;
+    let epochs: [(&str, Printed); 4] = [
+        ("seconds", |k| format!("{:.2}", 1_700_000_000.0 + k as f64 / 100.0)),
+        ("milliseconds", |k| (1_700_000_000_000 + 10 * k).to_string()),
+        ("microseconds", |k| (1_700_000_000_000_000 + 10_000 * k).to_string()),
+        ("nanoseconds", |k| (1_700_000_000_000_000_000 + 10_000_000 * k).to_string()),
+    ];
+    for (unit, time) in epochs {
+        let loaded = reads(timed("timestamp", time), &[], MM_N);
+        let told = loaded.told.to_string();
+        assert_eq!(told.contains(&format!("is taken as {unit} since 1970")), unit != "seconds", "{told}");
+    }
+}
+
+#[test]
+fn whole_numbers_without_a_unit_are_told() {
+    let text = timed("time", |k| (10 * k).to_string());
+    let loaded = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
+    assert_eq!(loaded.rig.sample_time, 10.0);
+    let told = loaded.told.to_string();
+    assert!(told.contains("taken as seconds; write the unit into the header, as in `time [ms]`"), "{told}");
+    assert!(told.contains("--time none --rate HZ"), "{told}");
+}
+
+#[test]
+fn a_clock_without_dates_goes_on_past_midnight() {
+    let text = timed("time", |k| {
+        let hundredths = (23 * 3600 + 59 * 60 + 58) * 100 + k;
+        let (s, h) = (hundredths / 100 % 86_400, hundredths % 100);
+        format!("{:02}:{:02}:{:02}.{h:02}0000", s / 3600, s / 60 % 60, s % 60)
+    });
+    let loaded = reads(text, &[], MM_N);
+    assert!(
+        loaded.told.to_string().contains("passes midnight at line 202 and is continued"),
+        "{}",
+        loaded.told
+    );
+}
+
+#[test]
 fn the_program_goes_from_raw_files_to_an_answer() {
     let header = "Prüfstand 4\nZeit [ms];Weg [mm];Kraft [N]\n";
     let body: String =

@@ -131,3 +131,82 @@ fn an_examination_respects_reports_keys_and_journals_of_others() {
         assert_eq!(fs::read_to_string(folder.path(&format!("{name}/{name}"))).expect("kept"), FOREIGN);
     }
 }
+
+#[test]
+fn what_a_former_diagnosis_left_is_removed() {
+    let folder = Folder::with_good_rig();
+    let run = |arguments: &[&str]| {
+        let output = folder.switchback(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(&["identify", "rig.toml", "--out", "out"]);
+    let first = listing(&folder.path("out"));
+    let figure = "measured_and_simulated_again.svg";
+    assert!(first.iter().any(|name| name == figure), "{first:?}");
+    folder.edit("rig.toml", |text| text.replace("again.csv", "anew.csv"));
+    fs::copy(folder.path("again.csv"), folder.path("anew.csv")).expect("a copy");
+    folder.write("out/notes.txt", "mine");
+    run(&["identify", "rig.toml", "--out", "out"]);
+    let second = listing(&folder.path("out"));
+    assert!(!second.iter().any(|name| name == figure), "{second:?}");
+    assert!(second.iter().any(|name| name == "notes.txt"), "{second:?}");
+    assert_eq!(second.len(), first.len() + 1, "{second:?}");
+}
+
+#[test]
+fn a_verdict_that_is_written_leads_to_the_file_beside_it() {
+    let folder = Folder::with_good_rig();
+    // Which rig leaves a doubt that an experiment would resolve depends on the diagnosis: the first that does is looked at.
+    let verdict = ["5", "7", "8", "9"].into_iter().find_map(|seed| {
+        let made = ["rig", "--effect", "sensor_nonlinearity", "--size", "1", "--seed", seed, "--out", seed];
+        assert_eq!(folder.switchback(&made).output().expect("it runs").status.code(), Some(0));
+        let rig = format!("{seed}/rig.toml");
+        let output = folder.switchback(&["gap", &rig, "--out", "out"]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(!String::from_utf8_lossy(&output.stdout).contains("--out"));
+        let has_next = folder.path("out/next_experiment.csv").exists();
+        has_next.then(|| fs::read_to_string(folder.path("out/verdict.txt")).expect("a verdict"))
+    });
+    let verdict = verdict.expect("a rig with a doubt among four").replace('\n', " ");
+    assert!(verdict.contains("its input is in next_experiment.csv"), "{verdict}");
+    assert!(!verdict.contains("--out"), "{verdict}");
+}
+
+#[test]
+fn nothing_that_is_read_is_written() {
+    let folder = Folder::with_good_rig();
+    folder.write("m.csv", &fs::read_to_string(folder.path("again.csv")).expect("a record"));
+    fs::copy(folder.path("m.csv"), folder.path("series.csv")).expect("a copy");
+    let measured = fs::read_to_string(folder.path("m.csv")).expect("a record");
+    let refused = |arguments: &[&str], name: &str| {
+        let output = folder.switchback(arguments).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains("is read by this command") && told.contains("help: "), "{told}");
+        assert_eq!(fs::read_to_string(folder.path(name)).expect("kept"), measured);
+    };
+    refused(&["init", "m.csv", "--out", "m.csv", "--force"], "m.csv");
+    refused(&["init", "m.csv", "--out", "./m.csv", "--force"], "m.csv");
+    refused(&["identify", "series.csv", "--out", ".", "--force"], "series.csv");
+    let output = folder.switchback(&["identify", "rig.toml", "--out", "found"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0));
+    refused(&["simulate", "found/model.json", "m.csv", "--out", "m.csv", "--force"], "m.csv");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(folder.path("m.csv"), folder.path("link.csv")).expect("a link");
+        refused(&["init", "link.csv", "--out", "m.csv", "--force"], "m.csv");
+    }
+}
+
+#[test]
+fn the_folder_of_a_new_file_is_made() {
+    let folder = Folder::with_good_rig();
+    let init = |out: &str| folder.switchback(&["init", "again.csv", "--out", out]).output().expect("it runs");
+    assert_eq!(init("deep/down/r.toml").status.code(), Some(0));
+    let again = folder.switchback(&["gap", "deep/down/r.toml", "--quiet"]).output().expect("it runs");
+    assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stderr));
+    let refused = init("again.csv/r.toml");
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(told.contains("again.csv is a file, not a folder") && !told.contains("os error"), "{told}");
+}

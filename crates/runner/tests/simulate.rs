@@ -197,6 +197,80 @@ fn without_a_measured_output_it_begins_at_rest_and_says_so() {
     );
 }
 
+/// The columns written for a file, as text.
+fn written(folder: &Folder, input: &str, more: &[&str]) -> (Vec<String>, String) {
+    let output =
+        folder.switchback(&["simulate", "found/model.json", input]).args(more).output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    (String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect(), told)
+}
+
+fn with_model() -> Folder {
+    let folder = Folder::with_good_rig();
+    run(&folder, &["identify", "rig.toml", "--json", "--out", "found"]);
+    folder
+}
+
+#[test]
+fn a_file_of_the_input_alone_is_played_row_by_row() {
+    let folder = with_model();
+    let column: String = (0..50).map(|k| if k < 20 { "1\n" } else { "-1\n" }).collect();
+    folder.write("one.csv", &format!("v\n{column}"));
+    let (rows, told) = written(&folder, "one.csv", &[]);
+    assert_eq!(rows.len(), 51);
+    assert!(rows[50].starts_with("0.49,-1,"), "{}", rows[50]);
+    assert!(told.contains("begins at rest"), "{told}");
+    folder.write("still.csv", &"1\n".repeat(30));
+    let (rows, _) = written(&folder, "still.csv", &[]);
+    let outputs: Vec<&str> = rows[1..].iter().filter_map(|row| row.split(',').nth(2)).collect();
+    assert!(outputs.iter().all(|row| *row == outputs[0]), "a constant input stays where it rests: {rows:?}");
+}
+
+#[test]
+fn gaps_in_the_measured_output_are_no_error() {
+    let folder = with_model();
+    let measured = fs::read_to_string(folder.path("again.csv")).expect("a record");
+    let without = |is_missing: &dyn Fn(usize) -> bool| -> String {
+        let row = |(k, line): (usize, &str)| match (k > 0 && is_missing(k), line.rsplit_once(',')) {
+            (true, Some((input, _))) => format!("{input},NaN\n"),
+            _ => format!("{line}\n"),
+        };
+        measured.lines().enumerate().map(row).collect()
+    };
+    let told_of = |text: String| {
+        folder.write("gaps.csv", &text);
+        simulated(&folder, "found/model.json", "gaps.csv").0
+    };
+    let (whole, _) = simulated(&folder, "found/model.json", "again.csv");
+    let later = told_of(without(&|k| k % 7 == 0 && k > 50));
+    assert_eq!(later["start"], whole["start"]);
+    assert!((number(&later["fit_percent"]) - number(&whole["fit_percent"])).abs() < 1.0, "{later:#}");
+    assert!(later["notes"].to_string().contains("`y` is missing in"), "{later:#}");
+    let at_first = told_of(without(&|k| k < 5));
+    assert_eq!(at_first["start"], 0);
+    assert!(at_first["notes"].to_string().contains("begins at rest"), "{at_first:#}");
+    let never = told_of(without(&|_| true));
+    assert!(never["fit_percent"].is_null() && never["covered"].is_null(), "{never:#}");
+    let (_, told) = written(&folder, "again.csv", &["--output", "none"]);
+    assert!(told.contains("begins at rest") && !told.contains("fit"), "{told}");
+}
+
+#[test]
+fn time_stamps_are_written_as_they_stood() {
+    let folder = with_model();
+    let rows: String = (0..40).map(|k| format!("{},{}\n", 10 * k, if k < 20 { 1.0 } else { -1.0 })).collect();
+    folder.write("ms.csv", &format!("time [ms],v\n{rows}"));
+    let (rows, _) = written(&folder, "ms.csv", &[]);
+    assert!(rows[0].starts_with("t [ms],v,") && rows[40].starts_with("390,-1,"), "{} {}", rows[0], rows[40]);
+    let rows: String = (0..40)
+        .map(|k| format!("2024-03-05T12:00:00.{:02}0,{}\n", k, if k < 20 { 1.0 } else { -1.0 }))
+        .collect();
+    folder.write("iso.csv", &format!("time,v\n{rows}"));
+    let (rows, _) = written(&folder, "iso.csv", &[]);
+    assert!(rows[40].starts_with("2024-03-05T12:00:00.390,-1,"), "{}", rows[40]);
+}
+
 #[test]
 fn an_input_outside_what_was_seen_is_warned_of_and_run() {
     let folder = Folder::with_good_rig();
@@ -247,12 +321,72 @@ fn bad_models_and_inputs_are_refused_with_their_place_and_a_remedy() {
     refused_input(&["0.02 s apart", "0.01 s", "--resample"]);
     input("t,v\n0,1\n0.01,1\n0.02,2\n0.03,2\n0.06,2\n0.07,1\n0.08,1\n");
     refused_input(&["bad.csv:6", "followed by 0.06"]);
-    input("t,v,y\n0,1,0\n0.01,1,0\n0.02,1,0\n");
-    refused_input(&["bad.csv", "never moves"]);
     refused(
         &folder,
         &["simulate", "found/model.json", "again.csv", "--out", "rig.toml"],
         &["rig.toml", "there already"],
     );
     refused(&folder, &["simulate", "nowhere.json", "again.csv"], &["nowhere.json"]);
+}
+
+#[test]
+fn what_does_not_fit_in_a_model_is_named_by_its_keys_and_not_by_types() {
+    let folder = Folder::with_good_rig();
+    run(&folder, &["gap", "rig.toml", "--json", "--out", "report"]);
+    let model: Value =
+        serde_json::from_str(&fs::read_to_string(folder.path("report/nominal.json")).expect("a model"))
+            .expect("JSON");
+    let spoilt = |change: &dyn Fn(&mut Value), words: &[&str]| {
+        let mut bad = model.clone();
+        change(&mut bad);
+        folder.write("bad.json", &bad.to_string());
+        refused(&folder, &["simulate", "bad.json", "again.csv"], words);
+        let output = folder.switchback(&["simulate", "bad.json", "again.csv"]).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        for word in ["struct", "usize", "isize", "f64", "u64", "variant", "floating point", "no JSON"] {
+            assert!(!told.contains(word), "`{word}` is in: {told}");
+        }
+    };
+    spoilt(&|m| *m = Value::Null, &["expected an object, found null"]);
+    spoilt(&|m| m["model"]["lead"] = 2.5.into(), &["`model.lead`: expected a whole number, found `2.5`"]);
+    spoilt(&|m| m["model"]["scales"] = 1.into(), &["`model.scales`: expected an object, found `1`"]);
+    spoilt(&|m| m["model"]["criterion"] = true.into(), &["bad.json:", "`model.criterion`"]);
+    spoilt(
+        &|m| m["model"]["linear"]["a"][0] = "x".into(),
+        &["`model.linear.a[0]`: expected a number, found \"x\""],
+    );
+    refused(
+        &folder,
+        &["simulate", "report/gap.json", "again.csv"],
+        &["this is a diagnosis, but a model is wanted"],
+    );
+    refused(
+        &folder,
+        &["compare", "report/gap.json", "report/gap.json"],
+        &["this is a diagnosis, not the results of a study"],
+    );
+    refused(
+        &folder,
+        &["gap", "rig.toml", "--model", "report/gap.json"],
+        &["this is a diagnosis, but a model is wanted"],
+    );
+}
+
+#[test]
+fn a_model_of_other_units_is_refused() {
+    let folder = Folder::with_good_rig();
+    let measured = fs::read_to_string(folder.path("again.csv")).expect("a record");
+    let with = |header: &str| measured.replacen("t,v,y", header, 1);
+    folder.write("mm.csv", &with("t,travel [mm],force [N]"));
+    folder.write("m.csv", &with("t,travel [m],force [N]"));
+    folder.write("kn.csv", &with("t,travel [mm],force [kN]"));
+    run(&folder, &["identify", "mm.csv", "--json", "--out", "found"]);
+    let input = "the model was identified on travel in mm, this";
+    refused(&folder, &["simulate", "found/model.json", "m.csv"], &["m.csv: ", input, "file has m", "to mm"]);
+    refused(&folder, &["simulate", "found/model.json", "kn.csv"], &["force in N, this file has kN"]);
+    refused(&folder, &["gap", "m.csv", "--model", "found/model.json"], &[input, "rig has m"]);
+    simulated(&folder, "found/model.json", "mm.csv");
+    simulated(&folder, "found/model.json", "again.csv");
+    let (_, told) = written(&folder, "kn.csv", &["--output", "none"]);
+    assert!(told.contains("begins at rest"), "{told}");
 }

@@ -62,7 +62,9 @@ impl Place<'_> {
 pub fn run(scenario: &Path, place: Place<'_>, page: Page) -> CommandResult {
     let study = blind::read(scenario)?;
     let out = place.folder(&study);
-    let folder = place.force.claim(&out, &FILES)?;
+    place.force.claim(&out, &FILES)?;
+    // What a former run left stays until there is another report.
+    let folder = place.force.claim(&out, &[KEY_FILE])?;
     let tickets = blind::design(&study).map_err(StudyError)?;
     let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;
     let outcome = conclude(&study, &keys, &cases, Place { out: Some(&out), ..place }, page)?;
@@ -80,7 +82,9 @@ pub fn run_part(scenario: &Path, shard: Shard, place: Place<'_>, page: Page) -> 
     let default = Path::new("reports").join(format!("{}-part-{}-of-{}", study.name, shard.number, shard.of));
     let out = place.out.unwrap_or(&default);
     let name = scenario.file_name().unwrap_or_default().to_string_lossy();
-    let folder = place.force.claim(out, &[PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name])?;
+    let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
+    place.force.claim(out, &files)?;
+    let folder = place.force.claim(out, &[KEY_FILE])?;
     let tickets = blind::design(&study).map_err(StudyError)?.into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
     let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;

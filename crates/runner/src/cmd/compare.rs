@@ -42,7 +42,7 @@ const FILES: [&str; 3] = ["comparison.txt", "comparison.svg", "overlay-*.svg"];
 pub fn run(args: &Args) -> CommandResult {
     let baseline = results::read(&args.baseline)?;
     let new = results::read(&args.new)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &[&args.baseline, &args.new])?;
     let comparison = compare::compare(&baseline, &new);
     let summary = compare::summary(&comparison, &baseline, &new);
     if let Some(folder) = folder {

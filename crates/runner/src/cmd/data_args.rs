@@ -69,6 +69,12 @@ impl DataArgs {
         &self.data[0]
     }
 
+    /// Every file that was read.
+    pub fn inputs<'a>(&'a self, loaded: &'a Loaded) -> Vec<&'a Path> {
+        let records = loaded.plan.records.iter().map(|record| &record.path);
+        self.data.iter().chain(records).map(PathBuf::as_path).collect()
+    }
+
     fn source(&self) -> Result<Source<'_>, RigError> {
         let is_rig_file = |path: &&PathBuf| {
             let is_ending =
@@ -179,6 +185,7 @@ impl DataArgs {
             PlannedRecord {
                 named: path.display().to_string(),
                 path,
+                columns: ColumnNames::default(),
                 role: Role::Free,
                 usage: if is_held { Usage::Holdout } else { Usage::Fit },
                 held_out: match hold {

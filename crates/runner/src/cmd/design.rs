@@ -2,7 +2,7 @@
 
 use crate::design::{self, DesignError, Forecast, Length, Outlook, Plan, PlanMethod, Report, Request, Truth};
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, positive};
+use crate::options::{Force, Quiet, positive, whole};
 use crate::rig;
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -18,11 +18,11 @@ use thiserror::Error;
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Order of the linear part [default with --from: that of the rig].
-    #[arg(long, value_name = "N", required_unless_present = "from", value_parser = clap::value_parser!(u8).range(1..=20))]
+    #[arg(long, value_name = "N", required_unless_present = "from", value_parser = whole::<u8>(1..=20))]
     order: Option<u8>,
 
     /// Levels to visit on each border [default: 8; with --from, those of the rig].
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "M", value_parser = whole::<u16>(1..=65_535))]
     points: Option<u16>,
 
     /// Working interval of the input, input units.
@@ -46,7 +46,7 @@ pub struct Args {
     method: PlanMethod,
 
     /// Periods of each pulse experiment [default: 100].
-    #[arg(long, value_name = "K", conflicts_with = "duration")]
+    #[arg(long, value_name = "K", conflicts_with = "duration", value_parser = whole::<u32>(1..=u64::from(u32::MAX)))]
     periods: Option<u32>,
 
     /// Seconds of all records together, instead of --periods.
@@ -66,7 +66,7 @@ pub struct Args {
     free_only: bool,
 
     /// Seed of the free records.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX))]
     seed: u64,
 
     /// Label and unit of the input, as in "travel [mm]" [default: that of the rig].
@@ -113,7 +113,11 @@ pub fn run(args: &Args) -> CommandResult {
     }
     let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
     let request = request(args, source.as_ref())?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let inputs: Vec<&Path> =
+        source.iter().flat_map(|source| &source.files).chain(&args.from).map(PathBuf::as_path).collect();
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &inputs)?;
+    // What a former plan without `--free-only` left, if nothing was measured into it.
+    let folder = folder.map(|folder| folder.clearing(&["descendant.csv", "ascendant.csv"]));
     let (plan, outlook) = match source {
         Some(source) => foresee(args, request, source.truth)?,
         None => (Plan::new(request, length(args))?, None),
@@ -131,14 +135,17 @@ pub fn run(args: &Args) -> CommandResult {
 struct Source {
     rig: Rig,
     truth: Truth,
+    /// The rig's records.
+    files: Vec<PathBuf>,
 }
 
 impl Source {
     fn read(args: &Args, file: &Path) -> Result<Self, DesignError> {
-        let mut rig = rig::read(file)?;
+        let rig::Loaded { mut rig, plan, .. } = rig::load(file)?;
+        let files = plan.records.into_iter().map(|record| record.path).collect();
         rig.order = args.order.map(usize::from).or(rig.order);
         let truth = Truth::of(&rig, file)?;
-        Ok(Self { rig, truth })
+        Ok(Self { rig, truth, files })
     }
 }
 

@@ -65,9 +65,9 @@ const FILES: [&str; 10] = [
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = args.data.load("gap", args.quiet)?.rig;
-    let subject = Subject::choose(rig, args.model.as_deref())?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
+    let loaded = args.data.load("gap", args.quiet)?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let subject = Subject::choose(loaded.rig, args.model.as_deref())?;
     let watch = Watch::new(args.quiet);
     let report = args.threads.install(|| diagnosis::examine_watched(subject, &args.without, &watch))?;
     watch.finish();
@@ -92,7 +92,7 @@ fn artefacts(report: &Report) -> Artefacts {
         artefacts.add(name, file.text());
     }
     artefacts.add("series.csv", model::diagnosed_series(report));
-    artefacts.add("verdict.txt", diagnosis::words(report, None));
+    artefacts.add("verdict.txt", diagnosis::verdict(report));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);
     }

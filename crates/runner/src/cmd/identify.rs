@@ -54,8 +54,9 @@ const FILES: [&str; 5] =
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let rig = args.data.load("identify", args.quiet)?.rig;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES)?;
+    let loaded = args.data.load("identify", args.quiet)?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let rig = loaded.rig;
     let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
     let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);

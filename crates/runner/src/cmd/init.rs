@@ -30,8 +30,8 @@ pub struct Args {
 /// Files that cannot be read, or a rig file that is there already.
 pub fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
-    let file = args.force.claim_file(target)?;
     let loaded = args.data.load("init", args.quiet)?;
+    let file = args.force.claim_file(target, &args.data.inputs(&loaded))?;
     let manifest = rig::manifest(&loaded, target.map(folder));
     match file {
         Some(file) => file.commit(manifest)?,

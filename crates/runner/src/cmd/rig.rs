@@ -3,7 +3,7 @@
 use crate::diagnosis::Units;
 use crate::failure::{CommandResult, Outcome};
 use crate::input::closest;
-use crate::options::{Force, Quiet};
+use crate::options::{Force, Quiet, number, whole};
 use crate::output::{print, stamped};
 use crate::rig;
 use miette::Diagnostic;
@@ -23,19 +23,19 @@ pub struct Args {
     effect: Vec<String>,
 
     /// Which law of the effects, 0 being the plain one; `--list` shows them.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>(0..=u64::from(u32::MAX)))]
     law: usize,
 
     /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise.
-    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0, value_parser = number)]
     size: f64,
 
     /// Everything else is drawn from this.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX))]
     seed: u64,
 
     /// Order of the linear part, 1 to 3 [default: drawn].
-    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=3))]
+    #[arg(long, value_parser = whole::<u8>(1..=3))]
     order: Option<u8>,
 
     /// Folder for rig.toml and the records.
@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> CommandResult {
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE])?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
     let made = recipe.make().map_err(RigCommandError::from)?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;

@@ -19,8 +19,8 @@ pub struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
-    /// The input to play: CSV in any dialect. With a measured output beside it the run begins where the record does, and the fit is
-    /// told.
+    /// The input to play: CSV in any dialect, one column at least. With a measured output beside it the run begins where the record does,
+    /// and the fit is told; where that is missing at the beginning, the run begins at rest.
     #[arg(value_name = "INPUT.csv")]
     file: PathBuf,
 
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, value_name = "COLUMN")]
     input: Option<String>,
 
-    /// Column of the measured output, if there is one.
+    /// Column of the measured output, if there is one; `none` to leave it out and begin at rest.
     #[arg(long, value_name = "COLUMN")]
     output: Option<String>,
 
@@ -40,7 +40,7 @@ pub struct Args {
     #[arg(long)]
     resample: bool,
 
-    /// Write the columns t,v,y,y_low,y_high into this file instead of printing them.
+    /// Write the columns t,v,y,y_low,y_high, t as it stands in the input's file, into this file instead of printing them.
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
 
@@ -60,10 +60,8 @@ pub struct Args {
 #[non_exhaustive]
 pub enum SimulateError {
     /// The model knows no border for the input.
-    #[error("{input}: the input never moves, or it runs along a border that the model does not know")]
-    #[diagnostic(help(
-        "drive the input, and identify the model from records that run on both borders, or with `--method free`"
-    ))]
+    #[error("{input}: the input runs along a border that the model does not know")]
+    #[diagnostic(help("identify the model from records that run on both borders, or with `--method free`"))]
     NoRun {
         /// The input file.
         input: String,
@@ -79,21 +77,7 @@ pub enum SimulateError {
         /// Seconds between those of the model.
         model: f64,
     },
-    /// No sample is left to simulate.
-    #[error(
-        "{input}: the {samples} samples end before the simulation starts: they are all part of the initial state"
-    )]
-    #[diagnostic(help("give a longer input that moves, or leave the column `y` out to begin at rest"))]
-    TooShort {
-        /// The input file.
-        input: String,
-        /// Its samples.
-        samples: usize,
-    },
 }
-
-/// The header of the output.
-const HEADER: &str = "t,v,y,y_low,y_high";
 
 /// Reads both, runs, writes or prints.
 ///
@@ -102,13 +86,11 @@ const HEADER: &str = "t,v,y,y_low,y_high";
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let input = played(args, file.header.sample_time)?;
-    let target = args.force.claim_file(args.out.as_deref())?;
-    let shown = || args.file.display().to_string();
-    let run =
-        file.run(&input.v, input.y.as_deref()).ok_or_else(|| SimulateError::NoRun { input: shown() })?;
-    if run.start >= input.v.len() {
-        return Err(SimulateError::TooShort { input: shown(), samples: input.v.len() }.into());
-    }
+    let target = args.force.claim_file(args.out.as_deref(), &[&args.file, &args.model])?;
+    let labels = [input.input_label.as_str(), input.output_label.as_deref().unwrap_or_default()];
+    file.header.check_units(labels, (&args.file, "file"))?;
+    let run = free_run(&file, &input)
+        .ok_or_else(|| SimulateError::NoRun { input: args.file.display().to_string() })?;
     let page = Page::of(&file, &input, &run);
     let csv = table(&input, &run);
     match target {
@@ -127,6 +109,40 @@ pub fn run(args: &Args) -> CommandResult {
     Ok(Outcome::Done)
 }
 
+/// The run from the measured initial state, or from rest where none was measured or the input begins with nothing to simulate.
+fn free_run(file: &ModelFile, input: &InputSeries) -> Option<Run> {
+    let Some(y) = &input.y else { return file.run(&input.v, None) };
+    let label = input.output_label.as_deref().unwrap_or("output");
+    let missing = y.iter().filter(|y| y.is_nan()).count();
+    let is_usable = |run: &Run| run.start < input.v.len() && y[..run.start].iter().all(|y| y.is_finite());
+    let from_measured = (missing < y.len()).then(|| file.run(&input.v, Some(&filled(y)))).flatten();
+    let from_rest = || {
+        let mut run = file.run(&input.v, None)?;
+        run.notes.push(format!(
+            "no initial state could be taken from `{label}`: it is missing there, or the record ends before the input has moved"
+        ));
+        Some(run)
+    };
+    let mut run = from_measured.filter(is_usable).or_else(from_rest)?.judged(y);
+    if missing > 0 {
+        run.notes.push(format!(
+            "`{label}` is missing in {missing} of {} samples: the fit is judged on the others",
+            y.len()
+        ));
+    }
+    Some(run)
+}
+
+/// The last value that was measured in place of each that was not.
+fn filled(y: &[f64]) -> Vec<f64> {
+    let first = y.iter().copied().find(|y| y.is_finite()).unwrap_or(0.0);
+    let held = y.iter().scan(first, |last, y| {
+        *last = if y.is_finite() { *y } else { *last };
+        Some(*last)
+    });
+    held.collect()
+}
+
 /// The input, at the model's sample time.
 fn played(args: &Args, sample_time: f64) -> miette::Result<InputSeries> {
     let names =
@@ -134,7 +150,7 @@ fn played(args: &Args, sample_time: f64) -> miette::Result<InputSeries> {
     let sampling = Sampling { sample_time: Some(sample_time), resample: args.resample };
     let command = format!("switchback simulate {} {}", args.model.display(), args.file.display());
     let other = |error: &RigError| {
-        error.problems().iter().find_map(|problem| match problem {
+        error.problems().find_map(|problem| match problem {
             RigProblem::Data(DataError {
                 problem: DataProblem::OtherSampleTime { mean_step, .. }, ..
             }) => Some(*mean_step),
@@ -151,9 +167,14 @@ fn played(args: &Args, sample_time: f64) -> miette::Result<InputSeries> {
 }
 
 fn table(input: &InputSeries, run: &Run) -> String {
-    let mut text = format!("{HEADER}\n");
+    let unit = input.time_unit.iter().filter(|_| input.times.is_some());
+    let unit: String = unit.map(|unit| format!(" [{unit}]")).collect();
+    let mut text = format!("t{unit},v,y,y_low,y_high\n");
     for (k, v) in input.v.iter().enumerate() {
-        let t = stamp(input.start + k as f64 * input.sample_time);
+        let t = match &input.times {
+            Some(times) => times[k].clone(),
+            None => stamp(input.start + k as f64 * input.sample_time).to_string(),
+        };
         let _ = writeln!(text, "{t},{v},{},{},{}", run.y[k], run.low[k], run.high[k]);
     }
     text
@@ -178,7 +199,7 @@ struct Page<'a> {
     /// Share of the measured outputs within the band.
     covered: Option<f64>,
     warnings: Vec<String>,
-    notes: &'a [String],
+    notes: Vec<String>,
     version: &'static str,
 }
 
@@ -193,9 +214,13 @@ impl<'a> Page<'a> {
             start: run.start,
             samples: input.v.len() - run.start,
             fit_percent: run.fit_percent.filter(|fit| fit.is_finite()),
-            covered: input.y.as_ref().map(|y| run.covered(y)),
-            warnings: header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
-            notes: &run.notes,
+            covered: input.y.as_ref().and_then(|y| run.covered(y)),
+            warnings: [
+                input.warnings.clone(),
+                header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
+            ]
+            .concat(),
+            notes: [input.notes.as_slice(), &run.notes].concat(),
             version: env!("CARGO_PKG_VERSION"),
         }
     }
@@ -216,13 +241,13 @@ impl<'a> Page<'a> {
             let _ = write!(text, ", fit {fit:.2} %");
         }
         if let Some(covered) = self.covered {
-            let _ = write!(text, ", {:.1} % of the measured y within the 95 % band", 100.0 * covered);
+            let _ = write!(text, ", {:.1} % of the measured outputs within the 95 % band", 100.0 * covered);
         }
         text.push('\n');
         for warning in &self.warnings {
             let _ = writeln!(text, "warning: {warning}");
         }
-        for note in self.notes {
+        for note in &self.notes {
             let _ = writeln!(text, "note: {note}");
         }
         text

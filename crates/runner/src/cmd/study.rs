@@ -1,14 +1,17 @@
 //! `switchback SCENARIO.toml`
 
 use crate::failure::{CommandResult, Outcome};
+use crate::input::FileKind;
 use crate::options::{Force, Quiet, Shard, Threads};
 use crate::progress::Meter;
 use crate::results::to_json;
+use crate::rig::in_shell;
 use crate::scenario::{Engine, Scenario};
 use crate::{blind, report, study};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use miette::{IntoDiagnostic, miette};
+use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::path::{Path, PathBuf};
+use thiserror::Error;
 
 /// Run the study that a scenario file describes, and write its report.
 #[derive(Debug, clap::Args)]
@@ -56,6 +59,7 @@ pub fn run(args: &Args) -> CommandResult {
     let Some(file) = args.scenario.as_deref() else {
         return Err(miette!("nothing to do; name a scenario file, or see `switchback --help`"));
     };
+    refuse_other_kinds(file)?;
     if blind::is_blind(file) {
         if args.engine.is_some() {
             let path = file.display();
@@ -89,6 +93,30 @@ pub fn run(args: &Args) -> CommandResult {
     let words = || format!("{}\nwritten to {place}\n", report::table(&results).trim_end());
     args.quiet.tell_or(args.json, || to_json(&results), words)?;
     Ok(if results.as_expected() { Outcome::Done } else { Outcome::Unmet })
+}
+
+/// A file of another kind was given.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{path}: this is {kind}, but a scenario is wanted")]
+#[diagnostic(help("{remedy}"))]
+struct OtherKind {
+    path: String,
+    kind: &'static str,
+    remedy: String,
+}
+
+/// Data, rigs and what verbs wrote are told as such, with the verb that takes them.
+fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
+    let path = file.display().to_string();
+    let shown = in_shell(&path);
+    let (kind, remedy) = match FileKind::of(file) {
+        Some(FileKind::Data) => ("data", format!("`switchback gap {shown}`")),
+        Some(FileKind::Rig) => ("a rig", format!("`switchback gap {shown}`")),
+        Some(FileKind::Json(kind @ "a model")) => (kind, format!("`switchback simulate {shown} INPUT.csv`")),
+        Some(FileKind::Json(kind)) => (kind, "name a scenario file, or see `switchback --help`".to_owned()),
+        Some(FileKind::Scenario) | None => return Ok(()),
+    };
+    Err(OtherKind { path, kind, remedy })
 }
 
 /// The command that makes the results again, without the place where this machine keeps the file.

@@ -19,6 +19,30 @@ pub enum DesignError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Identification(#[from] IdentificationError),
+    /// A move of the free records is none that fits.
+    #[error("`--amplitude`: the {which} move, {size}, {reason}")]
+    #[diagnostic(help("give `--amplitude MIN,MAX` with 0 < MIN ≤ MAX ≤ {width}"))]
+    Amplitude {
+        /// `smallest` or `largest`.
+        which: &'static str,
+        /// The move given, input units.
+        size: f64,
+        /// Why it is none.
+        reason: String,
+        /// Width of the interval.
+        width: f64,
+    },
+    /// The pulse experiments are too short.
+    #[error(
+        "`--periods {periods}` is too few: the first period settles the output, and every level must come back at least once more"
+    )]
+    #[diagnostic(help("give `--periods {minimum}` or more"))]
+    TooFewPeriods {
+        /// Periods given.
+        periods: usize,
+        /// The fewest allowed.
+        minimum: usize,
+    },
     /// An experiment is refused.
     #[error(transparent)]
     Excitation(#[from] ExcitationError),

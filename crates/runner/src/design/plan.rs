@@ -63,6 +63,9 @@ impl Plan {
         let Request { interval, order, points, sample_time, .. } = request;
         let shortest = Campaign::new(interval, order, points, Campaign::FEWEST_PERIODS)?;
         let periods = match length {
+            Length::Periods(periods) if periods < Campaign::FEWEST_PERIODS => {
+                return Err(DesignError::TooFewPeriods { periods, minimum: Campaign::FEWEST_PERIODS });
+            }
             Length::Periods(periods) => periods,
             Length::Duration(given) => match shortest.periods_within(given / sample_time) {
                 periods if periods >= Campaign::FEWEST_PERIODS => periods,
@@ -111,12 +114,35 @@ impl Plan {
 fn drive(request: &Request) -> Result<Reversals, DesignError> {
     let mut drive = Reversals::new(request.interval);
     if let Some([smallest, largest]) = request.amplitude {
+        check_moves(request.interval, smallest, largest)?;
         drive = drive.with_sizes(smallest, largest)?;
     }
     if let Some(speed) = request.max_speed {
         drive = drive.with_fastest(speed * request.sample_time)?;
     }
     Ok(drive)
+}
+
+fn check_moves(interval: Interval, smallest: f64, largest: f64) -> Result<(), DesignError> {
+    let width = interval.width();
+    for (which, size) in [("smallest", smallest), ("largest", largest)] {
+        let reason = if size.is_nan() || size <= 0.0 {
+            "is not positive".to_owned()
+        } else if size > width {
+            format!(
+                "does not fit into the interval {}…{}, which is {width} wide",
+                interval.low(),
+                interval.high()
+            )
+            .replace('-', "−")
+        } else if size < smallest {
+            format!("is less than the smallest, {smallest}")
+        } else {
+            continue;
+        };
+        return Err(DesignError::Amplitude { which, size, reason, width });
+    }
+    Ok(())
 }
 
 /// A visit takes one sample, from one end of the interval to the other at the most.

@@ -156,10 +156,10 @@ fn demands(plan: &Plan) -> String {
     if !request.free_only {
         let _ = writeln!(
             page,
-            "a period of the pulse experiments has {} samples: {} levels, visited for one sample each, {} samples apart\n\
+            "a period of the pulse experiments has {} samples: {}, visited for one sample each, {} samples apart\n\
              the first of the {} periods lets the output settle",
             pulses.period(),
-            pulses.points(),
+            counted(pulses.points(), "level"),
             pulses.spacing(),
             plan.campaign().periods(),
         );
@@ -176,6 +176,11 @@ fn demands(plan: &Plan) -> String {
         digits(step / request.sample_time, 4),
     );
     page
+}
+
+/// `1 level`, `2 levels`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 fn with_unit(label: &str) -> String {

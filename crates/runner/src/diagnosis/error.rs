@@ -21,6 +21,13 @@ impl DiagnosisError {
         let told = error.to_string();
         // These errors name the remedy after the last semicolon.
         let (problem, remedy) = told.rsplit_once("; ").unwrap_or((&told, "check the records of the rig"));
+        let remedy = match error {
+            DiagnoseError::TooShort { order: 1, .. } => "record longer",
+            DiagnoseError::TooShort { .. } => {
+                "record longer, or set a lower `order` in a rig file, as `switchback init` writes one"
+            }
+            _ => remedy,
+        };
         Self { rig: rig.to_owned(), problem: problem.to_owned(), remedy: remedy.to_owned() }
     }
 

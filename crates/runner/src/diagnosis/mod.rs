@@ -25,4 +25,4 @@ pub use parameter::{Told, told};
 pub use place::SIGNIFICANT;
 pub use subject::{Source, Subject, SubjectError};
 pub use units::Units;
-pub use words::words;
+pub use words::{verdict, words};

@@ -1,9 +1,9 @@
 //! The model that a diagnosis is given: a model file, or the output of `switchback identify --json`.
 
+use crate::input::json_file::{self, JsonError};
 use crate::input::read_text;
 use crate::model::{self, ModelError, ModelFile};
 use serde::Deserialize;
-use serde_json::error::Category;
 use std::path::Path;
 use switchback_estimator::estimators::{BorderPoint, Estimate};
 use switchback_estimator::linear::is_stable;
@@ -64,7 +64,15 @@ struct WirePoint {
 /// [`ModelError`] if the file is no JSON, lacks a field, or its numbers contradict each other.
 fn page(path: &Path) -> Result<Estimate, ModelError> {
     let text = read_text(path)?;
-    let wire: WireModel = serde_json::from_str(&text).map_err(|error| refused(path, &text, &error))?;
+    let other = json_file::kind(&text).filter(|kind| *kind != "an identification");
+    if let Some(kind) = other {
+        return Err(ModelError::Content {
+            place: path.display().to_string(),
+            message: format!("this is {kind}, but a model is wanted"),
+            remedy: MAKE_ONE.to_owned(),
+        });
+    }
+    let wire: WireModel = json_file::parse(path, &text).map_err(refused)?;
     check(&wire).map_err(|(message, remedy)| ModelError::Content {
         place: path.display().to_string(),
         message,
@@ -73,19 +81,10 @@ fn page(path: &Path) -> Result<Estimate, ModelError> {
     Ok(estimate(wire))
 }
 
-/// What the reader of JSON stumbled over, in the words of somebody who writes JSON.
-fn refused(path: &Path, text: &str, error: &serde_json::Error) -> ModelError {
-    let told = error.to_string();
-    let message = told.rsplit_once(" at line ").map_or(told.as_str(), |(message, _)| message);
-    let (message, remedy) = match error.classify() {
-        _ if text.trim().is_empty() => ("the file is empty".to_owned(), MAKE_ONE.to_owned()),
-        Category::Data => (
-            message.replace("missing field", "there is no field").replace("f64", "a number"),
-            format!("a model has order, a, b, gain, descendant and ascendant; {MAKE_ONE}"),
-        ),
-        _ => (format!("this is no JSON: {message}"), MAKE_ONE.to_owned()),
-    };
-    let place = format!("{}:{}:{}", path.display(), error.line().max(1), error.column().max(1));
+fn refused(error: JsonError) -> ModelError {
+    let JsonError { place, message, is_json } = error;
+    let fields = "a model has order, a, b, gain, descendant and ascendant; ";
+    let remedy = format!("{}{MAKE_ONE}", if is_json { fields } else { "" });
     ModelError::Content { place, message, remedy }
 }
 

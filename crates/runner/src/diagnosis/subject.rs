@@ -2,7 +2,7 @@
 
 use super::model_file::{self, Given};
 use crate::identification::EstimatedSystem;
-use crate::model::{ModelError, ModelFile, System};
+use crate::model::{ModelError, ModelFile, System, UnitError};
 use miette::Diagnostic;
 use std::path::Path;
 use switchback_estimator::estimators::Estimate;
@@ -68,6 +68,10 @@ pub enum SubjectError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Model(#[from] ModelError),
+    /// The model was identified in other units.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Units(#[from] UnitError),
     /// The model is of another order than the rig declares.
     #[error("{file}: the model has order {model}, but the rig declares `order = {rig}`")]
     #[diagnostic(help(
@@ -155,6 +159,7 @@ impl Subject {
         model: &ModelFile,
         mut notes: Vec<String>,
     ) -> Result<Self, SubjectError> {
+        model.header.check_units([&rig.input_label, &rig.output_label], (file, "rig"))?;
         let sample_time = model.header.sample_time;
         if (sample_time - rig.sample_time).abs() > 1e-6 * rig.sample_time {
             let file = file.display().to_string();

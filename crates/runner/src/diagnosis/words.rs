@@ -22,6 +22,24 @@ const NOTHING: &str = "nothing";
 /// The verdict in sentences, the hold-out records, the best explanations, what could not be judged, and what to do next.
 /// `out` is where the report's folder was written, if it was.
 pub fn words(report: &Report, out: Option<&Path>) -> String {
+    let file = match out {
+        Some(folder) => format!("its input is ready in {}", folder.join(NEXT_EXPERIMENT).display()),
+        None => "`--out DIR` writes its input as a CSV".to_owned(),
+    };
+    let mut page = page(report, &file);
+    if let Some(folder) = out {
+        let _ = write!(page, "\nreport: {}\n", folder.display());
+    }
+    page
+}
+
+/// The same for a file that lies beside the others of the report.
+pub fn verdict(report: &Report) -> String {
+    page(report, &format!("its input is in {NEXT_EXPERIMENT}"))
+}
+
+/// `file` says where the input of the next experiment is.
+fn page(report: &Report, file: &str) -> String {
     let units = Units::of(&report.rig);
     let mut page = format!("{}\n\n", report.rig.name);
     page.push_str(&wrapped(&sentences::verdict(report).join(" "), ""));
@@ -35,11 +53,8 @@ pub fn words(report: &Report, out: Option<&Path>) -> String {
             page.push_str(&wrapped(&format!("- {limitation}"), "  "));
         }
     }
-    if let Some(text) = next(report, out) {
+    if let Some(text) = next(report, file) {
         let _ = write!(page, "\n{}", wrapped(&text, ""));
-    }
-    if let Some(folder) = out {
-        let _ = write!(page, "\nreport: {}\n", folder.display());
     }
     page
 }
@@ -104,7 +119,7 @@ fn row(candidate: &Candidate) -> [String; 5] {
     ]
 }
 
-fn next(report: &Report, out: Option<&Path>) -> Option<String> {
+fn next(report: &Report, file: &str) -> Option<String> {
     let next = report.diagnosis.next_experiment.as_ref()?;
     let seconds = digits(next.v.len() as f64 * report.rig.sample_time, 3);
     let rivals = next.separates.iter().map(|effect| effect.name()).collect::<Vec<_>>().join(" and ");
@@ -115,10 +130,6 @@ fn next(report: &Report, out: Option<&Path>) -> Option<String> {
              {least} noise sd."
         ));
     }
-    let file = match out {
-        Some(folder) => format!("its input is ready in {}", folder.join(NEXT_EXPERIMENT).display()),
-        None => "`--out DIR` writes its input as a CSV".to_owned(),
-    };
     Some(format!(
         "next experiment: {} ({} samples, {seconds} s) sets the predictions of {rivals} apart by {} noise sd; {file}.",
         next.kind.name(),

@@ -12,7 +12,7 @@ pub enum IdentificationError {
     /// The rig lacks an experiment that the method is made for.
     #[error("{rig}: the method {method} needs {needed} among the fit records")]
     #[diagnostic(help(
-        "add a [[record]] with that `role` and `use = \"fit\"`, or choose `--method free`, which takes any record"
+        "choose `--method free`, which takes any record, or add a [[record]] with that `role` and `use = \"fit\"` to a rig file"
     ))]
     MissingExperiment {
         /// The rig's name, or its file where that is known.
@@ -38,7 +38,7 @@ pub enum IdentificationError {
     /// The result simulates every record worse than a constant would.
     #[error("{rig}: what the method {method} found is of no use: {told}")]
     #[diagnostic(help(
-        "check that the columns hold the input and the output of one machine, look for drift between the records, or set another `order`"
+        "check that the columns hold the input and the output of one machine, look for drift between the records, or set another `order` in a rig file"
     ))]
     Useless {
         /// The rig's name, or its file where that is known.

@@ -21,8 +21,9 @@ pub(super) fn identify(
         estimate(&records, &settings, progress).map_err(|error| IdentificationError::Refused {
             rig: rig.name.clone(),
             method,
-            remedy: remedy(&error).to_owned(),
-            reason: error.to_string(),
+            remedy: remedy(&error, rig),
+            // What follows is told in the terms of the files.
+            reason: error.to_string().split("; ").next().unwrap_or_default().to_owned(),
         })?;
     let model = Found::Curves(Curves::of(&identified));
     Ok(Identification {
@@ -44,15 +45,20 @@ fn run(model: &Model, record: &Record) -> Option<FreeRun> {
     (run.start < record.len()).then(|| FreeRun::new(record.y(), run.y, run.start))
 }
 
-/// What to change in the rig's files; the error itself says what is wrong with them.
-fn remedy(error: &FreeError) -> &'static str {
+/// What to change in the files; the error itself says what is wrong with them.
+fn remedy(error: &FreeError, rig: &Rig) -> String {
+    let (input, output) = (&rig.input_label, &rig.output_label);
     match error {
-        FreeError::TooShort { .. } => "give longer fit records, or a lower `order` in the rig file",
-        FreeError::NoMotion { .. } => {
-            "check that the column `v` holds the input, and drive it through its interval"
+        FreeError::TooShort { .. } => {
+            "give longer fit records, or a lower `order` in a rig file, as `switchback init` writes one".to_owned()
         }
-        FreeError::ConstantOutput => "check that the column `y` holds the output",
-        FreeError::UnvisitedKnot { .. } => "narrow `interval` in the rig file to where the records go",
-        _ => "set another `order` in the rig file, or check the fit records for drift and faults",
+        FreeError::NoMotion { .. } => {
+            format!("check that `{input}` is the column of the input, and drive it through its interval")
+        }
+        FreeError::ConstantOutput => format!("check that `{output}` is the column of the output"),
+        FreeError::UnvisitedKnot { .. } => {
+            "narrow `interval` in a rig file, as `switchback init` writes one, to where the records go".to_owned()
+        }
+        _ => "check the fit records for drift and faults, or set another `order` in a rig file, as `switchback init` writes one".to_owned(),
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
             rig: rig.name.clone(),
             method,
             reason: error.to_string(),
-            remedy: "check the column `v`".to_owned(),
+            remedy: format!("check the column of the input, `{}`", rig.input_label),
         })?;
     let system =
         EstimatedSystem::new(&estimate, interval).map_err(|reason| IdentificationError::Refused {

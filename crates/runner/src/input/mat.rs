@@ -62,7 +62,15 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
     }
     let column = |(name, values): (String, Vec<f64>)| {
         let (name, unit) = super::table::unit::split(&name);
-        Column { name, unit, kind: Kind::Number, values, faults: Vec::new(), fault_count: 0 }
+        Column {
+            name,
+            unit,
+            kind: Kind::Number,
+            values,
+            stamps: Vec::new(),
+            faults: Vec::new(),
+            fault_count: 0,
+        }
     };
     Ok(Table {
         path: path.display().to_string(),

@@ -2,13 +2,17 @@
 
 mod closest;
 mod decode;
+pub(crate) mod json_file;
+mod kinds;
 mod mat;
 mod table;
+mod terms;
 mod text_file;
 mod toml_file;
 
 pub(crate) use closest::closest;
+pub(crate) use kinds::FileKind;
 pub(crate) use table::{Column, Kind, Table, TableError, unit};
-pub use table::{DataError, DataProblem, Place};
+pub use table::{DataError, DataProblem, Place, Step};
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};

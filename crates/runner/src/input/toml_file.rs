@@ -1,6 +1,7 @@
 //! A TOML file, and errors that point into it.
 
 use super::closest::closest;
+use super::terms::Terms;
 use super::text_file::{FileError, read_text};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use serde::de::DeserializeOwned;
@@ -100,7 +101,7 @@ impl TomlFile {
 
     /// What the TOML reader's error means to the file's writer, and what to do about it.
     pub(crate) fn explain(&self, error: &toml::de::Error) -> (String, String) {
-        (in_toml_terms(error.message()), self.remedy(error.message()))
+        (Terms::Toml.told(error.message()), self.remedy(error.message()))
     }
 
     /// An error at a place of this file. `message` says what is wrong there, `remedy` what to do about it.
@@ -127,6 +128,11 @@ impl TomlFile {
         }))
     }
 
+    /// The line on which a place of this file lies, from 1.
+    pub(crate) fn line(&self, span: &Range<usize>) -> usize {
+        1 + self.text[..span.start.min(self.text.len())].matches('\n').count()
+    }
+
     /// What to do about an error of the TOML reader.
     fn remedy(&self, message: &str) -> String {
         let mut quoted = message.split('`').skip(1).step_by(2);
@@ -142,22 +148,6 @@ impl TomlFile {
             _ => "correct the value here; text stands in double quotes, numbers without quotes".to_owned(),
         }
     }
-}
-
-/// The reader's message without the names of Rust's types, which the writer of a TOML file need not know.
-fn in_toml_terms(message: &str) -> String {
-    let terms = [
-        ("unknown field", "unknown key"),
-        ("missing field", "missing key"),
-        ("duplicate field", "duplicate key"),
-        ("expected f64", "expected a number"),
-        ("expected i64", "expected a whole number"),
-        ("expected usize", "expected a whole number, 0 or more"),
-        ("expected u64", "expected a whole number, 0 or more"),
-        ("expected a tuple of size 2", "expected two numbers, [low, high]"),
-        ("expected a sequence", "expected a list"),
-    ];
-    terms.iter().fold(message.trim_end().to_owned(), |told, (theirs, ours)| told.replace(theirs, ours))
 }
 
 impl TomlError {

@@ -26,6 +26,7 @@ mod points;
 mod read;
 mod run;
 mod series;
+mod units;
 
 pub use curves::Curves;
 pub use domain::Domain;
@@ -36,3 +37,4 @@ pub use read::{ModelError, read};
 pub use run::Run;
 pub use series::{diagnosed_series, identified_series};
 pub use switchback_gap::PortableModel;
+pub use units::UnitError;

@@ -1,11 +1,11 @@
 //! From a model file to a model that runs.
 
 use super::file::{Header, ModelFile, SCHEMA, System};
+use crate::input::json_file::{self, JsonError};
 use crate::input::{FileError, read_text};
 use miette::Diagnostic;
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
-use serde_json::error::Category;
 use std::path::Path;
 use thiserror::Error;
 
@@ -82,7 +82,10 @@ pub fn read(path: &Path) -> Result<ModelFile, ModelError> {
                 "write the model again with this version, or read it with the one that wrote it",
             ));
         }
-        Some(other) => return Err(fail(format!("the file is a `{other}`, but a model is wanted"), MAKE_ONE)),
+        Some(other) => {
+            let kind = json_file::kind(&text).map_or_else(|| format!("a `{other}`"), str::to_owned);
+            return Err(fail(format!("this is {kind}, but a model is wanted"), MAKE_ONE));
+        }
         None => return Err(fail("this is no model file: there is no field `schema`".to_owned(), MAKE_ONE)),
     }
     let file = match peek.kind.as_deref() {
@@ -111,17 +114,9 @@ fn joined<M>(wire: WireFile<M>, system: impl Fn(M) -> System) -> ModelFile {
 }
 
 fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, ModelError> {
-    serde_json::from_str(text).map_err(|error| {
-        let told = error.to_string();
-        let message = told.rsplit_once(" at line ").map_or(told.as_str(), |(message, _)| message);
-        let message = match error.classify() {
-            _ if text.trim().is_empty() => "the file is empty".to_owned(),
-            Category::Data => {
-                message.replace("missing field", "there is no field").replace("f64", "a number")
-            }
-            _ => format!("this is no JSON: {message}"),
-        };
-        let place = format!("{}:{}:{}", path.display(), error.line().max(1), error.column().max(1));
-        ModelError::Content { place, message, remedy: MAKE_ONE.to_owned() }
+    json_file::parse(path, text).map_err(|JsonError { place, message, .. }| ModelError::Content {
+        place,
+        message,
+        remedy: MAKE_ONE.to_owned(),
     })
 }

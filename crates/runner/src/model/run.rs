@@ -36,11 +36,20 @@ impl Run {
         Self { low, high, y, start, fit_percent, notes: Vec::new() }
     }
 
-    /// Share of the measured outputs after the start that lie within the band.
-    pub fn covered(&self, measured: &[f64]) -> f64 {
-        let inside = |t: &usize| (self.low[*t]..=self.high[*t]).contains(&measured[*t]);
-        let count = (self.start..self.y.len()).filter(inside).count();
-        count as f64 / (self.y.len() - self.start).max(1) as f64
+    /// Share of the measured outputs after the start that lie within the band, where any was measured; the others are NaN.
+    pub fn covered(&self, measured: &[f64]) -> Option<f64> {
+        let judged: Vec<usize> = (self.start..self.y.len()).filter(|t| measured[*t].is_finite()).collect();
+        let inside = |t: &&usize| (self.low[**t]..=self.high[**t]).contains(&measured[**t]);
+        let count = judged.iter().filter(inside).count();
+        (!judged.is_empty()).then(|| count as f64 / judged.len() as f64)
+    }
+
+    /// The fit figure on the outputs that were measured; the others are NaN.
+    pub fn judged(self, measured: &[f64]) -> Self {
+        let judged = (self.start..self.y.len()).filter(|t| measured[*t].is_finite());
+        let (measured, simulated): (Vec<f64>, Vec<f64>) = judged.map(|t| (measured[t], self.y[t])).unzip();
+        let fit_percent = (!measured.is_empty()).then(|| FreeRun::new(&measured, simulated, 0).fit_percent);
+        Self { fit_percent, ..self }
     }
 }
 
@@ -82,7 +91,7 @@ impl ModelFile {
         }
         if y.is_none() {
             run.notes.push(
-                "no measured output is given: the run begins at rest, as if the input had always been at its first value".to_owned(),
+                "the run begins at rest, as if the input had always been at its first value".to_owned(),
             );
         }
         Some(run)

@@ -20,15 +20,19 @@ impl Force {
         OutputFolder::claim(folder)?.forced(self.force).expecting(names)
     }
 
-    /// Claims a file by its path, where one was asked for.
+    /// Claims a file by its path, where one was asked for. `inputs` are what the command reads: they are never replaced.
     ///
     /// # Errors
     /// [`OutputError`] if something is there and not given up, or the file cannot be written.
-    pub fn claim_file(self, path: Option<&Path>) -> Result<Option<OutputFile>, OutputError> {
-        path.map(|path| OutputFile::claim(path, self.force)).transpose()
+    pub fn claim_file(
+        self,
+        path: Option<&Path>,
+        inputs: &[&Path],
+    ) -> Result<Option<OutputFile>, OutputError> {
+        path.map(|path| OutputFile::claim(path, self.force, inputs)).transpose()
     }
 
-    /// The same as [`claim`](Self::claim) where a folder need not be asked for.
+    /// The same as [`claim`](Self::claim) where a folder need not be asked for; none of the `inputs` is replaced.
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
@@ -36,7 +40,9 @@ impl Force {
         self,
         folder: Option<&Path>,
         names: &[&str],
+        inputs: &[&Path],
     ) -> Result<Option<OutputFolder>, OutputError> {
-        folder.map(|folder| self.claim(folder, names)).transpose()
+        let claim = |folder| self.claim(folder, names)?.sparing(inputs.iter().copied());
+        folder.map(claim).transpose()
     }
 }

@@ -5,9 +5,11 @@ mod positive;
 mod quiet;
 mod shard;
 mod threads;
+mod whole;
 
 pub use force::Force;
-pub use positive::positive;
+pub use positive::{number, positive};
 pub use quiet::Quiet;
 pub use shard::Shard;
 pub use threads::Threads;
+pub use whole::whole;

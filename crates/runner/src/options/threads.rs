@@ -1,12 +1,13 @@
 //! `--threads`
 
+use super::whole;
 use miette::IntoDiagnostic;
 
 /// How many threads work.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
 pub struct Threads {
     /// Worker threads [default: one a core]; results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
     pub threads: Option<u16>,
 }
 

@@ -26,6 +26,15 @@ pub enum OutputError {
         /// The artefact's name.
         name: String,
     },
+    /// A file stands where the folder of a file is wanted.
+    #[error("{target}: cannot be written: {obstacle} is a file, not a folder")]
+    #[diagnostic(help("give the path of a file in a folder, existing or new"))]
+    NoFolder {
+        /// The file as given.
+        target: String,
+        /// The part of its path that is no folder.
+        obstacle: String,
+    },
     /// A folder stands where a file is wanted.
     #[error("{target}: is a folder, not a file")]
     #[diagnostic(help("give the name of a file, in this folder or elsewhere"))]
@@ -40,6 +49,13 @@ pub enum OutputError {
         /// The file as given.
         target: String,
     },
+    /// What the command reads would be replaced.
+    #[error("{target}: is read by this command, so it cannot be written by it too")]
+    #[diagnostic(help("give another name: what was measured is never replaced, with --force or without"))]
+    IsInput {
+        /// The file as given.
+        target: String,
+    },
     /// A file that someone else wrote or changed would be replaced.
     #[error("{target}: {files} would be lost there")]
     #[diagnostic(help("give another folder, or --force to replace what is there"))]
@@ -48,6 +64,15 @@ pub enum OutputError {
         target: String,
         /// The files with what makes them someone else's.
         files: String,
+    },
+    /// The system refused to write a file.
+    #[error("{target}: cannot write this file: {source}")]
+    #[diagnostic(help("give a file in a folder that you may write to, on a disk with space left"))]
+    FileUnwritable {
+        /// The file as given.
+        target: String,
+        /// What the system said.
+        source: io::Error,
     },
     /// The system refused to write.
     #[error("{target}: cannot write to this output folder: {source}")]

@@ -1,6 +1,6 @@
 //! The folder that artefacts go to.
 
-use super::staging::{Staging, Uninterrupted};
+use super::staging::{Staging, Uninterrupted, nearest};
 use super::written::{Owner, SUMS, Written};
 use super::{Artefacts, OutputError};
 use std::fs;
@@ -17,11 +17,18 @@ use std::path::{Path, PathBuf};
 /// and SHA-256: a file that is not listed there was written by someone else, and one whose hash differs was changed by
 /// someone else. Both are refused unless the folder is [`forced`](Self::forced), at once where the names are known
 /// ([`expecting`](Self::expecting)), else on commit. `sha256sum -c .switchback.sha256` checks a folder by the same list.
+///
+/// Of the names expected, the program's own unchanged files that are not written anew are removed: they are those of a former run.
+/// What the command was given to read ([`sparing`](Self::sparing)) is never replaced, not even by force.
 #[derive(Debug)]
 pub struct OutputFolder {
     target: PathBuf,
     staging: Staging,
     forced: bool,
+    /// Names that the command may write, a `*` standing for any part of one.
+    expected: Vec<String>,
+    /// Files that the command reads, without links.
+    inputs: Vec<PathBuf>,
 }
 
 impl OutputFolder {
@@ -32,17 +39,19 @@ impl OutputFolder {
     /// [`OutputError`] if part of the path is a file or the system refuses.
     pub fn claim(target: &Path) -> Result<Self, OutputError> {
         let shown = target.display().to_string();
-        let nearest = target
-            .ancestors()
-            .map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
-            .find(|folder| folder.exists())
-            .unwrap_or(Path::new("."));
+        let nearest = nearest(target);
         if !nearest.is_dir() {
             return Err(OutputError::NotAFolder { target: shown, obstacle: nearest.display().to_string() });
         }
         let staging =
             Staging::inside(nearest).map_err(|source| OutputError::Unwritable { target: shown, source })?;
-        Ok(Self { target: target.to_owned(), staging, forced: false })
+        Ok(Self {
+            target: target.to_owned(),
+            staging,
+            forced: false,
+            expected: Vec::new(),
+            inputs: Vec::new(),
+        })
     }
 
     /// Whether files that someone else wrote or changed may be replaced; not so unless it is said.
@@ -56,17 +65,37 @@ impl OutputFolder {
     /// # Errors
     /// [`OutputError`] if a file of such a name is someone else's, or a folder has the name.
     pub fn expecting(self, names: &[&str]) -> Result<Self, OutputError> {
-        let there = match fs::read_dir(&self.target) {
-            Ok(entries) => {
-                entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect()
-            }
-            Err(_) => Vec::new(),
-        };
-        let mut expected: Vec<&str> =
-            there.iter().map(String::as_str).filter(|name| fits(name, names)).collect();
-        expected.sort_unstable();
-        self.refuse_what_is_not_ours(expected)?;
-        Ok(self)
+        let folder = self.clearing(names);
+        let there = folder.there_already();
+        folder.refuse_what_is_not_ours(there.iter().map(String::as_str))?;
+        Ok(folder)
+    }
+
+    /// Names of which files of a former run are removed, beside those [expected](Self::expecting).
+    pub fn clearing(mut self, names: &[&str]) -> Self {
+        self.expected.extend(names.iter().map(|name| (*name).to_owned()));
+        self
+    }
+
+    /// Makes sure that no file is replaced that the command reads.
+    ///
+    /// # Errors
+    /// [`OutputError`] if one of these has an [expected](Self::expecting) name in this folder.
+    pub fn sparing<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+        let inputs = inputs.into_iter().filter_map(|input| fs::canonicalize(input).ok()).collect();
+        let folder = Self { inputs, ..self };
+        let there = folder.there_already();
+        folder.refuse_inputs(there.iter().map(String::as_str))?;
+        Ok(folder)
+    }
+
+    /// Files in the folder of the names expected.
+    fn there_already(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.target).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut names: Vec<String> = names.filter(|name| fits(name, &self.expected)).collect();
+        names.sort_unstable();
+        names
     }
 
     /// The folder, as it was given.
@@ -74,16 +103,37 @@ impl OutputFolder {
         &self.target
     }
 
-    /// Writes all artefacts. The program's own files of the same names are replaced, others are left alone.
+    /// Writes all artefacts. The program's own files of the same names are replaced, those of a former run removed, others left alone.
     ///
     /// # Errors
     /// [`OutputError`] if a file of such a name is someone else's, or the system refuses; the folder then holds what it held before.
     pub fn commit(self, artefacts: &Artefacts) -> Result<(), OutputError> {
         let _until_done = Uninterrupted::new();
+        self.refuse_inputs(artefacts.iter().map(|(name, _)| name))?;
         let written = self.refuse_what_is_not_ours(artefacts.iter().map(|(name, _)| name))?;
+        let stale = self.stale(&written, artefacts);
         let mut files = artefacts.clone();
-        files.add(SUMS, written.with(artefacts).text());
-        self.stage_and_rename(&files).map_err(|source| self.unwritable(source))
+        files.add(SUMS, written.without(&stale).with(artefacts).text());
+        self.stage_and_rename(&files, &stale).map_err(|source| self.unwritable(source))
+    }
+
+    /// The program's own unchanged files of the names expected that are not written anew.
+    fn stale(&self, written: &Written, artefacts: &Artefacts) -> Vec<String> {
+        let is_stale = |name: &String| {
+            artefacts.iter().all(|(new, _)| new != name)
+                && matches!(written.owner(&self.target, name), Ok(Owner::Program))
+        };
+        self.there_already().into_iter().filter(is_stale).collect()
+    }
+
+    fn refuse_inputs<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), OutputError> {
+        for name in names {
+            let place = self.target.join(name);
+            if fs::canonicalize(&place).is_ok_and(|place| self.inputs.contains(&place)) {
+                return Err(OutputError::IsInput { target: place.display().to_string() });
+            }
+        }
+        Ok(())
     }
 
     /// The list of the program's own files, if every file of these names is one of them.
@@ -114,20 +164,26 @@ impl OutputFolder {
         OutputError::Unwritable { target: self.target.display().to_string(), source }
     }
 
-    fn stage_and_rename(&self, artefacts: &Artefacts) -> io::Result<()> {
+    fn stage_and_rename(&self, artefacts: &Artefacts, stale: &[String]) -> io::Result<()> {
         let (fresh, replaced) = (self.staging.folder("fresh")?, self.staging.folder("replaced")?);
         for (name, contents) in artefacts.iter() {
             fs::write(fresh.join(name), contents)?;
         }
         fs::create_dir_all(&self.target)?;
-        self.exchange_all(artefacts, &fresh, &replaced)
+        self.exchange_all(artefacts, stale, [&fresh, &replaced])
     }
 
-    /// Moves every file to its place, or after a failure every one back.
-    fn exchange_all(&self, artefacts: &Artefacts, fresh: &Path, replaced: &Path) -> io::Result<()> {
+    /// Moves every file to its place and stale ones away, or after a failure every one back.
+    fn exchange_all(
+        &self,
+        artefacts: &Artefacts,
+        stale: &[String],
+        [fresh, replaced]: [&Path; 2],
+    ) -> io::Result<()> {
         let mut moved = Vec::new();
+        let paths = |name: &str| [self.target.as_path(), fresh, replaced].map(|folder| folder.join(name));
         for (name, _) in artefacts.iter() {
-            let paths = [self.target.as_path(), fresh, replaced].map(|folder| folder.join(name));
+            let paths = paths(name);
             let exchanged = exchange(&paths);
             moved.push(paths);
             if let Err(error) = exchanged {
@@ -135,14 +191,22 @@ impl OutputFolder {
                 return Err(error);
             }
         }
+        for name in stale {
+            let paths = paths(name);
+            if let Err(error) = fs::rename(&paths[0], &paths[2]) {
+                moved.iter().for_each(undo);
+                return Err(error);
+            }
+            moved.push(paths);
+        }
         Ok(())
     }
 }
 
 /// Whether a name is one of these, where a `*` stands for any part of it.
-fn fits(name: &str, expected: &[&str]) -> bool {
+fn fits(name: &str, expected: &[String]) -> bool {
     expected.iter().any(|expected| match expected.split_once('*') {
-        None => name == *expected,
+        None => name == expected,
         Some((before, after)) => {
             name.strip_prefix(before).is_some_and(|rest| rest.len() >= after.len() && rest.ends_with(after))
         }

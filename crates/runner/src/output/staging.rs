@@ -70,6 +70,15 @@ impl Staging {
     }
 }
 
+/// The nearest folder, or what stands in its place, on the way up that exists.
+pub(super) fn nearest(target: &Path) -> &Path {
+    target
+        .ancestors()
+        .map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
+        .find(|folder| folder.exists())
+        .unwrap_or(Path::new("."))
+}
+
 impl Drop for Staging {
     fn drop(&mut self) {
         // Nothing can be done about a folder that will not go, and the results do not depend on it.

@@ -68,6 +68,12 @@ impl Written {
         self
     }
 
+    /// The list once these files are gone.
+    pub(super) fn without(mut self, names: &[String]) -> Self {
+        self.sums.retain(|name, _| !names.contains(name));
+        self
+    }
+
     /// The list as text, by name.
     pub(super) fn text(&self) -> String {
         self.sums.iter().fold(String::new(), |mut text, (name, sum)| {

@@ -1,6 +1,7 @@
 //! `results.json`: writing it byte for byte the same, and refusing what is not one.
 
 use super::{Results, SCHEMA};
+use crate::input::json_file::{self, JsonError};
 use miette::Diagnostic;
 use serde::Serialize;
 use serde_json::ser::Formatter;
@@ -22,13 +23,22 @@ pub enum ResultsError {
         source: io::Error,
     },
     /// The content is not a result table.
-    #[error("{}: is not a results file of Switchback: {source}", path.display())]
+    #[error("{place}: is not a results file of Switchback: {message}")]
     #[diagnostic(help("give a results.json as a consistency study writes it"))]
     NotResults {
+        /// The path read, with line and column.
+        place: String,
+        /// What does not fit.
+        message: String,
+    },
+    /// Another command wrote it.
+    #[error("{}: this is {kind}, not the results of a study", path.display())]
+    #[diagnostic(help("give a results.json as a consistency study writes it"))]
+    OtherKind {
         /// The path read.
         path: PathBuf,
-        /// What does not fit, and where.
-        source: serde_json::Error,
+        /// What it is.
+        kind: &'static str,
     },
     /// The layout is of another version.
     #[error("{}: has results layout {found}, this version reads {SCHEMA}", path.display())]
@@ -49,11 +59,14 @@ pub fn read(path: &Path) -> Result<Results, ResultsError> {
     let path = if path.is_dir() { path.join("results.json") } else { path.to_owned() };
     let text = std::fs::read_to_string(&path)
         .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?;
-    let refuse = |source| ResultsError::NotResults { path: path.clone(), source };
-    let value: serde_json::Value = serde_json::from_str(&text).map_err(refuse)?;
+    let refuse = |JsonError { place, message, .. }| ResultsError::NotResults { place, message };
+    if let Some(kind) = json_file::kind(&text).filter(|kind| *kind != "the results of a study") {
+        return Err(ResultsError::OtherKind { path, kind });
+    }
+    let value: serde_json::Value = json_file::parse(&path, &text).map_err(refuse)?;
     match value.get("schema").and_then(serde_json::Value::as_u64) {
         Some(found) if found != u64::from(SCHEMA) => Err(ResultsError::OtherSchema { path, found }),
-        _ => serde_json::from_str(&text).map_err(refuse),
+        _ => json_file::parse(&path, &text).map_err(refuse),
     }
 }
 

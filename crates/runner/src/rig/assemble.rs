@@ -2,10 +2,11 @@
 
 use super::cut::{self, Part};
 use super::measured::{Measured, Request};
-use super::plan::{ColumnNames, Plan, PlannedRecord, Voice};
+use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
 use super::told::{self, Told};
-use crate::input::{DataError, DataProblem};
+use super::voice::Voice;
+use crate::input::{Column, DataError, DataProblem};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
@@ -45,7 +46,7 @@ pub(super) fn assemble(plan: &Plan) -> Result<Loaded, Vec<Located>> {
     check_agreement(plan, &measured)?;
     let needed = samples_needed(plan.order);
     let divided = each(plan.records.iter().zip(measured), |(record, measured)| {
-        let parts = divide(record, &measured, needed).map_err(|error| vec![error.into()])?;
+        let parts = divide(record, &measured, (needed, &plan.voice)).map_err(|error| vec![error.into()])?;
         Ok(Divided { measured, parts })
     })?;
     let names = record_names(&plan.records);
@@ -66,7 +67,7 @@ pub(super) fn assemble(plan: &Plan) -> Result<Loaded, Vec<Located>> {
         records: records.into_iter().flatten().collect(),
     };
     check_motion(plan, &rig, first)?;
-    Ok(Loaded { told: told::tell(plan, &divided), plan: resolved(plan, &rig, first), rig })
+    Ok(Loaded { told: told::tell(plan, &divided), plan: resolved(plan, &rig, &divided), rig })
 }
 
 /// Does the same with each, and gives all results or all problems.
@@ -87,9 +88,37 @@ fn each<I, R>(
 }
 
 fn read_all(plan: &Plan) -> Result<Vec<Measured>, Vec<Located>> {
-    let request =
-        Request { names: &plan.columns, sampling: plan.sampling, voice: &plan.voice, needs_output: true };
-    each(plan.records.iter(), |record| Measured::read(&record.path, request))
+    each(plan.records.iter(), |record| {
+        let names = &record.columns.or(&plan.columns);
+        let Plan { sampling, voice, .. } = plan;
+        Measured::read(&record.path, Request { names, sampling: *sampling, voice, needs_output: true })
+    })
+}
+
+/// What is wrong with the records of a plan that is wrong itself, as far as that does not follow from its own faults.
+pub(super) fn probe(plan: &Plan) -> Vec<Located> {
+    let mut found = read_all(plan).err().unwrap_or_default();
+    found.retain(|located| match &located.problem {
+        RigProblem::File(_) => true,
+        RigProblem::Data(error) => matches!(
+            error.problem,
+            DataProblem::Empty
+                | DataProblem::NoTable
+                | DataProblem::HeaderWidth { .. }
+                | DataProblem::CommasTwice { .. }
+                | DataProblem::Ragged { .. }
+                | DataProblem::UnknownColumn { .. }
+                | DataProblem::DuplicateColumn { .. }
+                | DataProblem::SameColumn { .. }
+                | DataProblem::LookAlike { .. }
+                | DataProblem::NotANumber { .. }
+                | DataProblem::OtherDecimal { .. }
+                | DataProblem::NotFinite { .. }
+                | DataProblem::More { .. }
+        ),
+        RigProblem::Toml(_) | RigProblem::Asked { .. } => false,
+    });
+    found
 }
 
 /// All files must speak of the same quantities at the same sample time.
@@ -101,6 +130,7 @@ fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located
                 here: other.sample_time,
                 there: first.sample_time,
                 other: first.table.path.clone(),
+                remedy: plan.voice.sample_times_differ(first.sample_time),
             });
         }
         let pairs = [(Some(other.input()), Some(first.input())), (other.output(), first.output())];
@@ -132,17 +162,18 @@ pub(super) fn samples_needed(order: Option<usize>) -> usize {
     order.map_or(10, |n| (3 * n + 3).max(10))
 }
 
-fn divide(record: &PlannedRecord, measured: &Measured, needed: usize) -> Result<Vec<Part>, DataError> {
+fn divide(
+    record: &PlannedRecord,
+    measured: &Measured,
+    (needed, voice): (usize, &Voice),
+) -> Result<Vec<Part>, DataError> {
     if record.role != Role::Free
         && let Some(interruption) = measured.first_interruption().or_else(|| measured.table.cut_off.clone())
     {
         return Err(interruption);
     }
-    cut::divide(&measured.pieces, (record.usage, record.held_out), needed).map_err(|problem| DataError {
-        path: measured.table.path.clone(),
-        place: None,
-        problem,
-    })
+    cut::divide(&measured.pieces, (record.usage, record.held_out), (needed, voice))
+        .map_err(|problem| DataError { path: measured.table.path.clone(), place: None, problem })
 }
 
 fn rig_records(divided: &Divided, record: &PlannedRecord, name: &str) -> Result<Vec<RigRecord>, DataError> {
@@ -161,7 +192,7 @@ fn rig_records(divided: &Divided, record: &PlannedRecord, name: &str) -> Result<
 }
 
 /// `force [N]`, or the name; a column that is called as its signal is called that.
-fn label(column: &crate::input::Column, signal: &str, otherwise: &str) -> String {
+fn label(column: &Column, signal: &str, otherwise: &str) -> String {
     let is_nameless = column.name.eq_ignore_ascii_case(signal) || column.name.starts_with("column ");
     match (&column.unit, is_nameless) {
         (_, false) => column.label(),
@@ -170,41 +201,65 @@ fn label(column: &crate::input::Column, signal: &str, otherwise: &str) -> String
     }
 }
 
-/// A system that was never moved cannot be identified.
+/// A system that was never moved, or never answered, cannot be identified.
 fn check_motion(plan: &Plan, rig: &Rig, first: &Measured) -> Result<(), Vec<Located>> {
-    let stands = |record: &RigRecord| record.record.v().windows(2).all(|pair| pair[0] == pair[1]);
-    if !rig.fit_records().all(stands) {
+    let stands = |of: fn(&Record) -> &[f64]| {
+        rig.fit_records().all(|record| of(&record.record).windows(2).all(|pair| pair[0] == pair[1]))
+    };
+    let problem = if stands(Record::v) {
+        DataProblem::NeverMoves { column: first.input().label() }
+    } else if stands(Record::y) {
+        DataProblem::NeverChanges { column: first.output().map(Column::label).unwrap_or_default() }
+    } else {
         return Ok(());
-    }
+    };
     let record = plan.records.iter().position(|record| record.usage == Usage::Fit).unwrap_or(0);
-    let problem = DataProblem::NeverMoves { column: first.input().label() };
     let path = plan.records[record].path.display().to_string();
     Err(vec![Located { record: Some(record), problem: DataError { path, place: None, problem }.into() }])
 }
 
 /// The plan as it would have to be given to infer nothing.
-fn resolved(plan: &Plan, rig: &Rig, first: &Measured) -> Plan {
-    let name = |k: usize| {
-        let column = &first.table.columns[k];
-        let named = first.table.columns.iter().filter(|other| other.name.eq_ignore_ascii_case(&column.name));
-        if first.table.has_header && !column.name.is_empty() && named.count() == 1 {
-            column.name.clone()
-        } else {
-            (k + 1).to_string()
+fn resolved(plan: &Plan, rig: &Rig, divided: &[Divided]) -> Plan {
+    let columns: Vec<ColumnNames> = divided.iter().map(|divided| named(&divided.measured)).collect();
+    let own = |columns_here: &ColumnNames| {
+        let other = |name: &Option<String>, first: &Option<String>| name.clone().filter(|_| name != first);
+        ColumnNames {
+            time: other(&columns_here.time, &columns[0].time),
+            input: other(&columns_here.input, &columns[0].input),
+            output: other(&columns_here.output, &columns[0].output),
         }
     };
-    let selection = &first.selection;
+    let records = plan.records.iter().zip(&columns);
     Plan {
-        columns: ColumnNames {
-            time: Some(selection.time.map_or_else(|| super::plan::NO_TIME.to_owned(), name)),
-            input: Some(name(selection.input)),
-            output: selection.output.map(name),
-        },
+        records: records
+            .map(|(record, columns)| PlannedRecord { columns: own(columns), ..record.clone() })
+            .collect(),
+        columns: columns[0].clone(),
         sampling: super::plan::Sampling { sample_time: Some(rig.sample_time), ..plan.sampling },
         input_label: Some(rig.input_label.clone()),
         output_label: Some(rig.output_label.clone()),
         voice: Voice::Manifest,
         ..plan.clone()
+    }
+}
+
+/// The names by which a file's columns are found without guessing.
+fn named(measured: &Measured) -> ColumnNames {
+    let table = &measured.table;
+    let name = |k: usize| {
+        let column = &table.columns[k];
+        let named = table.columns.iter().filter(|other| other.name.eq_ignore_ascii_case(&column.name));
+        if table.has_header && !column.name.is_empty() && named.count() == 1 {
+            column.name.clone()
+        } else {
+            (k + 1).to_string()
+        }
+    };
+    let selection = &measured.selection;
+    ColumnNames {
+        time: Some(selection.time.map_or_else(|| super::plan::NO_TIME.to_owned(), name)),
+        input: Some(name(selection.input)),
+        output: selection.output.map(name),
     }
 }
 

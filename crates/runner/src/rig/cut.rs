@@ -1,5 +1,6 @@
 //! What of a file is fitted and what is held out.
 
+use super::voice::Voice;
 use crate::input::DataProblem;
 use std::ops::Range;
 use switchback_estimator::rig::Usage;
@@ -20,7 +21,7 @@ pub(super) struct Part {
 pub(super) fn divide(
     pieces: &[Range<usize>],
     (usage, held_out): (Usage, Option<f64>),
-    needed: usize,
+    (needed, voice): (usize, &Voice),
 ) -> Result<Vec<Part>, DataProblem> {
     let rows: usize = pieces.iter().map(Range::len).sum();
     let long: Vec<Range<usize>> = pieces.iter().filter(|piece| piece.len() >= needed).cloned().collect();
@@ -30,7 +31,7 @@ pub(super) fn divide(
     }
     // Where most is lost, the sampling is uneven rather than interrupted.
     if 2 * left < rows {
-        return Err(DataProblem::Shattered { rows, left, needed });
+        return Err(DataProblem::Shattered { rows, left, needed, remedy: voice.shattered() });
     }
     let Some(share) = held_out else {
         return Ok(long.into_iter().map(|range| Part { range, usage }).collect());
@@ -55,7 +56,8 @@ pub(super) fn divide(
     if has(Usage::Fit) && has(Usage::Holdout) {
         Ok(parts)
     } else {
-        Err(DataProblem::CutTooShort { fitted: kept, held_out: left - kept, needed })
+        let remedy = voice.cut_too_short();
+        Err(DataProblem::CutTooShort { fitted: kept, held_out: left - kept, needed, remedy })
     }
 }
 
@@ -84,7 +86,7 @@ mod tests {
     use Usage::{Fit, Holdout};
 
     fn divided(pieces: &[Range<usize>], held_out: Option<f64>) -> Vec<(Range<usize>, Usage)> {
-        let parts = divide(pieces, (Fit, held_out), 10).unwrap();
+        let parts = divide(pieces, (Fit, held_out), (10, &Voice::Manifest)).unwrap();
         parts.into_iter().map(|part| (part.range, part.usage)).collect()
     }
 
@@ -107,10 +109,13 @@ mod tests {
     #[test]
     fn too_little_is_refused() {
         let share = (Fit, Some(1.0 / 3.0));
-        assert!(matches!(divide(&[0..12], share, 10), Err(DataProblem::CutTooShort { .. })));
-        assert!(matches!(divide(&[0..5], share, 10), Err(DataProblem::TooShort { .. })));
+        assert!(matches!(
+            divide(&[0..12], share, (10, &Voice::Manifest)),
+            Err(DataProblem::CutTooShort { .. })
+        ));
+        assert!(matches!(divide(&[0..5], share, (10, &Voice::Manifest)), Err(DataProblem::TooShort { .. })));
         let shreds: Vec<Range<usize>> = (0..20).map(|k| 7 * k..7 * k + 6).collect();
-        assert!(matches!(divide(&shreds, share, 10), Err(DataProblem::Shattered { .. })));
+        assert!(matches!(divide(&shreds, share, (10, &Voice::Manifest)), Err(DataProblem::Shattered { .. })));
     }
 
     #[test]

@@ -93,6 +93,13 @@ pub(super) fn surety(column: &Column, part: Part) -> Option<Surety> {
     name.split(' ').any(|word| word.len() > 2 && words.contains(&word)).then_some(Surety::Word)
 }
 
+/// A column that is called a time, and its first cell, where its cells are none.
+pub(super) fn unread_time(column: &Column) -> Option<(String, &str)> {
+    let is_text = column.kind == Kind::Text && surety(column, Part::Time).is_some();
+    let first = column.faults.first().filter(|_| is_text)?;
+    Some((column.label(), &first.cell))
+}
+
 /// Whether a column only counts the samples.
 pub(super) fn is_index(column: &Column) -> bool {
     let name = simplified(&column.name);

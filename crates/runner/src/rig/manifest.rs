@@ -1,7 +1,7 @@
 //! The commented rig file that says what was inferred.
 
 use super::assemble::Loaded;
-use super::plan::Plan;
+use super::plan::ColumnNames;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
 
@@ -25,7 +25,7 @@ pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
     line("# interval = [-1.0, 1.0]".to_owned(), "where the input may go; else the range of the records");
     line(format!("input = {}", optional(plan.input_label.as_deref())), "label [unit], on every axis");
     line(format!("output = {}", optional(plan.output_label.as_deref())), "");
-    line(format!("columns = {{ {} }}", columns(plan)), "");
+    line(format!("columns = {{ {} }}", columns(&plan.columns)), "");
     if plan.sampling.resample {
         line("resample = true".to_owned(), "uneven rows are interpolated linearly to the sample time");
     }
@@ -40,6 +40,12 @@ pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
             format!("use = {}", quoted(record.usage.name())),
             "fit | holdout: models are judged on it, never fitted to it",
         );
+        if record.columns != ColumnNames::default() {
+            line(
+                format!("columns = {{ {} }}", columns(&record.columns)),
+                "where they are called otherwise here",
+            );
+        }
         if let Some(share) = record.held_out {
             line(
                 format!("holdout = {}", toml::Value::from(share)),
@@ -54,8 +60,7 @@ fn optional(label: Option<&str>) -> String {
     toml::Value::from(label.unwrap_or_default()).to_string()
 }
 
-fn columns(plan: &Plan) -> String {
-    let names = &plan.columns;
+fn columns(names: &ColumnNames) -> String {
     let keys = [("time", &names.time), ("input", &names.input), ("output", &names.output)];
     let written = keys
         .iter()

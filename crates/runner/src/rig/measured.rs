@@ -1,10 +1,13 @@
 //! One file of a plan: its columns as evenly sampled pieces.
 
-use super::plan::{ColumnNames, Sampling, Voice};
+use super::clock::Clock;
+use super::plan::{ColumnNames, NO_TIME, Sampling};
 use super::problem::RigProblem;
 use super::resample::{self, Resampled};
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
+use super::voice::Voice;
+use super::{faults, guess};
 use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
 use std::ops::Range;
 use std::path::Path;
@@ -57,7 +60,8 @@ impl Measured {
     /// # Errors
     /// All that is wrong with it.
     pub(super) fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
-        let table = Table::read(path).map_err(|error| vec![error.into()])?;
+        let table = Table::read(path, if request.needs_output { 2 } else { 1 })
+            .map_err(|error| vec![error.into()])?;
         let at = |place, problem| RigProblem::Data(DataError { path: table.path.clone(), place, problem });
         let mut problems: Vec<RigProblem> = table.faults.iter().cloned().map(RigProblem::Data).collect();
         let selection = match Selection::of(&table, request.names, request.voice, request.needs_output) {
@@ -67,14 +71,14 @@ impl Measured {
                 return Err(problems);
             }
         };
-        let signals = Signals { table: &table, selection: &selection };
+        let signals = Signals { table: &table, selection: &selection, request };
         problems
             .extend(signals.faults().into_iter().map(|(row, problem)| at(Some(table.places[row]), problem)));
         if !problems.is_empty() {
             return Err(problems);
         }
         let rows = signals.complete_rows();
-        let even = signals.sampled(&rows, request).map_err(|(sample, problem)| {
+        let even = signals.sampled(&rows).map_err(|(sample, problem)| {
             vec![at(sample.map(|sample| table.places[rows[sample]]), problem)]
         })?;
         Ok(even.measured(table, selection))
@@ -96,6 +100,19 @@ impl Measured {
         Some(DataError { path: self.table.path.clone(), place: Some(self.table.places[row]), problem })
     }
 
+    /// The time of every sample as it stands in the file; none without a time column, or where rows were interpolated.
+    pub(super) fn times(&self) -> Option<Vec<String>> {
+        let column = &self.table.columns[self.selection.time?];
+        let is_read = !matches!(self.source, ClockSource::Resampled(_));
+        is_read.then(|| self.rows.iter().map(|&row| column.written(row)).collect())
+    }
+
+    /// The unit of these times where it is not the second.
+    pub(super) fn time_unit(&self) -> Option<String> {
+        let unit = self.table.columns[self.selection.time?].unit.clone()?;
+        (unit::seconds(&unit) != Some(1.0)).then_some(unit)
+    }
+
     pub(super) fn input(&self) -> &Column {
         &self.table.columns[self.selection.input]
     }
@@ -109,6 +126,7 @@ impl Measured {
 struct Signals<'a> {
     table: &'a Table,
     selection: &'a Selection,
+    request: Request<'a>,
 }
 
 /// Even samples, before they are told apart from the table they come from.
@@ -119,6 +137,7 @@ struct Even {
     series: Series,
     pieces: Vec<Range<usize>>,
     interruptions: Vec<DataProblem>,
+    notes: Vec<String>,
 }
 
 /// The columns taken, and the rows they come from.
@@ -130,9 +149,10 @@ pub(super) struct Series {
 }
 
 impl Even {
-    fn measured(self, table: Table, selection: Selection) -> Measured {
-        let Series { v, y, predicted, rows } = self.series;
-        let Self { sample_time, start, source, pieces, interruptions, .. } = self;
+    fn measured(self, mut table: Table, selection: Selection) -> Measured {
+        table.notes.extend(self.notes);
+        let Self { sample_time, start, source, series, pieces, interruptions, .. } = self;
+        let Series { v, y, predicted, rows } = series;
         Measured {
             table,
             selection,
@@ -157,22 +177,32 @@ impl Signals<'_> {
     /// The columns that must have a value for a row to be a sample.
     fn parts(&self) -> impl Iterator<Item = &Column> {
         let Selection { time, input, output, .. } = *self.selection;
-        [time, Some(input), output].into_iter().flatten().map(|k| self.column(k))
+        [time, Some(input), output.filter(|_| self.request.needs_output)]
+            .into_iter()
+            .flatten()
+            .map(|k| self.column(k))
     }
 
     /// Cells that are neither a value nor missing, and missing predictions.
     fn faults(&self) -> Vec<(usize, DataProblem)> {
         let prediction = self.selection.prediction.map(|k| self.column(k));
         let mut problems: Vec<(usize, DataProblem)> =
-            self.parts().chain(prediction).flat_map(column_faults).collect();
+            self.parts().chain(prediction).flat_map(|column| self.column_faults(column)).collect();
         if let Some(column) = prediction
             && let Some(row) = column.values.iter().position(|value| value.is_nan())
             && column.fault_count == 0
         {
-            problems.push((row, DataProblem::EmptyCell { column: column.label(), is_prediction: true }));
+            let remedy = "a prediction must cover every sample: fill the gap, or leave the column y_sim out"
+                .to_owned();
+            problems.push((row, DataProblem::EmptyCell { column: column.label(), remedy }));
         }
         problems.sort_by_key(|(row, _)| *row);
         problems
+    }
+
+    fn column_faults(&self, column: &Column) -> Vec<(usize, DataProblem)> {
+        let is_time = self.selection.time.is_some_and(|time| std::ptr::eq(self.column(time), column));
+        faults::of(column, is_time.then(|| self.request.voice.no_times()))
     }
 
     fn complete_rows(&self) -> Vec<usize> {
@@ -192,37 +222,41 @@ impl Signals<'_> {
         }
     }
 
-    fn sampled(&self, rows: &[usize], request: Request<'_>) -> Result<Even, Fault> {
+    fn sampled(&self, rows: &[usize]) -> Result<Even, Fault> {
         let series = self.series(rows.to_vec());
         match self.selection.time {
-            Some(time) => self.clocked(series, self.column(time), request),
-            None => self.unclocked(series, request),
+            Some(time) => self.clocked(series, self.column(time)),
+            None => self.unclocked(series),
         }
     }
 
     /// Without a time column a row is a sample, and a row without values a dropout.
-    fn unclocked(&self, series: Series, request: Request<'_>) -> Result<Even, Fault> {
-        let sample_time =
-            request.sampling.sample_time.ok_or_else(|| (None, self.no_sample_time(request.voice)))?;
+    fn unclocked(&self, series: Series) -> Result<Even, Fault> {
+        let sample_time = self.request.sampling.sample_time.ok_or_else(|| (None, self.no_sample_time()))?;
         let starts: Vec<usize> =
             (1..series.rows.len()).filter(|&k| series.rows[k] > series.rows[k - 1] + 1).collect();
         let interruptions = starts.iter().map(|&k| self.empty_cell(series.rows[k - 1] + 1)).collect();
         let pieces = pieces(&starts, series.rows.len());
-        Ok(Even { sample_time, start: 0.0, source: ClockSource::Given, series, pieces, interruptions })
+        let source = ClockSource::Given;
+        Ok(Even { sample_time, start: 0.0, source, series, pieces, interruptions, notes: Vec::new() })
     }
 
-    fn clocked(&self, series: Series, column: &Column, request: Request<'_>) -> Result<Even, Fault> {
-        let unit = self.seconds(column).map_err(|problem| (None, problem))?;
+    fn clocked(&self, series: Series, column: &Column) -> Result<Even, Fault> {
+        let voice = self.request.voice;
         let raw: Vec<f64> = series.rows.iter().map(|&row| column.values[row]).collect();
-        let t: Vec<f64> = raw.iter().map(|stamp| unit * stamp).collect();
-        let resolution: Vec<f64> = raw.iter().map(|stamp| resolution(*stamp, unit)).collect();
+        let clock = Clock::of(column, &raw, voice).map_err(|problem| (None, problem))?;
+        let t: Vec<f64> = raw.iter().map(|stamp| clock.seconds(*stamp)).collect();
+        let resolution: Vec<f64> = raw.iter().map(|stamp| resolution(*stamp, clock.unit)).collect();
         let label = column.label();
-        let stamps = Stamps { column: &label, t: &t, resolution: &resolution };
-        let declared = request.sampling.sample_time;
+        let rows = series.rows.clone();
+        let written = |k: usize| column.written(rows[k]);
+        let stamps = Stamps { column: &label, t: &t, resolution: &resolution, written: &written, voice };
+        let declared = self.request.sampling.sample_time;
         let start = if column.kind == Kind::Stamp { 0.0 } else { t.first().copied().unwrap_or(0.0) };
-        if request.sampling.resample {
+        if self.request.sampling.resample {
             let even = self.resampled(series, &stamps, declared)?;
-            return Ok(Even { start, ..even });
+            let notes = clock.notes(&raw, even.sample_time, voice);
+            return Ok(Even { start, notes, ..even });
         }
         let timing = stamps.judge(declared)?;
         if timing.sample_time.is_nan() {
@@ -241,14 +275,15 @@ impl Signals<'_> {
         };
         let interruptions = timing.dropouts.iter().map(told).collect();
         let pieces = pieces(&timing.dropouts, series.rows.len());
-        Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions })
+        let notes = clock.notes(&raw, timing.sample_time, voice);
+        Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions, notes })
     }
 
     fn resampled(&self, series: Series, stamps: &Stamps<'_>, declared: Option<f64>) -> Result<Even, Fault> {
         stamps.check_order()?;
         let too_short =
             DataProblem::TooShort { found: series.v.len(), needed: super::assemble::samples_needed(None) };
-        let step = declared.or_else(|| stamps.typical_step()).ok_or((None, too_short))?;
+        let step = declared.or_else(|| stamps.mean_step()).ok_or((None, too_short))?;
         let (even, pieces, told) = resample::resample(&series, stamps.t, step);
         let interruptions =
             pieces.iter().skip(1).map(|piece| self.empty_cell(even.rows[piece.start])).collect();
@@ -259,67 +294,34 @@ impl Signals<'_> {
             series: even,
             pieces,
             interruptions,
+            notes: Vec::new(),
         })
     }
 
-    /// Seconds in the unit of the time column; seconds where it names none.
-    fn seconds(&self, column: &Column) -> Result<f64, DataProblem> {
-        match &column.unit {
-            _ if column.kind == Kind::Stamp => Ok(1.0),
-            None => Ok(1.0),
-            Some(unit) => unit::seconds(unit).ok_or_else(|| DataProblem::NoSampleTime {
-                reason: format!("`{unit}`, the unit of `{}`, is no time", column.label()),
-                remedy: "write s, ms, us, min or h, or name another column with `--time`; `--time none --rate HZ` goes without one".to_owned(),
-            }),
+    fn no_sample_time(&self) -> DataProblem {
+        let Request { names, voice, .. } = self.request;
+        let is_left_out = names.time.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(NO_TIME));
+        let unread = || self.table.columns.iter().find_map(guess::unread_time);
+        if let (false, Some((column, cell))) = (is_left_out, unread()) {
+            let reason = format!("the times of `{column}`, as `{cell}`, cannot be read");
+            return DataProblem::NoSampleTime { reason, remedy: voice.no_times() };
         }
-    }
-
-    fn no_sample_time(&self, voice: &Voice) -> DataProblem {
         let reason = match self.selection.index {
+            _ if is_left_out => "the time column is left out, as asked for".to_owned(),
             Some(index) => format!(
                 "the column `{}` only counts the samples, and there is no time column",
                 self.column(index).label()
             ),
             None => format!("there is no time column among {}", self.table.listing()),
         };
-        let remedy = match voice {
-            Voice::Manifest => {
-                "write `sample_time = SECONDS`, or name the time column in `columns`".to_owned()
-            }
-            Voice::CommandLine(command) => format!(
-                "give it in seconds, `{command} --sample-time 0.01`, or as a rate in hertz, `{command} --rate 100`"
-            ),
-        };
-        DataProblem::NoSampleTime { reason, remedy }
+        DataProblem::NoSampleTime { reason, remedy: voice.sample_time_wanted() }
     }
 
     fn empty_cell(&self, row: usize) -> DataProblem {
         let empty = self.parts().find(|part| part.values[row.min(part.values.len() - 1)].is_nan());
         let column = empty.map_or_else(|| self.column(self.selection.input).label(), Column::label);
-        DataProblem::EmptyCell { column, is_prediction: false }
+        DataProblem::EmptyCell { column, remedy: self.request.voice.whole() }
     }
-}
-
-fn column_faults(column: &Column) -> Vec<(usize, DataProblem)> {
-    let named = || column.label();
-    let mut problems: Vec<(usize, DataProblem)> = column
-        .faults
-        .iter()
-        .map(|fault| {
-            let cell = fault.cell.clone();
-            let problem = match column.kind {
-                Kind::Stamp => DataProblem::NotAStamp { column: named(), cell },
-                _ if cell.parse::<f64>().is_ok() => DataProblem::NotFinite { column: named(), cell },
-                _ => DataProblem::NotANumber { column: named(), cell },
-            };
-            (fault.row, problem)
-        })
-        .collect();
-    let count = column.fault_count - column.faults.len();
-    if let (Some((row, _)), true) = (problems.last(), count > 0) {
-        problems.push((*row, DataProblem::More { column: named(), count }));
-    }
-    problems
 }
 
 /// The ranges between the starts given.

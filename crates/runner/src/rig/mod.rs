@@ -15,10 +15,14 @@
 //! role = "free"                # step_high | step_low | descendant | ascendant | free (the default)
 //! use = "fit"                  # fit | holdout
 //! holdout = 0.3                # optional: this share of it, at its end, is held out
+//! columns = { input = "pos" }  # optional: names in this file that are not those above
 //! ```
 
 mod assemble;
+mod check;
+mod clock;
 mod cut;
+mod faults;
 mod guess;
 mod manifest;
 mod measured;
@@ -29,16 +33,19 @@ mod resample;
 mod sampling;
 mod select;
 mod series;
+mod spikes;
 mod told;
+mod voice;
 mod wire;
 mod write;
 
 pub use assemble::Loaded;
 pub use manifest::manifest;
-pub(crate) use plan::in_shell;
-pub use plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling, Voice};
+pub use plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling};
 pub use problem::{RigError, RigProblem};
 pub use read::{load, load_plan, read};
 pub use series::{InputSeries, read_input};
 pub use told::Told;
+pub use voice::Voice;
+pub(crate) use voice::in_shell;
 pub use write::{RIG_FILE, artefacts};

@@ -1,5 +1,6 @@
 //! What to make a rig of, whoever said it: a rig file or the command line.
 
+use super::voice::Voice;
 use std::path::PathBuf;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::{Role, Usage};
@@ -21,6 +22,18 @@ pub struct ColumnNames {
     pub input: Option<String>,
     /// The output `y`.
     pub output: Option<String>,
+}
+
+impl ColumnNames {
+    /// These names, and the others' where there is none.
+    pub(super) fn or(&self, others: &Self) -> Self {
+        let either = |own: &Option<String>, other: &Option<String>| own.clone().or_else(|| other.clone());
+        Self {
+            time: either(&self.time, &others.time),
+            input: either(&self.input, &others.input),
+            output: either(&self.output, &others.output),
+        }
+    }
 }
 
 /// How rows become samples.
@@ -62,46 +75,12 @@ pub struct PlannedRecord {
     pub path: PathBuf,
     /// The same as the user wrote it.
     pub named: String,
+    /// Names of its columns, where they are not those of the plan.
+    pub columns: ColumnNames,
     /// What drove the input.
     pub role: Role,
     /// What the record, or its first part, is for.
     pub usage: Usage,
     /// Share of it, at its end, that is held out.
     pub held_out: Option<f64>,
-}
-
-/// How the plan was given.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Voice {
-    /// By a rig file.
-    Manifest,
-    /// On the command line, which so far reads as this.
-    CommandLine(String),
-}
-
-impl Voice {
-    /// What to write to name columns.
-    pub(super) fn naming(&self, wanted: &[(&str, String)]) -> String {
-        match self {
-            Self::Manifest => {
-                let keys: Vec<_> = wanted.iter().map(|(key, name)| format!("{key} = {name:?}")).collect();
-                format!("name them in the rig file: `columns = {{ {} }}`", keys.join(", "))
-            }
-            Self::CommandLine(command) => {
-                let flags: Vec<_> =
-                    wanted.iter().map(|(key, name)| format!("--{key} {}", in_shell(name))).collect();
-                format!("name them, for instance: `{command} {}`", flags.join(" "))
-            }
-        }
-    }
-}
-
-/// A word as a shell takes it.
-pub(crate) fn in_shell(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "._-/+:".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }

@@ -2,6 +2,7 @@
 
 use crate::input::{DataError, FileError, TableError, TomlError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
+use std::collections::HashSet;
 use std::fmt::{self, Display};
 use thiserror::Error;
 
@@ -45,7 +46,30 @@ impl From<TableError> for RigProblem {
 #[derive(Debug, Error)]
 pub struct RigError {
     /// At least one.
-    problems: Vec<RigProblem>,
+    problems: Vec<Listed>,
+}
+
+/// A problem in a list.
+#[derive(Debug, Error)]
+#[error("{problem}")]
+struct Listed {
+    problem: RigProblem,
+    /// Whether one before has the same remedy, which is then told there only.
+    is_told: bool,
+}
+
+impl Diagnostic for Listed {
+    fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        if self.is_told { None } else { self.problem.help() }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.problem.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.problem.labels()
+    }
 }
 
 impl RigError {
@@ -53,18 +77,23 @@ impl RigError {
     /// Without a problem.
     pub(crate) fn new(problems: Vec<RigProblem>) -> Self {
         assert!(!problems.is_empty(), "an error says what is wrong");
-        Self { problems }
+        let mut told = HashSet::new();
+        let listed = problems.into_iter().map(|problem| {
+            let remedy = problem.help().map(|remedy| remedy.to_string());
+            Listed { is_told: remedy.is_some_and(|remedy| !told.insert(remedy)), problem }
+        });
+        Self { problems: listed.collect() }
     }
 
     /// All that is wrong, at least one thing.
-    pub fn problems(&self) -> &[RigProblem] {
-        &self.problems
+    pub fn problems(&self) -> impl Iterator<Item = &RigProblem> {
+        self.problems.iter().map(|listed| &listed.problem)
     }
 
     /// The problem, where it is the only one.
     fn only(&self) -> Option<&RigProblem> {
         match &self.problems[..] {
-            [only] => Some(only),
+            [only] => Some(&only.problem),
             _ => None,
         }
     }

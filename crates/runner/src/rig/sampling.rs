@@ -1,6 +1,7 @@
 //! Are the time stamps those of even sampling, and of which sample time?
 
-use crate::input::DataProblem;
+use super::voice::Voice;
+use crate::input::{DataProblem, Step};
 
 /// What the stamps of a record tell.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +18,7 @@ pub(super) struct Timing {
 const JITTER: f64 = 0.01;
 
 /// The stamps of a record that nobody has judged yet: its time column in seconds and how finely it is written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Stamps<'a> {
     /// What messages call the column.
     pub(super) column: &'a str,
@@ -25,6 +26,10 @@ pub(super) struct Stamps<'a> {
     pub(super) t: &'a [f64],
     /// Seconds that the last digit of each stamp is worth.
     pub(super) resolution: &'a [f64],
+    /// Each stamp as it stands in the file.
+    pub(super) written: &'a dyn Fn(usize) -> String,
+    /// Who asks.
+    pub(super) voice: &'a Voice,
 }
 
 /// Where in a record something is wrong (none: everywhere), and what.
@@ -36,7 +41,7 @@ impl Stamps<'_> {
     /// Without a declared sample time a step may be off by 1 % of it and by what rounding of the stamps explains, though never by half
     /// a sample. With one, stamps only have to show that no sample is missing or doubled:
     /// - a single step may be off by less than half a sample. A lost sample makes a step of two, a doubled one a step of
-    ///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass. Where the typical step is
+    ///   none; both are a whole sample off. Stamps rounded to a quarter of the sample time still pass. Where the mean step is
     ///   off too, it is no dropout but another sample time.
     /// - a whole piece may be off by 1 % of its length or half a sample, whichever is more: beyond that the sample time is
     ///   another one, and every frequency and time constant would be wrong by as much.
@@ -44,13 +49,13 @@ impl Stamps<'_> {
     /// Where the record starts does not matter.
     pub(super) fn judge(&self, declared: Option<f64>) -> Result<Timing, Fault> {
         self.check_order()?;
-        let Some(typical) = self.typical_step() else {
+        let Some(mean) = self.mean_step() else {
             let sample_time = declared.unwrap_or(f64::NAN);
             return Ok(Timing { sample_time, jitter: 0.0, dropouts: Vec::new() });
         };
-        let sample_time = declared.unwrap_or_else(|| self.mean_step(typical));
-        if (typical - sample_time).abs() >= 0.3 * sample_time {
-            return Err((None, self.other_sample_time(typical, sample_time)));
+        let sample_time = declared.unwrap_or(mean);
+        if (mean - sample_time).abs() >= 0.3 * sample_time {
+            return Err((None, self.other_sample_time(mean, sample_time)));
         }
         let mut timing = Timing { sample_time, jitter: 0.0, dropouts: Vec::new() };
         for (k, step) in self.steps() {
@@ -74,35 +79,55 @@ impl Stamps<'_> {
     /// Time must increase, resampled or not.
     pub(super) fn check_order(&self) -> Result<(), Fault> {
         match self.steps().find(|(_, step)| *step <= 0.0) {
-            Some((k, _)) => Err((
-                Some(k),
-                DataProblem::NotIncreasing {
-                    column: self.column.to_owned(),
-                    before: rounded(self.t[k - 1]),
-                    now: rounded(self.t[k]),
-                },
-            )),
+            Some((k, _)) => {
+                let step = self.step_to(k, f64::NAN, self.voice.not_increasing());
+                Err((Some(k), DataProblem::NotIncreasing(step)))
+            }
             None => Ok(()),
         }
     }
 
-    /// The median step, without the digits that the stamps do not carry.
-    pub(super) fn typical_step(&self) -> Option<f64> {
+    fn step_to(&self, k: usize, sample_time: f64, remedy: String) -> Box<Step> {
+        Box::new(Step {
+            column: self.column.to_owned(),
+            before: (self.written)(k - 1),
+            now: (self.written)(k),
+            step: rounded(self.t[k] - self.t[k - 1]),
+            sample_time: rounded(sample_time),
+            remedy,
+        })
+    }
+
+    /// The sample time that the stamps tell: the mean of the steps that are not over gaps, that is the time they span over their number.
+    ///
+    /// Each stamp may be off by its rounding (300 Hz written to a millisecond steps by 3 or 4 ms), so the median step is one of a few
+    /// multiples of the last digit, and wrong by up to half of it. In the mean the errors of the stamps in between cancel; what remains is
+    /// that of the two ends over the number of steps. A number of few digits within that error is taken instead, as a step or as a rate.
+    pub(super) fn mean_step(&self) -> Option<f64> {
+        let median = self.median_step()?;
+        let of = |is_plain: &dyn Fn(usize, f64) -> bool| -> Vec<f64> {
+            self.steps().filter(|(k, step)| is_plain(*k, *step)).map(|(_, step)| step).collect()
+        };
+        let mean = |steps: &[f64]| steps.iter().sum::<f64>() / steps.len() as f64;
+        // Rounding may put the median below the mean; a gap that slips in the first time is out the second.
+        let first = mean(&of(&|k, step| step < 1.5 * median + self.rounding(k)));
+        let plain = of(&|_, step| step < 1.5 * first);
+        let found = mean(&plain);
+        let largest = plain.iter().map(|step| (step - found).abs()).fold(0.0, f64::max);
+        // Every even stretch has two ends of its own, and their errors add as those of independent numbers do.
+        let ends = ((self.t.len() - plain.len()) as f64).sqrt();
+        Some(nice(found, ends * largest.max(1e-9 * found) / plain.len() as f64))
+    }
+
+    fn median_step(&self) -> Option<f64> {
         let mut steps: Vec<f64> = self.steps().map(|(_, step)| step).collect();
         steps.sort_by(f64::total_cmp);
-        steps.get(steps.len() / 2).map(|step| shortest(*step, 1e-9 * step))
+        steps.get(steps.len() / 2).copied()
     }
 
     /// The step into the `k`-th gap, a gap of a designed experiment.
     pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
-        let (before, now) = (self.t[k - 1], self.t[k]);
-        DataProblem::Gap {
-            column: self.column.to_owned(),
-            before: rounded(before),
-            now: rounded(now),
-            step: rounded(now - before),
-            sample_time,
-        }
+        DataProblem::Gap(self.step_to(k, sample_time, self.voice.whole()))
     }
 
     fn steps(&self) -> impl Iterator<Item = (usize, f64)> {
@@ -115,16 +140,6 @@ impl Stamps<'_> {
         let near = &self.resolution[k.saturating_sub(8)..(k + 8).min(self.resolution.len())];
         // Twice half a last digit, and what the differences of large numbers lose.
         near.iter().copied().fold(f64::INFINITY, f64::min) + 4.0 * f64::EPSILON * self.t[k].abs()
-    }
-
-    /// The mean of the steps that are not over dropouts, with no more digits than it is known to.
-    fn mean_step(&self, typical: f64) -> f64 {
-        let plain: Vec<f64> =
-            self.steps().map(|(_, step)| step).filter(|step| *step < 1.5 * typical).collect();
-        let mean = plain.iter().sum::<f64>() / plain.len() as f64;
-        let largest = plain.iter().map(|step| (step - mean).abs()).fold(0.0, f64::max);
-        // Errors of the stamps in between cancel: only those at the two ends of the record matter.
-        shortest(mean, largest.max(1e-9 * mean) / plain.len() as f64)
     }
 
     fn check_lengths(&self, timing: &Timing) -> Result<(), Fault> {
@@ -147,19 +162,13 @@ impl Stamps<'_> {
         DataProblem::OtherSampleTime {
             column: self.column.to_owned(),
             mean_step: rounded(mean_step),
-            sample_time,
+            sample_time: rounded(sample_time),
+            remedy: self.voice.other_sample_time(rounded(mean_step)),
         }
     }
 
     fn uneven(&self, k: usize, sample_time: f64) -> DataProblem {
-        let (before, now) = (self.t[k - 1], self.t[k]);
-        DataProblem::Uneven {
-            column: self.column.to_owned(),
-            before: rounded(before),
-            now: rounded(now),
-            step: rounded(now - before),
-            sample_time: rounded(sample_time),
-        }
+        DataProblem::Uneven(self.step_to(k, sample_time, self.voice.uneven()))
     }
 }
 
@@ -172,12 +181,19 @@ pub(super) fn resolution(stamp: f64, unit: f64) -> f64 {
     unit * 10f64.powi(exponent - decimals as i32)
 }
 
-/// The number with the fewest digits within `tolerance`.
-fn shortest(x: f64, tolerance: f64) -> f64 {
+/// The step of the fewest digits within `tolerance`, or that whose rate has fewer still: 0.004 s, but 300 Hz.
+fn nice(step: f64, tolerance: f64) -> f64 {
+    let (digits, short) = shortest(step, tolerance);
+    let (digits_of_rate, rate) = shortest(1.0 / step, tolerance / (step * step));
+    if digits_of_rate < digits { 1.0 / rate } else { short }
+}
+
+/// The number with the fewest decimals of its power of ten within `tolerance`, and how many these are.
+fn shortest(x: f64, tolerance: f64) -> (usize, f64) {
     (0..17)
-        .filter_map(|digits| format!("{x:.digits$e}").parse().ok())
-        .find(|short: &f64| (short - x).abs() <= tolerance)
-        .unwrap_or(x)
+        .filter_map(|digits| Some((digits, format!("{x:.digits$e}").parse().ok()?)))
+        .find(|(_, short): &(usize, f64)| (short - x).abs() <= tolerance)
+        .unwrap_or((17, x))
 }
 
 /// Eight significant digits: differences of stamps carry rounding errors that nobody wants to read.
@@ -195,7 +211,9 @@ mod tests {
 
     fn judged(t: &[f64], declared: Option<f64>) -> Result<Timing, Fault> {
         let resolution: Vec<f64> = t.iter().map(|t| resolution(*t, 1.0)).collect();
-        Stamps { column: "t", t, resolution: &resolution }.judge(declared)
+        let written = |k: usize| t[k].to_string();
+        Stamps { column: "t", t, resolution: &resolution, written: &written, voice: &Voice::Manifest }
+            .judge(declared)
     }
 
     #[test]
@@ -220,8 +238,20 @@ mod tests {
         let hundredths = |t: &f64| (t * 100.0).round() / 100.0;
         let thirds: Vec<f64> = even(3001, 1.0 / 30.0, 5.0).iter().map(hundredths).collect();
         assert!(judged(&thirds, Some(1.0 / 30.0)).is_ok());
-        let found = judged(&thirds, None).unwrap().sample_time;
-        assert!((found * 30.0 - 1.0).abs() < 1e-3, "{found}");
+        assert_eq!(judged(&thirds, None).unwrap().sample_time, 1.0 / 30.0);
+    }
+
+    #[test]
+    fn rates_are_found_from_stamps_of_a_millisecond() {
+        let milliseconds = |t: &f64| (t * 1000.0).round() / 1000.0;
+        for rate in [24.0, 30.0, 60.0, 128.0, 256.0, 300.0, 700.0] {
+            let mut t: Vec<f64> = even(2000, 1.0 / rate, 0.0).iter().map(milliseconds).collect();
+            assert_eq!(judged(&t, None).unwrap().sample_time, 1.0 / rate);
+            t.drain(700..1000);
+            let timing = judged(&t, None).unwrap();
+            assert_eq!(timing.dropouts, [700]);
+            assert_eq!(timing.sample_time, 1.0 / rate);
+        }
     }
 
     #[test]
@@ -233,7 +263,7 @@ mod tests {
         let timing = judged(&shaken(0.009), None).unwrap();
         assert!(timing.jitter > 0.004 && timing.jitter < 0.01, "{}", timing.jitter);
         let (index, problem) = judged(&shaken(0.05), None).unwrap_err();
-        assert!(matches!(problem, DataProblem::Uneven { .. }) && index.is_some(), "{problem}");
+        assert!(matches!(problem, DataProblem::Uneven(_)) && index.is_some(), "{problem}");
         assert!(judged(&shaken(0.05), Some(0.01)).is_ok(), "a declared sample time forgives it");
     }
 
@@ -262,7 +292,7 @@ mod tests {
     #[test]
     fn time_never_stands_still_or_runs_back() {
         for t in [[0.0, 0.01, 0.01], [0.0, 0.01, 0.005]] {
-            assert!(matches!(judged(&t, None), Err((Some(2), DataProblem::NotIncreasing { .. }))));
+            assert!(matches!(judged(&t, None), Err((Some(2), DataProblem::NotIncreasing(_)))));
         }
     }
 }

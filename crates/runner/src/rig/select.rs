@@ -1,7 +1,8 @@
 //! Which columns of a table are time, input and output.
 
 use super::guess::{self, Part};
-use super::plan::{ColumnNames, NO_TIME, Voice};
+use super::plan::{ColumnNames, NO_TIME};
+use super::voice::Voice;
 use crate::input::{Column, DataProblem, Kind, Table, closest};
 
 /// The columns taken, as positions in the table.
@@ -18,6 +19,9 @@ pub(super) struct Selection {
     /// Columns that could be the input or output instead.
     pub(super) rivals: Vec<usize>,
 }
+
+/// In place of an output's name: an input's file has none that counts.
+const NO_OUTPUT: &str = "none";
 
 /// Name of the column with another simulator's prediction.
 const PREDICTION: &str = "y_sim";
@@ -39,7 +43,10 @@ impl Selection {
         };
         let has_no_time = names.time.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(NO_TIME));
         let time = if has_no_time { None } else { named(&names.time) };
-        let (input, output) = (named(&names.input), named(&names.output));
+        let is_none = |name: &String| name.eq_ignore_ascii_case(NO_OUTPUT);
+        let has_no_output = !needs_output && names.output.as_ref().is_some_and(is_none);
+        let asked = if has_no_output { &None } else { &names.output };
+        let (input, output) = (named(&names.input), named(asked));
         let prediction = prediction(table).unwrap_or_else(|problem| {
             problems.push(problem);
             None
@@ -50,7 +57,9 @@ impl Selection {
         }
         let taken: Vec<usize> = [time, input, output, prediction].into_iter().flatten().collect();
         let free = |k: &usize| !taken.contains(k);
-        let time = time.or_else(|| if has_no_time { None } else { clock(table, &free) });
+        // A single column is a signal, however evenly it rises.
+        let has_clock = !has_no_time && table.columns.len() > 1;
+        let time = time.or_else(|| if has_clock { clock(table, &free) } else { None });
         let index = (0..table.columns.len()).filter(free).find(|&k| guess::is_index(&table.columns[k]));
         let is_signal = |k: &usize| {
             free(k) && Some(*k) != time && Some(*k) != index && table.columns[*k].is_number()
@@ -60,6 +69,7 @@ impl Selection {
         let signals: Vec<usize> = (0..table.columns.len()).filter(is_signal).collect();
         let offer = Offer { table, signals: &signals, voice };
         let (input, output) = offer.settle(input, output, needs_output).map_err(|problem| vec![problem])?;
+        let output = output.filter(|_| !has_no_output);
         let rival = |k: &usize| {
             let column = &table.columns[*k];
             Some(*k) != output

@@ -1,8 +1,9 @@
 //! One file as an input to be played: `v`, perhaps with a measured `y` beside it.
 
 use super::measured::{Measured, Request};
-use super::plan::{ColumnNames, Sampling, Voice};
+use super::plan::{ColumnNames, Sampling};
 use super::problem::RigError;
+use super::voice::Voice;
 use std::path::Path;
 
 /// An evenly sampled input, and what was measured beside it.
@@ -14,12 +15,18 @@ pub struct InputSeries {
     pub start: f64,
     /// The input, at least one sample, finite.
     pub v: Vec<f64>,
-    /// The output, where the file has one; as many samples.
+    /// The time of every sample as it stands in the file, where it has one and no rows were interpolated.
+    pub times: Option<Vec<String>>,
+    /// The unit of these times where it is not the second.
+    pub time_unit: Option<String>,
+    /// The output, where the file has one; as many samples, NaN where none was measured.
     pub y: Option<Vec<f64>>,
     /// Name of the input's column, with its unit where the file gives one.
     pub input_label: String,
     /// Name of the output's column.
     pub output_label: Option<String>,
+    /// Values that cannot have been measured, one sentence each.
+    pub warnings: Vec<String>,
     /// How the file was read, where that is not how such files usually look.
     pub notes: Vec<String>,
 }
@@ -36,7 +43,7 @@ pub fn read_input(
     sampling: Sampling,
     command: &str,
 ) -> Result<InputSeries, RigError> {
-    let voice = Voice::CommandLine(command.to_owned());
+    let voice = Voice::Simulation(command.to_owned());
     let request = Request { names, sampling, voice: &voice, needs_output: false };
     let measured = Measured::read(path, request).map_err(RigError::new)?;
     if let Some(interruption) = measured.first_interruption() {
@@ -47,7 +54,10 @@ pub fn read_input(
         start: measured.start,
         input_label: measured.input().label(),
         output_label: measured.output().map(crate::input::Column::label),
+        warnings: super::spikes::warnings(&measured),
         notes: measured.table.notes.clone(),
+        times: measured.times(),
+        time_unit: measured.time_unit(),
         v: measured.v,
         y: measured.y,
     })

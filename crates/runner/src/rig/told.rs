@@ -2,8 +2,10 @@
 
 use super::assemble::Divided;
 use super::measured::{ClockSource, Measured};
-use super::plan::{HELD_OUT, Plan, Voice};
+use super::plan::{HELD_OUT, Plan};
 use super::sampling::rounded;
+use super::spikes;
+use super::voice::Voice;
 use std::fmt::{self, Display};
 use switchback_estimator::rig::Usage;
 
@@ -16,12 +18,17 @@ pub struct Told {
     pub sample_time: Option<String>,
     /// What is held out.
     pub held_out: Option<String>,
+    /// Values that cannot have been measured.
+    pub warnings: Vec<String>,
     /// How unusual files were read.
     pub notes: Vec<String>,
 }
 
 impl Display for Told {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for warning in &self.warnings {
+            writeln!(f, "warning: {warning}")?;
+        }
         for note in &self.notes {
             writeln!(f, "{note}")?;
         }
@@ -49,6 +56,7 @@ pub(super) fn tell(plan: &Plan, divided: &[Divided]) -> Told {
             std::iter::once(sample_time(divided)).chain(interruptions).collect::<Vec<_>>().join("; ")
         }),
         held_out: is_line.then(|| held_out(plan, divided)),
+        warnings: divided.iter().flat_map(|divided| spikes::warnings(&divided.measured)).collect(),
         notes: notes(divided),
     }
 }
@@ -87,10 +95,7 @@ fn columns(plan: &Plan, first: &Measured) -> String {
     let mut line = parts.join(", ");
     if !selection.rivals.is_empty() {
         let rivals: Vec<String> = selection.rivals.iter().map(|&k| label(k)).collect();
-        let how = match plan.voice {
-            Voice::Manifest => "`columns = { input = …, output = … }`",
-            Voice::CommandLine(_) => "`--input NAME` or `--output NAME`",
-        };
+        let how = plan.voice.other_column();
         line += &format!("; there {} also {} (take another by {how})", are(rivals.len()), rivals.join(", "));
     }
     line

@@ -5,7 +5,7 @@ use switchback_estimator::rig::{Role, Usage};
 use toml::Spanned;
 
 /// Every key may be missing here, so that all missing ones can be told at once.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireRig {
     pub(super) name: Option<Spanned<String>>,
@@ -39,6 +39,8 @@ pub(super) struct WireRecord {
     #[serde(rename = "use")]
     pub(super) usage: Option<WireUse>,
     pub(super) holdout: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub(super) columns: WireColumns,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize)]

@@ -28,9 +28,16 @@ pub(super) fn fill(table: &mut Table, text: &str, dialect: &Dialect, first_row: 
         }
         let row = table.places.len();
         for ((column, reader), text) in table.columns.iter_mut().zip(&mut readers).zip(&cells) {
-            reader.push(column, row, text, cell::read(text, dialect.decimal));
+            reader.push(column, row, text, dialect);
         }
         table.places.push(Place::Line(line));
+    }
+    for (column, reader) in table.columns.iter().zip(&readers) {
+        let Some(Place::Line(line)) = reader.midnights.first().map(|row| table.places[*row]) else {
+            continue;
+        };
+        let name = &column.name;
+        table.notes.push(format!("the clock of `{name}` passes midnight at line {line} and is continued"));
     }
     // A logger that was switched off leaves its last line unfinished.
     let cut_off = ragged.pop_if(|(line, found)| *line == last && *found < dialect.width);
@@ -46,38 +53,74 @@ pub(super) fn fill(table: &mut Table, text: &str, dialect: &Dialect, first_row: 
     table.faults = ragged.iter().take(KEPT).map(fault).collect();
 }
 
-/// What the first cell that says something makes of a column.
+/// What the cells so far make of a column.
 #[derive(Default)]
 struct Reader {
     is_decided: bool,
+    /// Whether stamps are times of day.
+    is_clock: bool,
     first_stamp: i128,
+    last_stamp: i128,
+    /// Rows at which a clock passes midnight.
+    midnights: Vec<usize>,
 }
 
+/// Nanoseconds of a day.
+const DAY: i128 = 86_400_000_000_000;
+
 impl Reader {
-    fn push(&mut self, column: &mut Column, row: usize, text: &str, cell: Cell) {
+    fn push(&mut self, column: &mut Column, row: usize, text: &str, dialect: &Dialect) {
+        let cell = cell::read(text, dialect.decimal);
         if !self.is_decided && cell != Cell::Missing {
             self.is_decided = true;
-            column.kind = match cell {
-                Cell::Stamp(first) => {
-                    self.first_stamp = first;
-                    Kind::Stamp
-                }
-                Cell::Text => Kind::Text,
-                _ => Kind::Number,
-            };
+            column.kind = self.kind(cell, text, dialect);
         }
         let value = match (column.kind, cell) {
-            (Kind::Stamp, Cell::Stamp(now)) => Some((now - self.first_stamp) as f64 / 1e9),
+            (Kind::Stamp, Cell::Stamp(now)) if !self.is_clock => Some(self.since_first(now)),
+            (Kind::Stamp, Cell::Clock(now)) if self.is_clock => Some(self.continued(row, now)),
             (Kind::Number | Kind::Text, Cell::Number(value)) if value.is_finite() => Some(value),
             (_, Cell::Missing) => Some(f64::NAN),
             _ => None,
         };
         column.values.push(value.unwrap_or(f64::NAN));
+        if column.kind == Kind::Stamp {
+            column.stamps.resize(row, String::new());
+            column.stamps.push(text.to_owned());
+        }
         if value.is_none() {
             column.fault_count += 1;
             if column.faults.len() < KEPT {
                 column.faults.push(Fault { row, cell: text.to_owned() });
             }
         }
+    }
+
+    /// What the first cell that says something makes of a column. A number with the other decimal sign is meant as one.
+    fn kind(&mut self, cell: Cell, text: &str, dialect: &Dialect) -> Kind {
+        match cell {
+            Cell::Stamp(first) | Cell::Clock(first) => {
+                (self.first_stamp, self.last_stamp) = (first, first);
+                self.is_clock = matches!(cell, Cell::Clock(_));
+                Kind::Stamp
+            }
+            Cell::Text if !matches!(cell::read(text, dialect.decimal.other()), Cell::Number(_)) => Kind::Text,
+            _ => Kind::Number,
+        }
+    }
+
+    fn since_first(&self, now: i128) -> f64 {
+        (now - self.first_stamp) as f64 / 1e9
+    }
+
+    /// A clock without dates that jumps back by more than half a day has passed midnight.
+    fn continued(&mut self, row: usize, now: i128) -> f64 {
+        let days = self.midnights.len() as i128;
+        let mut now = now + days * DAY;
+        if now < self.last_stamp - DAY / 2 {
+            self.midnights.push(row);
+            now += DAY;
+        }
+        self.last_stamp = now;
+        self.since_first(now)
     }
 }

@@ -10,6 +10,8 @@ pub(super) enum Cell {
     Number(f64),
     /// Nanoseconds since some instant.
     Stamp(i128),
+    /// Nanoseconds since midnight.
+    Clock(i128),
     /// Empty, or one of the words for it.
     Missing,
     /// Anything else.
@@ -23,6 +25,15 @@ pub(super) enum Decimal {
     Comma,
 }
 
+impl Decimal {
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Point => Self::Comma,
+            Self::Comma => Self::Point,
+        }
+    }
+}
+
 /// Words that stand for a value that was not measured; lower case.
 const MISSING: [&str; 10] = ["nan", "-nan", "na", "n/a", "#n/a", "null", "none", "nil", "-", "--"];
 
@@ -33,7 +44,7 @@ pub(super) fn read(cell: &str, decimal: Decimal) -> Cell {
         None if cell.is_empty() || MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) => {
             Cell::Missing
         }
-        None => stamp(cell).map_or(Cell::Text, Cell::Stamp),
+        None => stamp(cell).unwrap_or(Cell::Text),
     }
 }
 
@@ -59,20 +70,20 @@ fn number(cell: &str, decimal: Decimal) -> Option<f64> {
 }
 
 /// ISO 8601: date and time with or without an offset, or a time of day.
-fn stamp(cell: &str) -> Option<i128> {
+fn stamp(cell: &str) -> Option<Cell> {
     let digits = cell.bytes().next()?.is_ascii_digit();
     if !digits || !cell.contains(':') {
         return None;
     }
     if let Ok(instant) = cell.parse::<Timestamp>() {
-        return Some(instant.as_nanosecond());
+        return Some(Cell::Stamp(instant.as_nanosecond()));
     }
     if cell.as_bytes().get(4) == Some(&b'-') {
         let local: DateTime = cell.parse().ok()?;
-        return TimeZone::UTC.to_timestamp(local).ok().map(Timestamp::as_nanosecond);
+        return TimeZone::UTC.to_timestamp(local).ok().map(|instant| Cell::Stamp(instant.as_nanosecond()));
     }
     let time: Time = cell.parse().ok()?;
-    Some(time.duration_since(Time::midnight()).as_nanos())
+    Some(Cell::Clock(time.duration_since(Time::midnight()).as_nanos()))
 }
 
 #[cfg(test)]
@@ -97,7 +108,7 @@ mod tests {
     #[test]
     fn stamps_with_and_without_an_offset_differ_by_what_passed() {
         let ns = |cell| match read(cell, Decimal::Point) {
-            Cell::Stamp(ns) => ns,
+            Cell::Stamp(ns) | Cell::Clock(ns) => ns,
             other => panic!("{cell}: {other:?}"),
         };
         assert_eq!(ns("2024-05-01T10:00:00.250Z") - ns("2024-05-01T12:00:00+02:00"), 250_000_000);

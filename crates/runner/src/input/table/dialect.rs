@@ -51,6 +51,15 @@ impl Dialect {
         best.map(|(_, dialect)| dialect)
     }
 
+    /// A single column of numbers; none where less than half of the lines are numbers.
+    pub(super) fn single(text: &str) -> Option<Self> {
+        let lines: Vec<&str> = numbered(text).map(|(_, line)| line).filter(|line| !is_idle(line)).collect();
+        let is_number = |line: &&&str| matches!(cell::read(line.trim(), Decimal::Point), Cell::Number(_));
+        let numbers = lines.iter().filter(is_number).count();
+        let (delimiter, decimal) = (Delimiter::Sign(','), Decimal::Point);
+        (2 * numbers > lines.len()).then_some(Self { delimiter, decimal, width: 1, texts: 0 })
+    }
+
     /// Whether cells could be a row of the table, rather than its header or what stands above.
     pub(super) fn is_row(&self, cells: &[&str]) -> bool {
         let count = Count::of(cells, self.decimal);
@@ -74,7 +83,7 @@ impl Count {
     fn of(cells: &[&str], decimal: Decimal) -> Self {
         let read = cells.iter().map(|text| cell::read(text, decimal));
         read.fold(Self { numbers: 0, texts: 0 }, |Self { numbers, texts }, cell| match cell {
-            Cell::Number(_) | Cell::Stamp(_) => Self { numbers: numbers + 1, texts },
+            Cell::Number(_) | Cell::Stamp(_) | Cell::Clock(_) => Self { numbers: numbers + 1, texts },
             Cell::Text => Self { numbers, texts: texts + 1 },
             Cell::Missing => Self { numbers, texts },
         })

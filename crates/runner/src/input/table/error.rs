@@ -37,6 +37,10 @@ pub enum DataProblem {
     NotMatlab { reason: String },
     #[error("the header has {found} cells, the rows {expected}")]
     HeaderWidth { found: usize, expected: usize },
+    #[error(
+        "the comma separates columns and decimals both: the header has {found} cells, the rows {expected}"
+    )]
+    CommasTwice { found: usize, expected: usize },
     #[error("the row has {found} cells, but the table has {expected} columns")]
     Ragged { found: usize, expected: usize },
     #[error("there is no column `{asked}`; the columns are {known}")]
@@ -52,7 +56,7 @@ pub enum DataProblem {
     #[error("column y is missing: play {input} and add the measured y")]
     NotMeasured { input: String },
     #[error("column `{column}`: the cell is empty or NaN")]
-    EmptyCell { column: String, is_prediction: bool },
+    EmptyCell { column: String, remedy: String },
     #[error("column `{column}`: `{cell}` is not a number")]
     NotANumber { column: String, cell: String },
     #[error("column `{column}`: `{cell}` is not an ISO 8601 time as in the rows above")]
@@ -60,39 +64,60 @@ pub enum DataProblem {
     #[error("column `{column}`: `{cell}` is not finite")]
     NotFinite { column: String, cell: String },
     #[error("column `{column}`: {count} more cells like this")]
-    More { column: String, count: usize },
-    #[error("column `{column}`: the time stamp {now} does not lie after the one before it, {before}")]
-    NotIncreasing { column: String, before: f64, now: f64 },
-    #[error(
-        "column `{column}`: {before} is followed by {now}, a step of {step} s where the sample time is {sample_time} s"
-    )]
-    Gap { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
-    #[error(
-        "column `{column}`: uneven sampling: {before} is followed by {now}, a step of {step} s where the typical one is {sample_time} s"
-    )]
-    Uneven { column: String, before: f64, now: f64, step: f64, sample_time: f64 },
+    More { column: String, count: usize, remedy: String },
+    #[error("column `{column}`: `{cell}` is no time that can be read")]
+    NotATime { column: String, cell: String, remedy: String },
+    #[error("column `{column}`: the decimal sign of `{cell}` is a {found}, but not that of other columns")]
+    OtherDecimal { column: String, cell: String, found: &'static str },
+    #[error("column `{}`: the time stamp {} does not lie after the one before it, {}", .0.column, .0.now, .0.before)]
+    NotIncreasing(Box<Step>),
+    #[error("column `{}`: {} is followed by {}, a step of {} s where the sample time is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
+    Gap(Box<Step>),
+    #[error("column `{}`: uneven sampling: {} is followed by {}, a step of {} s where the mean one is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
+    Uneven(Box<Step>),
     #[error(
         "column `{column}`: the time stamps advance by {mean_step} s on average, but the sample time is {sample_time} s"
     )]
-    OtherSampleTime { column: String, mean_step: f64, sample_time: f64 },
+    OtherSampleTime { column: String, mean_step: f64, sample_time: f64, remedy: String },
     #[error("the sample time is not known: {reason}")]
     NoSampleTime { reason: String, remedy: String },
     #[error("the sample time is {here} s here, but {there} s in {other}")]
-    SampleTimesDiffer { here: f64, there: f64, other: String },
+    SampleTimesDiffer { here: f64, there: f64, other: String, remedy: String },
     #[error("the column is `{here}` here, but `{there}` in {other}")]
     UnitsDiffer { here: String, there: String, other: String },
     #[error("the input `{column}` never moves, in this file nor in any other that is fitted")]
     NeverMoves { column: String },
+    #[error("the output `{column}` never changes, in this file nor in any other that is fitted")]
+    NeverChanges { column: String },
     #[error(
-        "cut, the record leaves {fitted} samples to fit and {held_out} held out; each side needs at least {needed} in one piece"
+        "cut, the record leaves {} to fit and {held_out} held out; each side needs at least {needed} in one piece", samples(*fitted)
     )]
-    CutTooShort { fitted: usize, held_out: usize, needed: usize },
-    #[error("the record has {found} samples; at least {needed} are needed")]
+    CutTooShort { fitted: usize, held_out: usize, needed: usize, remedy: String },
+    #[error("the record has {}; at least {needed} are needed", samples(*found))]
     TooShort { found: usize, needed: usize },
     #[error(
         "dropouts cut the {rows} rows into pieces so short that {left} rows are left in usable ones (of {needed} samples or more)"
     )]
-    Shattered { rows: usize, left: usize, needed: usize },
+    Shattered { rows: usize, left: usize, needed: usize, remedy: String },
+}
+
+/// From one time stamp to the next.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs, reason = "the messages explain the fields")]
+pub struct Step {
+    pub column: String,
+    /// The stamps as they stand in the file.
+    pub before: String,
+    pub now: String,
+    /// Seconds between them.
+    pub step: f64,
+    /// Seconds that were expected.
+    pub sample_time: f64,
+    pub remedy: String,
+}
+
+fn samples(count: usize) -> String {
+    format!("{count} sample{}", if count == 1 { "" } else { "s" })
 }
 
 impl DataProblem {
@@ -117,32 +142,31 @@ impl DataProblem {
             Self::LookAlike { meant, .. } => {
                 format!("write `{meant}` if that is meant, else give the column another name")
             }
-            Self::EmptyCell { is_prediction: true, .. } => {
-                "a prediction must cover every sample: fill the gap, or leave the column y_sim out".to_owned()
+            Self::OtherDecimal { .. } => "write all numbers of the file with the same decimal sign".to_owned(),
+            Self::CommasTwice { .. } => {
+                "save the file with semicolons or tabs between columns, or with decimal points".to_owned()
             }
-            Self::EmptyCell { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
-            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } | Self::More { .. } => {
+            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::NotAStamp { .. } => {
                 "write a finite number, or leave the cell empty where nothing was measured".to_owned()
             }
-            Self::NotIncreasing { .. } => {
-                "sort the rows by time and remove repeated ones; give runs that start anew files of their own; where stamps are too coarse to tell the rows apart, use `--time none` with `--rate HZ`".to_owned()
-            }
-            Self::Gap { .. } => "a designed experiment must be whole: take it again, or write `role = \"free\"`, which splits the record here".to_owned(),
-            Self::Uneven { .. } => {
-                "add `--resample` (`resample = true` in a rig file) to interpolate linearly to the typical step, or `--time none --rate HZ` if the stamps, not the samples, are uneven".to_owned()
-            }
-            Self::OtherSampleTime { mean_step, .. } => {
-                format!("write `sample_time = {mean_step}` (`--sample-time {mean_step}`), or leave it out: the time column tells it")
-            }
-            Self::SampleTimesDiffer { .. } => "diagnose records of different sample times one by one, or resample them to one".to_owned(),
             Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
             Self::NeverMoves { column } => format!("fit to records in which `{column}` rises and falls; check that the column holds the input"),
-            Self::CutTooShort { .. } => "take a longer record, or hold out another file (`--holdout FILE`, in a rig file `use = \"holdout\"`)".to_owned(),
-            Self::Doubtful { remedy, .. } | Self::NoSampleTime { remedy, .. } => remedy.clone(),
+            Self::NeverChanges { column } => {
+                format!("check the sensor, and that `{column}` is the column of the output")
+            }
+            Self::Doubtful { remedy, .. }
+            | Self::NoSampleTime { remedy, .. }
+            | Self::EmptyCell { remedy, .. }
+            | Self::More { remedy, .. }
+            | Self::NotATime { remedy, .. }
+            | Self::OtherSampleTime { remedy, .. }
+            | Self::SampleTimesDiffer { remedy, .. }
+            | Self::CutTooShort { remedy, .. }
+            | Self::Shattered { remedy, .. } => remedy.clone(),
+            Self::NotIncreasing(step) | Self::Gap(step) | Self::Uneven(step) => step.remedy.clone(),
             Self::TooShort { .. } => {
                 "take a longer record; the fit needs more samples than there are coefficients".to_owned()
             }
-            Self::Shattered { .. } => "check the time column, or add `--resample` (`resample = true` in a rig file) to interpolate".to_owned(),
         }
     }
 }

@@ -39,7 +39,14 @@ impl Head {
         let Some(cells) = header_cells(nearest, dialect) else {
             return match misfit(nearest, dialect) {
                 Some(found) => {
-                    Err((Place::Line(*line), DataProblem::HeaderWidth { found, expected: dialect.width }))
+                    let expected = dialect.width;
+                    let is_twice = dialect.delimiter == Delimiter::Sign(',') && expected == 2 * found;
+                    let problem = if is_twice {
+                        DataProblem::CommasTwice { found, expected }
+                    } else {
+                        DataProblem::HeaderWidth { found, expected }
+                    };
+                    Err((Place::Line(*line), problem))
                 }
                 None => Ok(Self { skipped: *line, ..head }),
             };

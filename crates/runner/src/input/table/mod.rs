@@ -11,7 +11,7 @@ mod head;
 mod lines;
 pub(crate) mod unit;
 
-pub use error::{DataError, DataProblem, Place};
+pub use error::{DataError, DataProblem, Place, Step};
 
 use super::decode::read_decoded;
 use super::text_file::FileError;
@@ -48,6 +48,8 @@ pub(crate) struct Column {
     pub(crate) kind: Kind,
     /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
     pub(crate) values: Vec<f64>,
+    /// The cells as they stand in the file, of stamps only.
+    pub(crate) stamps: Vec<String>,
     /// The first cells that are neither a value nor missing.
     pub(crate) faults: Vec<Fault>,
     /// How many such cells there are.
@@ -85,23 +87,30 @@ impl Column {
         }
     }
 
-    /// Whether it holds numbers that can be an input or output.
+    /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
     pub(crate) fn is_number(&self) -> bool {
-        self.kind == Kind::Number && self.values.iter().any(|value| value.is_finite())
+        let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
+        self.kind == Kind::Number && is_meant()
+    }
+
+    /// A cell as it stands in the file, a number up to zeros that say nothing.
+    pub(crate) fn written(&self, row: usize) -> String {
+        self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
     }
 }
 
 impl Table {
-    /// Reads a file of measurements: text, or with the feature `matlab` a `.mat` file.
+    /// Reads a file of measurements of so many columns at least, one or two: text, or with the feature `matlab` a `.mat` file.
     ///
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
-    pub(crate) fn read(path: &Path) -> Result<Self, TableError> {
+    pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat")) {
             return super::mat::read(path);
         }
         let decoded = read_decoded(path).map_err(TableError::File)?;
-        let mut table = Self::parse(&path.display().to_string(), &decoded.text).map_err(TableError::Data)?;
+        let mut table =
+            Self::parse(&path.display().to_string(), &decoded.text, least).map_err(TableError::Data)?;
         if let Some(encoding) = decoded.encoding {
             table.notes.insert(0, format!("text in {encoding}"));
         }
@@ -109,12 +118,13 @@ impl Table {
     }
 
     /// The table in a text.
-    pub(crate) fn parse(path: &str, text: &str) -> Result<Self, DataError> {
+    pub(crate) fn parse(path: &str, text: &str, least: usize) -> Result<Self, DataError> {
         let fail = |place, problem| DataError { path: path.to_owned(), place, problem };
         if text.trim().is_empty() {
             return Err(fail(None, DataProblem::Empty));
         }
-        let dialect = Dialect::of(text).ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let single = || if least <= 1 { Dialect::single(text) } else { None };
+        let dialect = Dialect::of(text).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
         let head = Head::find(text, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
         let mut table = Self {
             path: path.to_owned(),
@@ -164,6 +174,7 @@ fn columns(head: &Head, width: usize) -> Vec<Column> {
         unit,
         kind: Kind::Number,
         values: Vec::new(),
+        stamps: Vec::new(),
         faults: Vec::new(),
         fault_count: 0,
     };

@@ -135,7 +135,38 @@ fn files_that_took_their_places_before_a_failure_go_again() {
     for (name, contents) in files.iter() {
         fs::write(fresh.join(name), contents).unwrap();
     }
-    assert!(folder.exchange_all(&files, &fresh, &replaced).is_err());
+    assert!(folder.exchange_all(&files, &[], [&fresh, &replaced]).is_err());
     drop(folder);
     assert_eq!(names(root.path()), ["b"]);
+}
+
+#[test]
+fn files_of_a_former_run_go_unless_someone_changed_or_wrote_them() {
+    let root = tempdir().unwrap();
+    let claim = || OutputFolder::claim(root.path()).unwrap().expecting(&["a", "figure_*"]).unwrap();
+    claim()
+        .commit(&artefacts(&[("a", "1"), ("figure_1", "1"), ("figure_2", "1"), ("elsewhere", "1")]))
+        .unwrap();
+    fs::write(root.path().join("figure_3"), "not listed").unwrap();
+    fs::write(root.path().join("figure_2"), "edited").unwrap();
+    OutputFolder::claim(root.path())
+        .unwrap()
+        .clearing(&["a", "figure_*"])
+        .commit(&artefacts(&[("a", "2")]))
+        .unwrap();
+    assert_eq!(names(root.path()), [SUMS, "a", "elsewhere", "figure_2", "figure_3"]);
+    assert!(!text(root.path(), SUMS).contains("figure_1"));
+}
+
+#[test]
+fn what_is_read_is_not_replaced_even_by_force() {
+    let root = tempdir().unwrap();
+    let series = root.path().join("series.csv");
+    fs::write(&series, "measured").unwrap();
+    let claim = || OutputFolder::claim(root.path()).unwrap().forced(true);
+    let error = claim().expecting(&["*.csv"]).unwrap().sparing([series.as_path()]).unwrap_err();
+    assert!(matches!(error, OutputError::IsInput { .. }), "{error}");
+    let error = claim().sparing([series.as_path()]).unwrap().commit(&artefacts(&[("series.csv", "new")]));
+    assert!(matches!(error, Err(OutputError::IsInput { .. })));
+    assert_eq!(text(root.path(), "series.csv"), "measured");
 }

@@ -1,0 +1,51 @@
+//! A model runs on quantities in its own units only.
+
+use super::Header;
+use crate::identification::unit;
+use miette::Diagnostic;
+use std::path::Path;
+use thiserror::Error;
+
+/// A signal is in another unit than the model's.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(help("{remedy}"))]
+pub struct UnitError {
+    message: String,
+    remedy: String,
+}
+
+impl Header {
+    /// Compares units where both are known. `labels` are those of the input and of the output, empty where there is none; `what` is what
+    /// `file` is called.
+    ///
+    /// # Errors
+    /// [`UnitError`] if one differs.
+    pub fn check_units(
+        &self,
+        labels: [&str; 2],
+        (file, what): (&Path, &'static str),
+    ) -> Result<(), UnitError> {
+        for (own, label) in [&self.input, &self.output].into_iter().zip(labels) {
+            let (model, data) = (unit(own), unit(label));
+            if !model.is_empty() && !data.is_empty() && plain(model) != plain(data) {
+                let name = own.split_once('[').map_or(own.as_str(), |(name, _)| name.trim());
+                let file = file.display();
+                return Err(UnitError {
+                    message: format!(
+                        "{file}: the model was identified on {name} in {model}, this {what} has {data}"
+                    ),
+                    remedy: format!(
+                        "bring `{label}` to {model}, or correct the header if only that is wrong"
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A unit however its letters are typed: `µm` and `um`, `N·m` and `Nm`.
+fn plain(unit: &str) -> String {
+    unit.replace(['µ', 'μ'], "u").replace(['·', '*', ' '], "").replace('°', "deg")
+}

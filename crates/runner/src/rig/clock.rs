@@ -1,0 +1,69 @@
+//! What the numbers of a time column mean.
+
+use super::voice::Voice;
+use crate::input::{Column, DataProblem, Kind, unit};
+
+/// From a time column's numbers to seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Clock {
+    /// Seconds in the column's unit.
+    pub(super) unit: f64,
+    /// Subtracted first, so that small steps of large numbers keep their digits.
+    origin: f64,
+    column: String,
+    /// What a number without a unit was taken for, where it is no plain number of seconds.
+    epoch: Option<&'static str>,
+    /// Whether nobody named the unit.
+    is_assumed: bool,
+}
+
+/// Numbers beyond these, and what they must be: seconds since 1970 reach 1e11 in the year 5138, and a thousand times as many milliseconds
+/// do so in the same year, while they passed 1e11 in 1973.
+const EPOCHS: [(f64, f64, &str); 3] =
+    [(1e17, 1e-9, "nanoseconds"), (1e14, 1e-6, "microseconds"), (1e11, 1e-3, "milliseconds")];
+
+impl Clock {
+    /// By the unit in the header, else by the size of the numbers.
+    ///
+    /// # Errors
+    /// A unit that is no time's.
+    pub(super) fn of(column: &Column, raw: &[f64], voice: &Voice) -> Result<Self, DataProblem> {
+        let first = raw.first().copied().unwrap_or(0.0);
+        let clock = |unit| Self { unit, origin: 0.0, column: column.label(), epoch: None, is_assumed: false };
+        match &column.unit {
+            _ if column.kind == Kind::Stamp => Ok(clock(1.0)),
+            Some(unit) => unit::seconds(unit).map(clock).ok_or_else(|| DataProblem::NoSampleTime {
+                reason: format!("`{unit}`, the unit of `{}`, is no time", column.label()),
+                remedy: format!(
+                    "write s, ms, us, min or h, or name another time column; {} goes without one",
+                    voice.without_time()
+                ),
+            }),
+            None => Ok(match EPOCHS.into_iter().find(|(least, ..)| first.abs() >= *least) {
+                Some((_, unit, name)) => Self { origin: first, epoch: Some(name), ..clock(unit) },
+                None => Self { is_assumed: true, ..clock(1.0) },
+            }),
+        }
+    }
+
+    /// Seconds, from 1970 on or whatever instant the column counts from.
+    pub(super) fn seconds(&self, stamp: f64) -> f64 {
+        self.unit * (stamp - self.origin)
+    }
+
+    /// What was assumed and may be wrong.
+    pub(super) fn notes(&self, raw: &[f64], sample_time: f64, voice: &Voice) -> Vec<String> {
+        let column = &self.column;
+        let is_whole = || raw.iter().all(|stamp| stamp.fract() == 0.0);
+        if let Some(unit) = self.epoch {
+            return vec![format!("`{column}` is taken as {unit} since 1970")];
+        }
+        if self.is_assumed && sample_time >= 1.0 && is_whole() {
+            return vec![format!(
+                "`{column}` is taken as seconds; write the unit into the header, as in `{column} [ms]`, or give {}",
+                voice.without_time()
+            )];
+        }
+        Vec::new()
+    }
+}
