@@ -248,7 +248,7 @@ fn without_a_hold_out_the_diagnosis_says_what_its_figures_are_worth() {
     let folder = Folder::with_good_rig();
     folder.edit("rig.toml", |text| text.replace("holdout", "fit"));
     let page = diagnosed(&folder, &[]);
-    assert!(limitations(&page).contains("holdout"), "{page:#}");
+    assert!(limitations(&page).contains("no held-out record can be judged"), "{page:#}");
     let output = folder.switchback(&["gap", "rig.toml"]).output().expect("it runs");
     assert!(String::from_utf8_lossy(&output.stdout).contains("none is held out"));
 }
@@ -277,7 +277,7 @@ fn an_input_that_never_moves_is_refused() {
 fn a_hold_out_that_never_moves_is_no_hold_out() {
     let folder = Folder::with_good_rig();
     rewrite(&folder, "again.csv", "t,v,y", |[t, _, y]| format!("{t},1,{y}"));
-    assert!(limitations(&diagnosed(&folder, &[])).contains("holdout"));
+    assert!(limitations(&diagnosed(&folder, &[])).contains("no held-out record can be judged"));
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn one_period_is_refused_or_judged_with_a_word_about_it() {
     refused(&folder, &[], &["rig.toml", "samples"]);
     let folder = Folder::with_good_rig();
     shorten(&folder, "again.csv", 15);
-    assert!(limitations(&diagnosed(&folder, &[])).contains("long enough"));
+    assert!(limitations(&diagnosed(&folder, &[])).contains("too short"));
 }
 
 #[test]
