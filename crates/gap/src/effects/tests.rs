@@ -187,7 +187,7 @@ fn what_has_one_sign_is_never_searched_on_the_other_side() {
         (Effect::SensorSaturation, &["width"]),
     ];
     for (effect, names) in positive {
-        let laws = variants(effect, &scene);
+        let laws = (effect.card().laws)(&scene);
         let all = laws.iter().flat_map(|law| law.starts.iter().flatten());
         let own: Vec<&Own> = all.filter(|own| names.contains(&own.name)).collect();
         assert!(
