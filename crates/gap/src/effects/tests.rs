@@ -7,7 +7,7 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::search::{Question, finish, looks};
 use crate::attribution::starts::Known;
 use crate::likelihood::engine::{Ground, fit};
-use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
 use crate::model::linear::Linear;
 use crate::testing::{noise_free, small_campaign, small_model, white};
 
