@@ -53,6 +53,11 @@ macro_rules! catalogue {
                 }
             }
         }
+
+        /// What each effect changes by the catalogue, and its file.
+        #[cfg(test)]
+        const TITLES: [(&str, &str); Effect::ALL.len()] =
+            [$(($changes, include_str!(concat!(stringify!($file), ".rs")))),*];
     };
 }
 

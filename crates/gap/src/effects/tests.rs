@@ -1,4 +1,5 @@
-//! A name includes its sign: data of the opposite sign are fitted by each law, and get the right name or none.
+//! Cards agree with the catalogue. A name includes its sign: data of the opposite sign are fitted by each law, and get the right name
+//! or none.
 
 use super::*;
 use crate::Serial;
@@ -10,6 +11,20 @@ use crate::likelihood::engine::{Ground, fit};
 use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
 use crate::model::linear::Linear;
 use crate::testing::{noise_free, small_campaign, small_model, white};
+
+#[test]
+fn a_file_begins_with_what_its_effect_changes() {
+    for (changes, file) in TITLES {
+        assert_eq!(file.lines().next(), Some(format!("//! {changes}").as_str()));
+    }
+}
+
+#[test]
+fn details_of_the_borders_are_the_effect_that_lies_in_the_grid() {
+    let in_the_grid: Vec<Effect> =
+        Effect::ALL.into_iter().filter(|effect| effect.card().lies_in_the_grid).collect();
+    assert_eq!(in_the_grid, [details().0]);
+}
 
 /// Standard deviation of the noise in the output.
 const NOISE: f64 = 1e-3;
