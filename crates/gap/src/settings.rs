@@ -26,6 +26,11 @@ impl Settings {
         self.effects.retain(|effect| !effects.contains(effect));
         self
     }
+
+    /// Whether details of the borders are a candidate: elsewhere no knots may follow them.
+    pub(crate) fn consider_details(&self) -> bool {
+        self.effects.iter().any(|effect| effect.card().lies_in_the_grid)
+    }
 }
 
 impl Default for Settings {

@@ -35,19 +35,6 @@ const FINISHED: usize = 4;
 /// Laws of one effect fitted to convergence at most, and the share of its best gain that a further one needs.
 const LAWS: usize = 2;
 const LAW: f64 = 0.6;
-/// Effects that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop that closes, a
-/// gain that changes, a slow lag before the plant, errors that last, a line, a trend; and a delay, of which `B` takes whole samples.
-const RULERS: [Effect; 9] = [
-    Effect::InputDelay,
-    Effect::RateDependence,
-    Effect::Stribeck,
-    Effect::BorderWear,
-    Effect::GainDrift,
-    Effect::ExtraPole,
-    Effect::ColouredNoise,
-    Effect::PeriodicDisturbance,
-    Effect::SensorDrift,
-];
 /// How far behind the leader, as a share of its gain and in penalised deviance at least, a law goes on to convergence.
 const BEHIND: f64 = 0.3;
 const NEAR: f64 = 100.0;
@@ -64,7 +51,7 @@ impl<W: Workers> Attribution<'_, W> {
     pub(crate) fn singles(&self) -> Vec<Explanation> {
         let all: Vec<Question> = self.settings.effects.iter().map(|e| Question::open(*e)).collect();
         let mut singles = self.on_top_of(self.detailed, &all, Contest { finished: FINISHED, to_beat: None });
-        if self.settings.effects.contains(&Effect::BorderResolution) {
+        if self.settings.consider_details() {
             self.compare_with_detail(&mut singles);
         }
         if self.gain(singles.first()) > 0.5 * SIGNIFICANT {
@@ -85,15 +72,18 @@ impl<W: Workers> Attribution<'_, W> {
         self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
     }
 
-    /// The effects considered that may rule the input or the errors.
+    /// The effects considered that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop
+    /// that closes, a gain that changes, a slow lag before the plant, errors that last, a line, a trend; and a delay, of which `B` takes
+    /// whole samples.
     pub(crate) fn rulers(&self) -> impl Iterator<Item = Effect> {
-        RULERS.into_iter().filter(|e| self.settings.effects.contains(e))
+        let considered = |e: &Effect| self.settings.effects.contains(e);
+        Effect::ALL.into_iter().filter(|e| e.card().rules_dynamics).filter(considered)
     }
 
     /// Knots placed from the data are themselves the explanation that the grid was too coarse.
     fn compare_with_detail(&self, singles: &mut Vec<Explanation>) {
         let known = Explanation::detailed(self.detailed.fit.clone());
-        let found = singles.iter_mut().find(|s| s.parts[0].effect == Effect::BorderResolution);
+        let found = singles.iter_mut().find(|s| s.parts[0].effect.card().lies_in_the_grid);
         match found {
             Some(finer) if finer.bic() <= known.bic() => {}
             Some(finer) => *finer = known,
@@ -195,7 +185,7 @@ impl<W: Workers> Attribution<'_, W> {
         let replaced = if self.has_details() { singles.len() } else { REPLACED };
         let numbered: Vec<(usize, Explanation)> = singles.into_iter().enumerate().collect();
         let mut out = self.workers.map(&numbered, |(rank, single)| {
-            let is_grid = single.parts[0].effect == Effect::BorderResolution;
+            let is_grid = single.parts[0].effect.card().lies_in_the_grid;
             let rival = *rank < replaced && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
             match (is_grid, rival) {
                 (true, _) => single.clone(),
@@ -220,7 +210,7 @@ impl<W: Workers> Attribution<'_, W> {
 
     /// Border knots placed anew, and none that follow details where those are no candidate.
     pub(crate) fn knots_refined(&self, explanation: Explanation) -> Explanation {
-        match self.settings.effects.contains(&Effect::BorderResolution) {
+        match self.settings.consider_details() {
             true => explanation.with_knots_refined(self.campaign),
             false => self.placed_anew(explanation),
         }

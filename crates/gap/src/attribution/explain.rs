@@ -2,11 +2,10 @@
 
 use std::fmt;
 use std::ops::Range;
-use std::sync::Arc;
 
 use crate::attribution::search::finish;
 use crate::effect::Effect;
-use crate::effects::{Apply, Naming, Search, Sound, Variant, is_coloured_noise};
+use crate::effects::{Apply, Naming, Search, Sound, Variant, details};
 use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
 use crate::model::assembly::Assembly;
 use crate::records::campaign::Campaign;
@@ -47,17 +46,8 @@ impl Part {
 
     /// Details of the borders: they are in the grid.
     fn details() -> Self {
-        let apply: Apply = Arc::new(|_, _| {});
-        Self {
-            effect: Effect::BorderResolution,
-            law: (Effect::BorderResolution, 0),
-            apply,
-            sound: |_, _| true,
-            naming: None,
-            count: 0,
-            search: Search::Smooth,
-            handicap: 0.0,
-        }
+        let (effect, variant) = details();
+        Self::of(effect, (0, &variant))
     }
 }
 
@@ -154,7 +144,7 @@ impl Explanation {
 
     /// Whether an effect of it is but the colour of the noise under another name.
     pub(crate) fn disguises_noise(&self) -> bool {
-        self.parts.iter().any(|part| is_coloured_noise(part.effect, &self.fit))
+        self.parts.iter().any(|part| (part.effect.card().is_noise_in_disguise)(&self.fit))
     }
 
     /// Whether every law of it is still one of its effect, not the limit at which it is another one.

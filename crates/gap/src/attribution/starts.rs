@@ -124,8 +124,8 @@ impl ScoreTest<'_> {
     /// Gain in deviance with `A` and `B` solved for, where the assembly filters.
     fn refitted(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Option<f64> {
         let fit = &self.known.explanation.fit;
-        let filter = |a: &Assembly| (a.denominator.clone(), a.numerator.clone(), a.delay, a.noise.ar.clone());
-        if filter(assembly) == filter(&fit.assembly) || fit.design.criterion.simulates() {
+        let same_filter = assembly.parts().filter == fit.assembly.parts().filter;
+        if same_filter && assembly.noise.ar == fit.assembly.noise.ar || fit.design.criterion.simulates() {
             return None;
         }
         let whitener = there.design.whitener(&assembly.noise, &p.a);

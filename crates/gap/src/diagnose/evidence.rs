@@ -139,7 +139,7 @@ impl Evidence {
     /// Whether the best colours the noise. Where `A` has taken the pole of a lag before the plant the noise of the equation is a
     /// moving average: `A y = B/P u + ξ ⟺ P·A y = B u + P·ξ`.
     fn is_coloured(&self) -> bool {
-        self.significant && self.best.effects() == [Effect::ColouredNoise]
+        self.significant && matches!(self.best.effects()[..], [only] if only.card().colours_noise)
     }
 
     fn leaves_something(&self) -> bool {

@@ -27,9 +27,11 @@ impl Plan {
     /// What is all noise, or rounds, moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.
     pub(super) fn harms(&self, explanation: &Explanation) -> bool {
         let fit = &explanation.fit;
-        let moves_nothing = |e: &Effect| e.is_noise() || *e == Effect::SensorQuantisation;
-        let spared =
-            if explanation.effects().iter().all(moves_nothing) { self.cost_of_fitting(fit) } else { 0.0 };
+        let spared = if explanation.effects().iter().all(|e| e.moves_no_simulation()) {
+            self.cost_of_fitting(fit)
+        } else {
+            0.0
+        };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
         let saved = match has_a_free_zero(fit) {
             true => self.saved_about_the_mean(fit),
@@ -59,7 +61,7 @@ impl Plan {
     pub(super) fn second_shows(&self, both: &Explanation, causes: &Causes, alone: &[Explanation]) -> bool {
         let [one, other] = causes.effects[..] else { return true };
         let known = |effect: Effect| alone.iter().position(|s| s.parts[0].effect == effect);
-        let (first, second) = match [one, other].map(reads_wrongly) {
+        let (first, second) = match [one, other].map(|effect| effect.card().misreads) {
             [false, false] => return true,
             [true, false] => (one, other),
             [false, true] => (other, one),
@@ -141,11 +143,6 @@ fn about_the_mean(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         record.iter_mut().for_each(|x| *x -= mean);
     }
     records
-}
-
-/// Whether an effect is what the sensor makes of an output that is right: it clips, rounds, or is curved.
-fn reads_wrongly(effect: Effect) -> bool {
-    matches!(effect, Effect::SensorSaturation | Effect::SensorQuantisation | Effect::SensorNonlinearity)
 }
 
 /// Log predictive density that one model gains over another on each held-out record, on the samples that both predict; what a lattice of

@@ -82,7 +82,7 @@ impl Plan {
     pub(super) fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
         let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
         // Noise that lasts makes simulation errors of any size, and leaves nothing.
-        let lasts = best.parts[0].effect == Effect::ColouredNoise;
+        let lasts = best.parts[0].effect.card().colours_noise;
         if lasts && omnibus(&self.campaign, &best.fit).is_some_and(|left| left.excess() < IMMATERIAL) {
             return;
         }
@@ -133,8 +133,7 @@ impl Plan {
     /// What follows a clock or has a phase in every record is excused, and so is what is random but makes errors that last; and
     /// noise that leaves nothing, `left` being the deviance that it does: its colour makes a gap where there is none.
     pub(super) fn hardly_closes(&self, explanation: &Explanation, left: f64) -> bool {
-        let excused =
-            |e: &Effect| e.is_of_its_record() || matches!(e, Effect::InputNoise | Effect::SensorQuantisation);
+        let excused = |e: &Effect| e.is_of_its_record() || e.card().errors_last;
         let effects = explanation.effects();
         let whole = left < IMMATERIAL && effects.iter().all(|e| e.is_noise());
         if self.campaign.criterion.simulates() || effects.iter().any(excused) || whole {
@@ -158,14 +157,14 @@ impl Plan {
 
     /// Whether outliers that explain the gap, alone or beside another effect, come where the input is: something is missed there.
     pub(super) fn misses_at_places(&self, explanation: &Explanation) -> bool {
-        explanation.effects().contains(&Effect::Outliers)
+        explanation.effects().iter().any(|e| e.card().heavy_tails)
             && come_where_the_input_is(&self.campaign, &explanation.fit)
     }
 
     /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: what
     /// closes a gap there, unless it moves no simulation or need not hold in other records.
     pub(super) fn shows_in_simulations(&self, explanation: &Explanation) -> bool {
-        let beside = |e: &&Effect| **e != Effect::SensorQuantisation;
+        let beside = |e: &&Effect| !e.card().rounds;
         let excused = |e: &Effect| e.is_noise() || e.is_of_its_record();
         let gap = self.gap(&explanation.fit, self.settings.resamples);
         explanation.effects().iter().filter(beside).all(excused)

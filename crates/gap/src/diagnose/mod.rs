@@ -152,7 +152,7 @@ impl Plan {
         let mut limitations = Vec::from_iter(told);
         if campaign.criterion.simulates() {
             // What changes only the noise moves no simulation.
-            settings.effects.retain(|e| !e.is_noise() && *e != Effect::SensorQuantisation);
+            settings.effects.retain(|e| !e.moves_no_simulation());
         }
         let judged = judged_tracks(&campaign, &mut limitations);
         let foreign = Foreign::of(model, rig, &campaign, &judged)?;
@@ -231,7 +231,8 @@ impl Plan {
             let together =
                 odds_together(self.nominal.plain.bic(), &pair, &causes, &of_members(&Explanation::evidence));
             let (explanation, pair_left) = (pair.explanation, pair.left);
-            let misses = causes.effects.contains(&Effect::Outliers) && self.misses_at_places(&explanation);
+            let has_tails = causes.effects.iter().any(|e| e.card().heavy_tails);
+            let misses = has_tails && self.misses_at_places(&explanation);
             let holds = self.better_held_out(&explanation, &best)
                 && !self.hardly_closes(&explanation, pair_left)
                 && !self.worsens(&explanation)

@@ -1,7 +1,6 @@
 //! The nominal model, with and without knots that follow details of the borders.
 
 use crate::attribution::explain::Explanation;
-use crate::effect::Effect;
 use crate::nominal::knots::detail;
 use crate::records::campaign::Campaign;
 use crate::settings::Settings;
@@ -20,7 +19,7 @@ impl Nominal {
     pub(super) fn new(campaign: &Campaign, settings: &Settings, detailed: Explanation) -> Self {
         let plain = coarse(campaign, &detailed);
         // Where details of the borders are no candidate, no other may take what knots that follow them gain.
-        let follows = settings.effects.contains(&Effect::BorderResolution);
+        let follows = settings.consider_details();
         let detailed = if follows { detailed } else { plain.clone() };
         Self { plain, detailed }
     }

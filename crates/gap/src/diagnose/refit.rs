@@ -4,23 +4,20 @@ use super::Plan;
 use super::harm::differences;
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Status, Verdict};
-use crate::effect::Effect;
+use crate::effects::Room;
 use crate::likelihood::engine::Fit;
 use crate::nominal::order::Chosen;
 use crate::simulation::simulate::free_run;
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
-/// Effects that a higher order or another delay has room for.
-const DYNAMICS: [Effect; 3] = [Effect::InputDelay, Effect::ExtraPole, Effect::Resonance];
-
 /// Whether a verdict tells an effect that a higher order or another delay has room for, be it as one of several.
 pub(super) fn tells_dynamics(verdict: &Verdict) -> bool {
-    verdict.effects.iter().chain(&verdict.class).any(|effect| DYNAMICS.contains(effect))
+    verdict.effects.iter().chain(&verdict.class).any(|effect| effect.card().room.is_some())
 }
 
 /// Whether a verdict tells a delay.
 pub(super) fn tells_a_delay(verdict: &Verdict) -> bool {
-    verdict.effects.iter().chain(&verdict.class).any(|effect| *effect == Effect::InputDelay)
+    verdict.effects.iter().chain(&verdict.class).any(|effect| effect.card().room == Some(Room::Delay))
 }
 
 impl Plan {

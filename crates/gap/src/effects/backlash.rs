@@ -10,9 +10,13 @@
 //! pulse experiments alone do not see it. Confused with: gradual transition (the jump at the end of the rest tells),
 //! a reversal threshold against noise on `v`.
 
-use super::{Scene, Search, Variant, own};
+use super::{Card, Scene, Search, Variant, own};
+use crate::effect::{Effect, Stage};
 use crate::records::campaign::Campaign;
 use crate::records::motion::Play;
+
+pub(super) const CARD: Card =
+    Card { twins: &[Effect::GradualTransition], ..Card::of(Stage::Operator, variants) };
 
 /// Starts are this width times powers of a ratio, in strokes.
 const ANCHOR: f64 = 0.0006;
@@ -29,7 +33,7 @@ fn narrowest(campaign: &Campaign) -> f64 {
     travels.get(TRACES - 1).copied().unwrap_or(ANCHOR).max(2.0 * NARROWEST)
 }
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // The profile is not smooth: a width off by half has lost the trace.
     let least = narrowest(scene.campaign);
     let widths = |ratio: f64| {

@@ -4,10 +4,14 @@
 //! that placement resolves. A jump is finer than a table only where designed experiments tabulate the borders at levels; without them
 //! it is the border's own. Law: three times the knots. Stage: operator. Confused with: outliers, sensor effects.
 
-use super::{Scene, Variant};
+use super::{Card, Scene, Variant};
+use crate::effect::{Effect, Stage};
 use crate::model::borders::Grid;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card =
+    Card { supple: true, stopgap: true, lies_in_the_grid: true, ..Card::of(Stage::Operator, variants) };
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let knots = scene.fit.grid.knots.clone().map(|knots| {
         let mut fine = Vec::with_capacity(3 * knots.len());
         for w in knots.windows(2) {
@@ -22,4 +26,9 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut variant = Variant::new(vec![Vec::new()], |_, _| {});
     variant.grid = Some(Grid { knots });
     vec![variant]
+}
+
+/// Details of the borders that the knots of a fit follow already: nothing is left to apply.
+pub(crate) fn details() -> (Effect, Variant) {
+    (Effect::BorderResolution, Variant::new(vec![Vec::new()], |_, _| {}))
 }

@@ -9,10 +9,18 @@
 //! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel of the campaign. Stage: operator.
 //! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
 
-use super::{Variant, own};
+use super::{Card, Scene, Variant, own};
+use crate::effect::{Effect, Stage};
 use crate::model::assembly::{BorderColumn, Clock, Slow};
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::GainDrift],
+    of_its_record: true,
+    rules_dynamics: true,
+    ..Card::of(Stage::Operator, variants)
+};
+
+fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 2] {

@@ -7,10 +7,21 @@
 //! Parameters: coefficients of `D`, or of `C`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
 //! Confused with: output noise.
 
-use super::{Scene, Variant, own};
+use super::{Card, Follows, Scene, Variant, own};
+use crate::effect::{Effect, Stage};
 use crate::residuals::spectrum::moving_average;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::OutputNoise, Effect::InputNoise],
+    noise: true,
+    colours_noise: true,
+    supple: true,
+    rules_dynamics: true,
+    follows: Some(Follows::Anything),
+    ..Card::of(Stage::Disturbance, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out: Vec<Variant> = [1, 2, 4, 6, 10, 20]
         .into_iter()
         .map(|degree| {

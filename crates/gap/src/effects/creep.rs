@@ -16,12 +16,16 @@
 //! drifting: the same way, or back where `kappa` is negative or `k` positive (relaxation, which is the creep of a force at rest). Both are one
 //! cause, and the parameters' signs say which. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
-use super::{Scene, Variant, fitted_tracks, own};
+use super::{Card, Scene, Variant, fitted_tracks, own};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{EquationColumn, Relaxation, convolve};
 use crate::simulation::beginnings::begins_as_a_filter;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card =
+    Card { twins: &[Effect::RateDependence, Effect::ExtraPole], ..Card::of(Stage::Operator, variants) };
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
     let starts = [(0.1, 15.0), (0.1, 80.0), (0.1, 500.0), (0.6, 40.0), (0.6, 200.0)]
         .iter()

@@ -9,10 +9,25 @@
 //!
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
 
-use super::{Scene, Sound, Variant, fitted_tracks, outlasts_the_records, own};
+use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, own};
+use crate::diagnosis::FittedParameter;
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::EquationColumn;
 use crate::simulation::beginnings::begins_as_a_filter;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::InputDelay, Effect::Resonance],
+    rules_dynamics: true,
+    room: Some(Room::Order),
+    // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
+    most_left: 0.02,
+    told_first: |reading| {
+        let pole = reading.searched.iter().find(|own| own.name == "pole");
+        pole.and_then(time_constant).into_iter().collect()
+    },
+    ..Card::of(Stage::Dynamics, variants)
+};
 
 /// One way to lag.
 struct Lag {
@@ -51,7 +66,7 @@ impl Lag {
     }
 }
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     LAGS.iter()
         .map(|lag| {
             let (least, poles) = lag.poles();
@@ -97,4 +112,39 @@ fn keeps_its_poles(fit: &Fit) -> bool {
 /// Whether a lag is still one beside `A`.
 fn is_a_lag(fit: &Fit) -> bool {
     keeps_its_poles(fit) && !outlasts_the_records(fit)
+}
+
+/// `ln τ` of a lag with the pole `p = exp(−1/τ)`, `τ` in samples; nothing where the pole is none of a lag.
+fn time_constant(pole: &FittedParameter) -> Option<FittedParameter> {
+    let logarithm = |p: f64| -(-p.ln()).ln();
+    let is_of_a_lag = pole.value > 0.0 && pole.value < 1.0;
+    is_of_a_lag.then(|| FittedParameter {
+        name: "log_tau",
+        unit: "ln samples",
+        value: logarithm(pole.value),
+        ci90: pole.ci90.map(logarithm),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pole_is_a_time_constant() {
+        let pole = |value: f64, half: f64| FittedParameter {
+            name: "pole",
+            unit: "1",
+            value,
+            ci90: [value - half, value + half],
+        };
+        let of = |tau: f64| (-1.0 / tau).exp();
+        let tau = time_constant(&pole(of(10.0), 0.005)).expect("a lag");
+        assert!((tau.value.exp() - 10.0).abs() < 1e-9);
+        let ends = tau.ci90.map(|end| of(end.exp()) - of(10.0));
+        assert!((ends[0] + 0.005).abs() < 1e-9 && (ends[1] - 0.005).abs() < 1e-9, "{ends:?}");
+        assert!(time_constant(&pole(-0.3, 0.1)).is_none() && time_constant(&pole(1.0, 0.1)).is_none());
+        // An interval that reaches a pole that forgets nothing ends nowhere.
+        assert!(time_constant(&pole(0.999, 0.01)).is_some_and(|tau| tau.ci90[1].is_nan()));
+    }
 }

@@ -15,11 +15,21 @@
 //! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the campaign or of the record. Stage: dynamics. Outputs scale with time,
 //! mid-line and loop alike. Confused with: border wear (the mid-line tells), sensor drift.
 
-use super::{Variant, own};
+use super::{Card, Scene, Variant, own};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::rows::clock;
 use crate::model::assembly::{Assembly, Clock, EquationColumn, Slow};
 use crate::records::campaign::Campaign;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::BorderWear],
+    of_its_record: true,
+    supple: true,
+    rules_dynamics: true,
+    freed: free_course,
+    ..Card::of(Stage::Dynamics, variants)
+};
 
 /// Rates of a wave, radians over the clock.
 const RATES: [f64; 3] = [4.0, 9.0, 18.0];
@@ -27,7 +37,7 @@ const RATES: [f64; 3] = [4.0, 9.0, 18.0];
 const AFRESH: [f64; 2] = [-0.2, 0.2];
 const PHASES: [(f64, f64); 4] = [(0.2, 0.0), (0.0, 0.2), (-0.2, 0.0), (0.0, -0.2)];
 
-pub(super) fn variants() -> Vec<Variant> {
+fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         for degree in [1, 3] {
@@ -69,7 +79,7 @@ const PIECE: usize = 1000;
 const PIECES: usize = 4;
 
 /// A law of the gain that is straight between knots, from where the gain of a fit ended; none where that does not change.
-pub(crate) fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
+fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
     let gain = fit.assembly.gain.as_ref().filter(|gain| gain.changes())?;
     let known = campaign.fit().flat_map(|track| {
         let pieces = (track.v.len() / PIECE).clamp(1, PIECES);

@@ -11,10 +11,13 @@
 //! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
-use super::{Scene, Variant, fitted_tracks, own};
+use super::{Card, Scene, Variant, fitted_tracks, own};
+use crate::effect::{Effect, Stage};
 use crate::model::assembly::{BorderColumn, Transition, TransitionLaw};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card { twins: &[Effect::Backlash], ..Card::of(Stage::Operator, variants) };
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing]
         .into_iter()
         .map(|law| {

@@ -7,15 +7,23 @@
 //!
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
-use super::{Search, Variant, outlasts_the_records, own};
+use super::{Card, Room, Scene, Search, Variant, outlasts_the_records, own};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Own;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::ExtraPole, Effect::Resonance],
+    rules_dynamics: true,
+    room: Some(Room::Delay),
+    ..Card::of(Stage::Input, variants)
+};
 
 /// Delays of the positions tried within the first sample, and within each of the next few. A branch taken a sample too late costs
 /// more than any smooth part gains: the likelihood has a corner at every ratio of two moves that meet at a reversal.
 const WITHIN_THE_FIRST: [f64; 9] = [0.015, 0.03, 0.06, 0.12, 0.25, 0.4, 0.6, 0.8, 0.95];
 const WITHIN_A_LATER: [f64; 4] = [0.05, 0.2, 0.5, 0.8];
 
-pub(super) fn variants() -> Vec<Variant> {
+fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let delay = |d: f64, step: f64| vec![own("delay", "samples", d, (0.0, 10.0), step)];
     let responses = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0];
     let response = Variant::conditional(responses.map(|d| delay(d, 0.02)).into(), |p, assembly| {

@@ -14,9 +14,17 @@
 
 use crate::model::assembly::InputNoise;
 
-use super::{Scene, Search, Variant, own};
+use super::{Card, Scene, Search, Variant, own};
+use crate::effect::{Effect, Stage};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::Outliers, Effect::ColouredNoise],
+    noise: true,
+    errors_last: true,
+    ..Card::of(Stage::Input, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     vec![small(), kept(), direct(), jitter(scene)]
 }
 

@@ -1,173 +1,96 @@
-//! The library of effects: one file an effect, each with its law, its parameters, what it leaves in the data and what it
-//! is confused with.
+//! The library of effects: one file an effect, which holds its card ([`Card`]) with everything that the diagnosis knows about it, its laws,
+//! what it leaves in the data and what it is confused with.
 //!
 //! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from own
-//! parameters to changes of an [`Assembly`]. The same assembly is fitted ([`crate::likelihood::engine`]) and simulated
-//! ([`crate::simulation::simulate`]), and effects compose by being applied one after the other.
+//! parameters to changes of an [`Assembly`](crate::model::assembly::Assembly). The same assembly is fitted
+//! ([`crate::likelihood::engine`]) and simulated ([`crate::simulation::simulate`]), and effects compose by being applied one after the
+//! other.
 
-mod backlash;
-mod border_resolution;
-mod border_wear;
-mod coloured_noise;
-mod creep;
-mod extra_pole;
-mod gain_drift;
-mod gradual_transition;
-mod input_delay;
-mod input_noise;
-mod outliers;
-mod output_noise;
-mod periodic_disturbance;
-mod rate_dependence;
-mod resonance;
-mod sensor_drift;
-mod sensor_nonlinearity;
-mod sensor_quantisation;
-mod sensor_saturation;
+mod card;
+mod law;
 mod speed;
-mod stribeck;
 
-use std::sync::Arc;
+use card::known;
+pub(crate) use card::{Card, Follows, Reading, Room};
+pub(crate) use law::{Apply, Naming, Scene, Search, Sound, Variant};
 
-use crate::effect::Effect;
 use crate::likelihood::engine::{Fit, Own};
-use crate::model::assembly::Assembly;
-use crate::model::borders::Grid;
 use crate::records::campaign::Campaign;
 
-/// How the own parameters are searched after the starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Search {
-    /// Gauss–Newton together with everything else.
-    Smooth,
-    /// The starts are compared with their own parameters held, which is a nearly linear problem; then as `Smooth`.
-    Conditional,
-    /// A profile refined around its best point: the likelihood has corners.
-    Profile,
-    /// The same where the own parameters only weigh the samples: the rest hardly moves with them, and is fitted afterwards.
-    Weights,
-}
+/// Declares the effects: of each its key, its file, which is its name as well, and what it changes.
+macro_rules! catalogue {
+    ($($effect:ident in $file:ident: $changes:literal,)*) => {
+        $(mod $file;)*
 
-/// The change an effect makes to an assembly, given its own parameters.
-pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
-
-/// Whether a law, given its fitted own parameters, is still a law of its effect, not the limit at which it is another one.
-pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
-
-/// The effect that a law is one of, given its fitted own parameters: where a coefficient may have either sign, a name includes it.
-pub(crate) type Naming = fn(&[f64], &Fit) -> Effect;
-
-/// One law of an effect.
-pub(crate) struct Variant {
-    /// Points the search starts from; all hold the same parameters.
-    pub(crate) starts: Vec<Vec<Own>>,
-    /// Further points where everything is identified anew: at a start where the law changes nothing that identifies what is known.
-    pub(crate) afresh: Vec<Vec<Own>>,
-    pub(crate) search: Search,
-    /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
-    pub(crate) climbs: usize,
-    /// Which valley a start lies in, where only the likeliest of each is climbed from.
-    pub(crate) valley: Option<fn(&[Own]) -> i64>,
-    pub(crate) apply: Apply,
-    pub(crate) sound: Sound,
-    /// Which effect a fit is one of, where that depends on its signs.
-    pub(crate) naming: Option<Naming>,
-    /// A finer border grid that comes with the law.
-    pub(crate) grid: Option<Grid>,
-    /// Added to the deviance: evidence that the innovations do not show, or a penalty.
-    pub(crate) handicap: f64,
-}
-
-/// Climbs of a law whose starts are stages of one valley.
-const CLIMBS: usize = 3;
-
-impl Search {
-    /// Whether own parameters are moved one by one, without derivatives.
-    pub(crate) fn is_by_pattern(self) -> bool {
-        matches!(self, Self::Profile | Self::Weights)
-    }
-}
-
-impl Variant {
-    fn new(starts: Vec<Vec<Own>>, apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static) -> Self {
-        Self {
-            starts,
-            afresh: Vec::new(),
-            search: Search::Smooth,
-            climbs: CLIMBS,
-            valley: None,
-            apply: Arc::new(apply),
-            sound: |_, _| true,
-            naming: None,
-            grid: None,
-            handicap: 0.0,
+        /// An effect that a nominal switched-hysteresis model lacks.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[non_exhaustive]
+        pub enum Effect {
+            $(#[doc = $changes] $effect,)*
         }
-    }
 
-    fn conditional(
-        starts: Vec<Vec<Own>>,
-        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
-    ) -> Self {
-        Self { search: Search::Conditional, ..Self::new(starts, apply) }
-    }
+        impl Effect {
+            /// Every effect, in the order of the catalogue.
+            pub const ALL: [Self; [$(stringify!($effect)),*].len()] = [$(Self::$effect),*];
 
-    /// The same law, of its effect only where a fit is sound.
-    fn sound_if(self, sound: Sound) -> Self {
-        Self { sound, ..self }
-    }
+            /// The name used in rig files and reports.
+            ///
+            /// ```
+            /// # use switchback_gap::Effect;
+            /// assert_eq!(Effect::GradualTransition.name(), "gradual_transition");
+            /// assert!(Effect::ALL.iter().all(|e| Effect::from_name(e.name()) == Some(*e)));
+            /// ```
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$effect => stringify!($file),)*
+                }
+            }
 
-    /// The same law, of another effect where its signs say so.
-    fn named_by(self, naming: Naming) -> Self {
-        Self { naming: Some(naming), ..self }
-    }
+            /// What its file says of it.
+            pub(crate) fn card(self) -> &'static Card {
+                match self {
+                    $(Self::$effect => &$file::CARD,)*
+                }
+            }
+        }
+
+        /// What each effect changes by the catalogue, and its file.
+        #[cfg(test)]
+        const TITLES: [(&str, &str); Effect::ALL.len()] =
+            [$(($changes, include_str!(concat!(stringify!($file), ".rs")))),*];
+    };
 }
 
-/// What an effect may look at when it proposes its variants.
-pub(crate) struct Scene<'a> {
-    pub(crate) campaign: &'a Campaign,
-    /// The best model so far.
-    pub(crate) fit: &'a Fit,
-    /// Its innovations on the fit records.
-    pub(crate) innovations: &'a [Vec<f64>],
+// An effect is one line here and one file beside this one. `cargo fmt` does not look into these files: see CONTRIBUTING.md.
+catalogue! {
+    InputDelay in input_delay: "The input acts later than recorded.",
+    InputNoise in input_noise: "The input that acts is the recorded one plus noise.",
+    Backlash in backlash: "Play between the recorded input and the operator.",
+    GradualTransition in gradual_transition: "The working point needs travel to pass from one border to the other.",
+    RateDependence in rate_dependence: "The borders depend on the speed of the input.",
+    Creep in creep: "A slow after-effect of the operator's output.",
+    BorderWear in border_wear: "The loop between the borders narrows or widens as the rig works.",
+    Stribeck in stribeck: "Friction that falls as the speed rises from zero.",
+    ExtraPole in extra_pole: "A lag that the order of the model has no room for.",
+    Resonance in resonance: "A lightly damped mode.",
+    GainDrift in gain_drift: "The gain of the linear part changes with time.",
+    ColouredNoise in coloured_noise: "The equation error is not white.",
+    OutputNoise in output_noise: "White noise on the output besides the equation error.",
+    Outliers in outliers: "Rare large errors.",
+    PeriodicDisturbance in periodic_disturbance: "A sinusoid of unknown frequency.",
+    SensorDrift in sensor_drift: "The sensor's zero moves.",
+    SensorSaturation in sensor_saturation: "The sensor clips.",
+    SensorQuantisation in sensor_quantisation: "The sensor rounds.",
+    SensorNonlinearity in sensor_nonlinearity: "The sensor's characteristic is curved.",
+    BorderResolution in border_resolution: "The borders have more detail than the grid they are tabulated on.",
 }
 
-/// The variants of an effect that make sense on these records; empty where the records rule it out.
-pub(crate) fn variants(effect: Effect, scene: &Scene<'_>) -> Vec<Variant> {
-    match effect {
-        Effect::InputDelay => input_delay::variants(),
-        Effect::InputNoise => input_noise::variants(scene),
-        Effect::Backlash => backlash::variants(scene),
-        Effect::GradualTransition => gradual_transition::variants(scene),
-        Effect::RateDependence => rate_dependence::variants(scene),
-        Effect::Creep => creep::variants(scene),
-        Effect::BorderWear => border_wear::variants(),
-        Effect::Stribeck => stribeck::variants(scene),
-        Effect::ExtraPole => extra_pole::variants(scene),
-        Effect::Resonance => resonance::variants(scene),
-        Effect::GainDrift => gain_drift::variants(),
-        Effect::ColouredNoise => coloured_noise::variants(scene),
-        Effect::OutputNoise => output_noise::variants(),
-        Effect::Outliers => outliers::variants(scene),
-        Effect::PeriodicDisturbance => periodic_disturbance::variants(scene),
-        Effect::SensorDrift => sensor_drift::variants(scene),
-        Effect::SensorSaturation => sensor_saturation::variants(scene),
-        Effect::SensorQuantisation => sensor_quantisation::variants(scene),
-        Effect::SensorNonlinearity => sensor_nonlinearity::variants(scene),
-        Effect::BorderResolution => border_resolution::variants(scene),
-    }
-}
-
-pub(crate) use gain_drift::free_course;
+pub(crate) use border_resolution::details;
 
 /// Whether a pole of `A` dies away in no record: it follows a drift, and a lag has taken its place.
 fn outlasts_the_records(fit: &Fit) -> bool {
     let longest = fit.design.tracks.iter().map(|track| track.x.len()).max().unwrap_or(0) as f64;
     fit.linear.poles().into_iter().any(|pole| pole.norm() > (-1.0 / longest.max(1.0)).exp())
-}
-
-/// Whether a fitted effect is but the colour of the noise under another name.
-pub(crate) fn is_coloured_noise(effect: Effect, fit: &Fit) -> bool {
-    effect == Effect::Resonance && resonance::is_coloured_noise(fit)
 }
 
 /// Typical speed of the free records, strokes per sample: the median of the moves.

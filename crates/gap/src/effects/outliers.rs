@@ -7,14 +7,28 @@
 //! Parameters: share `ε` and ratio `κ`, found by expectation–maximisation. Stage: disturbance. Heavy tails without a place.
 //! Confused with: input noise, a border jump between grid points.
 
-use super::{Scene, Variant};
+use super::{Card, Follows, Reading, Scene, Variant, known};
+use crate::diagnosis::FittedParameter;
+use crate::effect::{Effect, Stage};
 use crate::records::campaign::Track;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::InputNoise],
+    noise: true,
+    heavy_tails: true,
+    follows: Some(Follows::Anything),
+    stopgap: true,
+    // They come whatever the machine does: nothing of them hangs on its state.
+    most_left: 0.02,
+    told_first: share_and_size,
+    ..Card::of(Stage::Disturbance, variants)
+};
 
 /// Exact repeats of the last output, as a share of the samples, that chance does not make: a sensor that holds its value
 /// leaves large errors too, but is another cause.
 const REPEATS: f64 = 0.004;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let outputs = || scene.campaign.fit().flat_map(|track| track.y.iter().copied());
     let (least, most) =
         (outputs().fold(f64::INFINITY, f64::min), outputs().fold(f64::NEG_INFINITY, f64::max));
@@ -32,4 +46,11 @@ pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // Two parameters that expectation–maximisation finds outside the count.
     variant.handicap = 20.0;
     vec![variant]
+}
+
+fn share_and_size(reading: &Reading<'_>) -> Vec<FittedParameter> {
+    let told = |(share, ratio): (f64, f64)| {
+        [known("share", "1", share), known("ratio", "sd of the other errors", ratio)]
+    };
+    reading.fit.assembly.noise.mixture.into_iter().flat_map(told).collect()
 }

@@ -9,9 +9,13 @@
 //!
 //! The search starts where `A` and `C` are solved for in turn: from a biased `A` no step leads to the right one.
 
-use super::{Variant, own};
+use super::{Card, Scene, Variant, own};
+use crate::effect::{Effect, Stage};
 
-pub(super) fn variants() -> Vec<Variant> {
+pub(super) const CARD: Card =
+    Card { twins: &[Effect::ColouredNoise], noise: true, ..Card::of(Stage::Disturbance, variants) };
+
+fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let starts = [-1.0, 1.5]
         .iter()
         .map(|&r| vec![own("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])

@@ -11,16 +11,24 @@
 
 use std::f64::consts::TAU;
 
-use super::{Scene, Variant, fitted_tracks, own};
+use super::{Card, Follows, Scene, Variant, fitted_tracks, own};
+use crate::effect::Stage;
 use crate::model::assembly::{Assembly, EquationColumn};
 use crate::residuals::spectrum::{share_of_line, sharpened, strongest_lines};
+
+pub(super) const CARD: Card = Card {
+    of_its_record: true,
+    rules_dynamics: true,
+    follows: Some(Follows::Steps),
+    ..Card::of(Stage::Disturbance, variants)
+};
 
 /// Highest frequency of a line, radians per sample.
 const FASTEST: f64 = 3.13;
 /// Share of what the errors make of the output from which a line rules it.
 const RULES: f64 = 0.1;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let sharpest = |signals: &[Vec<f64>], count: usize| -> Vec<f64> {
         strongest_lines(signals, count).into_iter().map(|omega| sharpened(signals, omega)).collect()
     };

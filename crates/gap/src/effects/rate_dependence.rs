@@ -10,12 +10,20 @@
 //! wider is of this effect ([`super::speed`]). While the input rests, the term keeps its last value or vanishes. Confused with: Stribeck
 //! friction (which falls with speed), creep.
 
-use super::{Scene, Variant, own, speed, typical_speed};
-use crate::effect::Effect;
+use super::{Card, Scene, Variant, own, speed, typical_speed};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::Stribeck, Effect::Creep],
+    rules_dynamics: true,
+    // A law of falling friction that fitted one that rises.
+    renamed: &[("stribeck_speed", "speed_scale")],
+    ..Card::of(Stage::Operator, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let scale = typical_speed(scene.campaign);
     let mut out = Vec::new();
     for while_resting in [Resting::Held, Resting::Zero] {

@@ -9,12 +9,24 @@
 
 use nalgebra::Complex;
 
-use super::{Scene, Variant, fitted_tracks, outlasts_the_records, own};
+use super::{Card, Follows, Room, Scene, Variant, fitted_tracks, outlasts_the_records, own};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::{Fit, Own};
 use crate::model::assembly::EquationColumn;
 use crate::residuals::spectrum::strongest_lines;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::ExtraPole, Effect::InputDelay],
+    supple: true,
+    follows: Some(Follows::Steps),
+    room: Some(Room::Order),
+    // Two poles and a zero that are free follow the lines, lags and frictions of others a good part of the way.
+    most_left: 0.21,
+    is_noise_in_disguise: is_coloured_noise,
+    ..Card::of(Stage::Dynamics, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // A mode rings in the residual: its lines are the likeliest frequencies.
     let mut lines: Vec<f64> = Vec::new();
     for line in strongest_lines(scene.innovations, CANDIDATES).into_iter().filter(|w| *w > 0.1) {
@@ -101,7 +113,7 @@ fn damping(rho: f64, omega: f64) -> f64 {
 /// ```text
 /// A y = B u + ξ/D   ⟺   D·A y = D·B u + ξ
 /// ```
-pub(super) fn is_coloured_noise(fit: &Fit) -> bool {
+fn is_coloured_noise(fit: &Fit) -> bool {
     let passes = !fit.assembly.noise.ar.is_empty();
     let b = &fit.linear.b;
     passes && fit.linear.poles().into_iter().any(|pole| pole.norm() > LASTING && undone(b, pole) < UNDONE)

@@ -7,10 +7,14 @@
 //! Laws: a line or cubic over the campaign, a line that goes on in the pauses between records, a line over each record (common slope), piecewise linear within each
 //! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
 
-use super::{Scene, Variant};
+use super::{Card, Scene, Variant};
+use crate::effect::Stage;
 use crate::model::assembly::{Clock, EquationColumn};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card =
+    Card { of_its_record: true, supple: true, rules_dynamics: true, ..Card::of(Stage::Sensor, variants) };
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
     for clock in [Clock::Campaign, Clock::Record] {
         for degrees in [1, 3] {

@@ -9,12 +9,21 @@
 //! the range of y; output in standard deviations about its mean. Stage: sensor.
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
-use super::{Scene, Variant, own};
+use super::{Card, Follows, Scene, Variant, own};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Own;
 use crate::model::forwards::Forwards;
 use crate::model::sensor::Bumps;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::SensorSaturation],
+    misreads: true,
+    supple: true,
+    follows: Some(Follows::Steps),
+    ..Card::of(Stage::Sensor, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out: Vec<Variant> = [2, 6]
         .into_iter()
         .map(|count| {

@@ -7,10 +7,22 @@
 //! Parameter: the step `q`, read off the lattice. Stage: sensor. Confused with: output noise, which leaves no lattice.
 //! A lattice too fine to matter is no cause.
 
-use super::{Scene, Variant};
+use super::{Card, Scene, Variant};
+use crate::effect::Stage;
 use crate::residuals::lattice::{is_material, lattice, worth};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card = Card {
+    errors_last: true,
+    misreads: true,
+    rounds: true,
+    told_first: |reading| {
+        let step = reading.fit.assembly.noise.lattice;
+        step.map(|step| reading.step("step", step)).into_iter().collect()
+    },
+    ..Card::of(Stage::Sensor, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let Some(step) = lattice(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
         return Vec::new();
     };

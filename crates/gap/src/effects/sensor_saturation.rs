@@ -8,9 +8,19 @@
 //! Parameters: the limits, read off the ties; or knee `k` and width `w`, at the upper end, the lower, or both. Samples at a limit, and those whose regressors reach one, only say that `x`
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
-use super::{Scene, Variant, own};
+use super::{Card, Follows, Reading, Scene, Variant, own};
+use crate::diagnosis::FittedParameter;
+use crate::effect::{Effect, Stage};
 use crate::model::assembly::Saturation;
 use crate::model::sensor::Knee;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::SensorNonlinearity],
+    misreads: true,
+    follows: Some(Follows::Steps),
+    told_first: limits_and_knees,
+    ..Card::of(Stage::Sensor, variants)
+};
 
 /// Ties at an extreme that chance does not make, in samples.
 const TIES: usize = 6;
@@ -18,7 +28,7 @@ const TIES: usize = 6;
 /// Deviance that a tie at an extreme is worth: chance leaves none, to a few digits.
 const TIE: f64 = -20.0;
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let hard = hard(scene);
     // A smooth curve would turn the ties into an endless density: where there are ties, only the hard limit is asked.
     if hard.is_empty() { soft(scene) } else { hard }
@@ -93,4 +103,12 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
         variant.handicap = TIE * tied as f64;
     }
     vec![variant]
+}
+
+fn limits_and_knees(reading: &Reading<'_>) -> Vec<FittedParameter> {
+    let assembly = &reading.fit.assembly;
+    let limits = assembly.saturation.iter().flat_map(|s| [("lower_limit", s.low), ("upper_limit", s.high)]);
+    let knee = |sign: f64| if sign > 0.0 { "upper_knee" } else { "lower_knee" };
+    let knees = assembly.curve.knees.iter().map(|k| (knee(k.sign), k.level));
+    limits.chain(knees).filter(|(_, y)| y.is_finite()).map(|(name, y)| reading.level(name, y)).collect()
 }

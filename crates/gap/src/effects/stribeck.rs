@@ -11,12 +11,15 @@
 //! operator. Slow passages show a wider loop than fast ones, and only below `r_s`; where the fit says that it is narrower, friction rises
 //! with speed, and the law is one of [rate dependence](super::rate_dependence). Confused with: rate dependence.
 
-use super::{Scene, Variant, own, speed, typical_speed};
-use crate::effect::Effect;
+use super::{Card, Scene, Variant, own, speed, typical_speed};
+use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
-pub(super) fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+pub(super) const CARD: Card =
+    Card { twins: &[Effect::RateDependence], rules_dynamics: true, ..Card::of(Stage::Operator, variants) };
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);
     let slow = |(share, power): (f64, f64)| {
         let scale = share * typical;

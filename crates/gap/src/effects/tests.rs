@@ -1,4 +1,5 @@
-//! A name includes its sign: data of the opposite sign are fitted by each law, and get the right name or none.
+//! Cards agree with the catalogue. A name includes its sign: data of the opposite sign are fitted by each law, and get the right name
+//! or none.
 
 use super::*;
 use crate::Serial;
@@ -7,9 +8,23 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::search::{Question, finish, looks};
 use crate::attribution::starts::Known;
 use crate::likelihood::engine::{Ground, fit};
-use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
 use crate::model::linear::Linear;
 use crate::testing::{noise_free, small_campaign, small_model, white};
+
+#[test]
+fn a_file_begins_with_what_its_effect_changes() {
+    for (changes, file) in TITLES {
+        assert_eq!(file.lines().next(), Some(format!("//! {changes}").as_str()));
+    }
+}
+
+#[test]
+fn details_of_the_borders_are_the_effect_that_lies_in_the_grid() {
+    let in_the_grid: Vec<Effect> =
+        Effect::ALL.into_iter().filter(|effect| effect.card().lies_in_the_grid).collect();
+    assert_eq!(in_the_grid, [details().0]);
+}
 
 /// Standard deviation of the noise in the output.
 const NOISE: f64 = 1e-3;
@@ -187,7 +202,7 @@ fn what_has_one_sign_is_never_searched_on_the_other_side() {
         (Effect::SensorSaturation, &["width"]),
     ];
     for (effect, names) in positive {
-        let laws = variants(effect, &scene);
+        let laws = (effect.card().laws)(&scene);
         let all = laws.iter().flat_map(|law| law.starts.iter().flatten());
         let own: Vec<&Own> = all.filter(|own| names.contains(&own.name)).collect();
         assert!(

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use crate::model::assembly::{Assembly, BorderColumn, Clock, EquationColumn, Slow};
 use crate::model::linear::Linear;
+use crate::model::parts::Operator;
 
 /// The parameters without waves.
 pub(super) fn without_waves(linear: &Linear, assembly: &Assembly) -> Linear {
@@ -67,14 +68,17 @@ pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
 
 /// The clocks that the model follows.
 fn clocks(assembly: &Assembly) -> Vec<Clock> {
-    let slow = |slow: &Option<Slow>| slow.iter().filter(|s| s.changes()).map(|s| s.clock).collect::<Vec<_>>();
-    let border = assembly.border_columns.iter().filter_map(|column| match column {
+    let parts = assembly.parts();
+    let Operator { wear, gain, columns, jitter: _, transition: _, widening: _, relaxation: _ } =
+        parts.operator;
+    let slow = |slow: Option<&Slow>| slow.filter(|s| s.changes()).map(|s| s.clock);
+    let border = columns.iter().filter_map(|column| match column {
         BorderColumn::BranchSlow { clock } | BorderColumn::SideSlow { clock, .. } => Some(*clock),
         _ => None,
     });
-    let equation = assembly.equation_columns.iter().filter_map(|column| match column {
+    let equation = parts.columns.iter().filter_map(|column| match column {
         EquationColumn::Trend { clock, .. } => Some(*clock),
         _ => None,
     });
-    slow(&assembly.wear).into_iter().chain(slow(&assembly.gain)).chain(border).chain(equation).collect()
+    slow(wear).into_iter().chain(slow(gain)).chain(border).chain(equation).collect()
 }

@@ -14,6 +14,8 @@ use crate::likelihood::mask::{Mask, masked};
 use crate::likelihood::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
 use crate::model::assembly::{Assembly, EquationColumn, LEAST_VARIANCE, NoiseLaw, convolve};
 use crate::model::borders::Grid;
+use crate::model::parts::{Parts, Positions};
+use crate::model::sensor::SensorCurve;
 use crate::records::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::records::motion::{Motion, motions};
 
@@ -110,33 +112,37 @@ impl Design {
         (grid, assembly): (&Grid, &Assembly),
         tracks: &[(usize, &Track)],
     ) -> Self {
+        // B has its coefficients beyond the order in `Linear::padded`, the limits of the sensor are in the mask.
+        let Parts { extra_b: _, positions, operator, filter, columns: _, curve, saturation: _, noise } =
+            assembly.parts();
+        let Positions { late, play } = positions;
         let tracks = tracks
             .iter()
             .enumerate()
             .map(|(k, &(number, track))| {
-                let late = (assembly.late > 0.0).then(|| track.late(assembly.late, campaign.rule));
-                let track = late.as_ref().unwrap_or(track);
+                let moved = (late > 0.0).then(|| track.late(late, campaign.rule));
+                let track = moved.as_ref().unwrap_or(track);
                 // The same track of the known design, where a part of it serves.
                 let same = |part: fn(&Common) -> bool| {
                     known.filter(|(_, common)| part(common)).map(|(design, _)| &design.tracks[k])
                 };
                 let (x, log_slope) = match same(|c| c.output) {
                     Some(t) => (Arc::clone(&t.x), t.log_slope),
-                    None => undo_sensor(track, assembly),
+                    None => undo_sensor(track, curve),
                 };
                 let moves = match same(|c| c.moves) {
                     Some(t) => Arc::clone(&t.moves),
-                    None if assembly.play.is_none() => Arc::clone(&track.moves),
-                    None => motions(&track.v, assembly.play, campaign.rule).into(),
+                    None if play.is_none() => Arc::clone(&track.moves),
+                    None => motions(&track.v, play, campaign.rule).into(),
                 };
-                let sensitive = assembly.noise.input.is_some();
+                let sensitive = noise.input.is_some();
                 let mask = match same(|c| c.masked) {
                     Some(t) => t.mask.clone(),
                     None => masked(track, assembly, campaign.rule),
                 };
                 DesignTrack {
                     rows: same(|c| c.rows).map_or_else(
-                        || rows((campaign, number, track), &moves, grid, assembly).into(),
+                        || rows((campaign, number, track), &moves, grid, &operator).into(),
                         |t| Arc::clone(&t.rows),
                     ),
                     moves,
@@ -150,17 +156,16 @@ impl Design {
                     sensitivity: sensitive.then(|| {
                         same(|c| c.sensitivity)
                             .and_then(|t| t.sensitivity.clone())
-                            .unwrap_or_else(|| sensitivity_rows(track, grid, assembly.jitter).into())
+                            .unwrap_or_else(|| sensitivity_rows(track, grid, operator.jitter).into())
                     }),
                     mask,
                 }
             })
             .collect();
-        let poles = assembly.denominator.get(1..).map(<[f64]>::to_vec).unwrap_or_default();
         Self {
             tracks,
-            taps: assembly.taps(),
-            poles,
+            taps: filter.taps(),
+            poles: filter.poles().to_vec(),
             criterion: campaign.criterion,
             grid: grid.clone(),
             assembly: assembly.clone(),
@@ -289,8 +294,7 @@ impl Design {
 const _: () = assert!(LEAD < WARM_UP);
 
 /// `x` of one track and its summed log slope.
-fn undo_sensor(track: &Track, assembly: &Assembly) -> (Arc<[f64]>, f64) {
-    let curve = &assembly.curve;
+fn undo_sensor(track: &Track, curve: &SensorCurve) -> (Arc<[f64]>, f64) {
     if curve.is_straight() {
         return (track.y.as_slice().into(), 0.0);
     }
@@ -324,28 +328,22 @@ struct Common {
 
 impl Common {
     fn between(known: &Design, grid: &Grid, assembly: &Assembly) -> Self {
-        let had = &known.assembly;
-        let moves = had.play == assembly.play && had.late == assembly.late;
+        let had = known.assembly.parts();
+        // B and the filter are no part of a track, the law of the noise is none but for what follows.
+        let Parts { extra_b: _, positions, operator, filter: _, columns, curve, saturation, noise } =
+            assembly.parts();
+        let moves = had.positions == positions;
         let same_grid = known.grid == *grid;
-        let jitter = had.jitter == assembly.jitter;
         Self {
             moves,
-            rows: moves
-                && same_grid
-                && jitter
-                && had.transition == assembly.transition
-                && had.wear == assembly.wear
-                && had.widening == assembly.widening
-                && had.relaxation == assembly.relaxation
-                && had.gain == assembly.gain
-                && had.border_columns == assembly.border_columns,
-            columns: had.equation_columns == assembly.equation_columns
-                && (had.gain == assembly.gain || !had.equation_columns.contains(&EquationColumn::Gain)),
-            output: had.curve == assembly.curve,
-            sensitivity: moves && same_grid && jitter,
+            rows: moves && same_grid && had.operator == operator,
+            columns: had.columns == columns
+                && (had.operator.gain == operator.gain || !columns.contains(&EquationColumn::Gain)),
+            output: had.curve == curve,
+            sensitivity: moves && same_grid && had.operator.jitter == operator.jitter,
             masked: moves
-                && had.saturation == assembly.saturation
-                && (had.saturation.is_none() || had.noise.reach() == assembly.noise.reach()),
+                && had.saturation == saturation
+                && (saturation.is_none() || had.noise.reach() == noise.reach()),
         }
     }
 }

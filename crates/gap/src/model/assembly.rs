@@ -306,13 +306,6 @@ pub(crate) struct Assembly {
 }
 
 impl Assembly {
-    /// Whether both give the same design, so that only the law of the noise differs.
-    pub(crate) fn same_design(&self, other: &Self) -> bool {
-        self.noise.input.is_some() == other.noise.input.is_some()
-            && Self { noise: NoiseLaw::default(), ..self.clone() }
-                == Self { noise: NoiseLaw::default(), ..other.clone() }
-    }
-
     /// Puts a filter in series with those present.
     pub(crate) fn filter(&mut self, numerator: &[f64], denominator: &[f64]) {
         self.numerator = convolve(&leading_one(&self.numerator), numerator);
@@ -324,21 +317,10 @@ impl Assembly {
         let at_rest = |coefficients: &[f64]| leading_one(coefficients).iter().sum::<f64>();
         at_rest(&self.numerator) / at_rest(&self.denominator)
     }
-
-    /// The taps between the filtered `u` and `B`: the numerator and the delay, linear between samples.
-    pub(crate) fn taps(&self) -> Vec<f64> {
-        let whole = self.delay.floor();
-        let part = self.delay - whole;
-        let mut taps = vec![0.0; whole as usize];
-        taps.push(1.0 - part);
-        if part > 0.0 {
-            taps.push(part);
-        }
-        convolve(&leading_one(&self.numerator), &taps)
-    }
 }
 
-fn leading_one(filter: &[f64]) -> Vec<f64> {
+/// A polynomial in `q⁻¹`, one where it is empty.
+pub(super) fn leading_one(filter: &[f64]) -> Vec<f64> {
     if filter.is_empty() { vec![1.0] } else { filter.to_vec() }
 }
 

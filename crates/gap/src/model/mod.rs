@@ -5,5 +5,6 @@ pub(crate) mod borders;
 pub(crate) mod forwards;
 pub(crate) mod infinite;
 pub(crate) mod linear;
+pub(crate) mod parts;
 pub(crate) mod sensor;
 pub(crate) mod stability;

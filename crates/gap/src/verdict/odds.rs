@@ -42,13 +42,8 @@ mod calibration {
     /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
     /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
-    /// The same whatever is behind it: of any effect, of one that leaves the held-out gap, too, of outliers, of a lag, and of a
-    /// resonance.
-    pub(super) const MOST_LEFT: f64 = 0.45;
+    /// The same whatever is behind it, of an effect that leaves the held-out gap, too; of others their cards tell.
     pub(super) const MOST_LEFT_WITH_THE_GAP: f64 = 0.1;
-    pub(super) const MOST_LEFT_BY_OUTLIERS: f64 = 0.02;
-    pub(super) const MOST_LEFT_BY_A_LAG: f64 = 0.02;
-    pub(super) const MOST_LEFT_BY_RESONANCE: f64 = 0.21;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
     /// Probability that the cause is foreign even where a candidate leaves nothing.
@@ -95,16 +90,8 @@ fn wholeness(best: Effect, fraction: f64) -> f64 {
 /// does not close the gap on the held-out records.
 fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
     let moves_simulation = !effect.is_noise() && !effect.is_of_its_record();
-    match effect {
-        // They come whatever the machine does: nothing of them hangs on its state.
-        Effect::Outliers => calibration::MOST_LEFT_BY_OUTLIERS,
-        // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
-        Effect::ExtraPole => calibration::MOST_LEFT_BY_A_LAG,
-        _ if moves_simulation && misses => calibration::MOST_LEFT_WITH_THE_GAP,
-        // Two poles and a zero that are free follow the lines, lags and frictions of others a good part of the way.
-        Effect::Resonance => calibration::MOST_LEFT_BY_RESONANCE,
-        _ => calibration::MOST_LEFT,
-    }
+    let most = effect.card().most_left;
+    if moves_simulation && misses { most.min(calibration::MOST_LEFT_WITH_THE_GAP) } else { most }
 }
 
 /// What the best explanation leaves.
@@ -183,7 +170,7 @@ impl<'a> Weighing<'a> {
         let others = self.effects.iter().filter(|e| Some(e.0) != self.first);
         let second = others.min_by(|x, y| x.1.total_cmp(&y.1));
         // A long autoregression follows any spectrum: what it leaves has none.
-        let follows_all = self.first == Some(Effect::ColouredNoise) && left > IMMATERIAL;
+        let follows_all = self.first.is_some_and(|e| e.card().colours_noise) && left > IMMATERIAL;
         let all_but_closes = self.leaves.gap.is_some_and(|gap| gap < calibration::STANDS_IN);
         let leaves_much = fraction > calibration::STANDS_IN && !all_but_closes;
         let misses = self.leaves.gap.is_none_or(|gap| gap.abs() > 1.0 - calibration::CLOSES);

@@ -2,18 +2,14 @@
 
 use super::Pair;
 use crate::effect::Effect;
+use crate::effects::Follows;
 use crate::model::assembly::Assembly;
 
 /// Share of what the best single effect gains, up to which a second one corrects the law of the first. Found on made rigs:
 /// laws that miss a little leave a fifteenth, two causes of one size each take a tenth at least.
 const CORRECTION: f64 = 0.085;
-/// The same where the second gains little a sample as well, and follows whatever the law of the first misses: which effects do.
+/// The same where the second gains little a sample as well, and follows whatever the law of the first misses.
 const SMALL_CORRECTION: f64 = 0.3;
-const FOLLOWERS: [Effect; 2] = [Effect::ColouredNoise, Effect::Outliers];
-/// What follows the steps of a rounding to which the tests are blind as well. On sixty made rigs that only round these gain up to 0.7 of
-/// deviance a sample, all others 0.013 at most.
-const FOLLOWERS_OF_STEPS: [Effect; 4] =
-    [Effect::Resonance, Effect::PeriodicDisturbance, Effect::SensorSaturation, Effect::SensorNonlinearity];
 /// Deviance a sample up to which a second effect gains little, and up to which outliers correct a law whatever their share: where
 /// it misses now and then, tails grow heavy.
 const SMALL: f64 = 0.25;
@@ -33,15 +29,15 @@ impl Pair {
     /// Tells causes from corrections, `alone` being the gains of the single effects over the nominal model on as many `samples`.
     pub(crate) fn causes(&self, alone: &[(Effect, f64)], samples: usize) -> Causes {
         let assembly = &self.explanation.fit.assembly;
+        let members = self.explanation.effects();
         let correction = if corrects_a_filter(assembly) {
-            Some(Effect::ColouredNoise)
+            members.iter().copied().find(|e| e.card().colours_noise)
         } else if assembly.saturation.is_some() {
             // Ties at a limit are exact: there is nothing to correct.
             None
         } else {
             self.small_correction(alone, samples)
         };
-        let members = self.explanation.effects();
         let effects: Vec<Effect> = members.into_iter().filter(|e| Some(*e) != correction).collect();
         let rival = twin_ahead(&effects, alone);
         Causes { effects, correction, rival }
@@ -53,7 +49,11 @@ impl Pair {
         let of = |effect: Effect| alone.iter().find(|g| g.0 == effect).map_or(f64::NEG_INFINITY, |g| g.1);
         let best = alone.iter().map(|g| g.1).fold(0.0, f64::max);
         let second = if of(members[1]) > of(members[0]) { members[0] } else { members[1] };
-        let follows = FOLLOWERS.contains(&second) || self.is_hidden && FOLLOWERS_OF_STEPS.contains(&second);
+        let follows = match second.card().follows {
+            Some(Follows::Anything) => true,
+            Some(Follows::Steps) => self.is_hidden,
+            None => false,
+        };
         is_correction((second, follows), self.gain, best, samples).then_some(second)
     }
 }
@@ -75,7 +75,7 @@ fn twin_ahead(causes: &[Effect], alone: &[(Effect, f64)]) -> Option<Effect> {
 /// that it follows whatever that misses.
 fn is_correction((second, follows): (Effect, bool), gain: f64, best: f64, samples: usize) -> bool {
     let is_small = follows && gain < SMALL * samples as f64;
-    gain < CORRECTION * best || is_small && (gain < SMALL_CORRECTION * best || second == Effect::Outliers)
+    gain < CORRECTION * best || is_small && (gain < SMALL_CORRECTION * best || second.card().heavy_tails)
 }
 
 #[cfg(test)]

@@ -127,18 +127,15 @@ impl<W: Workers> Attribution<'_, W> {
 
     /// Details of the borders beside a first effect: the knots that follow them, placed with the effect known.
     fn with_details(&self, first: &Explanation) -> Option<Explanation> {
-        let is_new = !first.effects().contains(&Effect::BorderResolution);
+        let is_new = !first.effects().iter().any(|e| e.card().lies_in_the_grid);
         let detailed = || first.clone().with_details(self.campaign);
-        let considered = is_new && self.settings.effects.contains(&Effect::BorderResolution);
+        let considered = is_new && self.settings.consider_details();
         considered.then(detailed).filter(|detailed| first.bic() - detailed.bic() > detail(self.campaign))
     }
 
     /// Outliers beside the best first effect: the only cause that leaves nothing but heavy tails. They hide which is the best alone.
     fn with_outliers(&self, singles: Firsts<'_>) -> Option<Explanation> {
-        let outliers = Effect::Outliers;
-        if !self.settings.effects.contains(&outliers) {
-            return None;
-        }
+        let outliers = self.settings.effects.iter().copied().find(|e| e.card().heavy_tails)?;
         let most = self.gain(singles.ranked.first());
         let may_have_them = |first: &&Explanation| {
             let present = first.parts[0].effect;

@@ -77,7 +77,7 @@ impl<W: Workers> Attribution<'_, W> {
     fn serious(&self, singles: Firsts<'_>) -> Vec<Effect> {
         let gained = |s: &Explanation| self.gain(Some(s));
         let most = self.gain(singles.ranked.first());
-        let is_tails = |s: &&Explanation| s.parts[0].effect == Effect::Outliers;
+        let is_tails = |s: &&Explanation| s.parts[0].effect.card().heavy_tails;
         let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
         let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
         tails.chain(others).map(|s| s.parts[0].effect).collect()

@@ -82,7 +82,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         let of = self.of;
         let is_pair = |pair: &Explanation| pair.may_be_a_cause() && of.considers(pair) && !are_twins(pair);
         self.found.extend(pairs.into_iter().filter(is_pair));
-        let rank = |pair: &Explanation| match members(pair).contains(&Effect::Outliers) {
+        let rank = |pair: &Explanation| match members(pair).iter().any(|e| e.card().heavy_tails) {
             true => pair.bic() + STOPGAP * of.gain(Some(pair)).max(0.0),
             false => pair.bic(),
         };
@@ -135,7 +135,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     /// The other member of a pair, and what else may rule the dynamics: behind coloured noise it would show by itself.
     fn seconds_afresh(&self, pair: &Explanation, first: &Explanation) -> Vec<Effect> {
         let present = first.parts[0].effect;
-        let rulers = self.of.rulers().filter(|_| present != Effect::ColouredNoise);
+        let rulers = self.of.rulers().filter(|_| !present.card().colours_noise);
         let mut seconds: Vec<Effect> =
             members(pair).into_iter().chain(rulers).filter(|e| is_another(present, *e)).collect();
         seconds.sort_unstable();
@@ -145,7 +145,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
 
     /// Whether the best pair holds noise whose colour may stand in for what rules the dynamics.
     pub(super) fn is_coloured(&self) -> bool {
-        self.best().is_some_and(|pair| members(pair).contains(&Effect::ColouredNoise))
+        self.best().is_some_and(|pair| members(pair).iter().any(|e| e.card().colours_noise))
     }
 
     /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it
@@ -285,6 +285,5 @@ fn alike(effect: Effect) -> impl Iterator<Item = Effect> {
 /// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact
 /// law leaves, and what a twin adds is the difference between two laws of one thing.
 fn is_another(first: Effect, second: Effect) -> bool {
-    let is_stopgap = matches!(second, Effect::BorderResolution | Effect::Outliers);
-    second != first && !first.twins().contains(&second) && !is_stopgap
+    second != first && !first.twins().contains(&second) && !second.card().stopgap
 }

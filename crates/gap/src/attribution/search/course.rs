@@ -1,9 +1,7 @@
-//! A gain drift whose course is free.
+//! A slow change whose course is free.
 
 use super::Task;
 use crate::attribution::explain::{Explanation, Part, assembled};
-use crate::effect::Effect;
-use crate::effects::free_course;
 use crate::likelihood::engine::Ground;
 use crate::records::campaign::Campaign;
 
@@ -12,11 +10,11 @@ const ROUNDS: usize = 8;
 /// The number of the law: none of those that are searched from the beginning.
 const NUMBER: usize = usize::MAX;
 
-/// A gain drift alone with a course of its own in every record, from where one of the laws with a clock ended.
+/// An effect alone whose law is followed by one with a course of its own in every record, from where the law with a clock ended.
 pub(crate) fn on_a_free_course(campaign: &Campaign, single: &Explanation) -> Option<Explanation> {
-    let [Part { effect: Effect::GainDrift, .. }] = single.parts[..] else { return None };
-    let law = free_course(campaign, &single.fit)?;
-    let parts = vec![Part::of(Effect::GainDrift, (NUMBER, &law))];
+    let [Part { effect, .. }] = single.parts[..] else { return None };
+    let law = (effect.card().freed)(campaign, &single.fit)?;
+    let parts = vec![Part::of(effect, (NUMBER, &law))];
     let build = |values: &[f64]| assembled(&parts, values);
     let ground = Ground { campaign, grid: &single.fit.grid, known: Some(&single.fit.design) };
     let task = Task { ground, build: &build, held: 0 };

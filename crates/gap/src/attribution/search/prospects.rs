@@ -3,7 +3,7 @@
 use super::Question;
 use crate::attribution::explain::{Part, assembled};
 use crate::attribution::starts::{Known, Score, ScoreTest};
-use crate::effects::{Scene, Variant, variants};
+use crate::effects::{Scene, Variant};
 use crate::likelihood::engine::Own;
 
 /// One law of an effect added to what is known, and how promising it is.
@@ -25,7 +25,7 @@ const LAW: f64 = 0.4;
 pub(super) fn prospects(known: &Known<'_>, question: &Question) -> Vec<Prospect> {
     let scene =
         Scene { campaign: known.campaign, fit: &known.explanation.fit, innovations: &known.innovations };
-    (variants(question.effect, &scene).into_iter().enumerate())
+    ((question.effect.card().laws)(&scene).into_iter().enumerate())
         .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
         .map(|(number, law)| {
             let mut parts = known.explanation.parts.clone();

@@ -7,7 +7,7 @@ use super::{Task, advance, finish};
 use crate::attribution::explain::{Explanation, Part, assembled};
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
-use crate::effects::{Scene, Variant, variants};
+use crate::effects::{Scene, Variant};
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Ground, Own};
 use crate::model::assembly::{Assembly, EquationColumn, Slow};
@@ -25,7 +25,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let (campaign, fit) = (known.campaign, &known.explanation.fit);
     let scene = Scene { campaign, fit, innovations: &known.innovations };
     let grids = [first_grid(campaign), fit.grid.clone()];
-    let laws = variants(effect, &scene);
+    let laws = (effect.card().laws)(&scene);
     // Where the likelihood has corners, a start that is a little off tells nothing about the rest.
     let smooth = laws.iter().enumerate().filter(|(_, law)| !law.search.is_by_pattern());
     let asked = smooth.flat_map(|law| grids.iter().map(move |grid| (law, grid)));

@@ -8,8 +8,9 @@ pub(crate) use self::equation::{EquationColumns, equation_columns};
 use self::sensitivity::ascending;
 pub(crate) use self::sensitivity::sensitivity_rows;
 use self::working_point::WorkingPoint;
-use crate::model::assembly::{Assembly, BorderColumn, Clock, Resting, Slow};
+use crate::model::assembly::{BorderColumn, Clock, Resting, Slow};
 use crate::model::borders::Grid;
+use crate::model::parts::Operator;
 use crate::records::campaign::{Campaign, Track};
 use crate::records::motion::Motion;
 
@@ -100,43 +101,44 @@ fn at_the_end(clock: Clock, campaign: &Campaign) -> f64 {
     }
 }
 
-/// The rows of one track: first the border values of `grid`, then the assembly's border columns.
+/// The rows of one track: first the border values of `grid`, then the operator's columns.
 pub(crate) fn rows(
     (campaign, number, track): (&Campaign, usize, &Track),
     moves: &[Motion],
     grid: &Grid,
-    assembly: &Assembly,
+    operator: &Operator<'_>,
 ) -> Rows {
+    let Operator { jitter, transition, wear, widening, relaxation, columns: added, gain } = *operator;
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
-    let mut point = WorkingPoint::new(grid, assembly, track.v[0], campaign.criterion);
+    let mut point = WorkingPoint::new((grid, added.len()), transition, track.v[0], campaign.criterion);
     let own = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
-    if let Some(start) = assembly.border_columns.iter().position(own) {
+    if let Some(start) = added.iter().position(own) {
         point.terms.push((columns + start as u32, 1.0));
     }
     let mut stopped: Option<usize> = None;
-    let mut held: Vec<f64> = vec![0.0; assembly.border_columns.len()];
+    let mut held: Vec<f64> = vec![0.0; added.len()];
     for (t, m) in moves.iter().enumerate() {
         let slow = |s: &Slow| s.at(clock(s.clock, campaign, track, t, m.path));
         if m.reversal {
             point.turn(m);
         }
-        if assembly.jitter > 0.0 {
-            point.jittered(ascending(m.step, assembly.jitter), track.v[t]);
+        if jitter > 0.0 {
+            point.jittered(ascending(m.step, jitter), track.v[t]);
         } else if m.moves {
-            let widening = assembly.widening.map_or(0.0, |widening| widening.at(m.step.abs()));
-            let narrowing = assembly.wear.as_ref().map_or(0.0, slow) - widening;
+            let widening = widening.map_or(0.0, |widening| widening.at(m.step.abs()));
+            let narrowing = wear.map_or(0.0, slow) - widening;
             point.step(m, track.v[t], narrowing);
             stopped = Some(t);
-        } else if let (Some(relaxation), Some(stopped)) = (assembly.relaxation, stopped) {
+        } else if let (Some(relaxation), Some(stopped)) = (relaxation, stopped) {
             if stopped + 1 == t {
                 point.stop();
             }
             point.relax(track.v[stopped], relaxation.after(t - stopped));
         }
-        let gain = 1.0 + assembly.gain.as_ref().map_or(0.0, slow);
+        let gain = 1.0 + gain.map_or(0.0, slow);
         out.extend(&point.terms, gain);
-        for (j, column) in assembly.border_columns.iter().enumerate() {
+        for (j, column) in added.iter().enumerate() {
             if let BorderColumn::Start { .. } = column {
                 // Part of the working point.
                 continue;

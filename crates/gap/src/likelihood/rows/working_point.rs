@@ -1,6 +1,6 @@
 //! The working point as a sparse combination of border values.
 
-use crate::model::assembly::{Assembly, Transition, TransitionLaw};
+use crate::model::assembly::{Transition, TransitionLaw};
 use crate::model::borders::{Finder, Grid, side};
 use crate::records::campaign::Criterion;
 use crate::records::motion::Motion;
@@ -33,7 +33,13 @@ pub(super) struct WorkingPoint<'a> {
 }
 
 impl<'a> WorkingPoint<'a> {
-    pub(super) fn new(grid: &'a Grid, assembly: &'a Assembly, v: f64, criterion: Criterion) -> Self {
+    /// Of a record that begins at `v`, on a grid given with the number of columns beside its values.
+    pub(super) fn new(
+        (grid, columns): (&'a Grid, usize),
+        transition: Option<Transition>,
+        v: f64,
+        criterion: Criterion,
+    ) -> Self {
         let finder = Finder::new(grid);
         let hat = |side, factor| hat(&finder, side, v, factor);
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
@@ -47,8 +53,8 @@ impl<'a> WorkingPoint<'a> {
             if share == 0.0 { hat(own, 1.0).to_vec() } else { [0, 1].map(|s| hat(s, share)).concat() };
         Self {
             finder,
-            transition: assembly.transition,
-            reach: assembly.transition.map_or(0.0, |transition| transition.reach(NEGLIGIBLE)),
+            transition,
+            reach: transition.map_or(0.0, |transition| transition.reach(NEGLIGIBLE)),
             terms,
             at_stop: Vec::new(),
             fading: Vec::new(),
@@ -57,7 +63,7 @@ impl<'a> WorkingPoint<'a> {
             after_turn: share,
             sum: Vec::new(),
             borders: grid.len() as u32,
-            scratch: vec![0.0; grid.len() + assembly.border_columns.len()],
+            scratch: vec![0.0; grid.len() + columns],
         }
     }
 

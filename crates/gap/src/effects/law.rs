@@ -1,0 +1,108 @@
+//! A law of an effect: a function from its own parameters to changes of an assembly, and how it is searched.
+
+use std::sync::Arc;
+
+use crate::effect::Effect;
+use crate::likelihood::engine::{Fit, Own};
+use crate::model::assembly::Assembly;
+use crate::model::borders::Grid;
+use crate::records::campaign::Campaign;
+
+/// How the own parameters are searched after the starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Search {
+    /// Gauss–Newton together with everything else.
+    Smooth,
+    /// The starts are compared with their own parameters held, which is a nearly linear problem; then as `Smooth`.
+    Conditional,
+    /// A profile refined around its best point: the likelihood has corners.
+    Profile,
+    /// The same where the own parameters only weigh the samples: the rest hardly moves with them, and is fitted afterwards.
+    Weights,
+}
+
+/// The change an effect makes to an assembly, given its own parameters.
+pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
+
+/// Whether a law, given its fitted own parameters, is still a law of its effect, not the limit at which it is another one.
+pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
+
+/// The effect that a law is one of, given its fitted own parameters: where a coefficient may have either sign, a name includes it.
+pub(crate) type Naming = fn(&[f64], &Fit) -> Effect;
+
+/// One law of an effect.
+pub(crate) struct Variant {
+    /// Points the search starts from; all hold the same parameters.
+    pub(crate) starts: Vec<Vec<Own>>,
+    /// Further points where everything is identified anew: at a start where the law changes nothing that identifies what is known.
+    pub(crate) afresh: Vec<Vec<Own>>,
+    pub(crate) search: Search,
+    /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
+    pub(crate) climbs: usize,
+    /// Which valley a start lies in, where only the likeliest of each is climbed from.
+    pub(crate) valley: Option<fn(&[Own]) -> i64>,
+    pub(crate) apply: Apply,
+    pub(crate) sound: Sound,
+    /// Which effect a fit is one of, where that depends on its signs.
+    pub(crate) naming: Option<Naming>,
+    /// A finer border grid that comes with the law.
+    pub(crate) grid: Option<Grid>,
+    /// Added to the deviance: evidence that the innovations do not show, or a penalty.
+    pub(crate) handicap: f64,
+}
+
+/// Climbs of a law whose starts are stages of one valley.
+const CLIMBS: usize = 3;
+
+impl Search {
+    /// Whether own parameters are moved one by one, without derivatives.
+    pub(crate) fn is_by_pattern(self) -> bool {
+        matches!(self, Self::Profile | Self::Weights)
+    }
+}
+
+impl Variant {
+    pub(super) fn new(
+        starts: Vec<Vec<Own>>,
+        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            starts,
+            afresh: Vec::new(),
+            search: Search::Smooth,
+            climbs: CLIMBS,
+            valley: None,
+            apply: Arc::new(apply),
+            sound: |_, _| true,
+            naming: None,
+            grid: None,
+            handicap: 0.0,
+        }
+    }
+
+    pub(super) fn conditional(
+        starts: Vec<Vec<Own>>,
+        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
+    ) -> Self {
+        Self { search: Search::Conditional, ..Self::new(starts, apply) }
+    }
+
+    /// The same law, of its effect only where a fit is sound.
+    pub(super) fn sound_if(self, sound: Sound) -> Self {
+        Self { sound, ..self }
+    }
+
+    /// The same law, of another effect where its signs say so.
+    pub(super) fn named_by(self, naming: Naming) -> Self {
+        Self { naming: Some(naming), ..self }
+    }
+}
+
+/// What an effect may look at when it proposes its variants.
+pub(crate) struct Scene<'a> {
+    pub(crate) campaign: &'a Campaign,
+    /// The best model so far.
+    pub(crate) fit: &'a Fit,
+    /// Its innovations on the fit records.
+    pub(crate) innovations: &'a [Vec<f64>],
+}
