@@ -28,7 +28,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
     /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
     /// then every law of both members and their twins, and border knots placed anew, with which another law may serve better. No
-    /// knot saves a hopeless pair.
+    /// knot saves a hopeless pair, and where a pair leaves nothing there is nothing to look for.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let serious = self.serious(singles);
         let mut search = PairSearch::new(self, singles);
@@ -36,7 +36,8 @@ impl<W: Workers> Attribution<'_, W> {
         for &effect in &serious {
             let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
             // A twin of what was tried finds the same seconds.
-            if search.tried.len() < SEEDS && !is_twin {
+            let may_gain = search.tried.is_empty() || !search.is_whole();
+            if search.tried.len() < SEEDS && !is_twin && may_gain {
                 search.step(effect);
             }
         }
@@ -59,7 +60,7 @@ impl<W: Workers> Attribution<'_, W> {
         for _ in 0..ROUNDS {
             let before = search.left_of_gap();
             let was_near = before < FAR;
-            if was_near {
+            if was_near && !search.is_whole() {
                 search.every_law();
             }
             search.prefer_what_leaves_less();

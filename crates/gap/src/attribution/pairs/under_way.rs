@@ -7,6 +7,7 @@ use crate::attribution::search::{Question, from_scratch};
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::residuals::omnibus::omnibus;
+use crate::verdict::odds::IMMATERIAL;
 use crate::workers::Workers;
 
 /// Restarts from members of the best pair at most.
@@ -101,11 +102,14 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         self.found.first()
     }
 
-    /// Steps from members of the best pair that were no firsts yet.
+    /// Steps from members of the best pair that were no firsts yet, while something is left.
     pub(super) fn restart(&mut self) {
         for _ in 0..RESTARTS {
             let members = self.best().map_or_else(Vec::new, Explanation::effects);
             let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
+            if self.is_whole() {
+                break;
+            }
             self.step(next);
         }
     }
@@ -232,6 +236,11 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         let Some(best) = self.best() else { return 1.0 };
         let left = self.left();
         left / (left + self.of.gain(Some(best)))
+    }
+
+    /// Whether the best pair leaves nothing that another one, or another law of its members, could explain.
+    pub(super) fn is_whole(&self) -> bool {
+        self.left() <= IMMATERIAL
     }
 
     /// Whether so much is left that another first may find a better pair.
