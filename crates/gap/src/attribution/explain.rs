@@ -3,14 +3,13 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::attribution::search::finish;
 use crate::effect::Effect;
 use crate::effects::{Apply, Naming, Search, Sound, Variant, details};
-use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
+use crate::likelihood::engine::{Fit, Ground, NonlinearParameter, fit};
 use crate::model::assembly::Assembly;
 use crate::records::campaign::Campaign;
 
-/// One effect of an explanation: which, and how its own parameters change the assembly.
+/// One effect of an explanation: which, and how its nonlinear parameters change the assembly.
 #[derive(Clone)]
 pub(crate) struct Part {
     pub(crate) effect: Effect,
@@ -19,7 +18,7 @@ pub(crate) struct Part {
     pub(crate) apply: Apply,
     pub(crate) sound: Sound,
     pub(crate) naming: Option<Naming>,
-    /// Number of own parameters.
+    /// Number of nonlinear parameters.
     pub(crate) count: usize,
     pub(crate) search: Search,
     /// What the law adds to the deviance for its hidden freedom.
@@ -45,7 +44,7 @@ impl Part {
     }
 
     /// Details of the borders: they are in the grid.
-    fn details() -> Self {
+    pub(super) fn details() -> Self {
         let (effect, variant) = details();
         Self::of(effect, (0, &variant))
     }
@@ -79,13 +78,6 @@ impl Explanation {
         Self { parts: vec![Part::details()], fit, set_back: 0.0, held_out: 0.0 }
     }
 
-    /// The same explanation and details of the borders beside it: knots placed anew are a part of their own.
-    pub(crate) fn with_details(self, campaign: &Campaign) -> Self {
-        let mut detailed = self.with_knots_refined(campaign);
-        detailed.parts.push(Part::details());
-        detailed
-    }
-
     /// Penalised deviance: Bayesian information criterion plus the handicap.
     pub(crate) fn bic(&self) -> f64 {
         let handicap = self.parts.iter().map(|part| part.handicap).sum::<f64>() + self.set_back;
@@ -97,12 +89,12 @@ impl Explanation {
         self.bic() + self.held_out
     }
 
-    /// Whether the own parameters of the law added last only weigh the samples.
+    /// Whether the nonlinear parameters of the law added last only weigh the samples.
     pub(crate) fn only_weighs(&self) -> bool {
         self.parts.last().is_some_and(|part| part.search == Search::Weights)
     }
 
-    /// Whether the likelihood has corners in the own parameters of the law added last.
+    /// Whether the likelihood has corners in the nonlinear parameters of the law added last.
     pub(crate) fn has_corners(&self) -> bool {
         self.parts.last().is_some_and(|part| part.search.is_by_pattern())
     }
@@ -112,8 +104,8 @@ impl Explanation {
         self.parts.iter().map(|p| p.effect).collect()
     }
 
-    /// Where the own parameters of one of the effects lie among those of all.
-    pub(crate) fn own_of(&self, number: usize) -> Range<usize> {
+    /// Where the nonlinear parameters of one of the effects lie among those of all.
+    pub(crate) fn nonlinear_of(&self, number: usize) -> Range<usize> {
         let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
         from..from + self.parts[number].count
     }
@@ -137,8 +129,9 @@ impl Explanation {
     /// Every effect with the name that the signs of its fit give it.
     fn named_parts(&self) -> impl Iterator<Item = (&Part, Effect)> {
         self.parts.iter().enumerate().map(|(number, part)| {
-            let own: Vec<f64> = self.fit.own[self.own_of(number)].iter().map(|o| o.value).collect();
-            (part, part.naming.map_or(part.effect, |naming| naming(&own, &self.fit)))
+            let nonlinear: Vec<f64> =
+                self.fit.nonlinear[self.nonlinear_of(number)].iter().map(|o| o.value).collect();
+            (part, part.naming.map_or(part.effect, |naming| naming(&nonlinear, &self.fit)))
         })
     }
 
@@ -149,12 +142,12 @@ impl Explanation {
 
     /// Whether every law of it is still one of its effect, not the limit at which it is another one.
     pub(crate) fn is_sound(&self) -> bool {
-        let values: Vec<f64> = self.fit.own.iter().map(|o| o.value).collect();
+        let values: Vec<f64> = self.fit.nonlinear.iter().map(|o| o.value).collect();
         let mut rest = &values[..];
         self.parts.iter().all(|part| {
-            let (own, later) = rest.split_at(part.count);
+            let (nonlinear, later) = rest.split_at(part.count);
             rest = later;
-            (part.sound)(own, &self.fit)
+            (part.sound)(nonlinear, &self.fit)
         })
     }
 
@@ -164,12 +157,12 @@ impl Explanation {
         self
     }
 
-    /// One of the effects without the others, by the law and with the own parameters that it has beside them, the rest fitted
+    /// One of the effects without the others, by the law and with the nonlinear parameters that it has beside them, the rest fitted
     /// anew on the same knots.
     pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
-        let own = &self.fit.own[self.own_of(number)];
+        let nonlinear = &self.fit.nonlinear[self.nonlinear_of(number)];
         let parts = vec![self.parts[number].clone()];
-        let fit = self.with_parts_replaced(&parts, own, campaign)?;
+        let fit = self.with_parts_replaced(&parts, nonlinear, campaign)?;
         Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
     }
 
@@ -178,63 +171,30 @@ impl Explanation {
         self.with_parts_replaced(&[], &[], campaign).map(Self::nominal)
     }
 
-    fn with_parts_replaced(&self, parts: &[Part], own: &[Own], campaign: &Campaign) -> Option<Fit> {
-        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+    fn with_parts_replaced(
+        &self,
+        parts: &[Part],
+        nonlinear: &[NonlinearParameter],
+        campaign: &Campaign,
+    ) -> Option<Fit> {
+        let values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
         linear.b.truncate(linear.a.len());
         linear.f.truncate(self.fit.grid.len());
         linear.d.clear();
         let start = linear.padded(self.fit.grid.len(), &assembled(parts, &values));
         let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
-        fit(ground, &|values| assembled(parts, values), own, &start, ALONE)
-    }
-
-    /// The same explanation with border knots placed anew, where that is better.
-    pub(crate) fn with_knots_refined(self, campaign: &Campaign) -> Self {
-        let refined = self
-            .on_knots(campaign, |free, build| Some(crate::nominal::knots::replace(campaign, free, build)));
-        match refined {
-            Some(refined) if refined.bic() < self.bic() => refined,
-            _ => self,
-        }
-    }
-
-    /// The same explanation without the knots that follow details of the borders here and there.
-    pub(crate) fn on_an_even_grid(&self, campaign: &Campaign) -> Option<Self> {
-        self.on_knots(campaign, |free, build| crate::nominal::knots::evenly(campaign, free, build))
-    }
-
-    /// The same, on a grid that follows no detail all along the borders either.
-    pub(crate) fn on_a_smooth_grid(&self, campaign: &Campaign) -> Option<Self> {
-        self.on_knots(campaign, |free, build| crate::nominal::knots::smoothly(campaign, free, build))
-    }
-
-    /// The same explanation on other knots: the own parameters stay while the knots move, then everything is fitted together.
-    /// Parameters with corners stay where their profile put them.
-    fn on_knots(&self, campaign: &Campaign, place: impl Fn(&Fit, &Build<'_>) -> Option<Fit>) -> Option<Self> {
-        let own = self.fit.own.clone();
-        let values: Vec<f64> = own.iter().map(|o| o.value).collect();
-        let mut free = self.fit.clone();
-        free.own.clear();
-        free.own_se.clear();
-        free.parameters -= own.len() as f64;
-        let assembly = assembled(&self.parts, &values);
-        let mut fit = place(&free, &|_| assembly.clone())?;
-        fit.parameters += own.len() as f64;
-        fit.own = own;
-        fit.own_se.clone_from(&self.fit.own_se);
-        let placed = Self { fit, ..self.clone() };
-        Some(if placed.fit.own.is_empty() { placed } else { finish(campaign, 0, &placed) })
+        fit(ground, &|values| assembled(parts, values), nonlinear, &start, ALONE)
     }
 }
 
-/// The assembly of several parts, their own parameters one after the other.
+/// The assembly of several parts, their nonlinear parameters one after the other.
 pub(crate) fn assembled(parts: &[Part], values: &[f64]) -> Assembly {
     let mut assembly = Assembly::default();
     let mut rest = values;
     for part in parts {
-        let (own, later) = rest.split_at(part.count);
-        (part.apply)(own, &mut assembly);
+        let (nonlinear, later) = rest.split_at(part.count);
+        (part.apply)(nonlinear, &mut assembly);
         rest = later;
     }
     assembly

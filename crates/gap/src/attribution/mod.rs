@@ -1,11 +1,42 @@
-//! Which effects explain what the nominal model misses.
+//! Which effects explain what the nominal model misses: a cheap screening of every law, then the promising ones to
+//! convergence, border knots placed anew, and a second effect where the first leaves much.
 
-pub(crate) mod contest;
 pub(crate) mod explain;
 pub(crate) mod pairs;
 pub(crate) mod search;
+mod single_effects;
 pub(crate) mod starts;
+mod successive_halving;
+
+use self::explain::Explanation;
+use crate::effect::Effect;
+use crate::records::campaign::Campaign;
+use crate::settings::Settings;
 
 /// Penalised deviance that an effect must gain before anything is missing at all: covers the search over twenty effects,
-/// their laws and their own parameters.
+/// their laws and their nonlinear parameters.
 pub(crate) const SIGNIFICANT: f64 = 40.0;
+
+/// What is to be explained, and with what.
+pub(crate) struct Attribution<'a, W> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) settings: &'a Settings,
+    pub(crate) nominal: &'a Explanation,
+    /// The nominal model with border knots placed from the data: what effects are added to.
+    pub(crate) detailed: &'a Explanation,
+    pub(crate) workers: &'a W,
+}
+
+impl<W> Attribution<'_, W> {
+    /// Whether all effects of an explanation are to be considered, each once: signs may have given a law the name of another.
+    pub(crate) fn considers(&self, explanation: &Explanation) -> bool {
+        let effects = explanation.effects();
+        let is_new = |(number, effect): (usize, &Effect)| !effects[..number].contains(effect);
+        effects.iter().all(|e| self.settings.effects.contains(e)) && effects.iter().enumerate().all(is_new)
+    }
+
+    /// Penalised deviance gained over the nominal model.
+    pub(crate) fn gain(&self, explanation: Option<&Explanation>) -> f64 {
+        explanation.map_or(0.0, |e| self.nominal.bic() - e.bic())
+    }
+}

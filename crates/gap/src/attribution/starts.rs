@@ -5,11 +5,11 @@
 //! ```
 //!
 //! `X` holds the known model's derivatives, computed once for all laws; the chord to the innovations at a start `θₛ` stands
-//! for the law's own parameters (where it is nothing, their derivatives do), `Z` for the linear parameters that the law adds.
+//! for the law's nonlinear parameters (where it is nothing, their derivatives do), `Z` for the linear parameters that the law adds.
 
 use crate::attribution::explain::Explanation;
 use crate::likelihood::design::{Design, Linear};
-use crate::likelihood::engine::{Build, Own};
+use crate::likelihood::engine::{Build, NonlinearParameter};
 use crate::likelihood::gains::{Gains, Scored};
 use crate::likelihood::jacobian::Jacobian;
 use crate::likelihood::weights::{Weights, weigh};
@@ -73,22 +73,22 @@ impl Score {
 const NOTHING: f64 = 1e-9;
 
 impl ScoreTest<'_> {
-    /// How promising a law that changes the assembly to `build(known own parameters, own)` is.
-    pub(crate) fn score(&self, build: &Build<'_>, own: &[Own]) -> Score {
+    /// How promising a law that changes the assembly to `build(known nonlinear parameters, own)` is.
+    pub(crate) fn score(&self, build: &Build<'_>, nonlinear: &[NonlinearParameter]) -> Score {
         let fit = &self.known.explanation.fit;
-        let all: Vec<f64> = fit.own.iter().chain(own).map(|o| o.value).collect();
+        let all: Vec<f64> = fit.nonlinear.iter().chain(nonlinear).map(|o| o.value).collect();
         let assembly = build(&all);
         let p = fit.linear.padded(fit.grid.len(), &assembly);
         let there = self.moved(&assembly, &p, &fit.design);
         let mut columns = Vec::new();
         let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
-        if own.is_empty() || energy(&chord) > NOTHING * fit.variance {
+        if nonlinear.is_empty() || energy(&chord) > NOTHING * fit.variance {
             columns.push(chord);
         } else {
-            for (j, o) in own.iter().enumerate() {
+            for (j, o) in nonlinear.iter().enumerate() {
                 let h = if o.value + o.step > o.high { -o.step } else { o.step };
                 let mut values = all.clone();
-                values[fit.own.len() + j] += h;
+                values[fit.nonlinear.len() + j] += h;
                 let beside = self.moved(&build(&values), &p, &there.design);
                 columns.push(self.column(&there.innovations, &beside.innovations, 1.0 / h));
             }

@@ -1,11 +1,11 @@
 //! What the fits say before anything is weighed.
 
 use super::Plan;
+use crate::attribution::Attribution;
 use crate::attribution::SIGNIFICANT;
-use crate::attribution::contest::Attribution;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::{Firsts, Pair};
-use crate::attribution::search::on_a_free_course;
+use crate::attribution::search::on_a_free_drift_path;
 use crate::effect::Effect;
 use crate::phase::Phase;
 use crate::residuals::omnibus::{Omnibus, omnibus};
@@ -47,14 +47,14 @@ impl Plan {
         };
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
         if (evidence.leaves_something() || evidence.is_coloured())
-            && let Some(better) = evidence.improved(attribution.rulers_from_scratch(&evidence.all))
+            && let Some(better) = evidence.improved(attribution.dominant_reidentified(&evidence.all))
         {
             evidence = self.weigh_in(attribution.workers, better);
         }
         if evidence.leaves_something()
-            // Only the best: a free course follows in time whatever else changes while it passes.
-            && let Some(freed) = on_a_free_course(&self.campaign, &evidence.best)
-            // What a free course is after the last record fitted nobody knows.
+            // Only the best: a free drift path follows in time whatever else changes while it passes.
+            && let Some(freed) = on_a_free_drift_path(&self.campaign, &evidence.best)
+            // What a free drift path is after the last record fitted nobody knows.
             && self.simulation_error(&freed.fit) < self.simulation_error(&evidence.best.fit)
             && let Some(better) = evidence.improved(vec![freed])
         {

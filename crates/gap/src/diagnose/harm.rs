@@ -6,7 +6,7 @@
 use switchback_estimator::statistics::MeanInterval;
 
 use super::Plan;
-use super::held_out::told_by_the_lattice;
+use super::held_out::told_by_rounding;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
@@ -52,7 +52,7 @@ impl Plan {
     /// input is followed by a model that knows of none: one that does has all of it, a twelfth of the step's square.
     fn cost_of_fitting(&self, fit: &Fit) -> f64 {
         let errors = self.judged_errors(&self.nominal.plain.fit);
-        let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0);
+        let rounding = fit.assembly.noise.quantisation.map_or(0.0, |step| step * step / 12.0);
         fit.parameters / fit.samples.max(1) as f64 * mean_square(&errors) + rounding
     }
 
@@ -145,15 +145,15 @@ fn about_the_mean(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     records
 }
 
-/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict; what a lattice of
+/// Log predictive density that one model gains over another on each held-out record, on the samples that both predict; what a quantisation grid of
 /// the outputs is worth counts with it.
 fn gained_in_prediction(plan: &Plan, before: &Fit, after: &Fit) -> Vec<Vec<f64>> {
     let scores = |fit: &Fit| heldout_log_scores(&plan.campaign, fit);
     let mut gained = differences(&scores(after), &scores(before));
-    let by_lattice = told_by_the_lattice(after) - told_by_the_lattice(before);
+    let by_rounding = told_by_rounding(after) - told_by_rounding(before);
     for record in &mut gained {
         record.retain(|x| !x.is_nan());
-        record.iter_mut().for_each(|x| *x += by_lattice);
+        record.iter_mut().for_each(|x| *x += by_rounding);
     }
     gained
 }

@@ -9,8 +9,8 @@ use crate::likelihood::engine::Fit;
 use crate::records::campaign::Criterion;
 use crate::records::repeats::Repeating;
 use crate::residuals::clustering::come_where_the_input_is;
-use crate::residuals::lattice::worth;
 use crate::residuals::omnibus::omnibus;
+use crate::residuals::quantisation_grid::worth;
 use crate::residuals::score::heldout_log_score;
 use crate::residuals::spectrum::mean_square;
 use crate::simulation::simulate::free_run;
@@ -31,9 +31,9 @@ const AS_GOOD: f64 = 0.01;
 /// Share of another's simulation error that is clearly less: a log score hangs on the few samples beside a jump.
 const CLEARLY: f64 = 0.9;
 
-/// Log score a sample that a model has for the lattice it puts the outputs on, of which their density knows nothing.
-pub(super) fn told_by_the_lattice(fit: &Fit) -> f64 {
-    fit.assembly.noise.lattice.map_or(0.0, |_| 0.5 * worth(1))
+/// Log score a sample that a model has for the quantisation grid it puts the outputs on, of which their density knows nothing.
+pub(super) fn told_by_rounding(fit: &Fit) -> f64 {
+    fit.assembly.noise.quantisation.map_or(0.0, |_| 0.5 * worth(1))
 }
 
 /// Share of the gap that an explanation closes which is its cause: the upper end of the interval lies above.
@@ -70,7 +70,7 @@ impl Plan {
     pub(super) fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
         let excused = one.effects().iter().any(|e| e.is_of_its_record());
         let (error, other) = (self.simulation_error(&one.fit), self.simulation_error(&than.fit));
-        let score = |e: &Explanation| self.score(&e.fit).map(|score| score + told_by_the_lattice(&e.fit));
+        let score = |e: &Explanation| self.score(&e.fit).map(|score| score + told_by_rounding(&e.fit));
         let scores = score(one).zip(score(than));
         error < RUNAWAY * other
             && (excused || error < CLEARLY * other || scores.is_none_or(|(one, other)| one > other - AS_GOOD))

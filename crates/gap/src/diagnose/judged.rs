@@ -22,7 +22,7 @@ impl Plan {
         let model = fit.power * response.gain() * self.noise_shown(&fit.assembly.curve);
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         // Rounding repeats with the input, and is noise all the same.
-        let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0);
+        let rounding = fit.assembly.noise.quantisation.map_or(0.0, |step| step * step / 12.0);
         match response.repeat_variance(&self.campaign, |_| true).map(|(repeat, n)| (repeat + rounding, n)) {
             Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
             _ => (model, relative(fit.samples as f64)),

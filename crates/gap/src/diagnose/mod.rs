@@ -1,7 +1,7 @@
 //! The diagnosis itself: the nominal model, attribution, verdict, report.
 
 mod evidence;
-mod foreign;
+mod given_model;
 mod harm;
 mod held_out;
 mod judged;
@@ -14,7 +14,7 @@ mod report;
 use switchback_estimator::rig::Rig;
 
 use self::evidence::Evidence;
-use self::foreign::Foreign;
+use self::given_model::GivenModel;
 use self::nominal::Nominal;
 use self::report::Conclusion;
 use crate::attribution::SIGNIFICANT;
@@ -131,7 +131,7 @@ struct Plan {
     /// The nominal model as identified here.
     nominal: Nominal,
     /// The model under diagnosis, where it is not the identified one.
-    foreign: Option<Foreign>,
+    given: Option<GivenModel>,
     /// Tracks the gap is measured on, and what the model under diagnosis makes of them.
     judged: Vec<usize>,
     runs: Vec<Vec<f64>>,
@@ -155,21 +155,21 @@ impl Plan {
             settings.effects.retain(|e| !e.moves_no_simulation());
         }
         let judged = judged_tracks(&campaign, &mut limitations);
-        let foreign = Foreign::of(model, rig, &campaign, &judged)?;
+        let given = GivenModel::of(model, rig, &campaign, &judged)?;
         note_what_the_records_lack(&campaign, &mut limitations);
         let nominal = Nominal::new(&campaign, &settings, Explanation::nominal(fit));
-        let runs = match &foreign {
-            Some(foreign) => foreign.runs.clone(),
+        let runs = match &given {
+            Some(given) => given.runs.clone(),
             None => nominal.runs(&campaign, &judged),
         };
         let exporter = Exporter::new(rig);
         let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
-        let is_calibrated = declared && holds_out && foreign.is_none() && !campaign.criterion.simulates();
+        let is_calibrated = declared && holds_out && given.is_none() && !campaign.criterion.simulates();
         Ok(Self {
             settings,
             campaign,
             nominal,
-            foreign,
+            given,
             judged,
             runs,
             structure,
@@ -181,7 +181,7 @@ impl Plan {
 
     /// Founds the diagnosis on another optimum of the nominal model.
     fn found_on(&mut self, nominal: Nominal) {
-        if self.foreign.is_none() {
+        if self.given.is_none() {
             self.runs = nominal.runs(&self.campaign, &self.judged);
         }
         self.nominal = nominal;

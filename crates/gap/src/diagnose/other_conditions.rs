@@ -14,7 +14,7 @@ impl Plan {
     /// `N` samples that have `1 − k/N` of it left (H. Akaike, "Fitting autoregressive models for prediction", Ann. Inst. Stat. Math. 21,
     /// 1969).
     pub(super) fn held_out_errors_beyond_chance(&self, fit: &Fit) -> Option<f64> {
-        if self.foreign.is_some() || self.resolves_no_gap(fit) {
+        if self.given.is_some() || self.resolves_no_gap(fit) {
             return None;
         }
         let share = fit.parameters / fit.samples.max(1) as f64;

@@ -8,7 +8,7 @@ use crate::records::campaign::Campaign;
 /// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all own
 /// parameters of the explanation.
 ///
-/// What a user would measure comes first: the step of a lattice, the limits of a sensor, the share of outliers and their size, the
+/// What a user would measure comes first: the step of a quantisation grid, the limits of a sensor, the share of outliers and their size, the
 /// time constant of a lag.
 pub(super) fn parameters(
     campaign: &Campaign,
@@ -19,8 +19,8 @@ pub(super) fn parameters(
     let told = |name: &'static str| -> &'static str {
         card.renamed.iter().find(|renamed| renamed.0 == name).map_or(name, |renamed| renamed.1)
     };
-    let own = explanation.own_of(number);
-    let searched = explanation.fit.own[own.clone()].iter().zip(&intervals[own]);
+    let nonlinear = explanation.nonlinear_of(number);
+    let searched = explanation.fit.nonlinear[nonlinear.clone()].iter().zip(&intervals[nonlinear]);
     let searched: Vec<FittedParameter> = searched
         .map(|(o, ci90)| FittedParameter { name: told(o.name), unit: o.unit, value: o.value, ci90: *ci90 })
         .collect();

@@ -26,7 +26,7 @@ impl Plan {
     ///
     /// Where the explanation is none of the candidates, nothing may be left of the gap.
     pub(super) fn only_parameters_are_off(&self, status: Status, explained: &Fit) -> bool {
-        if self.foreign.is_none() {
+        if self.given.is_none() {
             return false;
         }
         let anew = &self.nominal.plain.fit;
@@ -53,10 +53,10 @@ impl Plan {
         let other = self.squared_errors(|number| {
             free_run(&chosen.campaign, &chosen.fit, number, &chosen.campaign.tracks[number])
         });
-        let own = self.squared_errors(|number| {
+        let nonlinear = self.squared_errors(|number| {
             free_run(&self.campaign, explained, number, &self.campaign.tracks[number])
         });
-        self.mean(&differences(&other, &own), explained).is_some_and(|saved| saved.low <= 0.0)
+        self.mean(&differences(&other, &nonlinear), explained).is_some_and(|saved| saved.low <= 0.0)
     }
 
     /// The conclusion that the order is off: `again` is the plan on the nominal model that does what the effects do.

@@ -1,7 +1,7 @@
 //! From conclusions to the diagnosis that is handed out.
 
 use super::Plan;
-use super::foreign::Foreign;
+use super::given_model::GivenModel;
 use super::parameters::parameters;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Pair;
@@ -55,7 +55,7 @@ impl Plan {
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
         gap.identified_anew = self.identified_anew(floor);
-        if self.foreign.is_some() && gap.before.ci90[0] > 1.0 {
+        if self.given.is_some() && gap.before.ci90[0] > 1.0 {
             limitations.push(
                 "the model under diagnosis misses the judged records by more than their mean does: compare its units, its sample \
                  time and its coefficients with the rig's"
@@ -135,8 +135,8 @@ impl Plan {
             _ => together.filter(|pair| pair.effects == effects).map(|pair| pair.parameters.clone()),
         };
         let intervals = augmented.fit.intervals();
-        let own = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
-        let all: Vec<_> = (0..effects.len()).map(own).collect();
+        let nonlinear = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
+        let all: Vec<_> = (0..effects.len()).map(nonlinear).collect();
         let values =
             |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
         // An explanation on other knots has other estimates.
@@ -146,15 +146,15 @@ impl Plan {
 
     /// The model under diagnosis; nothing where only its predictions are known.
     fn nominal_model(&self) -> Option<PortableModel> {
-        match &self.foreign {
-            Some(foreign) => foreign.given.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
+        match &self.given {
+            Some(given) => given.fit.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
             None => Some(self.exporter.fitted(&self.campaign, &self.nominal.plain)),
         }
     }
 
     /// `G²` of the identified nominal model, where another was given.
     fn identified_anew(&self, floor: (f64, f64)) -> Option<Figure> {
-        self.foreign.as_ref()?;
+        self.given.as_ref()?;
         let runs = self.simulations(&self.nominal.plain.fit);
         Some(measure(&self.campaign, &runs, floor, (self.settings.seed, self.settings.resamples)).after)
     }
@@ -163,9 +163,9 @@ impl Plan {
     /// noise in the output.
     fn map(&self, augmented: &Fit, noise: f64) -> Vec<Cell> {
         let floor = self.innovation_floor(augmented);
-        match &self.foreign {
-            Some(Foreign { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
-            Some(Foreign { residuals, .. }) => localise(&self.campaign, residuals, floor),
+        match &self.given {
+            Some(GivenModel { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
+            Some(GivenModel { residuals, .. }) => localise(&self.campaign, residuals, floor),
             None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.plain.fit), floor),
         }
     }

@@ -10,7 +10,7 @@
 //! pulse experiments alone do not see it. Confused with: gradual transition (the jump at the end of the rest tells),
 //! a reversal threshold against noise on `v`.
 
-use super::{Card, Scene, Search, Variant, own};
+use super::{Card, Scene, Search, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::records::campaign::Campaign;
 use crate::records::motion::Play;
@@ -41,10 +41,10 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         let first = ANCHOR * ratio.powi(-below);
         std::iter::successors(Some(first), move |w| Some(ratio * w)).take_while(|w| *w < 0.6)
     };
-    let width = |w: f64| own("play", "strokes", w, (0.5 * least, 0.7), 0.16 * w);
+    let width = |w: f64| parameter("play", "strokes", w, (0.5 * least, 0.7), 0.16 * w);
     let even = widths(1.5).map(|w| vec![width(w)]).collect();
     let tapered =
-        |w: f64| [-0.6, 0.6].map(|taper| vec![width(w), own("taper", "1", taper, (-1.0, 1.0), 0.3)]);
+        |w: f64| [-0.6, 0.6].map(|taper| vec![width(w), parameter("taper", "1", taper, (-1.0, 1.0), 0.3)]);
     let tapered = widths(1.7).flat_map(tapered).collect();
     [
         Variant::new(even, |p, assembly| assembly.play = Play { width: p[0], taper: 0.0 }),

@@ -9,14 +9,14 @@
 //! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel of the campaign. Stage: operator.
 //! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
 
-use super::{Card, Scene, Variant, own};
+use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::model::assembly::{BorderColumn, Clock, Slow};
 
 pub(super) const CARD: Card = Card {
     twins: &[Effect::GainDrift],
     of_its_record: true,
-    rules_dynamics: true,
+    dominates_dynamics: true,
     ..Card::of(Stage::Operator, variants)
 };
 
@@ -27,7 +27,7 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
             // Where the loop all but closes, the nominal model is that of another system.
             let starts = [0.0, 0.5, 1.0, -0.5].map(|end| {
                 let value = |k| if k == 0 { end } else { 0.0 };
-                (0..degree).map(|k| own("narrowing", "1", value(k), (-1.5, 1.5), 0.002)).collect()
+                (0..degree).map(|k| parameter("narrowing", "1", value(k), (-1.5, 1.5), 0.002)).collect()
             });
             out.push(Variant::new(starts.into(), move |p, assembly| {
                 assembly.wear = Some(Slow { coefficients: p.to_vec(), ..Slow::on(clock) });

@@ -40,8 +40,8 @@ pub(crate) struct Card {
     /// Its laws are supple enough to imitate others but for a little (`verdict::odds`).
     pub(crate) supple: bool,
     /// It may leave nothing of what the dynamics are identified from, so that they are identified anew with it
-    /// (`attribution::contest`).
-    pub(crate) rules_dynamics: bool,
+    /// (`attribution::successive_halving`).
+    pub(crate) dominates_dynamics: bool,
     /// It takes what an inexact law of another effect leaves: small beside that one, it is a correction and no cause
     /// (`attribution::pairs`).
     pub(crate) follows: Option<Follows>,
@@ -61,7 +61,7 @@ pub(crate) struct Card {
     /// A law with more freedom, from where a fit by one of [`Self::laws`] ended (`attribution::search`).
     pub(crate) freed: fn(&Campaign, &Fit) -> Option<Variant>,
 
-    /// Own parameters that a user is told by another name, that of the law and the one told (`diagnose::parameters`).
+    /// Nonlinear parameters that a user is told by another name, that of the law and the one told (`diagnose::parameters`).
     pub(crate) renamed: &'static [(&'static str, &'static str)],
     /// What a user would measure, told before the parameters that were searched for: read off the data or the fit, or
     /// derived from them (`diagnose::parameters`).
@@ -105,7 +105,7 @@ impl Card {
             rounds: false,
             of_its_record: false,
             supple: false,
-            rules_dynamics: false,
+            dominates_dynamics: false,
             follows: None,
             stopgap: false,
             lies_in_the_grid: false,
@@ -123,7 +123,7 @@ impl Card {
 pub(crate) struct Reading<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) fit: &'a Fit,
-    /// The effect's own parameters as they were searched for.
+    /// The effect's nonlinear parameters as they were searched for.
     pub(crate) searched: &'a [FittedParameter],
 }
 

@@ -7,7 +7,7 @@
 //! Parameters: coefficients of `D`, or of `C`. Stage: disturbance. It moves no simulation error but biases least-squares estimates of `A`.
 //! Confused with: output noise.
 
-use super::{Card, Follows, Scene, Variant, own};
+use super::{Card, Follows, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::residuals::spectrum::moving_average;
 
@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     noise: true,
     colours_noise: true,
     supple: true,
-    rules_dynamics: true,
+    dominates_dynamics: true,
     follows: Some(Follows::Anything),
     ..Card::of(Stage::Disturbance, variants)
 };
@@ -31,7 +31,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 .take(if degree > 2 { 1 } else { 4 })
                 .map(|&first| {
                     let value = |i| if i == 0 { first } else { 0.0 };
-                    (0..degree).map(|i| own("d", "1", value(i), (-2.5, 2.5), 0.003)).collect()
+                    (0..degree).map(|i| parameter("d", "1", value(i), (-2.5, 2.5), 0.003)).collect()
                 })
                 .collect();
             Variant::conditional(starts, |p, assembly| {
@@ -39,12 +39,12 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             })
         })
         .collect();
-    let starts = [-0.3, 0.3].iter().map(|&c| vec![own("c", "1", c, (-0.97, 0.97), 0.003)]).collect();
+    let starts = [-0.3, 0.3].iter().map(|&c| vec![parameter("c", "1", c, (-0.97, 0.97), 0.003)]).collect();
     out.push(Variant::new(starts, |p, assembly| assembly.noise.ma = vec![p[0]]));
     // Small steps from white noise do not get to zeros beside the unit circle.
     out.extend([3, 8].map(|degree| {
         let coefficients = moving_average(scene.innovations, degree);
-        let start = coefficients.into_iter().map(|c| own("c", "1", c, (-4.0, 4.0), 0.003)).collect();
+        let start = coefficients.into_iter().map(|c| parameter("c", "1", c, (-4.0, 4.0), 0.003)).collect();
         Variant::conditional(vec![start], |p, assembly| assembly.noise.ma = p.to_vec())
     }));
     out

@@ -16,7 +16,7 @@
 //! drifting: the same way, or back where `kappa` is negative or `k` positive (relaxation, which is the creep of a force at rest). Both are one
 //! cause, and the parameters' signs say which. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
-use super::{Card, Scene, Variant, fitted_tracks, own};
+use super::{Card, Scene, Variant, fitted_tracks, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{EquationColumn, Relaxation, convolve};
@@ -31,8 +31,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .iter()
         .map(|&(kappa, tau): &(f64, f64)| {
             vec![
-                own("kappa", "1", kappa, (-0.9, 1.0), 0.002),
-                own("log_tau", "ln samples", tau.ln(), (2.0, 8.5), 0.02),
+                parameter("kappa", "1", kappa, (-0.9, 1.0), 0.002),
+                parameter("log_tau", "ln samples", tau.ln(), (2.0, 8.5), 0.02),
             ]
         })
         .collect();
@@ -51,7 +51,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     for column in [after_effect::logarithmic, after_effect::ending, after_effect::since_reversal] {
         let starts = [3.0, 30.0]
             .iter()
-            .map(|&tau: &f64| vec![own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
+            .map(|&tau: &f64| vec![parameter("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
             .collect();
         out.push(Variant::conditional(starts, move |p, assembly| {
             assembly.border_columns.push(column(p[0].exp()));
@@ -66,8 +66,8 @@ fn relaxing() -> Variant {
         .iter()
         .map(|&tau: &f64| {
             vec![
-                own("share", "1", 0.3, (-1.0, 2.0), 0.002),
-                own("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02),
+                parameter("share", "1", 0.3, (-1.0, 2.0), 0.002),
+                parameter("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02),
             ]
         })
         .collect();
@@ -113,9 +113,9 @@ fn spread(tracks: Vec<usize>) -> Variant {
         .iter()
         .map(|&tau: &f64| {
             vec![
-                own("kappa", "1", 0.2, (-0.9, 3.0), 0.002),
-                own("log_tau", "ln samples", tau.ln(), (0.0, 7.0), 0.02),
-                own("log_rho", "1", 1.6, (0.4, 3.0), 0.02),
+                parameter("kappa", "1", 0.2, (-0.9, 3.0), 0.002),
+                parameter("log_tau", "ln samples", tau.ln(), (0.0, 7.0), 0.02),
+                parameter("log_rho", "1", 1.6, (0.4, 3.0), 0.02),
             ]
         })
         .collect();

@@ -9,7 +9,7 @@
 //!
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
 
-use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, own};
+use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, parameter};
 use crate::diagnosis::FittedParameter;
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
@@ -18,12 +18,12 @@ use crate::simulation::beginnings::begins_as_a_filter;
 
 pub(super) const CARD: Card = Card {
     twins: &[Effect::InputDelay, Effect::Resonance],
-    rules_dynamics: true,
+    dominates_dynamics: true,
     room: Some(Room::Order),
     // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
     most_left: 0.02,
     told_first: |reading| {
-        let pole = reading.searched.iter().find(|own| own.name == "pole");
+        let pole = reading.searched.iter().find(|nonlinear| nonlinear.name == "pole");
         pole.and_then(time_constant).into_iter().collect()
     },
     ..Card::of(Stage::Dynamics, variants)
@@ -70,7 +70,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     LAGS.iter()
         .map(|lag| {
             let (least, poles) = lag.poles();
-            let starts = poles.iter().map(|&p| vec![own("pole", "1", p, (least, 0.98), 0.003)]).collect();
+            let starts =
+                poles.iter().map(|&p| vec![parameter("pole", "1", p, (least, 0.98), 0.003)]).collect();
             let tracks = if lag.slow { fitted_tracks(scene.campaign) } else { Vec::new() };
             // What comes twice begins with more than one exponential.
             let sound: Sound = match lag.poles {

@@ -15,7 +15,7 @@
 //! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the campaign or of the record. Stage: dynamics. Outputs scale with time,
 //! mid-line and loop alike. Confused with: border wear (the mid-line tells), sensor drift.
 
-use super::{Card, Scene, Variant, own};
+use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::rows::clock;
@@ -26,7 +26,7 @@ pub(super) const CARD: Card = Card {
     twins: &[Effect::BorderWear],
     of_its_record: true,
     supple: true,
-    rules_dynamics: true,
+    dominates_dynamics: true,
     freed: free_course,
     ..Card::of(Stage::Dynamics, variants)
 };
@@ -43,7 +43,7 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
         for degree in [1, 3] {
             let start = |slope: f64| -> Vec<_> {
                 let value = |k: usize| if k == 0 { slope } else { 0.0 };
-                (0..degree).map(|k| own("gain_change", "1", value(k), (-1.0, 1.0), 0.001)).collect()
+                (0..degree).map(|k| parameter("gain_change", "1", value(k), (-1.0, 1.0), 0.001)).collect()
             };
             let law = Variant::new(vec![start(0.0)], move |p, assembly| {
                 drift(assembly, Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
@@ -53,9 +53,9 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
         }
         let start = |rate: f64, (sine, cosine): (f64, f64)| {
             vec![
-                own("sine", "1", sine, (-0.8, 0.8), 0.001),
-                own("cosine", "1", cosine, (-0.8, 0.8), 0.001),
-                own("rate", "radians per clock", rate, (1.0, 60.0), 0.02),
+                parameter("sine", "1", sine, (-0.8, 0.8), 0.001),
+                parameter("cosine", "1", cosine, (-0.8, 0.8), 0.001),
+                parameter("rate", "radians per clock", rate, (1.0, 60.0), 0.02),
             ]
         };
         let law = Variant::new(RATES.map(|rate| start(rate, (0.0, 0.0))).into(), move |p, assembly| {
@@ -74,7 +74,7 @@ fn drift(assembly: &mut Assembly, gain: Slow) {
     assembly.equation_columns.push(EquationColumn::Gain);
 }
 
-/// Samples between knots of a free course, and pieces of a record at most.
+/// Samples between knots of a free drift path, and pieces of a record at most.
 const PIECE: usize = 1000;
 const PIECES: usize = 4;
 
@@ -94,7 +94,7 @@ fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
     // The scale of the gain is that of B: it is one in the beginning.
     let (first, rest) = known.split_first()?;
     let change = |value: f64| (1.0 + value) / (1.0 + first.1) - 1.0;
-    let start = rest.iter().map(|k| own("gain_change", "1", change(k.1), (-1.0, 2.0), 0.001)).collect();
+    let start = rest.iter().map(|k| parameter("gain_change", "1", change(k.1), (-1.0, 2.0), 0.001)).collect();
     let clocks: Vec<f64> = known.iter().map(|k| k.0).collect();
     let law = Variant::new(vec![start], move |p, assembly| {
         let values = std::iter::once(0.0).chain(p.iter().copied());

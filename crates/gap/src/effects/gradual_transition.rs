@@ -11,7 +11,7 @@
 //! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
-use super::{Card, Scene, Variant, fitted_tracks, own};
+use super::{Card, Scene, Variant, fitted_tracks, parameter};
 use crate::effect::{Effect, Stage};
 use crate::model::assembly::{BorderColumn, Transition, TransitionLaw};
 
@@ -25,8 +25,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 .iter()
                 .map(|&(length, shape)| {
                     vec![
-                        own("length", "strokes", length, (0.002, 1.0), 0.02 * length),
-                        own("shape", "1", shape, (0.4, 3.5), 0.02),
+                        parameter("length", "strokes", length, (0.002, 1.0), 0.02 * length),
+                        parameter("shape", "1", shape, (0.4, 3.5), 0.02),
                     ]
                 })
                 .collect();

@@ -7,13 +7,13 @@
 //!
 //! Parameter: `delay` in samples (0…10). Stage: input. Confused with: extra pole, resonance (all delay the response).
 
-use super::{Card, Room, Scene, Search, Variant, outlasts_the_records, own};
+use super::{Card, Room, Scene, Search, Variant, outlasts_the_records, parameter};
 use crate::effect::{Effect, Stage};
-use crate::likelihood::engine::Own;
+use crate::likelihood::engine::NonlinearParameter;
 
 pub(super) const CARD: Card = Card {
     twins: &[Effect::ExtraPole, Effect::Resonance],
-    rules_dynamics: true,
+    dominates_dynamics: true,
     room: Some(Room::Delay),
     ..Card::of(Stage::Input, variants)
 };
@@ -24,13 +24,13 @@ const WITHIN_THE_FIRST: [f64; 9] = [0.015, 0.03, 0.06, 0.12, 0.25, 0.4, 0.6, 0.8
 const WITHIN_A_LATER: [f64; 4] = [0.05, 0.2, 0.5, 0.8];
 
 fn variants(_: &Scene<'_>) -> Vec<Variant> {
-    let delay = |d: f64, step: f64| vec![own("delay", "samples", d, (0.0, 10.0), step)];
+    let delay = |d: f64, step: f64| vec![parameter("delay", "samples", d, (0.0, 10.0), step)];
     let responses = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0];
     let response = Variant::conditional(responses.map(|d| delay(d, 0.02)).into(), |p, assembly| {
         assembly.delay = p[0];
     });
     // B takes a whole sample where it has room: every whole sample is a valley of its own.
-    let whole = |own: &[Own]| own[0].value.floor() as i64;
+    let whole = |nonlinear: &[NonlinearParameter]| nonlinear[0].value.floor() as i64;
     let response = Variant { climbs: response.starts.len(), valley: Some(whole), ..response };
     let later = [1.0, 2.0, 3.0].into_iter().flat_map(|k| WITHIN_A_LATER.map(|part| (k + part, part)));
     let starts = WITHIN_THE_FIRST.into_iter().map(|part| (part, part)).chain(later);

@@ -14,7 +14,7 @@
 
 use crate::model::assembly::InputNoise;
 
-use super::{Card, Scene, Search, Variant, own};
+use super::{Card, Scene, Search, Variant, parameter};
 use crate::effect::{Effect, Stage};
 
 pub(super) const CARD: Card = Card {
@@ -34,8 +34,8 @@ fn jitter(scene: &Scene<'_>) -> Variant {
         .iter()
         .map(|s| {
             vec![
-                own("log_jitter", "ln strokes", s.ln(), (-9.0, -1.0), 0.7),
-                own("log_precision", "ln inverse variance", precision + 1.0, (-10.0, 25.0), 1.0),
+                parameter("log_jitter", "ln strokes", s.ln(), (-9.0, -1.0), 0.7),
+                parameter("log_precision", "ln inverse variance", precision + 1.0, (-10.0, 25.0), 1.0),
             ]
         })
         .collect();
@@ -52,7 +52,7 @@ fn jitter(scene: &Scene<'_>) -> Variant {
 fn kept() -> Variant {
     let starts = [0.0, 2.5, 5.0, 7.5]
         .iter()
-        .map(|&ratio| vec![own("log_ratio", "ln variance ratio", ratio, (-12.0, 14.0), 1.0)])
+        .map(|&ratio| vec![parameter("log_ratio", "ln variance ratio", ratio, (-12.0, 14.0), 1.0)])
         .collect();
     let mut variant = Variant::new(starts, |p, assembly| {
         assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), kept: true, ..InputNoise::default() });
@@ -64,7 +64,7 @@ fn kept() -> Variant {
 fn direct() -> Variant {
     let starts = [-1.0, 2.0, 5.0]
         .iter()
-        .map(|&ratio| vec![own("log_ratio", "ln variance ratio", ratio, (-8.0, 14.0), 1.0)])
+        .map(|&ratio| vec![parameter("log_ratio", "ln variance ratio", ratio, (-8.0, 14.0), 1.0)])
         .collect();
     let mut variant = Variant::new(starts, |p, assembly| {
         assembly.noise.input = Some(InputNoise { direct: p[0].exp(), ..InputNoise::default() });
@@ -78,8 +78,8 @@ fn small() -> Variant {
         .iter()
         .map(|&(moving, resting)| {
             vec![
-                own("log_ratio_moving", "ln variance ratio", moving, (-12.0, 14.0), 1.0),
-                own("log_ratio_resting", "ln variance ratio", resting, (-12.0, 8.0), 1.5),
+                parameter("log_ratio_moving", "ln variance ratio", moving, (-12.0, 14.0), 1.0),
+                parameter("log_ratio_resting", "ln variance ratio", resting, (-12.0, 8.0), 1.5),
             ]
         })
         .collect();

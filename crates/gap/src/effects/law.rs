@@ -1,46 +1,46 @@
-//! A law of an effect: a function from its own parameters to changes of an assembly, and how it is searched.
+//! A law of an effect: a function from its nonlinear parameters to changes of an assembly, and how it is searched.
 
 use std::sync::Arc;
 
 use crate::effect::Effect;
-use crate::likelihood::engine::{Fit, Own};
+use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
 use crate::records::campaign::Campaign;
 
-/// How the own parameters are searched after the starts.
+/// How the nonlinear parameters are searched after the starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Search {
     /// Gauss–Newton together with everything else.
     Smooth,
-    /// The starts are compared with their own parameters held, which is a nearly linear problem; then as `Smooth`.
+    /// The starts are compared with their nonlinear parameters held, which is a nearly linear problem; then as `Smooth`.
     Conditional,
     /// A profile refined around its best point: the likelihood has corners.
     Profile,
-    /// The same where the own parameters only weigh the samples: the rest hardly moves with them, and is fitted afterwards.
+    /// The same where the nonlinear parameters only weigh the samples: the rest hardly moves with them, and is fitted afterwards.
     Weights,
 }
 
-/// The change an effect makes to an assembly, given its own parameters.
+/// The change an effect makes to an assembly, given its nonlinear parameters.
 pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
 
-/// Whether a law, given its fitted own parameters, is still a law of its effect, not the limit at which it is another one.
+/// Whether a law, given its fitted nonlinear parameters, is still a law of its effect, not the limit at which it is another one.
 pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
 
-/// The effect that a law is one of, given its fitted own parameters: where a coefficient may have either sign, a name includes it.
+/// The effect that a law is one of, given its fitted nonlinear parameters: where a coefficient may have either sign, a name includes it.
 pub(crate) type Naming = fn(&[f64], &Fit) -> Effect;
 
 /// One law of an effect.
 pub(crate) struct Variant {
     /// Points the search starts from; all hold the same parameters.
-    pub(crate) starts: Vec<Vec<Own>>,
+    pub(crate) starts: Vec<Vec<NonlinearParameter>>,
     /// Further points where everything is identified anew: at a start where the law changes nothing that identifies what is known.
-    pub(crate) afresh: Vec<Vec<Own>>,
+    pub(crate) afresh: Vec<Vec<NonlinearParameter>>,
     pub(crate) search: Search,
-    /// Starts from which everything is fitted together, where the own parameters are conditions of the rest.
+    /// Starts from which everything is fitted together, where the nonlinear parameters are conditions of the rest.
     pub(crate) climbs: usize,
     /// Which valley a start lies in, where only the likeliest of each is climbed from.
-    pub(crate) valley: Option<fn(&[Own]) -> i64>,
+    pub(crate) valley: Option<fn(&[NonlinearParameter]) -> i64>,
     pub(crate) apply: Apply,
     pub(crate) sound: Sound,
     /// Which effect a fit is one of, where that depends on its signs.
@@ -55,7 +55,7 @@ pub(crate) struct Variant {
 const CLIMBS: usize = 3;
 
 impl Search {
-    /// Whether own parameters are moved one by one, without derivatives.
+    /// Whether nonlinear parameters are moved one by one, without derivatives.
     pub(crate) fn is_by_pattern(self) -> bool {
         matches!(self, Self::Profile | Self::Weights)
     }
@@ -63,7 +63,7 @@ impl Search {
 
 impl Variant {
     pub(super) fn new(
-        starts: Vec<Vec<Own>>,
+        starts: Vec<Vec<NonlinearParameter>>,
         apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
     ) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl Variant {
     }
 
     pub(super) fn conditional(
-        starts: Vec<Vec<Own>>,
+        starts: Vec<Vec<NonlinearParameter>>,
         apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
     ) -> Self {
         Self { search: Search::Conditional, ..Self::new(starts, apply) }

@@ -14,7 +14,7 @@ use card::known;
 pub(crate) use card::{Card, Follows, Reading, Room};
 pub(crate) use law::{Apply, Naming, Scene, Search, Sound, Variant};
 
-use crate::likelihood::engine::{Fit, Own};
+use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::records::campaign::Campaign;
 
 /// Declares the effects: of each its key, its file, which is its name as well, and what it changes.
@@ -114,8 +114,14 @@ fn fitted_tracks(campaign: &Campaign) -> Vec<usize> {
 }
 
 /// A parameter with its bounds; the derivative step is a thousandth of the range unless told.
-fn own(name: &'static str, unit: &'static str, value: f64, bounds: (f64, f64), step: f64) -> Own {
-    Own { name, unit, value, low: bounds.0, high: bounds.1, step }
+fn parameter(
+    name: &'static str,
+    unit: &'static str,
+    value: f64,
+    bounds: (f64, f64),
+    step: f64,
+) -> NonlinearParameter {
+    NonlinearParameter { name, unit, value, low: bounds.0, high: bounds.1, step }
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let repeated = |track: &Track| track.y.windows(2).filter(|w| w[0] == w[1] && inside(w[0])).count();
     let repeats: usize = scene.campaign.fit().map(repeated).sum();
     let count = outputs().count();
-    let rounding_is_known = scene.fit.assembly.noise.lattice.is_some();
+    let rounding_is_known = scene.fit.assembly.noise.quantisation.is_some();
     if !rounding_is_known && repeats as f64 > REPEATS * count as f64 {
         return Vec::new();
     }

@@ -9,7 +9,7 @@
 //!
 //! The search starts where `A` and `C` are solved for in turn: from a biased `A` no step leads to the right one.
 
-use super::{Card, Scene, Variant, own};
+use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 
 pub(super) const CARD: Card =
@@ -18,7 +18,7 @@ pub(super) const CARD: Card =
 fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let starts = [-1.0, 1.5]
         .iter()
-        .map(|&r| vec![own("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])
+        .map(|&r| vec![parameter("log_ratio", "ln variance ratio", r, (-7.0, 9.0), 0.02)])
         .collect();
     vec![Variant::conditional(starts, |p, assembly| assembly.noise.output_ratio = p[0].exp())]
 }

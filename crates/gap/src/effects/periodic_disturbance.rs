@@ -11,14 +11,14 @@
 
 use std::f64::consts::TAU;
 
-use super::{Card, Follows, Scene, Variant, fitted_tracks, own};
+use super::{Card, Follows, Scene, Variant, fitted_tracks, parameter};
 use crate::effect::Stage;
 use crate::model::assembly::{Assembly, EquationColumn};
 use crate::residuals::spectrum::{share_of_line, sharpened, strongest_lines};
 
 pub(super) const CARD: Card = Card {
     of_its_record: true,
-    rules_dynamics: true,
+    dominates_dynamics: true,
     follows: Some(Follows::Steps),
     ..Card::of(Stage::Disturbance, variants)
 };
@@ -39,7 +39,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let slowest = (8.0 * TAU / longest).max(2.0 * TAU / shortest);
     let is_line = |omega: &f64| *omega > slowest && *omega < FASTEST;
     let tracks = fitted_tracks(scene.campaign);
-    let start = |omega: f64| own("omega", "radians per sample", omega, (slowest, FASTEST), 0.05 / longest);
+    let start =
+        |omega: f64| parameter("omega", "radians per sample", omega, (slowest, FASTEST), 0.05 / longest);
     // Lines that rule the output have made pole pairs of `A` their own: the innovations have none of them, the output has.
     let output = scene.fit.linear.behind_poles(scene.innovations);
     let mut ruling = sharpest(&output, 2);

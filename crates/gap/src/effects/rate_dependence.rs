@@ -10,14 +10,14 @@
 //! wider is of this effect ([`super::speed`]). While the input rests, the term keeps its last value or vanishes. Confused with: Stribeck
 //! friction (which falls with speed), creep.
 
-use super::{Card, Scene, Variant, own, speed, typical_speed};
+use super::{Card, Scene, Variant, parameter, speed, typical_speed};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) const CARD: Card = Card {
     twins: &[Effect::Stribeck, Effect::Creep],
-    rules_dynamics: true,
+    dominates_dynamics: true,
     // A law of falling friction that fitted one that rises.
     renamed: &[("stribeck_speed", "speed_scale")],
     ..Card::of(Stage::Operator, variants)
@@ -28,7 +28,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
     for while_resting in [Resting::Held, Resting::Zero] {
         // Viscous friction is the commonest.
-        let starts = [0.4, 1.0].iter().map(|&p| vec![own("power", "1", p, (0.1, 3.0), 0.02)]).collect();
+        let starts = [0.4, 1.0].iter().map(|&p| vec![parameter("power", "1", p, (0.1, 3.0), 0.02)]).collect();
         let law = Variant::conditional(starts, move |p, assembly| {
             assembly.border_columns.push(BorderColumn::Speed { power: p[0], scale, while_resting });
         });
@@ -36,8 +36,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     }
     let starts = [(0.2, 0.3), (1.0, 0.3), (0.2, 1.0), (1.0, 1.0)].map(|(share, power)| {
         vec![
-            own("widening", "half widths of the loop", share, (-0.9, 20.0), 0.005),
-            own("power", "1", power, (0.1, 3.0), 0.02),
+            parameter("widening", "half widths of the loop", share, (-0.9, 20.0), 0.005),
+            parameter("power", "1", power, (0.1, 3.0), 0.02),
         ]
     });
     let widening = Variant::conditional(starts.into(), move |p, assembly| {

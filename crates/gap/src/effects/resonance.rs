@@ -9,9 +9,9 @@
 
 use nalgebra::Complex;
 
-use super::{Card, Follows, Room, Scene, Variant, fitted_tracks, outlasts_the_records, own};
+use super::{Card, Follows, Room, Scene, Variant, fitted_tracks, outlasts_the_records, parameter};
 use crate::effect::{Effect, Stage};
-use crate::likelihood::engine::{Fit, Own};
+use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::assembly::EquationColumn;
 use crate::residuals::spectrum::strongest_lines;
 
@@ -37,7 +37,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     }
     let sharp = lines.iter().map(|w| mode(*w, SHARP).to_vec());
     let blunt = lines.iter().chain(&ELSEWHERE).map(|w| mode(*w, BLUNT).to_vec());
-    let alone: Vec<Vec<Own>> = blunt.chain(sharp).collect();
+    let alone: Vec<Vec<NonlinearParameter>> = blunt.chain(sharp).collect();
     let mut two = Vec::new();
     for (k, one) in lines.iter().enumerate() {
         let elsewhere = if k == 0 { &ELSEWHERE[..] } else { &[] };
@@ -64,16 +64,16 @@ const ELSEWHERE: [f64; 4] = [0.35, 0.75, 1.2, 1.8];
 const SHARP: f64 = 0.97;
 const BLUNT: f64 = 0.91;
 
-fn mode(omega: f64, radius: f64) -> [Own; 2] {
+fn mode(omega: f64, radius: f64) -> [NonlinearParameter; 2] {
     let zeta = damping(radius, omega).min(0.4);
     [
-        own("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
-        own("zeta", "1", zeta, (0.003, 0.6), 0.002),
+        parameter("omega", "radians per sample", omega, (0.03, 3.1), 0.003),
+        parameter("zeta", "1", zeta, (0.003, 0.6), 0.002),
     ]
 }
 
 /// Modes one after the other, `omega` and `zeta` each.
-fn ringing(tracks: Vec<usize>, starts: Vec<Vec<Own>>, passes: bool) -> Variant {
+fn ringing(tracks: Vec<usize>, starts: Vec<Vec<NonlinearParameter>>, passes: bool) -> Variant {
     Variant::conditional(starts, move |p, assembly| {
         for mode in p.chunks_exact(2) {
             let (frequency, radius) = (mode[0], radius(mode[1], mode[0]));

@@ -12,7 +12,7 @@ use crate::effect::Stage;
 use crate::model::assembly::{Clock, EquationColumn};
 
 pub(super) const CARD: Card =
-    Card { of_its_record: true, supple: true, rules_dynamics: true, ..Card::of(Stage::Sensor, variants) };
+    Card { of_its_record: true, supple: true, dominates_dynamics: true, ..Card::of(Stage::Sensor, variants) };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();

@@ -9,9 +9,9 @@
 //! the range of y; output in standard deviations about its mean. Stage: sensor.
 //! The dynamics seem to depend on the level of y. Confused with: sensor saturation.
 
-use super::{Card, Follows, Scene, Variant, own};
+use super::{Card, Follows, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
-use crate::likelihood::engine::Own;
+use crate::likelihood::engine::NonlinearParameter;
 use crate::model::forwards::Forwards;
 use crate::model::sensor::Bumps;
 
@@ -28,7 +28,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .into_iter()
         .map(|count| {
             let names = ["theta2", "theta3", "theta4", "theta5", "theta6", "theta7"];
-            let start = (0..count).map(|k| own(names[k], UNIT, 0.0, (-0.6, 0.6), 0.0005)).collect();
+            let start = (0..count).map(|k| parameter(names[k], UNIT, 0.0, (-0.6, 0.6), 0.0005)).collect();
             Variant::new(vec![start], |p, assembly| assembly.curve.powers = p.to_vec())
         })
         .collect();
@@ -42,8 +42,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     out
 }
 
-fn gamma(name: &'static str, value: f64) -> Own {
-    own(name, UNIT, value, (-2.0, 2.0), 0.0005)
+fn gamma(name: &'static str, value: f64) -> NonlinearParameter {
+    parameter(name, UNIT, value, (-2.0, 2.0), 0.0005)
 }
 
 const UNIT: &str = "per standard deviation of y";
@@ -57,7 +57,9 @@ fn bumps(scene: &Scene<'_>, count: usize) -> Variant {
     let high = readings().fold(f64::NEG_INFINITY, |h, &y| h.max(y));
     let spacing = (high - low) / (count - 1) as f64;
     let start = (0..count)
-        .map(|_| own("height", "standard deviations of y", 0.0, (-0.8 * spacing, 0.8 * spacing), 0.0005))
+        .map(|_| {
+            parameter("height", "standard deviations of y", 0.0, (-0.8 * spacing, 0.8 * spacing), 0.0005)
+        })
         .collect();
     Variant::new(vec![start], move |p, assembly| {
         assembly.curve.bumps = Some(Bumps { first: low, spacing, heights: p.to_vec() });

@@ -4,32 +4,32 @@
 //! y = q·round(x/q): all differences of y are multiples of q; rounding adds noise of variance q²/12 to the output
 //! ```
 //!
-//! Parameter: the step `q`, read off the lattice. Stage: sensor. Confused with: output noise, which leaves no lattice.
-//! A lattice too fine to matter is no cause.
+//! Parameter: the step `q`, read off the quantisation grid. Stage: sensor. Confused with: output noise, which leaves no quantisation grid.
+//! A quantisation grid too fine to matter is no cause.
 
 use super::{Card, Scene, Variant};
 use crate::effect::Stage;
-use crate::residuals::lattice::{is_material, lattice, worth};
+use crate::residuals::quantisation_grid::{is_material, quantisation_step, worth};
 
 pub(super) const CARD: Card = Card {
     errors_last: true,
     misreads: true,
     rounds: true,
     told_first: |reading| {
-        let step = reading.fit.assembly.noise.lattice;
+        let step = reading.fit.assembly.noise.quantisation;
         step.map(|step| reading.step("step", step)).into_iter().collect()
     },
     ..Card::of(Stage::Sensor, variants)
 };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let Some(step) = lattice(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
+    let Some(step) = quantisation_step(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
         return Vec::new();
     };
-    let own = super::own("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
-    let mut variant = Variant::new(vec![vec![own]], move |p, assembly| {
+    let nonlinear = super::parameter("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
+    let mut variant = Variant::new(vec![vec![nonlinear]], move |p, assembly| {
         assembly.noise.output_ratio = p[0].exp();
-        assembly.noise.lattice = Some(step);
+        assembly.noise.quantisation = Some(step);
     });
     variant.handicap = -worth(scene.campaign.fit_samples());
     vec![variant]

@@ -8,7 +8,7 @@
 //! Parameters: the limits, read off the ties; or knee `k` and width `w`, at the upper end, the lower, or both. Samples at a limit, and those whose regressors reach one, only say that `x`
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
-use super::{Card, Follows, Reading, Scene, Variant, own};
+use super::{Card, Follows, Reading, Scene, Variant, parameter};
 use crate::diagnosis::FittedParameter;
 use crate::effect::{Effect, Stage};
 use crate::model::assembly::Saturation;
@@ -47,8 +47,8 @@ fn soft(scene: &Scene<'_>) -> Vec<Variant> {
                 .iter()
                 .map(|&at| {
                     vec![
-                        own("knee", "share of the half range", at, (0.1, 0.98), 0.005),
-                        own("width", "share of the half range", 1.0, (0.05, 20.0), 0.005),
+                        parameter("knee", "share of the half range", at, (0.1, 0.98), 0.005),
+                        parameter("width", "share of the half range", 1.0, (0.05, 20.0), 0.005),
                     ]
                 })
                 .collect();
@@ -70,7 +70,7 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
         high = high.max(*y);
     }
     let ties = |limit: f64| scene.campaign.fit().flat_map(|t| &t.y).filter(|y| **y == limit).count();
-    // On a coarse lattice every value has ties: the extreme one must have more than its inner neighbour.
+    // On a coarse quantisation grid every value has ties: the extreme one must have more than its inner neighbour.
     let inner = |limit: f64| {
         let next = scene
             .campaign

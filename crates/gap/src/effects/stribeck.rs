@@ -11,13 +11,16 @@
 //! operator. Slow passages show a wider loop than fast ones, and only below `r_s`; where the fit says that it is narrower, friction rises
 //! with speed, and the law is one of [rate dependence](super::rate_dependence). Confused with: rate dependence.
 
-use super::{Card, Scene, Variant, own, speed, typical_speed};
+use super::{Card, Scene, Variant, parameter, speed, typical_speed};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
 
-pub(super) const CARD: Card =
-    Card { twins: &[Effect::RateDependence], rules_dynamics: true, ..Card::of(Stage::Operator, variants) };
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::RateDependence],
+    dominates_dynamics: true,
+    ..Card::of(Stage::Operator, variants)
+};
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let typical = typical_speed(scene.campaign);
@@ -25,8 +28,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         let scale = share * typical;
         let range = (0.02 * typical, 20.0 * typical);
         vec![
-            own("stribeck_speed", "strokes per sample", scale, range, 0.02 * scale),
-            own("power", "1", power, (0.3, 4.0), 0.02),
+            parameter("stribeck_speed", "strokes per sample", scale, range, 0.02 * scale),
+            parameter("power", "1", power, (0.3, 4.0), 0.02),
         ]
     };
     let low_speed = |while_resting| {
@@ -40,7 +43,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             named(fit, |c| matches!(*c, BorderColumn::LowSpeed { power, scale, .. } if of_it(power, scale)))
         })
     };
-    let bends = own("length", "strokes", 0.02, (0.002, 0.2), 0.001);
+    let bends = parameter("length", "strokes", 0.02, (0.002, 0.2), 0.001);
     let starts =
         [(0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)].map(|start| [slow(start), vec![bends]].concat());
     let bristle = Variant::conditional(starts.into(), |p, assembly| {
@@ -54,7 +57,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             |c| matches!(*c, BorderColumn::Bristle { power, scale, length } if of_it(power, scale, length)),
         )
     });
-    let share = own("widening", "half widths of the loop", 0.3, (-0.9, 20.0), 0.005);
+    let share = parameter("widening", "half widths of the loop", 0.3, (-0.9, 20.0), 0.005);
     let starts =
         [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0)].map(|start| [vec![share], slow(start)].concat());
     let wider = Variant::conditional(starts.into(), |p, assembly| {

@@ -5,7 +5,7 @@ use super::*;
 use crate::Serial;
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
-use crate::attribution::search::{Question, finish, looks};
+use crate::attribution::search::{Question, finish, screened};
 use crate::attribution::starts::Known;
 use crate::likelihood::engine::{Ground, fit};
 use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
@@ -60,8 +60,8 @@ fn explained(campaign: &Campaign, effect: Effect) -> Option<(Explanation, f64)> 
     let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 14).expect("a fit");
     let nominal = Explanation::nominal(nominal);
     let known = Known::new(campaign, &nominal);
-    let looks = looks(&Serial, &known, &[Question::open(effect)]);
-    let done = looks.iter().flat_map(|look| &look.laws).map(|sketch| finish(campaign, 0, sketch));
+    let screened = screened(&Serial, &known, &[Question::open(effect)]);
+    let done = screened.iter().flat_map(|entry| &entry.laws).map(|sketch| finish(campaign, 0, sketch));
     let named = done.map(Explanation::named_by_its_signs).filter(Explanation::may_be_a_cause);
     let best = named.min_by(|x, y| x.bic().total_cmp(&y.bic()))?;
     let gain = nominal.bic() - best.bic();
@@ -180,8 +180,8 @@ fn an_after_effect_that_goes_back_is_creep_and_says_so() {
         let campaign = measured(&assembly, &loop_of(HALF, &[]));
         let (best, gain) = explained(&campaign, Effect::Creep).expect("a fit");
         assert!(gain > SIGNIFICANT, "{kappa}: {gain}");
-        let told = best.fit.own.iter().find(|own| own.name == "kappa").expect("a filter");
-        assert!(told.value * kappa > 0.0, "{kappa}: {:?}", best.fit.own);
+        let told = best.fit.nonlinear.iter().find(|nonlinear| nonlinear.name == "kappa").expect("a filter");
+        assert!(told.value * kappa > 0.0, "{kappa}: {:?}", best.fit.nonlinear);
     }
 }
 
@@ -204,10 +204,10 @@ fn what_has_one_sign_is_never_searched_on_the_other_side() {
     for (effect, names) in positive {
         let laws = (effect.card().laws)(&scene);
         let all = laws.iter().flat_map(|law| law.starts.iter().flatten());
-        let own: Vec<&Own> = all.filter(|own| names.contains(&own.name)).collect();
+        let found: Vec<&NonlinearParameter> = all.filter(|o| names.contains(&o.name)).collect();
         assert!(
-            !own.is_empty() && own.iter().all(|own| own.low >= 0.0 && own.value > 0.0),
-            "{effect}: {own:?}"
+            !found.is_empty() && found.iter().all(|o| o.low >= 0.0 && o.value > 0.0),
+            "{effect}: {found:?}"
         );
     }
 }

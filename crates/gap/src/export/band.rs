@@ -7,7 +7,7 @@ use crate::model::linear::Linear;
 
 /// Variance of every sample of a free run that the errors of the parameters make; nothing where these are unknown.
 ///
-/// `run` gives the output for linear parameters; `moved` the run under the moved assembly of each own parameter, whose difference
+/// `run` gives the output for linear parameters; `moved` the run under the moved assembly of each nonlinear parameter, whose difference
 /// quotient is its derivative.
 pub(super) fn variances(
     model: &Wire,
@@ -21,9 +21,9 @@ pub(super) fn variances(
         .map(|j| moved(j).iter().zip(&fitted).map(|(m, y)| (m - y) / model.moved[j].step).collect())
         .collect();
     Some(propagated(rows, |step| {
-        let (by, own) = step.split_at(linear.len());
+        let (by, nonlinear) = step.split_at(linear.len());
         let mut x = run(&linear.moved(by, 1.0));
-        for (by, slope) in own.iter().zip(&slopes) {
+        for (by, slope) in nonlinear.iter().zip(&slopes) {
             x.iter_mut().zip(slope).for_each(|(x, s)| *x += by * s);
         }
         x

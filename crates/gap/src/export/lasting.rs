@@ -33,14 +33,14 @@ pub(super) fn power_of_waves(linear: &Linear, assembly: &Assembly) -> f64 {
             *waves.entry((track, frequency.to_bits())).or_default() += d * d;
         }
     }
-    let own = waves.keys().filter_map(|key| key.0).collect::<std::collections::BTreeSet<_>>().len();
+    let nonlinear = waves.keys().filter_map(|key| key.0).collect::<std::collections::BTreeSet<_>>().len();
     let power = |((track, bits), square): (&(Option<usize>, u64), &f64)| {
         let omega = f64::from_bits(*bits);
         let part = |trig: fn(f64) -> f64| -> f64 {
             linear.a.iter().enumerate().map(|(i, a)| a * trig(omega * (i + 1) as f64)).sum()
         };
         let (re, im) = (1.0 + part(f64::cos), part(f64::sin));
-        let shares = if track.is_some() { own.max(1) } else { 1 };
+        let shares = if track.is_some() { nonlinear.max(1) } else { 1 };
         square / (2.0 * (re * re + im * im) * shares as f64)
     };
     waves.iter().map(power).sum()
@@ -61,7 +61,7 @@ pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
         notes.push("the phase of the periodic disturbance is unknown here: its size is in the band, the wave is not in y");
     }
     if any(|c| matches!(c, EquationColumn::Local { .. })) {
-        notes.push("the drift that every record had of its own is taken at its mean level");
+        notes.push("the drift that every record had of its nonlinear is taken at its mean level");
     }
     notes.into_iter().map(str::to_owned).collect()
 }

@@ -32,8 +32,8 @@ use crate::settings::NominalModel;
 /// | `linear` | `a`; `b`; `f`, border values by knots and the coefficients of the border columns; `d`, those of the equation columns |
 /// | `variance` | of the equation error as fitted, weighted where its law weighs |
 /// | `output_noise` | variance of the noise in the output before the sensor |
-/// | `covariance` | of `a`, `b`, `f`, `d` and the own parameters of the effects: rows of the lower triangle; null where nothing was estimated |
-/// | `moved` | for each own parameter of the effects a `step`, and the `assembly` that far from the fitted one: its derivative |
+/// | `covariance` | of `a`, `b`, `f`, `d` and the nonlinear parameters of the effects: rows of the lower triangle; null where nothing was estimated |
+/// | `moved` | for each nonlinear parameter of the effects a `step`, and the `assembly` that far from the fitted one: its derivative |
 ///
 /// A model that was read has parts that fit together: [`PortableError`] says what does not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,7 +68,7 @@ pub(super) struct Scales {
     pub(super) y_scale: f64,
 }
 
-/// What a step of an own parameter makes of the assembly.
+/// What a step of an nonlinear parameter makes of the assembly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Moved {

@@ -132,7 +132,7 @@ fn assemblies() -> Vec<Assembly> {
         }),
         Assembly { saturation: Some(Saturation { low: f64::NEG_INFINITY, high: 1.2, order: 2 }), ..none() },
         noisy(NoiseLaw { ar: vec![-0.3], ..NoiseLaw::default() }),
-        noisy(NoiseLaw { output_ratio: 0.5, lattice: Some(0.01), ..NoiseLaw::default() }),
+        noisy(NoiseLaw { output_ratio: 0.5, quantisation: Some(0.01), ..NoiseLaw::default() }),
         noisy(NoiseLaw { mixture: Some((0.05, 5.0)), ..NoiseLaw::default() }),
     ];
     all.extend(

@@ -5,7 +5,7 @@
 //! w(t) = s(t)·[e(t) + Σ dᵢ e(t−i)] − Σ cᵢ w(t−i)
 //! ```
 //!
-//! `x` is the sensor's characteristic undone, `w` the innovation. Everything is linear given the effects' own parameters,
+//! `x` is the sensor's characteristic undone, `w` the innovation. Everything is linear given the effects' nonlinear parameters,
 //! but for the product of `b` and `f`.
 
 use std::sync::Arc;

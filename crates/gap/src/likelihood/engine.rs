@@ -1,6 +1,6 @@
 //! Maximum likelihood of a nominal model together with an assembly of effects.
 //!
-//! Gauss–Newton on everything at once; the effects' own parameters get numerical derivatives. With concentrated noise
+//! Gauss–Newton on everything at once; the effects' nonlinear parameters get numerical derivatives. With concentrated noise
 //! variance the deviance (minus twice the log-likelihood, constants dropped) is
 //!
 //! ```text
@@ -24,9 +24,9 @@ use crate::model::borders::Grid;
 use crate::model::stability::settles;
 use crate::records::campaign::Campaign;
 
-/// One own parameter of an effect: its value and how it may move.
+/// One nonlinear parameter of an effect: its value and how it may move.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Own {
+pub(crate) struct NonlinearParameter {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
     pub(crate) value: f64,
@@ -36,7 +36,7 @@ pub(crate) struct Own {
     pub(crate) step: f64,
 }
 
-/// From own parameters to an assembly.
+/// From nonlinear parameters to an assembly.
 pub(crate) type Build<'a> = dyn Fn(&[f64]) -> Assembly + 'a;
 
 /// A fitted model.
@@ -45,9 +45,9 @@ pub(crate) struct Fit {
     pub(crate) assembly: Assembly,
     pub(crate) grid: Grid,
     pub(crate) linear: Linear,
-    pub(crate) own: Vec<Own>,
-    /// Standard errors of the own parameters.
-    pub(crate) own_se: Vec<f64>,
+    pub(crate) nonlinear: Vec<NonlinearParameter>,
+    /// Standard errors of the nonlinear parameters.
+    pub(crate) nonlinear_se: Vec<f64>,
     pub(crate) deviance: f64,
     /// Variance of the innovations, where they are weighted that of the weighted ones.
     pub(crate) variance: f64,
@@ -64,10 +64,10 @@ pub(crate) struct Fit {
 const Z90: f64 = 1.644_853_626_951_472_6;
 
 impl Fit {
-    /// 90 % intervals of the own parameters; NaN where the likelihood gives no standard error.
+    /// 90 % intervals of the nonlinear parameters; NaN where the likelihood gives no standard error.
     pub(crate) fn intervals(&self) -> Vec<[f64; 2]> {
-        let interval = |(o, se): (&Own, &f64)| [o.value - Z90 * se, o.value + Z90 * se];
-        self.own.iter().zip(&self.own_se).map(interval).collect()
+        let interval = |(o, se): (&NonlinearParameter, &f64)| [o.value - Z90 * se, o.value + Z90 * se];
+        self.nonlinear.iter().zip(&self.nonlinear_se).map(interval).collect()
     }
 }
 
@@ -131,23 +131,23 @@ pub(super) fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Optio
 pub(crate) fn fit(
     ground: Ground<'_>,
     build: &Build<'_>,
-    own: &[Own],
+    nonlinear: &[NonlinearParameter],
     start: &Linear,
     rounds: usize,
 ) -> Option<Fit> {
     let design_of = |assembly: &Assembly, known: Option<&Design>| {
         Design::like(known, ground.campaign, ground.grid, assembly)
     };
-    let mut own = own.to_vec();
+    let mut nonlinear = nonlinear.to_vec();
     let mut p = start.clone().gauged();
-    let values = |own: &[Own]| own.iter().map(|o| o.value).collect::<Vec<f64>>();
-    let assembly = build(&values(&own));
+    let values = |nonlinear: &[NonlinearParameter]| nonlinear.iter().map(|o| o.value).collect::<Vec<f64>>();
+    let assembly = build(&values(&nonlinear));
     let mut design = design_of(&assembly, ground.known);
     let mut state = evaluate(&design, assembly, &p)?;
-    let mut own_se = vec![f64::NAN; own.len()];
+    let mut nonlinear_se = vec![f64::NAN; nonlinear.len()];
     let mut damping = 1e-9;
     for _ in 0..rounds {
-        let extra = derivatives(&ground, build, &own, &design, &state, &p);
+        let extra = derivatives(&ground, build, &nonlinear, &design, &state, &p);
         let w = state.weights.applied(&state.innovations);
         let mut normal = normal_equations(&design, &p, &state.whitener, &state.weights, (&w, &extra));
         priors(&mut normal, ground.grid, &p, &state.assembly);
@@ -159,7 +159,7 @@ pub(crate) fn fit(
                 continue;
             };
             let step = factor.solve(&normal.gradient);
-            for (j, se) in own_se.iter_mut().enumerate() {
+            for (j, se) in nonlinear_se.iter_mut().enumerate() {
                 *se = (factor.inverse_diagonal(p.len() + j).max(0.0) * state.variance
                     / design.criterion.share())
                 .sqrt();
@@ -170,7 +170,7 @@ pub(crate) fn fit(
             }
             let tried = |step: &[f64], share: f64| {
                 let moved = p.moved(step, -share);
-                let mut next = own.clone();
+                let mut next = nonlinear.clone();
                 for (o, s) in next.iter_mut().zip(&step[p.len()..]) {
                     o.value = (o.value - share * s).clamp(o.low, o.high);
                 }
@@ -219,7 +219,7 @@ pub(crate) fn fit(
         }
         let Some((moved, next, redesign, s)) = better else { break };
         p = moved.gauged();
-        own = next;
+        nonlinear = next;
         if let Some(d) = redesign {
             design = d;
         }
@@ -241,7 +241,7 @@ pub(crate) fn fit(
     }
     let power = sum / f64::max(count, 1.0);
     // One direction of (b, f) is fixed by the gauge.
-    let parameters = p.len() as f64 - 1.0 + own.len() as f64;
+    let parameters = p.len() as f64 - 1.0 + nonlinear.len() as f64;
     let mut assembly = state.assembly;
     if let Some(mixture) = state.weights.mixture {
         assembly.noise.mixture = Some(mixture);
@@ -250,8 +250,8 @@ pub(crate) fn fit(
         assembly,
         grid: ground.grid.clone(),
         linear: p,
-        own,
-        own_se,
+        nonlinear,
+        nonlinear_se,
         deviance: state.deviance,
         variance: state.variance,
         power,
@@ -261,14 +261,14 @@ pub(crate) fn fit(
     })
 }
 
-/// Numerical derivatives of the weighted innovations with respect to the own parameters, one column each.
+/// Numerical derivatives of the weighted innovations with respect to the nonlinear parameters, one column each.
 ///
 /// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
 /// squares monotone in the deviance.
 pub(super) fn derivatives(
     ground: &Ground<'_>,
     build: &Build<'_>,
-    own: &[Own],
+    nonlinear: &[NonlinearParameter],
     design: &Design,
     state: &State,
     p: &Linear,
@@ -276,11 +276,11 @@ pub(super) fn derivatives(
     let n = design.samples() as f64;
     // Where only the law of the noise moves, the errors stay.
     let errors = OnceCell::new();
-    (0..own.len())
+    (0..nonlinear.len())
         .map(|j| {
-            let mut values: Vec<f64> = own.iter().map(|o| o.value).collect();
-            let mut h = own[j].step;
-            if values[j] + h > own[j].high {
+            let mut values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
+            let mut h = nonlinear[j].step;
+            if values[j] + h > nonlinear[j].high {
                 h = -h;
             }
             values[j] += h;

@@ -1,9 +1,9 @@
 //! Maximum likelihood: from an assembly and the records to residuals and derivatives, whitened and weighed, and to the estimates.
 
-pub(crate) mod acting;
 pub(crate) mod design;
 pub(crate) mod engine;
 pub(crate) mod gains;
+pub(crate) mod input_noise_whitening;
 pub(crate) mod jacobian;
 pub(crate) mod mask;
 pub(crate) mod rows;

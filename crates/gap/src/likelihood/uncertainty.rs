@@ -10,9 +10,9 @@ const DAMPING: f64 = 1e-9;
 /// The covariance of a fit's parameters, and what moves the model where these are no linear ones.
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
-    /// Covariance of `a`, `b`, `f`, `d` and the own parameters, a row each.
+    /// Covariance of `a`, `b`, `f`, `d` and the nonlinear parameters, a row each.
     pub(crate) covariance: Vec<Vec<f64>>,
-    /// For each own parameter a step, and the assembly that far from the fitted one.
+    /// For each nonlinear parameter a step, and the assembly that far from the fitted one.
     pub(crate) moved: Vec<(f64, Assembly)>,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct Uncertainty {
 pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> Option<Uncertainty> {
     let (design, p) = (&fit.design, &fit.linear);
     let state = evaluate(design, fit.assembly.clone(), p)?;
-    let extra = derivatives(&ground, build, &fit.own, design, &state, p);
+    let extra = derivatives(&ground, build, &fit.nonlinear, design, &state, p);
     let w = state.weights.applied(&state.innovations);
     let mut normal = normal_equations(design, p, &state.whitener, &state.weights, (&w, &extra));
     priors(&mut normal, ground.grid, p, &fit.assembly);
@@ -34,10 +34,11 @@ pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> O
     };
     let covariance: Vec<Vec<f64>> = (0..normal.size).map(column).collect();
     let is_finite = covariance.iter().flatten().all(|x| x.is_finite());
-    let moved = (0..fit.own.len()).map(|j| {
-        let mut values: Vec<f64> = fit.own.iter().map(|o| o.value).collect();
-        let own = &fit.own[j];
-        let step = if own.value + own.step > own.high { -own.step } else { own.step };
+    let moved = (0..fit.nonlinear.len()).map(|j| {
+        let mut values: Vec<f64> = fit.nonlinear.iter().map(|o| o.value).collect();
+        let nonlinear = &fit.nonlinear[j];
+        let step =
+            if nonlinear.value + nonlinear.step > nonlinear.high { -nonlinear.step } else { nonlinear.step };
         values[j] += step;
         (step, build(&values))
     });

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use crate::likelihood::acting::{Predictor, predictors};
 use crate::likelihood::design::{Design, DesignTrack, Linear};
+use crate::likelihood::input_noise_whitening::{Predictor, predictors};
 use crate::model::assembly::{NoiseLaw, convolve};
 
 /// What a law of the innovations makes of them.

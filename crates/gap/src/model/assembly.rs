@@ -66,7 +66,7 @@ pub(crate) struct Slow {
     pub(crate) coefficients: Vec<f64>,
     /// Angular rate over the clock and phase of an added sinusoid, `(rate, sine, cosine)`.
     pub(crate) wave: Option<(f64, f64, f64)>,
-    /// Clock and change where a course that is straight in between bends, clock increasing; beyond the ends it stays.
+    /// Clock and change where a drift path that is straight in between bends, clock increasing; beyond the ends it stays.
     pub(crate) bends: Vec<(f64, f64)>,
 }
 
@@ -100,10 +100,10 @@ impl Slow {
         if let Some((rate, sine, cosine)) = self.wave {
             sum += sine * (rate * s).sin() + cosine * ((rate * s).cos() - 1.0);
         }
-        sum + self.course(s)
+        sum + self.drift_path(s)
     }
 
-    fn course(&self, s: f64) -> f64 {
+    fn drift_path(&self, s: f64) -> f64 {
         let after = self.bends.partition_point(|bend| bend.0 <= s);
         match (after.checked_sub(1).map(|last| self.bends[last]), self.bends.get(after)) {
             (Some((from, start)), Some((to, end))) => start + (end - start) * (s - from) / (to - from),
@@ -257,8 +257,10 @@ pub(crate) struct NoiseLaw {
     /// Variance of white output noise over that of the equation error.
     pub(crate) output_ratio: f64,
     pub(crate) input: Option<InputNoise>,
-    /// Step of the lattice that the sensor rounds to; its noise is part of `output_ratio`.
-    pub(crate) lattice: Option<f64>,
+    /// Step of the quantisation grid that the sensor rounds to; its noise is part of `output_ratio`.
+    /// Saved models know it as `lattice`.
+    #[serde(rename = "lattice")]
+    pub(crate) quantisation: Option<f64>,
     /// Share and standard deviation ratio of the wide component of a normal mixture.
     pub(crate) mixture: Option<(f64, f64)>,
 }
@@ -270,7 +272,7 @@ impl NoiseLaw {
     /// Least variance of one component of a mixture: that of rounding to steps of `q`, `q²/12`, where the sensor does. At rest
     /// rounded readings repeat, and a narrow normal distribution over repeated values would be worth any deviance.
     pub(crate) fn least_variance(&self) -> f64 {
-        self.lattice.map_or(LEAST_VARIANCE, |step| step * step / 12.0)
+        self.quantisation.map_or(LEAST_VARIANCE, |step| step * step / 12.0)
     }
 }
 
@@ -350,10 +352,11 @@ mod tests {
 
     #[test]
     fn a_course_is_straight_between_its_bends_and_stays_beyond() {
-        let course = Slow { bends: vec![(10.0, 0.0), (20.0, 1.0), (21.0, -1.0)], ..Slow::on(Clock::Samples) };
-        let at = [0.0, 10.0, 15.0, 20.0, 20.5, 21.0, 99.0].map(|s| course.at(s));
+        let drift_path =
+            Slow { bends: vec![(10.0, 0.0), (20.0, 1.0), (21.0, -1.0)], ..Slow::on(Clock::Samples) };
+        let at = [0.0, 10.0, 15.0, 20.0, 20.5, 21.0, 99.0].map(|s| drift_path.at(s));
         assert_eq!(at, [0.0, 0.0, 0.5, 1.0, 0.0, -1.0, -1.0]);
-        assert!(course.changes() && !Slow::on(Clock::Samples).changes());
+        assert!(drift_path.changes() && !Slow::on(Clock::Samples).changes());
     }
 
     #[test]

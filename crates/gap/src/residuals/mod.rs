@@ -1,8 +1,8 @@
 //! What is left: tests of the residuals against causes in general, their spectra and scores.
 
 pub(crate) mod clustering;
-pub(crate) mod lattice;
 pub(crate) mod noise_size;
 pub(crate) mod omnibus;
+pub(crate) mod quantisation_grid;
 pub(crate) mod score;
 pub(crate) mod spectrum;

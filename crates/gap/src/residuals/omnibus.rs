@@ -8,8 +8,8 @@ use crate::likelihood::jacobian::Jacobian;
 use crate::likelihood::weights::mixture;
 use crate::model::assembly::convolve;
 use crate::records::campaign::Campaign;
-use crate::residuals::lattice::{is_material, lattice, worth};
 use crate::residuals::noise_size::{Evenness, unweighted};
+use crate::residuals::quantisation_grid::{is_material, quantisation_step, worth};
 use crate::residuals::spectrum::portmanteau;
 
 /// What the tests found.
@@ -27,8 +27,8 @@ pub(crate) struct Omnibus {
     pub(crate) bursts: f64,
     /// Deviance that a mixture of a narrow and a wide normal distribution gains over one.
     pub(crate) tails: f64,
-    /// What a lattice of the outputs is worth where the model has none.
-    pub(crate) lattice: f64,
+    /// What a quantisation grid of the outputs is worth where the model has none.
+    pub(crate) rounding: f64,
     /// Lack of fit of the period means, as gain in deviance, and its degrees of freedom.
     pub(crate) period: (f64, usize),
     /// Share of the innovations' variance that no rounding of the sensor makes: rounding is no noise, it repeats with the
@@ -87,15 +87,15 @@ impl Omnibus {
     }
 
     /// Deviance that counts against the model as the whole explanation: what is left in general, tails too heavy to be chance and
-    /// a lattice that nothing in it makes.
+    /// a quantisation grid that nothing in it makes.
     pub(crate) fn against(&self, samples: usize) -> f64 {
         let tails = if self.tails > TAILS * samples as f64 { self.tails } else { 0.0 };
-        self.excess() + tails + self.lattice
+        self.excess() + tails + self.rounding
     }
 
     /// The stage that the residual points at.
     pub(crate) fn stage(&self) -> Option<Stage> {
-        if self.lattice > 0.0 {
+        if self.rounding > 0.0 {
             return Some(Stage::Sensor);
         }
         let best = self
@@ -169,12 +169,12 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             columns.push((Group::Reversal, through(moves.iter().map(fade).collect())));
         }
         let clock = |t: usize| (track.clock + t) as f64 / campaign.total as f64 - 0.5;
-        let own = |t: usize| t as f64 / u.len() as f64 - 0.5;
+        let of_record = |t: usize| t as f64 / u.len() as f64 - 0.5;
         columns.push((Group::Time, direct(range.clone().map(clock).collect())));
-        columns.push((Group::Time, direct(range.clone().map(own).collect())));
+        columns.push((Group::Time, direct(range.clone().map(of_record).collect())));
         columns.push((Group::Time, through(range.clone().map(|t| clock(t) * raw[t]).collect())));
         columns.push((Group::Time, through(range.clone().map(|t| clock(t) * moves[t].branch).collect())));
-        columns.push((Group::Time, through(range.clone().map(|t| own(t) * raw[t]).collect())));
+        columns.push((Group::Time, through(range.clone().map(|t| of_record(t) * raw[t]).collect())));
         for power in [2, 3] {
             columns
                 .push((Group::Level, direct(range.clone().map(|t| at(&seen, t, 1).powi(power)).collect())));
@@ -212,7 +212,8 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let scatter = (white * size.scatter.0, size.scatter.1);
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
-    let rounding = fit.assembly.noise.lattice.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
+    let rounding =
+        fit.assembly.noise.quantisation.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
     let unrounded = (1.0 - rounding / SUSPECT).clamp(0.0, 1.0);
     Some(Omnibus {
         groups,
@@ -221,15 +222,15 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         scatter,
         bursts: white * size.bursts,
         tails: beyond_rounding(tails(fit, &scaled) * white, unrounded, count),
-        lattice: unexplained_lattice(campaign, fit),
+        rounding: unexplained_rounding(campaign, fit),
         period: period_lack(campaign, &scaled, second),
         unrounded,
     })
 }
 
-fn unexplained_lattice(campaign: &Campaign, fit: &Fit) -> f64 {
-    let found = || lattice(campaign).is_some_and(|step| is_material(step, fit));
-    if fit.assembly.noise.lattice.is_none() && found() { worth(campaign.fit_samples()) } else { 0.0 }
+fn unexplained_rounding(campaign: &Campaign, fit: &Fit) -> f64 {
+    let found = || quantisation_step(campaign).is_some_and(|step| is_material(step, fit));
+    if fit.assembly.noise.quantisation.is_none() && found() { worth(campaign.fit_samples()) } else { 0.0 }
 }
 
 /// Heavy tails that rounding, which has no normal distribution, does not make.

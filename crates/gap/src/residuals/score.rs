@@ -28,8 +28,8 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
 
 /// Log predictive density of every counted sample of each hold-out record, dimensionless output; NaN where a sample has no say.
 ///
-/// What died away when a record began is no fault of the model, nor is the phase of a wave or the course of a zero that is free from
-/// record to record: these are taken out. A course or a wave of `k` coefficients follows the noise of `N` samples as well; what that gains,
+/// What died away when a record began is no fault of the model, nor is the phase of a wave or the path of a zero that is free from
+/// record to record: these are taken out. A drift path or a wave of `k` coefficients follows the noise of `N` samples as well; what that gains,
 /// `k/N` a sample, is paid back (H. Akaike, "Information theory and an extension of the maximum likelihood principle", 1973).
 pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>> {
     let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
@@ -75,14 +75,14 @@ fn without(
 ) -> Vec<Vec<f64>> {
     let columns: Vec<Vec<Vec<f64>>> = columns.map(|j| design.disturbance(j, whitener)).collect();
     for (number, w) in innovations.iter_mut().enumerate() {
-        let own: Vec<&Vec<f64>> =
+        let nonlinear: Vec<&Vec<f64>> =
             columns.iter().map(|column| &column[number]).filter(|column| energy(column) > 0.0).collect();
-        let mut normal = Normal::new(own.len());
-        let row = |t: usize| own.iter().map(|column| column[t]).collect::<Vec<f64>>();
+        let mut normal = Normal::new(nonlinear.len());
+        let row = |t: usize| nonlinear.iter().map(|column| column[t]).collect::<Vec<f64>>();
         (0..w.len()).for_each(|t| normal.add(&row(t), w[t]));
-        let Some(factor) = normal.factor(1e-9).filter(|_| !own.is_empty()) else { continue };
+        let Some(factor) = normal.factor(1e-9).filter(|_| !nonlinear.is_empty()) else { continue };
         let taken = factor.solve(&normal.gradient);
-        for (column, d) in own.iter().zip(taken) {
+        for (column, d) in nonlinear.iter().zip(taken) {
             w.iter_mut().zip(*column).for_each(|(w, x)| *w -= d * x);
         }
     }

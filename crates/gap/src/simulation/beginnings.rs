@@ -1,4 +1,4 @@
-//! What every record has of its own: the state of something slow when it begins, which dies away; the phase of a wave; the course of
+//! What every record has of its own: the state of something slow when it begins, which dies away; the phase of a wave; the path of
 //! a zero that is free from record to record.
 //!
 //! Fitted records have coefficients of their own. In held-out records they are unknown: they say nothing about the model.
@@ -28,8 +28,8 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
         // What dies away more slowly is a drift of its record, which the model ought to know.
         let dies = |radius: f64| radius.powf(BEGINNING * held_out.v.len() as f64) < GONE;
         for column in known {
-            if let EquationColumn::Decay { track: own, radius, frequency, sine } = *column
-                && own == track
+            if let EquationColumn::Decay { track: nonlinear, radius, frequency, sine } = *column
+                && nonlinear == track
                 && dies(radius)
             {
                 let start = EquationColumn::Decay { track: number, radius, frequency, sine };
@@ -41,20 +41,20 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
     (out, added)
 }
 
-/// The assembly with waves and courses that are free from record to record in the held-out records, too; the numbers of the columns
-/// added. A course has pieces as long as in the first record fitted.
+/// The assembly with waves and drift paths that are free from record to record in the held-out records, too; the numbers of the columns
+/// added. A drift path has pieces as long as in the first record fitted.
 pub(crate) fn with_courses(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = &assembly.equation_columns;
     let Some(first) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
     for (number, held_out) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
-        let own = known.iter().filter_map(|column| match *column {
+        let nonlinear = known.iter().filter_map(|column| match *column {
             EquationColumn::Line { frequency, track: Some(track), sine } if track == first => {
                 Some(EquationColumn::Line { frequency, track: Some(number), sine })
             }
             _ => None,
         });
-        out.equation_columns.extend(own);
+        out.equation_columns.extend(nonlinear);
         let pieces_of = |column: &EquationColumn| match *column {
             EquationColumn::Local { pieces, track, .. } => {
                 let samples = campaign.tracks[track].v.len() / pieces.max(1);
@@ -63,15 +63,15 @@ pub(crate) fn with_courses(campaign: &Campaign, assembly: &Assembly) -> (Assembl
             _ => None,
         };
         if let Some(pieces) = known.iter().find_map(pieces_of) {
-            let course = (0..=pieces).map(|piece| EquationColumn::Local { track: number, piece, pieces });
-            out.equation_columns.extend(course);
+            let drift_path = (0..=pieces).map(|piece| EquationColumn::Local { track: number, piece, pieces });
+            out.equation_columns.extend(drift_path);
         }
     }
     let added = known.len()..out.equation_columns.len();
     (out, added)
 }
 
-/// The assembly with a level of a record that was not fitted, where fitted ones have courses; the numbers of the columns added.
+/// The assembly with a level of a record that was not fitted, where fitted ones have drift paths; the numbers of the columns added.
 pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = assembly.equation_columns.len();
@@ -85,20 +85,20 @@ pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range
     (out, added)
 }
 
-/// What the courses of the fitted records tell of the level of another one.
+/// What the drift paths of the fitted records tell of the level of another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Level {
-    /// The mean of all courses: what is to be expected where nothing of a record is known.
+    /// The mean of all drift paths: what is to be expected where nothing of a record is known.
     mean: f64,
-    /// Variance of the first value of a course about it.
+    /// Variance of the first value of a drift path about it.
     spread: f64,
-    /// Regression of a course's mean on its first value, both about the mean of all: 0 where what a record begins with tells nothing
+    /// Regression of a drift path's mean on its first value, both about the mean of all: 0 where what a record begins with tells nothing
     /// of the rest, 1 where it keeps its level.
     persistence: f64,
 }
 
 impl Level {
-    /// That of the fitted records; nothing without courses.
+    /// That of the fitted records; nothing without drift paths.
     pub(crate) fn of(assembly: &Assembly, coefficients: &[f64]) -> Option<Self> {
         let mut courses: Vec<(usize, Vec<f64>)> = Vec::new();
         for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
@@ -158,25 +158,25 @@ pub(crate) fn set_by_first_samples(
     track: &DesignTrack,
     (added, variance): (Range<usize>, f64),
 ) {
-    let own: Vec<usize> =
+    let nonlinear: Vec<usize> =
         (0..track.columns.numbers.len()).filter(|&k| added.contains(&track.columns.numbers[k])).collect();
-    if own.is_empty() {
+    if nonlinear.is_empty() {
         return;
     }
     let first = p.a.len().max(p.b.len() + design.taps.len());
     let errors = design.errors_from(track, p, first);
-    let mut normal = Normal::new(own.len());
-    let mut row = vec![0.0; own.len()];
+    let mut normal = Normal::new(nonlinear.len());
+    let mut row = vec![0.0; nonlinear.len()];
     for (t, e) in (first..track.from).zip(errors) {
         let psi = track.columns.row(t);
-        row.iter_mut().zip(&own).for_each(|(x, &k)| *x = psi[k]);
+        row.iter_mut().zip(&nonlinear).for_each(|(x, &k)| *x = psi[k]);
         normal.add(&row, e);
     }
     let Some(factor) = normal.factor(1e-9) else { return };
     let found = factor.solve(&normal.gradient);
     let gain: f64 = found.iter().zip(&normal.gradient).map(|(d, g)| d * g).sum();
-    if gain > SHOWS * own.len() as f64 * variance {
-        for (&k, d) in own.iter().zip(found) {
+    if gain > SHOWS * nonlinear.len() as f64 * variance {
+        for (&k, d) in nonlinear.iter().zip(found) {
             p.d[track.columns.numbers[k]] = d;
         }
     }
@@ -286,10 +286,12 @@ mod tests {
         campaign.tracks.push(held_out);
         let line = |track, sine| EquationColumn::Line { frequency: 0.3, track, sine };
         let local = |track, piece, pieces| EquationColumn::Local { track, piece, pieces };
-        let own = [line(Some(0), false), line(Some(0), true), line(None, true)];
-        let course = (0..=4).map(|piece| local(0, piece, 4));
-        let assembly =
-            Assembly { equation_columns: own.into_iter().chain(course).collect(), ..Assembly::default() };
+        let nonlinear = [line(Some(0), false), line(Some(0), true), line(None, true)];
+        let drift_path = (0..=4).map(|piece| local(0, piece, 4));
+        let assembly = Assembly {
+            equation_columns: nonlinear.into_iter().chain(drift_path).collect(),
+            ..Assembly::default()
+        };
         let (with, added) = with_courses(&campaign, &assembly);
         // Half as long: half as many pieces. A wave of the campaign goes on.
         let expected =
@@ -316,7 +318,7 @@ mod tests {
         assert_eq!(level.given(&[], 16.0), 1.0);
         // One record tells nothing of how records differ.
         let one = Assembly { equation_columns: vec![local(0, 0), local(0, 1)], ..Assembly::default() };
-        let alone = Level::of(&one, &[3.0, 1.0]).expect("a course");
+        let alone = Level::of(&one, &[3.0, 1.0]).expect("a drift_path");
         assert_eq!((alone.mean, alone.persistence), (2.0, 0.0));
     }
 }

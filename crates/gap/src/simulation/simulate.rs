@@ -43,7 +43,7 @@ pub(crate) struct Prepared<'a> {
     design: Design,
     /// Equation columns of beginnings that were added.
     added: Range<usize>,
-    /// Those of the level, where every fitted record has a course of its own.
+    /// Those of the level, where every fitted record has a drift path of its own.
     level: Range<usize>,
 }
 
@@ -135,11 +135,11 @@ pub(crate) fn runs_away<'a>(fit: &Fit, runs: impl IntoIterator<Item = &'a [f64]>
 fn started(assembly: &Assembly, number: usize) -> Assembly {
     let mut out = assembly.clone();
     let is_start = |c: &BorderColumn| matches!(c, BorderColumn::Start { .. });
-    let own = BorderColumn::Start { track: number };
-    if !out.border_columns.contains(&own)
+    let nonlinear = BorderColumn::Start { track: number };
+    if !out.border_columns.contains(&nonlinear)
         && let Some(any) = out.border_columns.iter().position(is_start)
     {
-        out.border_columns[any] = own;
+        out.border_columns[any] = nonlinear;
     }
     out
 }

@@ -188,7 +188,7 @@ impl<'a> Weighing<'a> {
     }
 
     /// How far what the best leaves tells that the cause is none of the candidates: 1 where it cannot be one.
-    fn foreign(&self) -> f64 {
+    fn unlisted(&self) -> f64 {
         let (middle, scale) =
             if self.is_one_of_many() { calibration::LEFT_BY_MANY } else { calibration::LEFT };
         match (self.is_stand_in(), self.closes()) {
@@ -202,7 +202,7 @@ impl<'a> Weighing<'a> {
     fn unexplained(&self) -> f64 {
         match self.leaves.refuted {
             true => calibration::REFUTED,
-            false => calibration::ALL_FAIL * self.foreign(),
+            false => calibration::ALL_FAIL * self.unlisted(),
         }
     }
 

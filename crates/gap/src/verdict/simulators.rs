@@ -11,8 +11,8 @@ const LEFT: (f64, f64) = (0.5, 0.05);
 /// a law is significant on a rig with little noise. What counts is whether the explanation accounts for most of the gap.
 pub(crate) fn weighed_by_closure(mut odds: Odds, closure: f64) -> Odds {
     let (middle, scale) = LEFT;
-    let foreign = 1.0 / (1.0 + (-(1.0 - closure - middle) / scale).clamp(-60.0, 60.0).exp());
-    odds.unexplained = (1.0 - odds.none) * foreign;
+    let unlisted = 1.0 / (1.0 + (-(1.0 - closure - middle) / scale).clamp(-60.0, 60.0).exp());
+    odds.unexplained = (1.0 - odds.none) * unlisted;
     let rest = (1.0 - odds.none - odds.unexplained).max(0.0);
     let sum: f64 = odds.effects.iter().sum::<f64>().max(1e-300);
     odds.effects.iter_mut().for_each(|p| *p *= rest / sum);

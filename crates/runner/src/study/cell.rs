@@ -1,7 +1,7 @@
 //! What tables and verdicts need to know of a cell, whatever ran its replicates.
 
-use super::abreast::Memory;
 use super::execute::Round;
+use super::lane_batch::Memory;
 use super::moments::LaneNoise;
 use super::sections::CellSums;
 use crate::results::{Group, Series};

@@ -1,7 +1,7 @@
 //! Running the replicates, in parallel and reproducibly.
 
-use super::abreast::Memory;
 use super::cell::{ActiveCells, CellSpec, Chunk, Task, Workload};
+use super::lane_batch::Memory;
 use super::moments::LaneNoise;
 use super::sections::{CellSums, SECTIONS, Sections};
 use crate::scenario::{Replication, Scenario, Stopping};

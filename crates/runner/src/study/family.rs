@@ -1,9 +1,9 @@
 //! Cells of one border, m and N: they share all but the noise level and the method.
 
-use super::abreast::{ABREAST, Cell, Memory, Place};
 use super::cell::ActiveCells;
+use super::lane_batch::{Cell, LANES_AT_ONCE, Memory, Place};
 use super::moments::LaneNoise;
-use super::world::Setting;
+use super::noise_group::Setting;
 use std::cmp::Reverse;
 use std::ops::Range;
 use switchback_estimator::simulation::LaneSuperposition;
@@ -12,7 +12,7 @@ use switchback_estimator::statistics::LaneSums;
 /// What the cells of one border, m and N have in common.
 #[derive(Debug, Clone)]
 pub(super) struct FamilyPlan {
-    /// Their noise levels, among the settings of the world.
+    /// Their noise levels, among the settings of the noise group.
     settings: Range<usize>,
     /// Index of the number of samples.
     pub(super) checkpoint: usize,
@@ -54,7 +54,7 @@ struct NoiseLevel<'a> {
 }
 
 impl<'a> Family<'a> {
-    /// The families that have anything active, from the largest to the smallest; `cells` are in the order of the world's.
+    /// The families that have anything active, from the largest to the smallest; `cells` are in the order of the noise group's.
     pub(super) fn all(plans: &'a [FamilyPlan], settings: &'a [Setting], cells: ActiveCells<'a>) -> Vec<Self> {
         let ActiveCells { mut active, sums: mut cells } = cells;
         let mut families = Vec::with_capacity(plans.len());
@@ -99,7 +99,7 @@ impl<'a> Family<'a> {
             for (sums, cell) in few.sums.iter_mut().zip(&cells) {
                 sums.reset(cell.contender.parameters.len());
             }
-            for (noise, crosses) in noise.chunks(ABREAST).zip(crosses.chunks(ABREAST)) {
+            for (noise, crosses) in noise.chunks(LANES_AT_ONCE).zip(crosses.chunks(LANES_AT_ONCE)) {
                 place.superpose(setting, (noise, crosses), few);
                 for (k, cell) in cells.iter_mut().enumerate() {
                     place.estimate(cell, noise, few, k);

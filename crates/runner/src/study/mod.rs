@@ -1,12 +1,11 @@
 //! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
 //!
-//! One pass over the noise of a replicate serves every cell of the pulse methods (`world`), another every cell of `free`, which needs no
-//! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight abreast
-//! (`family`, `abreast`); while all families take in the noise of some replicates, that of the next is drawn (`execute`). The oracle of
+//! One pass over the noise of a replicate serves every cell of the pulse methods (`noise_group`), another every cell of `free`, which needs no
+//! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight at once
+//! (`family`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`). The oracle of
 //! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
 //! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
 
-mod abreast;
 mod bench;
 mod cell;
 mod direct;
@@ -15,19 +14,20 @@ mod expectations;
 mod family;
 mod free;
 mod judge;
+mod lane_batch;
 mod moments;
+mod noise_group;
 mod paired;
 mod pulse_kind;
 mod replay;
 mod sections;
 mod tabulate;
 mod views;
-mod world;
 
 use crate::results::{BorderCurve, Results, SCHEMA};
 use crate::scenario::{Coupling, Engine, Scenario};
 use cell::{CellSpec, Workload};
-use direct::DirectWorld;
+use direct::DirectGroup;
 use execute::Outcome;
 use std::ops::Range;
 use thiserror::Error;
@@ -86,11 +86,11 @@ pub enum StudyError {
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
-    let pulses = world::plan(scenario)?;
+    let pulses = noise_group::plan(scenario)?;
     let free = free::plan(scenario)?;
     let specs: Vec<CellSpec> =
         pulses.iter().flat_map(|w| w.specs(scenario)).chain(free.iter().flat_map(|w| w.specs())).collect();
-    let direct: Vec<DirectWorld<'_>> = pulses.iter().map(|world| DirectWorld::new(world, scenario)).collect();
+    let direct: Vec<DirectGroup<'_>> = pulses.iter().map(|group| DirectGroup::new(group, scenario)).collect();
     let pulses: Vec<&dyn Workload> = match scenario.engine() {
         Engine::Superposed => pulses.iter().map(|w| w as &dyn Workload).collect(),
         Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),

@@ -1,7 +1,7 @@
-//! The noise of a world's replicates: one by one, and eight abreast.
+//! The noise of a noise group's replicates: one by one, and eight at once.
 
 use super::execute::Round;
-use super::world::World;
+use super::noise_group::NoiseGroup;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
 use switchback_estimator::simulation::noise::{NoisePass, NoiseRecord, Width};
@@ -26,19 +26,19 @@ impl ReplicateNoise {
     }
 }
 
-/// Draws the noise of a run of replicates, lanes abreast.
-pub(super) fn draw(world: &World, seed: u64, replicates: Range<u32>) -> Vec<ReplicateNoise> {
+/// Draws the noise of a run of replicates, lanes at once.
+pub(super) fn draw(group: &NoiseGroup, seed: u64, replicates: Range<u32>) -> Vec<ReplicateNoise> {
     let mut noise = vec![ReplicateNoise::default(); replicates.len()];
     let start = replicates.start;
     let mut pulses =
-        NoisePass::new(world.pulses.clone(), Width::detect()).expect("a world's noise plan is valid");
+        NoisePass::new(group.pulses.clone(), Width::detect()).expect("a group's noise plan is valid");
     for k in 0..2 {
-        pulses.run(seed, world.stream + k as u32, replicates.clone(), |r, record| {
+        pulses.run(seed, group.stream + k as u32, replicates.clone(), |r, record| {
             noise[(r - start) as usize].pulses[k] = moments(record);
         });
     }
     for k in 0..2 {
-        draw_steps(world, k, seed, replicates.clone(), |r, means| {
+        draw_steps(group, k, seed, replicates.clone(), |r, means| {
             noise[(r - start) as usize].steps[k] = means.to_vec();
         });
     }
@@ -46,9 +46,15 @@ pub(super) fn draw(world: &World, seed: u64, replicates: Range<u32>) -> Vec<Repl
 }
 
 /// Visits the mean noise of every replicate in step experiment `k`, one a number of samples; nothing where no method asks for it.
-fn draw_steps(world: &World, k: usize, seed: u64, replicates: Range<u32>, visit: impl FnMut(u32, &[f64])) {
-    if let Some(steps) = &world.steps {
-        steps.draw(Width::detect(), seed, world.stream + 2 + k as u32, replicates, visit);
+fn draw_steps(
+    group: &NoiseGroup,
+    k: usize,
+    seed: u64,
+    replicates: Range<u32>,
+    visit: impl FnMut(u32, &[f64]),
+) {
+    if let Some(steps) = &group.steps {
+        steps.draw(Width::detect(), seed, group.stream + 2 + k as u32, replicates, visit);
     }
 }
 
@@ -63,7 +69,7 @@ fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
 /// Noise of eight replicates, sorted into the groups of each design: by experiment, number of samples and period; step means by experiment and
 /// number of samples.
 ///
-/// What no method of the world looks at is left empty.
+/// What no method of the noise group looks at is left empty.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LaneNoise {
     /// The first of them.
@@ -83,7 +89,7 @@ impl LaneNoise {
 }
 
 /// Draws the noise of a run of replicates into `noise`, an entry eight of them.
-pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>, noise: &mut [LaneNoise]) {
+pub(super) fn draw_lanes(group: &NoiseGroup, round: &Round, replicates: Range<u32>, noise: &mut [LaneNoise]) {
     let seed = round.seed;
     let start = replicates.start;
     for (first, noise) in replicates.clone().step_by(LANES).zip(&mut *noise) {
@@ -91,31 +97,31 @@ pub(super) fn draw_lanes(world: &World, round: &Round, replicates: Range<u32>, n
         *noise = LaneNoise { first, sections, ..LaneNoise::default() };
     }
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
-    let plan = &world.pulses;
-    let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a world's noise plan is valid");
+    let plan = &group.pulses;
+    let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a group's noise plan is valid");
     let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
     let mut moments: Vec<LaneMoments> =
         plan.checkpoints.iter().flat_map(|_| plan.periods.iter().map(zeros)).collect();
-    for k in (0..2).filter(|k| world.experiments[*k]) {
-        pass.run_abreast(seed, world.stream + k as u32, replicates.clone(), |first, records| {
-            let (lanes, abreast) = (records.lanes(), records.lanes().min(LANES));
-            for from in (0..lanes).step_by(abreast) {
-                let (group, lane) = place(first + from as u32);
-                let Some(into) = noise.get_mut(group) else { break };
+    for k in (0..2).filter(|k| group.experiments[*k]) {
+        pass.run_batched(seed, group.stream + k as u32, replicates.clone(), |first, records| {
+            let (lanes, at_once) = (records.lanes(), records.lanes().min(LANES));
+            for from in (0..lanes).step_by(at_once) {
+                let (batch, lane) = place(first + from as u32);
+                let Some(into) = noise.get_mut(batch) else { break };
                 for (at, moments) in moments.iter_mut().enumerate() {
                     let (c, period) = (at / plan.periods.len(), at % plan.periods.len());
-                    moments.take(lane..lane + abreast, records, from, (c, period));
+                    moments.take(lane..lane + at_once, records, from, (c, period));
                 }
                 let last =
-                    lane + abreast == LANES || first as usize + from + abreast >= replicates.end as usize;
+                    lane + at_once == LANES || first as usize + from + at_once >= replicates.end as usize;
                 if last {
-                    into.pulses[k] = sort(&world.groupings, &moments);
+                    into.pulses[k] = sort(&group.groupings, &moments);
                 }
             }
         });
-        draw_steps(world, k, seed, replicates.clone(), |r, means| {
-            let (group, lane) = place(r);
-            let into = &mut noise[group].steps[k];
+        draw_steps(group, k, seed, replicates.clone(), |r, means| {
+            let (batch, lane) = place(r);
+            let into = &mut noise[batch].steps[k];
             into.resize(means.len(), Lane::ZERO);
             into.iter_mut().zip(means).for_each(|(into, mean)| into.0[lane] = *mean);
         });

@@ -11,12 +11,12 @@ use crate::results::{
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Every comparison; `worlds` are the runs of cells that share their noise.
-pub(super) fn pairing(specs: &[CellSpec], views: &[CellViews], worlds: &[Range<usize>]) -> Pairing {
+/// Every comparison; `noise groups` are the runs of cells that share their noise.
+pub(super) fn pairing(specs: &[CellSpec], views: &[CellViews], groups: &[Range<usize>]) -> Pairing {
     let table = Table { specs, views };
     let mut pairs: Vec<Pair> =
-        worlds.iter().flat_map(|world| table.pairs_of_methods(world.clone())).collect();
-    let borders: Vec<Pair> = worlds.iter().flat_map(|world| table.pairs_of_borders(world.clone())).collect();
+        groups.iter().flat_map(|group| table.pairs_of_methods(group.clone())).collect();
+    let borders: Vec<Pair> = groups.iter().flat_map(|group| table.pairs_of_borders(group.clone())).collect();
     let largest = specs.iter().map(|s| s.samples).max().unwrap_or_default();
     let mut overall = table.overall(&pairs, largest, |series| Subject::Method(series.method));
     overall.extend(table.overall(&borders, largest, |series| Subject::Border(series.border.clone())));
@@ -51,10 +51,10 @@ struct Match<'a> {
 
 impl<'a> Table<'a> {
     /// Each parameter of a cell with the first method that estimates it too.
-    fn pairs_of_methods(&self, world: Range<usize>) -> Vec<Pair> {
+    fn pairs_of_methods(&self, group: Range<usize>) -> Vec<Pair> {
         let of_cell = |cell: usize| {
             let before: Vec<usize> =
-                (world.start..cell).filter(|&over| self.differ_in_method(cell, over)).collect();
+                (group.start..cell).filter(|&over| self.differ_in_method(cell, over)).collect();
             let mut pairs: Vec<Pair> = Vec::new();
             for k in 0..self.specs[cell].parameters.len() {
                 let first = before.iter().find_map(|&over| Some((over, self.twin(cell, k, over)?)));
@@ -66,19 +66,19 @@ impl<'a> Table<'a> {
             }
             pairs
         };
-        world.clone().into_par_iter().flat_map_iter(of_cell).collect()
+        group.clone().into_par_iter().flat_map_iter(of_cell).collect()
     }
 
     /// Each cell with the same of the first border.
-    fn pairs_of_borders(&self, world: Range<usize>) -> Vec<Pair> {
+    fn pairs_of_borders(&self, group: Range<usize>) -> Vec<Pair> {
         let of_cell = |cell: usize| {
-            let over = (world.start..cell).find(|&over| self.differ_in_border(cell, over))?;
+            let over = (group.start..cell).find(|&over| self.differ_in_border(cell, over))?;
             let parameters: Vec<(usize, usize)> = (0..self.specs[cell].parameters.len())
                 .filter_map(|k| Some((k, self.twin(cell, k, over)?)))
                 .collect();
             (!parameters.is_empty()).then_some(Pair { cell, over, parameters })
         };
-        world.clone().into_par_iter().filter_map(of_cell).collect()
+        group.clone().into_par_iter().filter_map(of_cell).collect()
     }
 
     fn differ_in_method(&self, cell: usize, over: usize) -> bool {

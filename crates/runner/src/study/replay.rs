@@ -4,7 +4,7 @@ use super::StudyError;
 use super::bench::DIRECTIONS;
 use super::direct::{OpenNoise, OpenRecord};
 use super::moments::{ReplicateNoise, draw};
-use super::world::{self, Contender, Setting, World};
+use super::noise_group::{self, Contender, NoiseGroup, Setting};
 use crate::results::Series;
 use crate::scenario::Scenario;
 use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
@@ -62,13 +62,13 @@ pub struct ReplayedExperiment {
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn replay(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedCell>, StudyError> {
-    let worlds = world::plan(scenario)?;
+    let groups = noise_group::plan(scenario)?;
     let mut cells = Vec::new();
-    for world in &worlds {
-        let noise = draw(world, scenario.seed(), replicate..replicate + 1);
-        for setting in &world.settings {
-            for (checkpoint, &samples) in world.pulses.checkpoints.iter().enumerate() {
-                let sample = Sample::new(world, setting, checkpoint, &noise[0]);
+    for group in &groups {
+        let noise = draw(group, scenario.seed(), replicate..replicate + 1);
+        for setting in &group.settings {
+            for (checkpoint, &samples) in group.pulses.checkpoints.iter().enumerate() {
+                let sample = Sample::new(group, setting, checkpoint, &noise[0]);
                 cells.extend(setting.methods.iter().map(|contender| ReplayedCell {
                     series: setting.series(scenario, contender.method),
                     samples,
@@ -87,8 +87,8 @@ struct Sample {
 }
 
 impl Sample {
-    fn new(world: &World, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
-        let samples = world.pulses.checkpoints[checkpoint] as f64;
+    fn new(group: &NoiseGroup, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
+        let samples = group.pulses.checkpoints[checkpoint] as f64;
         Self {
             data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
             steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),
@@ -107,19 +107,19 @@ impl Sample {
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn records(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedRecords>, StudyError> {
-    let worlds = world::plan(scenario)?;
-    let of_world = |world: &World| {
-        let noise = OpenNoise::draw(world, scenario.seed(), replicate);
-        world.settings.iter().map(|s| open(scenario, world, s, &noise)).collect::<Vec<_>>()
+    let groups = noise_group::plan(scenario)?;
+    let of_group = |group: &NoiseGroup| {
+        let noise = OpenNoise::draw(group, scenario.seed(), replicate);
+        group.settings.iter().map(|s| open(scenario, group, s, &noise)).collect::<Vec<_>>()
     };
-    Ok(worlds.iter().flat_map(of_world).collect())
+    Ok(groups.iter().flat_map(of_group).collect())
 }
 
-fn open(scenario: &Scenario, world: &World, setting: &Setting, noise: &OpenNoise) -> ReplayedRecords {
+fn open(scenario: &Scenario, group: &NoiseGroup, setting: &Setting, noise: &OpenNoise) -> ReplayedRecords {
     let case = &scenario.cases()[setting.case];
     let border = &case.borders[setting.border];
     let experiment = |k: usize| {
-        let OpenRecord { lead, v, y, step_means } = noise.record(world, (case, border), setting, k);
+        let OpenRecord { lead, v, y, step_means } = noise.record(group, (case, border), setting, k);
         ReplayedExperiment {
             direction: DIRECTIONS[k],
             levels: setting.bench.levels(k).to_vec(),

@@ -56,7 +56,7 @@ impl CellSums {
     }
 }
 
-/// Every cell's sums, section for section; cells are in the order of the worlds, then of their own.
+/// Every cell's sums, section for section; cells are in the order of the noise groups, then of their own.
 #[derive(Debug, Clone)]
 pub(super) struct Sections {
     sums: Vec<Vec<CellSums>>,

@@ -140,7 +140,7 @@ mod tests {
                     slow[r as usize / LANES].set(r as usize % LANES, &moments);
                 });
                 let mut fast = vec![zeros; 2];
-                pass.run_abreast(1, 0, 0..16, |first, records| {
+                pass.run_batched(1, 0, 0..16, |first, records| {
                     let abreast = records.lanes().min(LANES);
                     for from in (0..records.lanes()).step_by(abreast) {
                         let at = first as usize + from;

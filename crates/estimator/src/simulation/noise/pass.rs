@@ -101,7 +101,7 @@ impl NoisePass {
         mut visit: impl FnMut(u32, &NoiseRecord),
     ) {
         let mut record = NoiseRecord::zeros(&self.plan);
-        self.run_abreast(seed, experiment, replicates.clone(), |first, records| {
+        self.run_batched(seed, experiment, replicates.clone(), |first, records| {
             for (lane, replicate) in (first..replicates.end).take(records.lanes()).enumerate() {
                 records.read(lane, &mut record);
                 visit(replicate, &record);
@@ -111,7 +111,7 @@ impl NoisePass {
 
     /// Visits the records of as many replicates as there are lanes at a time, named by the first of them; the lanes after the last
     /// replicate of the range hold others. For those who go on in lanes.
-    pub fn run_abreast(
+    pub fn run_batched(
         &mut self,
         seed: u64,
         experiment: u32,

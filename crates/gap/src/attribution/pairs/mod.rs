@@ -1,14 +1,15 @@
 //! A second effect beside the first.
 
 mod causes;
+mod pair_search;
 mod steps;
-mod under_way;
 
 pub(crate) use self::causes::Causes;
 
-use crate::attribution::contest::{Attribution, Contest};
+use crate::attribution::Attribution;
 use crate::attribution::explain::Explanation;
 use crate::attribution::search::{Question, finish};
+use crate::attribution::successive_halving::Halving;
 use crate::diagnosis::{FittedParameter, Together};
 use crate::effect::Effect;
 use crate::nominal::knots::detail;
@@ -144,7 +145,7 @@ impl<W: Workers> Attribution<'_, W> {
         };
         let firsts: Vec<&Explanation> = singles.ranked.iter().filter(may_have_them).take(RIVALS).collect();
         let beside = |first: &&Explanation| {
-            let alone = Contest { finished: 1, to_beat: None };
+            let alone = Halving { finished: 1, to_beat: None };
             self.on_top_of(first, &[Question::open(outliers)], alone).into_iter().next()
         };
         let pairs = firsts.iter().filter_map(beside);

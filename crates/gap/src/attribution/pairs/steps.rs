@@ -1,8 +1,8 @@
 //! The search for two effects: a forward step from several firsts, then a restart from each member of the best pair.
 
 use super::Firsts;
-use super::under_way::{PairSearch, RESTARTS};
-use crate::attribution::contest::Attribution;
+use super::pair_search::{PairSearch, RESTARTS};
+use crate::attribution::Attribution;
 use crate::attribution::explain::Explanation;
 use crate::effect::Effect;
 use crate::workers::Workers;

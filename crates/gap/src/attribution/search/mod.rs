@@ -1,29 +1,30 @@
-//! The search for an effect's own parameters: a cheap look at every start of every law, then the best ones to convergence.
+//! The search for an effect's nonlinear parameters: a cheap screening of every start of every law, then the best ones to convergence.
 
-mod course;
-mod looks;
+mod candidate_laws;
+mod drift_path;
+mod knots;
 mod profile;
-mod prospects;
-mod scratch;
+mod reidentification;
+mod screening;
 
-pub(crate) use self::course::on_a_free_course;
-pub(crate) use self::looks::looks;
+use self::candidate_laws::CandidateLaw;
+pub(crate) use self::drift_path::on_a_free_drift_path;
 pub(crate) use self::profile::profiled;
-use self::prospects::Prospect;
-pub(crate) use self::scratch::from_scratch;
+pub(crate) use self::reidentification::reidentified;
+pub(crate) use self::screening::screened;
 use crate::attribution::explain::{Explanation, assembled};
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::effects::{Search, Variant};
 use crate::likelihood::design::{Design, Linear, Whitener};
-use crate::likelihood::engine::{Build, Fit, Ground, Own, fit};
+use crate::likelihood::engine::{Build, Fit, Ground, NonlinearParameter, fit};
 use crate::model::assembly::Assembly;
 use crate::nominal::dynamics::dynamics_refitted;
 use crate::records::campaign::Campaign;
 
-/// Gauss–Newton rounds of a look, of the final fit, and before it is known which laws may win.
-const LOOK: usize = 2;
-/// Starts of a look that go on after the first round.
+/// Gauss–Newton rounds of the screening, of the final fit, and before it is known which laws may win.
+const SCREENING: usize = 2;
+/// Starts of a screened law that go on after the first round.
 const AHEAD: usize = 2;
 const FINAL: usize = 14;
 const RACE: usize = 4;
@@ -37,9 +38,9 @@ const TRIALS: usize = 30;
 #[derive(Debug, Clone)]
 pub(crate) struct Question {
     pub(crate) effect: Effect,
-    /// The law that served it best alone, with the own parameters that it had; all laws from all their starts where none is
+    /// The law that served it best alone, with the nonlinear parameters that it had; all laws from all their starts where none is
     /// given.
-    pub(crate) alone: Option<(usize, Vec<Own>)>,
+    pub(crate) alone: Option<(usize, Vec<NonlinearParameter>)>,
 }
 
 impl Question {
@@ -52,19 +53,19 @@ impl Question {
     pub(crate) fn after(single: &Explanation) -> Self {
         let part = &single.parts[0];
         let (effect, law) = part.law;
-        Self { effect, alone: Some((law, single.fit.own.clone())) }
+        Self { effect, alone: Some((law, single.fit.nonlinear.clone())) }
     }
 
     /// The law, with fewer starts where something is known; none where another law is asked for.
     fn narrowed(&self, number: usize, mut law: Variant) -> Option<Variant> {
-        let Some((known, own)) = &self.alone else { return Some(law) };
+        let Some((known, nonlinear)) = &self.alone else { return Some(law) };
         if *known != number {
             return None;
         }
         // Where the likelihood has corners what was found alone may be far off: all starts are needed.
-        if !law.search.is_by_pattern() && own.len() == law.starts[0].len() {
+        if !law.search.is_by_pattern() && nonlinear.len() == law.starts[0].len() {
             let middle = law.starts.swap_remove(law.starts.len() / 2);
-            law.starts = vec![own.clone(), middle];
+            law.starts = vec![nonlinear.clone(), middle];
         }
         Some(law)
     }
@@ -74,12 +75,12 @@ impl Question {
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
-        false => task.together(&fit.own, &fit.linear, RACE).unwrap_or(fit),
+        false => task.together(&fit.nonlinear, &fit.linear, RACE).unwrap_or(fit),
     })
 }
 
 /// A sketch fitted to convergence, which need not be [sound](Explanation::is_sound); where the likelihood has corners, the first
-/// `held` own parameters stay as they are.
+/// `held` nonlinear parameters stay as they are.
 pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
     improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
@@ -104,10 +105,10 @@ fn improved(
     Explanation { fit, ..sketch.clone() }
 }
 
-/// A cheap look at a law on top of what is known: near its best start.
-fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
+/// A cheap screening of a law on top of what is known: near its best start.
+fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
     let (campaign, known) = (known.campaign, known.explanation);
-    let (law, parts) = (&prospect.law, &prospect.parts);
+    let (law, parts) = (&candidate.law, &candidate.parts);
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
     let build = |values: &[f64]| assembled(parts, values);
     let base = match &law.grid {
@@ -115,33 +116,39 @@ fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
         None => known.fit.linear.clone(),
     };
     let ground = Ground { campaign, grid, known: Some(&known.fit.design) };
-    let task = Task { ground, build: &build, held: known.fit.own.len() };
-    // The own parameters of what is known, then those of the law.
-    let joined = |own: &[Own]| known.fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
-    let starts = law.starts.iter().map(|own| joined(own));
-    let held = |own: Vec<Own>| {
-        let design = Design::like(ground.known, campaign, grid, &task.assembly(&own));
+    let task = Task { ground, build: &build, held: known.fit.nonlinear.len() };
+    // The nonlinear parameters of what is known, then those of the law.
+    let joined = |nonlinear: &[NonlinearParameter]| {
+        known.fit.nonlinear.iter().chain(nonlinear).copied().collect::<Vec<NonlinearParameter>>()
+    };
+    let starts = law.starts.iter().map(|nonlinear| joined(nonlinear));
+    let held = |nonlinear: Vec<NonlinearParameter>| {
+        let design = Design::like(ground.known, campaign, grid, &task.assembly(&nonlinear));
         let there = task.on(&design);
-        let afresh = there.dynamics_refitted(&own, &base).and_then(|p| there.held(&own, &p, 0));
-        let nearer = best([there.held(&own, &base, 0), afresh].into_iter().flatten())?;
-        there.held(&own, &nearer.linear, 1)
+        let afresh = there.dynamics_refitted(&nonlinear, &base).and_then(|p| there.held(&nonlinear, &p, 0));
+        let nearer = best([there.held(&nonlinear, &base, 0), afresh].into_iter().flatten())?;
+        there.held(&nonlinear, &nearer.linear, 1)
     };
     let fit = match law.search {
-        // Without own parameters there is one start, and nothing that a look could compare.
-        Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.own, &base, FINAL),
-        Search::Smooth => ahead(starts.filter_map(|own| task.together(&own, &base, 1)), |fit| {
-            task.from(fit).together(&fit.own, &fit.linear, LOOK - 1)
+        // Without nonlinear parameters there is one start, and nothing that a look could compare.
+        Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.nonlinear, &base, FINAL),
+        Search::Smooth => ahead(starts.filter_map(|nonlinear| task.together(&nonlinear, &base, 1)), |fit| {
+            task.from(fit).together(&fit.nonlinear, &fit.linear, SCREENING - 1)
         }),
-        Search::Profile => {
-            ahead(starts.filter_map(held), |fit| task.from(fit).held(&fit.own, &fit.linear, LOOK - 1))
-        }
-        Search::Weights => best(starts.filter_map(|own| task.held(&own, &base, 0)))
-            .and_then(|best| task.held(&best.own, &best.linear, LOOK)),
+        Search::Profile => ahead(starts.filter_map(held), |fit| {
+            task.from(fit).held(&fit.nonlinear, &fit.linear, SCREENING - 1)
+        }),
+        Search::Weights => best(starts.filter_map(|nonlinear| task.held(&nonlinear, &base, 0)))
+            .and_then(|best| task.held(&best.nonlinear, &best.linear, SCREENING)),
         Search::Conditional => {
             let mut held: Vec<Fit> = starts.filter_map(held).collect();
             held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
             // The best start need not lead to the best point: B may have taken what a neighbour would explain.
-            best(held.iter().take(law.climbs).filter_map(|h| task.together(&h.own, &h.linear, LOOK)))
+            best(
+                held.iter()
+                    .take(law.climbs)
+                    .filter_map(|h| task.together(&h.nonlinear, &h.linear, SCREENING)),
+            )
         }
     }?;
     let set_back = known.set_back;
@@ -152,7 +159,7 @@ fn look(known: &Known<'_>, prospect: &Prospect) -> Option<Explanation> {
 struct Task<'a> {
     ground: Ground<'a>,
     build: &'a Build<'a>,
-    /// Own parameters that belong to effects already known.
+    /// Nonlinear parameters that belong to effects already known.
     held: usize,
 }
 
@@ -168,30 +175,30 @@ impl Task<'_> {
         Task { ground, build: self.build, held: self.held }
     }
 
-    fn assembly(&self, own: &[Own]) -> Assembly {
-        (self.build)(&own.iter().map(|o| o.value).collect::<Vec<_>>())
+    fn assembly(&self, nonlinear: &[NonlinearParameter]) -> Assembly {
+        (self.build)(&nonlinear.iter().map(|o| o.value).collect::<Vec<_>>())
     }
 
     /// Everything fitted together.
-    fn together(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
-        let start = self.padded(start, &self.assembly(own));
-        fit(self.ground, self.build, own, &start, rounds)
+    fn together(&self, nonlinear: &[NonlinearParameter], start: &Linear, rounds: usize) -> Option<Fit> {
+        let start = self.padded(start, &self.assembly(nonlinear));
+        fit(self.ground, self.build, nonlinear, &start, rounds)
     }
 
-    /// The fit with the own parameters held, which is a nearly linear problem.
-    fn held(&self, own: &[Own], start: &Linear, rounds: usize) -> Option<Fit> {
-        let assembly = self.assembly(own);
+    /// The fit with the nonlinear parameters held, which is a nearly linear problem.
+    fn held(&self, nonlinear: &[NonlinearParameter], start: &Linear, rounds: usize) -> Option<Fit> {
+        let assembly = self.assembly(nonlinear);
         let start = self.padded(start, &assembly);
         let mut fitted = fit(self.ground, &|_| assembly.clone(), &[], &start, rounds)?;
-        fitted.own = own.to_vec();
-        fitted.own_se = vec![f64::NAN; own.len()];
-        fitted.parameters += own.len() as f64;
+        fitted.nonlinear = nonlinear.to_vec();
+        fitted.nonlinear_se = vec![f64::NAN; nonlinear.len()];
+        fitted.parameters += nonlinear.len() as f64;
         Some(fitted)
     }
 
     /// `A` and `B` by least squares; nothing without a filter. Where the filter of the noise follows from `A`, by some rounds.
-    fn dynamics_refitted(&self, own: &[Own], start: &Linear) -> Option<Linear> {
-        let assembly = self.assembly(own);
+    fn dynamics_refitted(&self, nonlinear: &[NonlinearParameter], start: &Linear) -> Option<Linear> {
+        let assembly = self.assembly(nonlinear);
         let noise = &assembly.noise;
         let coloured = !noise.ar.is_empty() || !noise.ma.is_empty();
         if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured && noise.output_ratio == 0.0 {
@@ -204,15 +211,15 @@ impl Task<'_> {
         })
     }
 
-    /// Alternates between everything together and the own parameters held, until neither moves: where own parameters
+    /// Alternates between everything together and the nonlinear parameters held, until neither moves: where nonlinear parameters
     /// and dynamics trade against each other, a joint step may stall far from the best point.
     fn settled(&self, sketch: Fit) -> Fit {
-        let Some(mut top) = self.together(&sketch.own, &sketch.linear, FINAL) else { return sketch };
+        let Some(mut top) = self.together(&sketch.nonlinear, &sketch.linear, FINAL) else { return sketch };
         for _ in 0..3 {
             let next = (self.from(&top))
-                .held(&top.own, &top.linear, 4)
+                .held(&top.nonlinear, &top.linear, 4)
                 .filter(|held| held.deviance < top.deviance - 1.0)
-                .and_then(|held| self.from(&held).together(&held.own, &held.linear, FINAL));
+                .and_then(|held| self.from(&held).together(&held.nonlinear, &held.linear, FINAL));
             match next {
                 Some(next) if next.deviance < top.deviance - 1.0 => top = next,
                 _ => break,
@@ -221,7 +228,7 @@ impl Task<'_> {
         top
     }
 
-    /// A pattern search over own parameters whose likelihood has corners; steps start at each parameter's `step`.
+    /// A pattern search over nonlinear parameters whose likelihood has corners; steps start at each parameter's `step`.
     /// Where they only weigh the samples, the rest need not follow at every step.
     fn pattern(&self, sketch: Fit, only_weighs: bool, trials: usize, rounds: usize) -> Fit {
         let follows = if only_weighs { 0 } else { 2 };
@@ -230,13 +237,13 @@ impl Task<'_> {
         let mut left = trials;
         while share > 0.02 && left > 0 {
             let mut improved = false;
-            for j in self.held..top.own.len() {
+            for j in self.held..top.nonlinear.len() {
                 for direction in [-1.0, 1.0] {
-                    let mut own = top.own.clone();
-                    let o = &mut own[j];
+                    let mut nonlinear = top.nonlinear.clone();
+                    let o = &mut nonlinear[j];
                     o.value = (o.value + direction * share * o.step).clamp(o.low, o.high);
                     left = left.saturating_sub(1);
-                    if let Some(f) = self.held(&own, &top.linear, follows)
+                    if let Some(f) = self.held(&nonlinear, &top.linear, follows)
                         && f.deviance < top.deviance
                     {
                         top = f;
@@ -249,7 +256,7 @@ impl Task<'_> {
                 share *= 0.4;
             }
         }
-        self.held(&top.own, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
+        self.held(&top.nonlinear, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
     }
 
     fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {

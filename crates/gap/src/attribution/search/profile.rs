@@ -1,4 +1,4 @@
-//! Intervals of own parameters whose likelihood has corners, from its profile.
+//! Intervals of nonlinear parameters whose likelihood has corners, from its profile.
 
 use super::Task;
 use crate::attribution::explain::{Explanation, assembled};
@@ -15,7 +15,7 @@ const BISECTIONS: usize = 3;
 /// Gauss–Newton rounds of the rest at every point.
 const ROUNDS: usize = 2;
 
-/// The 90 % intervals of the own parameters. Without a standard error, it is where the deviance, the rest fitted anew and the other own
+/// The 90 % intervals of the nonlinear parameters. Without a standard error, it is where the deviance, the rest fitted anew and the other own
 /// parameters held, stays within the quantile of χ² (D. J. Venzon and S. H. Moolgavkar, "A method for computing
 /// profile-likelihood-based confidence intervals", 1988).
 ///
@@ -28,7 +28,7 @@ pub(crate) fn profiled(
 ) -> Vec<[f64; 2]> {
     let fit = &explanation.fit;
     let mut intervals = fit.intervals();
-    let unknown: Vec<usize> = (0..intervals.len()).filter(|j| fit.own_se[*j].is_nan()).collect();
+    let unknown: Vec<usize> = (0..intervals.len()).filter(|j| fit.nonlinear_se[*j].is_nan()).collect();
     let ends: Vec<(usize, f64)> = unknown.iter().flat_map(|&j| [(j, -1.0), (j, 1.0)]).collect();
     let found = workers.map(&ends, |&(j, side)| {
         let build = |values: &[f64]| assembled(&explanation.parts, values);
@@ -42,14 +42,14 @@ pub(crate) fn profiled(
 }
 
 impl Task<'_> {
-    /// Where an own parameter that moves to one side leaves the interval, or its range ends.
+    /// Where an nonlinear parameter that moves to one side leaves the interval, or its range ends.
     fn end(&self, fit: &Fit, j: usize, side: f64) -> f64 {
-        let o = fit.own[j];
+        let o = fit.nonlinear[j];
         let most = if side > 0.0 { o.high - o.value } else { o.value - o.low };
         let is_within = |distance: f64| {
-            let mut own = fit.own.clone();
-            own[j].value += side * distance;
-            let there = self.held(&own, &fit.linear, ROUNDS);
+            let mut nonlinear = fit.nonlinear.clone();
+            nonlinear[j].value += side * distance;
+            let there = self.held(&nonlinear, &fit.linear, ROUNDS);
             there.is_some_and(|there| there.deviance - fit.deviance < WITHIN)
         };
         o.value + side * crossing(FIRST * o.step, most, is_within)

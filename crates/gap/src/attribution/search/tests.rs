@@ -42,9 +42,9 @@ fn positions_that_act_a_little_late_are_found() {
         let nominal = fit(ground, &|_| Assembly::default(), &[], &small_model(&grid), FINAL).expect("a fit");
         let known = Explanation::nominal(nominal);
         let base = Known::new(&campaign, &known);
-        let looks = looks(&Serial, &base, &[Question::open(Effect::InputDelay)]);
-        let done = looks.iter().flat_map(|look| &look.laws).map(|sketch| finish(&campaign, 0, sketch));
+        let screened = screened(&Serial, &base, &[Question::open(Effect::InputDelay)]);
+        let done = screened.iter().flat_map(|entry| &entry.laws).map(|sketch| finish(&campaign, 0, sketch));
         let best = done.min_by(|x, y| x.bic().total_cmp(&y.bic())).expect("a law");
-        assert!((best.fit.own[0].value - late).abs() < 2e-3, "{late}: {:?}", best.fit.own);
+        assert!((best.fit.nonlinear[0].value - late).abs() < 2e-3, "{late}: {:?}", best.fit.nonlinear);
     }
 }

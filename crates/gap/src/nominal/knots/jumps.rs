@@ -95,7 +95,7 @@ fn looked_at(model: &Model<'_>, fitted: &Fit, grid: &Grid) -> Option<Fit> {
     fit(
         Ground { campaign: model.campaign, grid, known },
         model.build,
-        &fitted.own,
+        &fitted.nonlinear,
         &carried_over(fitted, grid),
         1,
     )

@@ -130,7 +130,7 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
     let known = Some(&*fitted.design);
-    fit(Ground { campaign, grid, known }, build, &fitted.own, &start, 5)
+    fit(Ground { campaign, grid, known }, build, &fitted.nonlinear, &start, 5)
 }
 
 /// The linear parameters on a finer grid: the same borders.

@@ -13,32 +13,32 @@ pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
 use super::cell::{ActiveCells, Chunk, Task, Workload};
 use super::execute::one_by_one;
+use super::noise_group::{Contender, NoiseGroup, Setting};
 use super::sections::CellSums;
-use super::world::{Contender, Setting, World};
 use crate::scenario::{Case, Scenario};
 use regression::Experiment;
 use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
 
-/// A world whose cells are simulated one by one.
-pub(super) struct DirectWorld<'a> {
-    world: &'a World,
+/// A noise group whose cells are simulated one by one.
+pub(super) struct DirectGroup<'a> {
+    group: &'a NoiseGroup,
     scenario: &'a Scenario,
 }
 
-impl<'a> DirectWorld<'a> {
-    pub(super) fn new(world: &'a World, scenario: &'a Scenario) -> Self {
-        Self { world, scenario }
+impl<'a> DirectGroup<'a> {
+    pub(super) fn new(group: &'a NoiseGroup, scenario: &'a Scenario) -> Self {
+        Self { group, scenario }
     }
 
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
-        let noise = OpenNoise::draw(self.world, seed, replicate);
+        let noise = OpenNoise::draw(self.group, seed, replicate);
         let mut cells = active.iter().zip(sums);
-        for setting in &self.world.settings {
+        for setting in &self.group.settings {
             let case = &self.scenario.cases()[setting.case];
             let border = &case.borders[setting.border];
-            let records = [0, 1].map(|k| noise.record(self.world, (case, border), setting, k));
+            let records = [0, 1].map(|k| noise.record(self.group, (case, border), setting, k));
             let bench = Simulated::new(case, setting, &records);
-            for (checkpoint, &samples) in self.world.pulses.checkpoints.iter().enumerate() {
+            for (checkpoint, &samples) in self.group.pulses.checkpoints.iter().enumerate() {
                 let length = (checkpoint, samples);
                 let steps = [0, 1]
                     .map(|k| StepMean { mean: records[k].step_means[checkpoint], samples: samples as f64 });
@@ -53,9 +53,9 @@ impl<'a> DirectWorld<'a> {
     }
 }
 
-impl Workload for DirectWorld<'_> {
+impl Workload for DirectGroup<'_> {
     fn cells(&self) -> usize {
-        self.world.cells().count()
+        self.group.cells().count()
     }
 
     fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {

@@ -2,14 +2,14 @@
 
 use crate::scenario::{Border, Case, Disturbance};
 use crate::study::moments::draw;
-use crate::study::world::{Setting, World};
+use crate::study::noise_group::{NoiseGroup, Setting};
 use switchback_estimator::linear::filter;
 use switchback_estimator::simulation::noise::{NoiseSamples, StreamId, samples};
 
 /// What is left of a transient when a simulated record begins.
 const SETTLED: f64 = 1e-16;
 
-/// The noise of one replicate of a world, sample by sample.
+/// The noise of one replicate of a noise group, sample by sample.
 #[derive(Debug)]
 pub(in crate::study) struct OpenNoise {
     pulses: [NoiseSamples; 2],
@@ -22,23 +22,23 @@ pub(in crate::study) struct OpenNoise {
 pub(in crate::study) struct OpenRecord {
     /// Samples before `t = 0`, which serve as lags only.
     pub(in crate::study) lead: usize,
-    /// `v(t)`, `t = −lead…N−1`, `N` the largest of the world.
+    /// `v(t)`, `t = −lead…N−1`, `N` the largest of the noise group.
     pub(in crate::study) v: Vec<f64>,
     /// `y(t)` of the same `t`.
     pub(in crate::study) y: Vec<f64>,
-    /// Mean output of the step experiment, one a number of samples of the world.
+    /// Mean output of the step experiment, one a number of samples of the noise group.
     pub(in crate::study) step_means: Vec<f64>,
 }
 
 impl OpenNoise {
-    pub(in crate::study) fn draw(world: &World, seed: u64, replicate: u32) -> Self {
-        let plan = &world.pulses;
+    pub(in crate::study) fn draw(group: &NoiseGroup, seed: u64, replicate: u32) -> Self {
+        let plan = &group.pulses;
         let open = |k: usize| {
             let count = plan.checkpoints.last().copied().unwrap_or_default();
-            let id = StreamId { seed, experiment: world.stream + k as u32, replicate };
-            samples(plan, id, count).expect("a world's noise plan is valid")
+            let id = StreamId { seed, experiment: group.stream + k as u32, replicate };
+            samples(plan, id, count).expect("a group's noise plan is valid")
         };
-        let means = draw(world, seed, replicate..replicate + 1);
+        let means = draw(group, seed, replicate..replicate + 1);
         let steps = |k: usize| (0..plan.checkpoints.len()).map(|c| means[0].step_means(c)[k]).collect();
         Self { pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
     }
@@ -46,12 +46,12 @@ impl OpenNoise {
     /// Experiment `k` of a setting.
     pub(in crate::study) fn record(
         &self,
-        world: &World,
+        group: &NoiseGroup,
         (case, border): (&Case, &Border),
         setting: &Setting,
         k: usize,
     ) -> OpenRecord {
-        let (lead, bench, noise) = (world.pulses.lags, &setting.bench, &self.pulses[k]);
+        let (lead, bench, noise) = (group.pulses.lags, &setting.bench, &self.pulses[k]);
         let count = noise.w.len() - noise.burn_in;
         // One sample loads the border; then whole periods until both transients and noise have settled.
         let settling = (case.system.settling_samples(SETTLED) + lead).max(noise.burn_in);

@@ -5,43 +5,43 @@
 //! among them. Where a border is not piecewise linear on these knots the method does not hold the truth, and a bias stays.
 
 mod drive;
+mod noise_group;
 mod setting;
 mod simulate;
-mod world;
 
-pub(super) use world::FreeWorld;
+pub(super) use noise_group::FreeNoiseGroup;
 
 use super::StudyError;
 use crate::scenario::{Case, Coupling, Method, Scenario, Sweep};
 use drive::Program;
-use world::Design;
+use noise_group::Design;
 
-/// Noise streams from here on belong to this method, above all that pulse worlds use.
+/// Noise streams from here on belong to this method, above all that pulse noise groups use.
 const FIRST_STREAM: u32 = 1 << 31;
 
-/// Lays out the worlds of a scenario; none if the sweep does not have the method.
+/// Lays out the noise groups of a scenario; none if the sweep does not have the method.
 ///
-/// As for the pulse methods: with shared noise one world a case, all on the same stream; with independent noise one a cell, each with its own.
-pub(super) fn plan(scenario: &Scenario) -> Result<Vec<FreeWorld>, StudyError> {
+/// As for the pulse methods: with shared noise one noise group a case, all on the same stream; with independent noise one a cell, each with its own.
+pub(super) fn plan(scenario: &Scenario) -> Result<Vec<FreeNoiseGroup>, StudyError> {
     let sweep = scenario.sweep();
-    let mut worlds = Vec::new();
+    let mut groups = Vec::new();
     if !sweep.methods.contains(&Method::Free) {
-        return Ok(worlds);
+        return Ok(groups);
     }
     let program = Program { seed: scenario.seed(), period: sweep.samples[0] };
     let design = Design { program, engine: scenario.engine() };
     for case in scenario.cases() {
         match scenario.coupling() {
-            Coupling::Shared => worlds.push(FreeWorld::new(case, sweep, FIRST_STREAM, design)?),
+            Coupling::Shared => groups.push(FreeNoiseGroup::new(case, sweep, FIRST_STREAM, design)?),
             Coupling::Independent => {
                 for (case, sweep) in cells(case, sweep) {
-                    let stream = FIRST_STREAM + worlds.len() as u32;
-                    worlds.push(FreeWorld::new(&case, &sweep, stream, design)?);
+                    let stream = FIRST_STREAM + groups.len() as u32;
+                    groups.push(FreeNoiseGroup::new(&case, &sweep, stream, design)?);
                 }
             }
         }
     }
-    Ok(worlds)
+    Ok(groups)
 }
 
 /// A case and a sweep for every cell.

@@ -1,15 +1,15 @@
-//! A cheap look at every effect that may explain more.
+//! A cheap screening of every effect that may explain more.
 
-use super::prospects::{Prospect, are_tested, keep_likeliest, prospects};
-use super::{Question, look};
+use super::candidate_laws::{CandidateLaw, are_tested, candidate_laws, keep_likeliest};
+use super::{Question, screen};
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::workers::Workers;
 
-/// A cheap look at one effect: its laws, likeliest first, and the penalised deviance that the likeliest gains.
-pub(crate) struct Look {
+/// One effect after a cheap screening: its laws, likeliest first, and the penalised deviance that the likeliest gains.
+pub(crate) struct Screened {
     pub(crate) effect: Effect,
     pub(crate) gain: f64,
     pub(crate) laws: Vec<Explanation>,
@@ -25,7 +25,7 @@ const TELLING: f64 = 10.0 * SIGNIFICANT;
 struct Entry {
     effect: Effect,
     /// The likeliest first.
-    laws: Vec<Prospect>,
+    laws: Vec<CandidateLaw>,
 }
 
 impl Entry {
@@ -38,13 +38,13 @@ impl Entry {
     /// One start of the likeliest law.
     fn shortened(mut self) -> Self {
         self.laws.truncate(1);
-        self.laws.iter_mut().for_each(Prospect::shorten);
+        self.laws.iter_mut().for_each(CandidateLaw::shorten);
         self
     }
 }
 
-/// A look at each effect, the most promising first. The score test orders and shortens; it rules out only seconds, far behind.
-pub(crate) fn looks(workers: &impl Workers, known: &Known<'_>, questions: &[Question]) -> Vec<Look> {
+/// Each effect screened, the most promising first. The score test orders and shortens; it rules out only seconds, far behind.
+pub(crate) fn screened(workers: &impl Workers, known: &Known<'_>, questions: &[Question]) -> Vec<Screened> {
     let mut entries = tested(workers, known, questions);
     if !known.explanation.parts.is_empty() {
         keep_promising(&mut entries);
@@ -53,35 +53,35 @@ pub(crate) fn looks(workers: &impl Workers, known: &Known<'_>, questions: &[Ques
     if !known.campaign.criterion.simulates() {
         entries = shortened_where_hopeless(entries);
     }
-    let laws: Vec<(Effect, Prospect)> = entries
+    let laws: Vec<(Effect, CandidateLaw)> = entries
         .into_iter()
         .flat_map(|entry| entry.laws.into_iter().map(move |law| (entry.effect, law)))
         .collect();
-    let looked = workers.map(&laws, |(_, law)| look(known, law));
-    let mut looks: Vec<Look> = Vec::new();
-    for ((effect, _), law) in laws.iter().zip(looked) {
+    let screened_laws = workers.map(&laws, |(_, law)| screen(known, law));
+    let mut screened: Vec<Screened> = Vec::new();
+    for ((effect, _), law) in laws.iter().zip(screened_laws) {
         let Some(law) = law else { continue };
         let gain = known.explanation.bic() - law.bic();
-        match looks.iter_mut().find(|look| look.effect == *effect) {
-            Some(look) => {
-                look.gain = look.gain.max(gain);
-                look.laws.push(law);
+        match screened.iter_mut().find(|entry| entry.effect == *effect) {
+            Some(entry) => {
+                entry.gain = entry.gain.max(gain);
+                entry.laws.push(law);
             }
-            None => looks.push(Look { effect: *effect, gain, laws: vec![law] }),
+            None => screened.push(Screened { effect: *effect, gain, laws: vec![law] }),
         }
     }
-    for look in &mut looks {
-        look.laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    for entry in &mut screened {
+        entry.laws.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     }
-    looks.sort_by(|x, y| y.gain.total_cmp(&x.gain));
-    looks
+    screened.sort_by(|x, y| y.gain.total_cmp(&x.gain));
+    screened
 }
 
 /// The laws of every effect that the records do not rule out, each with its likeliest starts.
 fn tested(workers: &impl Workers, known: &Known<'_>, questions: &[Question]) -> Vec<Entry> {
-    let mut laws = workers.map(questions, |question| prospects(known, question));
+    let mut laws = workers.map(questions, |question| candidate_laws(known, question));
     if let Some(test) = known.test() {
-        let asked: Vec<&Prospect> = laws.iter().filter(|laws| are_tested(laws)).flatten().collect();
+        let asked: Vec<&CandidateLaw> = laws.iter().filter(|laws| are_tested(laws)).flatten().collect();
         let mut found = workers.map(&asked, |law| law.tested(&test)).into_iter();
         for laws in laws.iter_mut().filter(|laws| are_tested(laws)) {
             laws.iter_mut().zip(&mut found).for_each(|(law, tested)| law.keep(tested));
@@ -124,7 +124,7 @@ mod tests {
         let shortened = |scores: [Option<f64>; 2]| {
             let effects = [Effect::Backlash, Effect::Stribeck];
             let entries = effects.into_iter().zip(scores).map(|(effect, score)| {
-                let mut laws = prospects(&known, &Question::open(effect));
+                let mut laws = candidate_laws(&known, &Question::open(effect));
                 assert!(laws.len() > 1 && laws[0].law.starts.len() > 1);
                 laws.iter_mut().for_each(|law| law.score = score);
                 Entry { effect, laws }

@@ -1,10 +1,11 @@
 //! A search for two effects under way: its steps, and what they found.
 
 use super::Firsts;
-use crate::attribution::contest::{Attribution, Contest};
+use crate::attribution::Attribution;
 use crate::attribution::explain::Explanation;
-use crate::attribution::search::{Question, from_scratch};
+use crate::attribution::search::{Question, reidentified};
 use crate::attribution::starts::Known;
+use crate::attribution::successive_halving::Halving;
 use crate::effect::Effect;
 use crate::residuals::omnibus::omnibus;
 use crate::verdict::odds::IMMATERIAL;
@@ -15,7 +16,7 @@ pub(super) const RESTARTS: usize = 2;
 /// Share of the gap that the best pair of the first steps may leave: one that holds leaves a tenth of that at most.
 const HOPELESS: f64 = 0.3;
 /// Share of the best pair's gain that comes near it, and how many pairs every law is tried for.
-const NEAR: f64 = 0.95;
+const NEAR_BEST: f64 = 0.95;
 const NEARBY: usize = 3;
 /// Share of a first's gain that a second gains alone, from which its law is known.
 const CLEAR: f64 = 0.5;
@@ -128,7 +129,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
                 .collect();
             let found = of
                 .workers
-                .map(&asked, |(first, second)| from_scratch(&Known::new(of.campaign, first), *second));
+                .map(&asked, |(first, second)| reidentified(&Known::new(of.campaign, first), *second));
             self.consider(found.into_iter().flatten());
             if self.best().is_none_or(|best| members(best) == members(&pair)) {
                 break;
@@ -139,9 +140,9 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     /// The other member of a pair, and what else may rule the dynamics: behind coloured noise it would show by itself.
     fn seconds_afresh(&self, pair: &Explanation, first: &Explanation) -> Vec<Effect> {
         let present = first.parts[0].effect;
-        let rulers = self.of.rulers().filter(|_| !present.card().colours_noise);
+        let dominant_effects = self.of.dominant_effects().filter(|_| !present.card().colours_noise);
         let mut seconds: Vec<Effect> =
-            members(pair).into_iter().chain(rulers).filter(|e| is_another(present, *e)).collect();
+            members(pair).into_iter().chain(dominant_effects).filter(|e| is_another(present, *e)).collect();
         seconds.sort_unstable();
         seconds.dedup();
         seconds
@@ -158,7 +159,7 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         let gain = |pair: &Explanation| self.of.gain(Some(pair));
         let Some(most) = self.best().map(gain) else { return };
         let mut near: Vec<[Effect; 2]> = Vec::new();
-        for both in self.found.iter().filter(|pair| gain(pair) > NEAR * most).map(members) {
+        for both in self.found.iter().filter(|pair| gain(pair) > NEAR_BEST * most).map(members) {
             if near.len() < NEARBY && !near.contains(&both) {
                 near.push(both);
             }
@@ -256,8 +257,8 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
 
     fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
         let to_beat = self.best().map(Explanation::bic);
-        let contest = Contest { finished: FINISHED, to_beat };
-        let seconds = self.of.on_top_of(first, questions, contest).into_iter();
+        let halving = Halving { finished: FINISHED, to_beat };
+        let seconds = self.of.on_top_of(first, questions, halving).into_iter();
         self.consider(seconds.filter(Explanation::may_be_a_cause).take(FINISHED));
     }
 

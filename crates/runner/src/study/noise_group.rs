@@ -1,4 +1,4 @@
-//! Worlds: cells that share their noise.
+//! Common-noise groups: cells that share their noise.
 
 use super::StudyError;
 use super::bench::{Bench, Bound, NoiseFilter};
@@ -16,12 +16,12 @@ use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, 
 use switchback_estimator::simulation::Grouping;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
-/// Streams of a world: descendant, ascendant, and the two step experiments.
+/// Streams of a noise group: descendant, ascendant, and the two step experiments.
 pub(super) const STREAMS: u32 = 4;
 
 /// Everything that one pass over the noise of one replicate serves.
 #[derive(Debug, Clone)]
-pub(super) struct World {
+pub(super) struct NoiseGroup {
     /// First of its [`STREAMS`] noise streams.
     pub(super) stream: u32,
     /// What to record of the pulse experiments' noise.
@@ -58,7 +58,7 @@ pub(super) struct Contender {
     pub(super) truth: Vec<f64>,
     /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
     pub(super) limit: Limit,
-    /// Means of the error terms at the limit, one entry a number of samples of the world.
+    /// Means of the error terms at the limit, one entry a number of samples of the noise group.
     pub(super) means: Vec<ErrorTerms>,
     /// The method, and the control variate, for eight replicates at a time.
     pub(super) lanes: LaneMethod,
@@ -68,34 +68,34 @@ pub(super) struct Contender {
     pub(super) bound: Option<Bound>,
 }
 
-/// Lays out the worlds of a scenario.
+/// Lays out the noise groups of a scenario.
 ///
-/// With shared noise there is one world a case, and all of them use the same streams; with independent noise, one a cell, each with
+/// With shared noise there is one noise group a case, and all of them use the same streams; with independent noise, one a cell, each with
 /// its own.
-pub(super) fn plan(scenario: &Scenario) -> Result<Vec<World>, StudyError> {
+pub(super) fn plan(scenario: &Scenario) -> Result<Vec<NoiseGroup>, StudyError> {
     let samples = &scenario.sweep().samples;
-    let mut worlds = Vec::new();
+    let mut groups = Vec::new();
     for (index, case) in scenario.cases().iter().enumerate() {
         let settings = settings(scenario, index, case)?;
         match scenario.coupling() {
-            Coupling::Shared => worlds.push(World::new(case, 0, samples, settings)),
+            Coupling::Shared => groups.push(NoiseGroup::new(case, 0, samples, settings)),
             Coupling::Independent => {
                 for setting in settings {
                     for (n, method) in
                         samples.iter().flat_map(|n| setting.methods.iter().map(move |m| (n, m)))
                     {
-                        let stream = STREAMS * worlds.len() as u32;
+                        let stream = STREAMS * groups.len() as u32;
                         let alone = Setting { methods: vec![method.clone()], ..setting.clone() };
-                        worlds.push(World::new(case, stream, &[*n], vec![alone]));
+                        groups.push(NoiseGroup::new(case, stream, &[*n], vec![alone]));
                     }
                 }
             }
         }
     }
-    Ok(worlds)
+    Ok(groups)
 }
 
-impl World {
+impl NoiseGroup {
     fn new(case: &Case, stream: u32, checkpoints: &[usize], mut settings: Vec<Setting>) -> Self {
         let mut periods: Vec<usize> = settings.iter().map(|s| s.bench.period()).collect();
         periods.sort_unstable();
@@ -240,9 +240,9 @@ fn parameters(order: usize, bench: &Bench, kind: PulseKind) -> Vec<ParameterName
     ParameterName::all(order, &kind.experiments().iter().map(border).collect::<Vec<_>>())
 }
 
-impl Workload for World {
+impl Workload for NoiseGroup {
     fn cells(&self) -> usize {
-        World::cells(self).count()
+        NoiseGroup::cells(self).count()
     }
 
     /// A batch a task.

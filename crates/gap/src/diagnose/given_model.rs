@@ -11,9 +11,9 @@ use crate::simulation::simulate::free_run;
 
 /// A model as it was given: nothing of it is fitted.
 #[derive(Debug)]
-pub(super) struct Foreign {
+pub(super) struct GivenModel {
     /// The model itself, where it is known.
-    pub(super) given: Option<Fit>,
+    pub(super) fit: Option<Fit>,
     /// Simulated outputs, one a judged track.
     pub(super) runs: Vec<Vec<f64>>,
     pub(super) residuals: Residuals,
@@ -21,7 +21,7 @@ pub(super) struct Foreign {
     pub(super) is_output: bool,
 }
 
-impl Foreign {
+impl GivenModel {
     /// The model under diagnosis; none where it is to be identified.
     pub(super) fn of(
         model: &Model,
@@ -38,7 +38,7 @@ impl Foreign {
                     runs: judged.iter().map(run).collect(),
                     residuals: Residuals::of(campaign, &given),
                     is_output: false,
-                    given: Some(given),
+                    fit: Some(given),
                 })
             }
             Model::Predicted => {
@@ -52,7 +52,7 @@ impl Foreign {
                 let series = campaign.tracks.iter().zip(known).map(errors).collect();
                 let residuals = Residuals { series, simulated: true };
                 Some(Self {
-                    given: None,
+                    fit: None,
                     runs: predictions(rig, campaign, judged)?,
                     residuals,
                     is_output: true,

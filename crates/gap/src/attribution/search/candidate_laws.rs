@@ -4,10 +4,10 @@ use super::Question;
 use crate::attribution::explain::{Part, assembled};
 use crate::attribution::starts::{Known, Score, ScoreTest};
 use crate::effects::{Scene, Variant};
-use crate::likelihood::engine::Own;
+use crate::likelihood::engine::NonlinearParameter;
 
 /// One law of an effect added to what is known, and how promising it is.
-pub(super) struct Prospect {
+pub(super) struct CandidateLaw {
     pub(super) law: Variant,
     /// What is known, then the law.
     pub(super) parts: Vec<Part>,
@@ -22,7 +22,7 @@ const LAWS: usize = 4;
 const LAW: f64 = 0.4;
 
 /// The laws of one more effect on top of what is known, not tested yet. Empty where the records rule the effect out.
-pub(super) fn prospects(known: &Known<'_>, question: &Question) -> Vec<Prospect> {
+pub(super) fn candidate_laws(known: &Known<'_>, question: &Question) -> Vec<CandidateLaw> {
     let scene =
         Scene { campaign: known.campaign, fit: &known.explanation.fit, innovations: &known.innovations };
     ((question.effect.card().laws)(&scene).into_iter().enumerate())
@@ -30,20 +30,20 @@ pub(super) fn prospects(known: &Known<'_>, question: &Question) -> Vec<Prospect>
         .map(|(number, law)| {
             let mut parts = known.explanation.parts.clone();
             parts.push(Part::of(question.effect, (number, &law)));
-            Prospect { law, parts, score: None }
+            CandidateLaw { law, parts, score: None }
         })
         .collect()
 }
 
 /// Whether the score test tells anything of an effect: a law of the noise moves weights, or far more than a chord can tell; and a grid
 /// is no start.
-pub(super) fn are_tested(laws: &[Prospect]) -> bool {
+pub(super) fn are_tested(laws: &[CandidateLaw]) -> bool {
     laws.iter().all(|p| p.law.grid.is_none() && p.parts.last().is_none_or(|part| !part.effect.is_noise()))
 }
 
 /// Keeps the likeliest laws of one effect, the likeliest first.
-pub(super) fn keep_likeliest(laws: &mut Vec<Prospect>) {
-    let score = |p: &Prospect| p.score.unwrap_or(0.0);
+pub(super) fn keep_likeliest(laws: &mut Vec<CandidateLaw>) {
+    let score = |p: &CandidateLaw| p.score.unwrap_or(0.0);
     laws.sort_by(|x, y| score(y).total_cmp(&score(x)));
     let least = LAW * laws.first().map_or(0.0, score);
     laws.retain(|p| score(p) >= least);
@@ -54,23 +54,27 @@ pub(super) fn keep_likeliest(laws: &mut Vec<Prospect>) {
 pub(super) struct Tested {
     score: Option<f64>,
     /// The likeliest first.
-    starts: Vec<Vec<Own>>,
+    starts: Vec<Vec<NonlinearParameter>>,
 }
 
-impl Prospect {
+impl CandidateLaw {
     /// The likeliest starts: by the test, and by what is left where a filter moves poles.
     pub(super) fn tested(&self, test: &ScoreTest<'_>) -> Tested {
         let build = |values: &[f64]| assembled(&self.parts, values);
-        let mut scored: Vec<(Score, Vec<Own>)> =
-            self.law.starts.iter().map(|own| (test.score(&build, own), own.clone())).collect();
+        let mut scored: Vec<(Score, Vec<NonlinearParameter>)> = self
+            .law
+            .starts
+            .iter()
+            .map(|nonlinear| (test.score(&build, nonlinear), nonlinear.clone()))
+            .collect();
         let score = scored.iter().map(|(score, _)| score.most()).max_by(f64::total_cmp);
         if let Some(valley) = self.law.valley {
             let alone = |score: &Score| score.refitted.unwrap_or(score.linear);
             scored.sort_by(|x, y| alone(&y.0).total_cmp(&alone(&x.0)));
             let mut seen = Vec::new();
-            scored.retain(|(_, own)| {
-                let new = !seen.contains(&valley(own));
-                seen.push(valley(own));
+            scored.retain(|(_, nonlinear)| {
+                let new = !seen.contains(&valley(nonlinear));
+                seen.push(valley(nonlinear));
                 new
             });
         }

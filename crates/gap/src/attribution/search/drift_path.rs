@@ -1,4 +1,4 @@
-//! A slow change whose course is free.
+//! A slow change whose path is free.
 
 use super::Task;
 use crate::attribution::explain::{Explanation, Part, assembled};
@@ -10,8 +10,8 @@ const ROUNDS: usize = 8;
 /// The number of the law: none of those that are searched from the beginning.
 const NUMBER: usize = usize::MAX;
 
-/// An effect alone whose law is followed by one with a course of its own in every record, from where the law with a clock ended.
-pub(crate) fn on_a_free_course(campaign: &Campaign, single: &Explanation) -> Option<Explanation> {
+/// An effect alone whose law is followed by one with a drift path of its own in every record, from where the law with a clock ended.
+pub(crate) fn on_a_free_drift_path(campaign: &Campaign, single: &Explanation) -> Option<Explanation> {
     let [Part { effect, .. }] = single.parts[..] else { return None };
     let law = (effect.card().freed)(campaign, &single.fit)?;
     let parts = vec![Part::of(effect, (NUMBER, &law))];

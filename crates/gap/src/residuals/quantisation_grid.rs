@@ -1,16 +1,16 @@
-//! Values on a lattice: a sensor that rounds shows it whatever else is the matter.
+//! Values on a quantisation grid: a sensor that rounds shows it whatever else is the matter.
 
 use crate::likelihood::engine::Fit;
 use crate::records::campaign::Campaign;
 
-/// Deviance a sample that a lattice is worth. Chance leaves none, so it could be any number: large enough that no curve through the
+/// Deviance a sample that a quantisation grid is worth. Chance leaves none, so it could be any number: large enough that no curve through the
 /// few values there are competes.
 const WORTH: f64 = 0.6;
 /// Least share of the innovations' variance that rounding must make to matter.
 const MATERIAL: f64 = 0.05;
 
-/// The step of the lattice that all outputs of the fit records lie on.
-pub(crate) fn lattice(campaign: &Campaign) -> Option<f64> {
+/// The step of the quantisation grid that all outputs of the fit records lie on.
+pub(crate) fn quantisation_step(campaign: &Campaign) -> Option<f64> {
     let mut values: Vec<f64> = campaign.fit().flat_map(|t| t.y.iter().copied()).collect();
     let count = values.len();
     values.sort_by(f64::total_cmp);
@@ -30,7 +30,7 @@ pub(crate) fn lattice(campaign: &Campaign) -> Option<f64> {
     (fits * 100 >= values.len() * 98).then_some(step)
 }
 
-/// Deviance that a lattice is worth in so many samples.
+/// Deviance that a quantisation grid is worth in so many samples.
 pub(crate) fn worth(samples: usize) -> f64 {
     WORTH * samples as f64
 }

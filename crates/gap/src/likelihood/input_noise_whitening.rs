@@ -18,12 +18,12 @@ use crate::model::linear::Linear;
 const LONGEST: usize = 12;
 
 /// The noise of one track in units of `u`.
-struct Acting {
+struct EnteringNoise {
     /// Variance of a new `m(t)`; `None` where the last one is kept.
     fresh: Vec<Option<f64>>,
 }
 
-impl Acting {
+impl EnteringNoise {
     fn new(track: &DesignTrack, law: InputNoise, p: &Linear) -> Option<Self> {
         let [slope, gap] = track.sensitivity.as_deref()?;
         let moved = |t: usize| t == 0 || track.moves[t].step != 0.0 || !law.kept;
@@ -69,12 +69,12 @@ impl Predictor {
         }
     }
 
-    fn new(track: &DesignTrack, acting: &Acting, h: &[f64], left_out: Option<&[bool]>) -> Self {
+    fn new(track: &DesignTrack, noise: &EnteringNoise, h: &[f64], left_out: Option<&[bool]>) -> Self {
         let samples = track.x.len() - track.from;
         let used = |k: usize| left_out.is_none_or(|left_out| !left_out[k]);
         if h.len() > LONGEST {
             let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
-            let variances: Vec<f64> = acting.variances().collect();
+            let variances: Vec<f64> = noise.variances().collect();
             let variance =
                 |t: usize| -> f64 { variances[..t].iter().rev().zip(&squares).map(|(m, h)| m * h).sum() };
             let scale = |k: usize| if used(k) { 1.0 / (1.0 + variance(track.from + k)).sqrt() } else { 0.0 };
@@ -87,7 +87,7 @@ impl Predictor {
             kept: Vec::with_capacity(samples),
             scale: Vec::with_capacity(samples),
         };
-        for (t, fresh) in acting.fresh.iter().enumerate() {
+        for (t, fresh) in noise.fresh.iter().enumerate() {
             if t >= track.from {
                 let scale = state.observe(used(t - track.from), &mut out.gains);
                 out.scale.push(scale);
@@ -193,8 +193,8 @@ impl<'a> Covariance<'a> {
 
 /// The whitening of every track, for noise through the response `h` of `B̃/den`.
 pub(crate) fn predictors(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Vec<Predictor> {
-    let of_track = |track: &DesignTrack| match Acting::new(track, law, p) {
-        Some(acting) => Predictor::new(track, &acting, h, track.mask.out.as_deref()),
+    let of_track = |track: &DesignTrack| match EnteringNoise::new(track, law, p) {
+        Some(noise) => Predictor::new(track, &noise, h, track.mask.out.as_deref()),
         None => Predictor::none(track.x.len() - track.from),
     };
     tracks.iter().map(of_track).collect()
@@ -211,10 +211,10 @@ mod tests {
     use crate::testing::{small_campaign, small_model};
 
     /// The oracle: the covariance of all errors of a track, written down and factored.
-    fn covariance(acting: &Acting, h: &[f64], from: usize) -> Vec<Vec<f64>> {
-        let samples = acting.fresh.len();
-        let variances: Vec<f64> = acting.variances().collect();
-        let of_rest: Vec<usize> = acting
+    fn covariance(noise: &EnteringNoise, h: &[f64], from: usize) -> Vec<Vec<f64>> {
+        let samples = noise.fresh.len();
+        let variances: Vec<f64> = noise.variances().collect();
+        let of_rest: Vec<usize> = noise
             .fresh
             .iter()
             .scan(0, |rest, fresh| {
@@ -268,12 +268,12 @@ mod tests {
             h in prop::collection::vec(-1.5..1.5_f64, 1..4),
             from in 0_usize..6,
         ) {
-            let mut acting = Acting { fresh };
-            acting.fresh[0] = Some(1.0);
+            let mut noise = EnteringNoise { fresh };
+            noise.fresh[0] = Some(1.0);
             let track = track_with(30, from);
             let x: Vec<f64> = (from..30).map(|t| (t as f64 * 1.7).sin() * 2.0).collect();
-            let predictor = Predictor::new(&track, &acting, &h, None);
-            let (expected, sd) = whitened(&covariance(&acting, &h, from), &x);
+            let predictor = Predictor::new(&track, &noise, &h, None);
+            let (expected, sd) = whitened(&covariance(&noise, &h, from), &x);
             for (k, found) in predictor.applied(&x).into_iter().enumerate() {
                 prop_assert!((found - expected[k]).abs() < 1e-9, "{k}: {found} {}", expected[k]);
                 prop_assert!((predictor.scale[k] * sd[k] - 1.0).abs() < 1e-9);
@@ -286,7 +286,7 @@ mod tests {
             h in prop::collection::vec(-1.5..1.5_f64, 1..4),
         ) {
             let left_out: Vec<bool> = (0..17).map(|k| k % 5 == 2).collect();
-            let predictor = Predictor::new(&track_with(20, 3), &Acting { fresh }, &h, Some(&left_out));
+            let predictor = Predictor::new(&track_with(20, 3), &EnteringNoise { fresh }, &h, Some(&left_out));
             let signals = [1.1, 0.3].map(|f: f64| (0..17).map(|k| (k as f64 * f).cos()).collect::<Vec<f64>>());
             let mut follower = predictor.follow(2);
             let [one, other] = signals.each_ref().map(|s| predictor.applied(s));
@@ -302,9 +302,9 @@ mod tests {
     #[test]
     fn behind_a_long_response_the_noise_counts_as_white() {
         let h: Vec<f64> = (0..LONGEST + 3).map(|k| 0.8_f64.powi(k as i32)).collect();
-        let acting = Acting { fresh: vec![Some(0.5); 40] };
-        let predictor = Predictor::new(&track_with(40, 5), &acting, &h, None);
-        let short = covariance(&acting, &h, 5);
+        let noise = EnteringNoise { fresh: vec![Some(0.5); 40] };
+        let predictor = Predictor::new(&track_with(40, 5), &noise, &h, None);
+        let short = covariance(&noise, &h, 5);
         for (k, scale) in predictor.scale.iter().enumerate() {
             assert!((scale - 1.0 / short[k][k].sqrt()).abs() < 1e-12);
         }
@@ -319,9 +319,9 @@ mod tests {
         let p = small_model(&grid);
         let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
         for track in &design.tracks {
-            let acting = Acting::new(track, law, &p).expect("a sensitivity");
+            let noise = EnteringNoise::new(track, law, &p).expect("a sensitivity");
             let slope = &track.sensitivity.as_deref().expect("a sensitivity")[0];
-            for (t, fresh) in acting.fresh.iter().enumerate().skip(1) {
+            for (t, fresh) in noise.fresh.iter().enumerate().skip(1) {
                 let moves = track.moves[t].step != 0.0;
                 assert_eq!(*fresh, moves.then(|| 2.0 * slope.dot(t, &p.f).powi(2)), "{t}");
             }

@@ -15,7 +15,7 @@ use switchback_estimator::estimators::free::{Moments, Regression};
 use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
 use switchback_estimator::statistics::ReplicateError;
 
-/// What all worlds of a scenario have in common.
+/// What all noise groups of a scenario have in common.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Design {
     pub(super) program: Program,
@@ -24,7 +24,7 @@ pub(super) struct Design {
 
 /// Everything that the noise of one replicate serves.
 #[derive(Debug)]
-pub(in crate::study) struct FreeWorld {
+pub(in crate::study) struct FreeNoiseGroup {
     stream: u32,
     noise: NoisePlan,
     /// Samples of the drive.
@@ -37,7 +37,7 @@ pub(in crate::study) struct FreeWorld {
     simulator: Option<Simulator>,
 }
 
-impl FreeWorld {
+impl FreeNoiseGroup {
     /// Every border, number of knots and noise level of a case.
     pub(super) fn new(case: &Case, sweep: &Sweep, stream: u32, of: Design) -> Result<Self, StudyError> {
         let Design { program, engine } = of;
@@ -106,7 +106,7 @@ impl FreeWorld {
 
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
         let noise = samples(&self.noise, StreamId { seed, experiment: self.stream, replicate }, self.length)
-            .expect("a world's noise plan is valid");
+            .expect("a group's noise plan is valid");
         let shared = self.simulator.is_none().then(|| Noise::new(self, &noise));
         let cells = active.chunks(self.checkpoints).zip(sums.chunks_mut(self.checkpoints));
         for (setting, (active, sums)) in self.settings.iter().zip(cells) {
@@ -168,7 +168,7 @@ impl FreeWorld {
     }
 }
 
-impl Workload for FreeWorld {
+impl Workload for FreeNoiseGroup {
     fn cells(&self) -> usize {
         self.settings.len() * self.checkpoints
     }
@@ -202,14 +202,14 @@ struct Noise {
 }
 
 impl Noise {
-    fn new(world: &FreeWorld, noise: &NoiseSamples) -> Self {
+    fn new(group: &FreeNoiseGroup, noise: &NoiseSamples) -> Self {
         let e = &noise.e[noise.burn_in..];
         // Lag products depend on the rows alone, which every grid shares.
-        let rows = &world.grids[0].regression;
+        let rows = &group.grids[0].regression;
         Self {
             lags: rows.lag_products(e, e),
-            cross: world.responses.iter().map(|r| rows.lag_products(&r.z, e)).collect(),
-            input: world.grids.iter().map(|g| g.regression.input_products(e)).collect(),
+            cross: group.responses.iter().map(|r| rows.lag_products(&r.z, e)).collect(),
+            input: group.grids.iter().map(|g| g.regression.input_products(e)).collect(),
         }
     }
 

@@ -3,8 +3,8 @@
 use super::bench::Bench;
 use super::family::FamilyPlan;
 use super::moments::LaneNoise;
+use super::noise_group::{Contender, Setting};
 use super::sections::CellSums;
-use super::world::{Contender, Setting};
 use std::array;
 use switchback_estimator::estimators::pulse::lanes::{
     LANES, Lane, LaneFit, LaneSample, LaneStatistics, LaneStep, LaneTerms,
@@ -42,7 +42,7 @@ impl<'a> Cell<'a> {
 }
 
 /// Groups of eight replicates that a cell takes in before the next: so many statistics, and one cell's sums, stay in the cache.
-pub(super) const ABREAST: usize = 4;
+pub(super) const LANES_AT_ONCE: usize = 4;
 
 /// What one family leaves to the next: memory.
 #[derive(Default)]
@@ -55,10 +55,10 @@ pub(super) struct Memory {
 /// A few groups of eight replicates at one noise level.
 #[derive(Default)]
 pub(super) struct Few {
-    statistics: [[LaneStatistics; 2]; ABREAST],
-    steps: [[LaneStep; 2]; ABREAST],
-    fits: [LaneFit; ABREAST],
-    terms: [LaneTerms; ABREAST],
+    statistics: [[LaneStatistics; 2]; LANES_AT_ONCE],
+    steps: [[LaneStep; 2]; LANES_AT_ONCE],
+    fits: [LaneFit; LANES_AT_ONCE],
+    terms: [LaneTerms; LANES_AT_ONCE],
     /// Running sums of the level's cells.
     pub(super) sums: Vec<LaneSums>,
 }
@@ -129,14 +129,14 @@ impl Place<'_> {
         let experiments = contender.kind.experiments();
         let (first, last) = (experiments[0], experiments[experiments.len() - 1]);
         let parts = statistics.each_ref().map(|both| both.each_ref());
-        let samples: [LaneSample<'_>; ABREAST] = array::from_fn(|i| LaneSample {
+        let samples: [LaneSample<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneSample {
             parts: &parts[i][first..=last],
             step: contender.kind.needs_step().then_some(steps[i][first]),
         });
         let samples = &samples[..noise.len()];
         contender.lanes.fit(samples, fits);
         contender.control.terms(samples, &contender.means[self.plan.checkpoint], terms);
-        let errors: [LaneErrors<'_>; ABREAST] = array::from_fn(|i| LaneErrors {
+        let errors: [LaneErrors<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneErrors {
             values: &fits[i].values,
             variances: &fits[i].variances,
             first_order: &terms[i].first,

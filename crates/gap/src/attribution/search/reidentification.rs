@@ -9,7 +9,7 @@ use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::effects::{Scene, Variant};
 use crate::likelihood::design::Design;
-use crate::likelihood::engine::{Ground, Own};
+use crate::likelihood::engine::{Ground, NonlinearParameter};
 use crate::model::assembly::{Assembly, EquationColumn, Slow};
 use crate::model::borders::Grid;
 use crate::nominal::identify::first_guess;
@@ -19,9 +19,9 @@ use crate::nominal::knots::first_grid;
 const RACED: usize = 4;
 
 /// An effect that may rule what the dynamics are identified from, on top of what is known, everything identified anew with it: of
-/// known effects the own parameters alone are taken over. The knots of what is known may follow the effect's trace, or a jump that is
+/// known effects the nonlinear parameters alone are taken over. The knots of what is known may follow the effect's trace, or a jump that is
 /// there: an even grid is tried beside them.
-pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
+pub(crate) fn reidentified(known: &Known<'_>, effect: Effect) -> Option<Explanation> {
     let (campaign, fit) = (known.campaign, &known.explanation.fit);
     let scene = Scene { campaign, fit, innovations: &known.innovations };
     let grids = [first_grid(campaign), fit.grid.clone()];
@@ -32,9 +32,11 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
     let guessed = asked.flat_map(|((number, law), grid)| {
         let mut parts = known.explanation.parts.clone();
         parts.push(Part::of(effect, (number, law)));
-        let joined = |own: &Vec<Own>| fit.own.iter().chain(own).copied().collect::<Vec<Own>>();
+        let joined = |nonlinear: &Vec<NonlinearParameter>| {
+            fit.nonlinear.iter().chain(nonlinear).copied().collect::<Vec<NonlinearParameter>>()
+        };
         let starts = one_of_each_valley(law).into_iter().chain(&law.afresh).map(joined);
-        starts.filter_map(move |own| guessed(known, &parts, grid, &own)).collect::<Vec<_>>()
+        starts.filter_map(move |nonlinear| guessed(known, &parts, grid, &nonlinear)).collect::<Vec<_>>()
     });
     let mut field: Vec<Explanation> = guessed.collect();
     field.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
@@ -51,7 +53,7 @@ pub(crate) fn from_scratch(known: &Known<'_>, effect: Effect) -> Option<Explanat
 }
 
 /// The middle start of every valley; all starts where none are known.
-fn one_of_each_valley(law: &Variant) -> Vec<&Vec<Own>> {
+fn one_of_each_valley(law: &Variant) -> Vec<&Vec<NonlinearParameter>> {
     let Some(valley) = law.valley else { return law.starts.iter().collect() };
     let groups = law.starts.chunk_by(|one, next| valley(one) == valley(next));
     groups.map(|group| &group[group.len() / 2]).collect()
@@ -74,17 +76,19 @@ fn first_of_each_law(field: &[Explanation], is_asked: impl Fn(usize) -> bool) ->
 const REFINED: usize = 3;
 const STEPS: [f64; 3] = [100.0, 50.0, 25.0];
 
-/// Own parameters moved one at a time, everything else identified anew each time: where `A` takes a drift for a slow pole unless
+/// Nonlinear parameters moved one at a time, everything else identified anew each time: where `A` takes a drift for a slow pole unless
 /// nearly all of it is told, no joint step leads to the right one.
 fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
     let moved = |from: &Explanation, j: usize, steps: f64| {
-        let mut own = from.fit.own.clone();
-        let o = &mut own[j];
+        let mut nonlinear = from.fit.nonlinear.clone();
+        let o = &mut nonlinear[j];
         o.value = (o.value + steps * o.step).clamp(o.low, o.high);
-        guessed(known, &sketch.parts, &sketch.fit.grid, &own)
+        guessed(known, &sketch.parts, &sketch.fit.grid, &nonlinear)
     };
     let mut best = sketch.clone();
-    for (steps, j) in STEPS.into_iter().flat_map(|steps| (0..sketch.fit.own.len()).map(move |j| (steps, j))) {
+    for (steps, j) in
+        STEPS.into_iter().flat_map(|steps| (0..sketch.fit.nonlinear.len()).map(move |j| (steps, j)))
+    {
         let both = [-steps, steps].into_iter().filter_map(|steps| moved(&best, j, steps));
         if let Some(better) = both.into_iter().find(|moved| moved.bic() < best.bic()) {
             best = better;
@@ -93,16 +97,21 @@ fn refined(known: &Known<'_>, sketch: &Explanation) -> Explanation {
     best
 }
 
-/// What a law explains at a start of its own parameters, the rest identified anew: none where it rules nothing there.
-fn guessed(known: &Known<'_>, parts: &[Part], grid: &Grid, own: &[Own]) -> Option<Explanation> {
+/// What a law explains at a start of its nonlinear parameters, the rest identified anew: none where it rules nothing there.
+fn guessed(
+    known: &Known<'_>,
+    parts: &[Part],
+    grid: &Grid,
+    nonlinear: &[NonlinearParameter],
+) -> Option<Explanation> {
     let campaign = known.campaign;
     let build = |values: &[f64]| assembled(parts, values);
-    let values: Vec<f64> = own.iter().map(|o| o.value).collect();
+    let values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
     let assembly = Some(build(&values)).filter(may_rule)?;
     let design = Design::like(Some(&known.explanation.fit.design), campaign, grid, &assembly);
     let start = first_guess(&design, known.explanation.fit.linear.a.len()).ok()?;
     let task = Task { ground: Ground { campaign, grid, known: Some(&design) }, build: &build, held: 0 };
-    let fit = task.held(own, &start, 1)?;
+    let fit = task.held(nonlinear, &start, 1)?;
     let set_back = known.explanation.set_back;
     Some(Explanation { parts: parts.to_vec(), fit, set_back, held_out: 0.0 }).filter(Explanation::is_sound)
 }
