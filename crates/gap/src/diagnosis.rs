@@ -326,6 +326,8 @@ pub struct Diagnosis {
     pub left: f64,
     /// Samples fitted, which deviances grow with.
     pub samples: usize,
+    /// Passes over all of these samples that the diagnosis took: what it cost.
+    pub passes: u64,
     /// The best pair of effects, where the best single one left something to look for.
     pub together: Option<Together>,
     /// The record that would separate the rivals, where there are rivals.

@@ -57,6 +57,7 @@ fn silent(status: Status) -> Diagnosis {
         probability_unexplained: 0.1,
         left: 0.0,
         samples: 1,
+        passes: 0,
         together: None,
         next_experiment: None,
         series: vec![],

@@ -108,6 +108,7 @@ impl Plan {
             probability_unexplained: c.odds.unexplained,
             left: c.left,
             samples: campaign.fit_samples(),
+            passes: campaign.passes.so_far(),
             together: c.together,
             next_experiment,
             series: self.series(&runs),
@@ -135,8 +136,8 @@ impl Plan {
             _ => together.filter(|pair| pair.effects == effects).map(|pair| pair.parameters.clone()),
         };
         let intervals = augmented.fit.intervals();
-        let nonlinear = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
-        let all: Vec<_> = (0..effects.len()).map(nonlinear).collect();
+        let fitted = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
+        let all: Vec<_> = (0..effects.len()).map(fitted).collect();
         let values =
             |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
         // An explanation on other knots has other estimates.

@@ -10,6 +10,7 @@ use super::lasting::{notes, power_of_waves, without_waves};
 use super::portable::{PortableModel, Wire};
 use crate::records::campaign::{Campaign, Track, WARM_UP, dimensionless, first_counted, led};
 use crate::records::motion::{Play, motions};
+use crate::records::passes::Passes;
 use crate::simulation::simulate::{Begins, Prepared, sensed};
 
 /// Half-width of a 95 % interval in standard deviations of a normal distribution.
@@ -171,6 +172,7 @@ impl Wire {
             None => tracks.push(input.track.clone()),
         }
         Campaign {
+            passes: Passes::default(),
             // Runs count in samples.
             sample_time: 1.0,
             tracks,

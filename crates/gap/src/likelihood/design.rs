@@ -18,6 +18,7 @@ use crate::model::parts::{Parts, Positions};
 use crate::model::sensor::SensorCurve;
 use crate::records::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::records::motion::{Motion, motions};
+use crate::records::passes::Passes;
 
 pub(crate) use crate::likelihood::jacobian::filtered_rows;
 use crate::likelihood::whitener::add_lagged;
@@ -72,6 +73,7 @@ pub(crate) struct Design {
     /// What it was built from.
     pub(crate) grid: Grid,
     pub(crate) assembly: Assembly,
+    passes: Passes,
 }
 
 impl Design {
@@ -116,6 +118,7 @@ impl Design {
         let Parts { extra_b: _, positions, operator, filter, columns: _, curve, saturation: _, noise } =
             assembly.parts();
         let Positions { late, play } = positions;
+        campaign.passes.count();
         let tracks = tracks
             .iter()
             .enumerate()
@@ -169,6 +172,7 @@ impl Design {
             criterion: campaign.criterion,
             grid: grid.clone(),
             assembly: assembly.clone(),
+            passes: campaign.passes.clone(),
         }
     }
 
@@ -179,6 +183,11 @@ impl Design {
             Criterion::OneStep => Whitener::new(law, a),
             Criterion::Simulation { .. } => Whitener { ar: Vec::new(), ma: a.to_vec() },
         }
+    }
+
+    /// A pass over the samples begins.
+    pub(crate) fn pass_begins(&self) {
+        self.passes.count();
     }
 
     /// Samples counted.
@@ -276,6 +285,7 @@ impl Design {
 
     /// Equation errors of every track.
     pub(crate) fn all_errors(&self, p: &Linear) -> Vec<Vec<f64>> {
+        self.passes.count();
         self.tracks.iter().map(|track| self.errors(track, p)).collect()
     }
 

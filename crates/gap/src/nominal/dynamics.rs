@@ -6,6 +6,7 @@ use crate::likelihood::design::{Design, Linear, Whitener};
 /// The parameters with `A` and `B` solved for: behind a filter the nominal `A` may hold a pole that the filter ought to have
 /// (and B a delay), and no small step gets out of that.
 pub(crate) fn dynamics_refitted(design: &Design, whitener: &Whitener, p: &Linear) -> Option<Linear> {
+    design.pass_begins();
     let (na, nb) = (p.a.len(), p.b.len());
     let mut normal = Normal::new(na + nb);
     let mut row = vec![0.0; na + nb];

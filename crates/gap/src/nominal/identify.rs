@@ -42,6 +42,7 @@ pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, Diagno
 /// `h` are the hats of the borders and the columns beside them. The hats of a row sum to one, so each lag's `g` is known up to
 /// a constant shared among lags: their part of the rows of `g` is centred before the decomposition. (Bai, Automatica 1998.)
 pub(crate) fn first_guess(design: &Design, n: usize) -> Result<Linear, DiagnoseError> {
+    design.pass_begins();
     let assembly = &design.assembly;
     let hats = design.grid.len();
     let k = hats + assembly.border_columns.len();

@@ -7,6 +7,7 @@ use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
 use crate::records::motion::{Begins, Motion, Play, ReversalRule, motions};
+use crate::records::passes::Passes;
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -75,6 +76,8 @@ pub(crate) struct Campaign {
     pub(crate) criterion: Criterion,
     /// Samples by which the input was [led](Self::led_by).
     pub(crate) lead: isize,
+    /// Passes over the fit records.
+    pub(crate) passes: Passes,
 }
 
 /// What a model is held against.
@@ -180,6 +183,7 @@ impl Campaign {
             rule,
             criterion: Criterion::OneStep,
             lead: 0,
+            passes: Passes::default(),
         })
     }
 

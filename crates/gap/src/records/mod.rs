@@ -2,4 +2,5 @@
 
 pub(crate) mod campaign;
 pub(crate) mod motion;
+pub(crate) mod passes;
 pub(crate) mod repeats;

@@ -39,6 +39,7 @@ enum Store {
 impl Jacobian {
     /// The derivatives at `p`; each row times its weight.
     pub(crate) fn new(design: &Design, p: &Linear, whitener: &Whitener, weights: &Weights) -> Self {
+        design.pass_begins();
         let columns = p.len();
         let store = if spreads(design, whitener, weights) {
             let mut out = vec![0.0; design.samples() * columns];
@@ -132,6 +133,7 @@ pub(crate) fn normal_equations(
     weights: &Weights,
     (w, extra): (&[f64], &[Vec<f64>]),
 ) -> Normal {
+    design.pass_begins();
     let columns = p.len();
     let width = columns + extra.len();
     let mut normal = Normal::new(width);

@@ -112,8 +112,8 @@ pub(crate) fn rows(
     let columns = grid.len() as u32;
     let mut out = Rows::with_capacity(track.v.len());
     let mut point = WorkingPoint::new((grid, added.len()), transition, track.v[0], campaign.criterion);
-    let nonlinear = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
-    if let Some(start) = added.iter().position(nonlinear) {
+    let begins_here = |c: &BorderColumn| matches!(c, BorderColumn::Start { track } if *track == number);
+    if let Some(start) = added.iter().position(begins_here) {
         point.terms.push((columns + start as u32, 1.0));
     }
     let mut stopped: Option<usize> = None;
