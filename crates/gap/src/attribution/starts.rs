@@ -73,7 +73,7 @@ impl Score {
 const NOTHING: f64 = 1e-9;
 
 impl ScoreTest<'_> {
-    /// How promising a law that changes the assembly to `build(known nonlinear parameters, own)` is.
+    /// How promising a law that changes the assembly to `build(known nonlinear parameters, those of the law)` is.
     pub(crate) fn score(&self, build: &Build<'_>, nonlinear: &[NonlinearParameter]) -> Score {
         let fit = &self.known.explanation.fit;
         let all: Vec<f64> = fit.nonlinear.iter().chain(nonlinear).map(|o| o.value).collect();
@@ -86,7 +86,7 @@ impl ScoreTest<'_> {
             columns.push(chord);
         } else {
             for (j, o) in nonlinear.iter().enumerate() {
-                let h = if o.value + o.step > o.high { -o.step } else { o.step };
+                let h = o.inward_step();
                 let mut values = all.clone();
                 values[fit.nonlinear.len() + j] += h;
                 let beside = self.moved(&build(&values), &p, &there.design);

@@ -28,7 +28,7 @@ const LEAST_REACH: f64 = 100.0;
 const STRIDES: f64 = 3.0;
 
 impl<W: Workers> Attribution<'_, W> {
-    /// Each effect added to what is known, best first: all looked at, the promising ones fitted to convergence.
+    /// Each effect added to what is known, best first: all screened, the promising ones fitted to convergence.
     pub(crate) fn on_top_of(
         &self,
         known: &Explanation,
@@ -42,7 +42,7 @@ impl<W: Workers> Attribution<'_, W> {
         let mut done: Vec<(Effect, Explanation)> = Vec::new();
         let mut twins: Vec<Effect> = Vec::new();
         for (rank, entry) in screened.into_iter().enumerate() {
-            // A look may miss a narrow optimum: no twin of a promising effect is ruled out by it.
+            // The screening may miss a narrow optimum: no twin of a promising effect is ruled out by it.
             let worth = rank < halving.finished
                 || known.parts.is_empty()
                     && (entry.gain > PROMISING * most.max(SIGNIFICANT) || twins.contains(&entry.effect));
@@ -80,33 +80,31 @@ impl<W: Workers> Attribution<'_, W> {
         to_beat: Option<f64>,
     ) -> Vec<(Effect, Explanation)> {
         let held = known.fit.nonlinear.len();
-        let mut field: Vec<&(Effect, Explanation)> = promising.iter().collect();
+        let mut queue: Vec<&(Effect, Explanation)> = promising.iter().collect();
         // The longest first, so that nobody waits for them at the end.
-        field.sort_by_key(|(_, law)| !law.has_corners());
-        let mut race: Vec<Contender> = self.workers.map(&field, |(effect, sketch)| {
+        queue.sort_by_key(|(_, law)| !law.has_corners());
+        let mut field: Vec<AdvancedLaw> = self.workers.map(&queue, |(effect, sketch)| {
             let law = advance(self.campaign, held, sketch);
-            Contender { effect: *effect, advanced: sketch.bic() - law.bic(), law }
+            AdvancedLaw { effect: *effect, gained: sketch.bic() - law.bic(), law }
         });
-        race.sort_by(|x, y| x.law.bic().total_cmp(&y.law.bic()));
-        let Some(leader) = race.first() else { return Vec::new() };
+        field.sort_by(|x, y| x.law.bic().total_cmp(&y.law.bic()));
+        let Some(leader) = field.first() else { return Vec::new() };
         let reach = (BEHIND * (known.bic() - leader.law.bic())).max(LEAST_REACH);
         let ahead = leader.law.bic().min(to_beat.unwrap_or(f64::INFINITY));
-        let near =
-            |contender: &Contender| contender.law.bic() - ahead < reach.max(STRIDES * contender.advanced);
+        let near = |advanced: &AdvancedLaw| advanced.law.bic() - ahead < reach.max(STRIDES * advanced.gained);
         let leads = near(leader);
-        self.workers.map(&race, |contender| {
-            let may_win = near(contender) || leads && leader.effect.twins().contains(&contender.effect);
-            let law =
-                if may_win { finish(self.campaign, held, &contender.law) } else { contender.law.clone() };
-            (contender.effect, law)
+        self.workers.map(&field, |advanced| {
+            let may_win = near(advanced) || leads && leader.effect.twins().contains(&advanced.effect);
+            let law = if may_win { finish(self.campaign, held, &advanced.law) } else { advanced.law.clone() };
+            (advanced.effect, law)
         })
     }
 }
 
 /// A law after its first rounds.
-struct Contender {
+struct AdvancedLaw {
     effect: Effect,
     law: Explanation,
     /// Penalised deviance that the first rounds gained.
-    advanced: f64,
+    gained: f64,
 }

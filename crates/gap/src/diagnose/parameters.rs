@@ -5,7 +5,7 @@ use crate::diagnosis::FittedParameter;
 use crate::effects::Reading;
 use crate::records::campaign::Campaign;
 
-/// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all own
+/// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all nonlinear
 /// parameters of the explanation.
 ///
 /// What a user would measure comes first: the step of a quantisation grid, the limits of a sensor, the share of outliers and their size, the

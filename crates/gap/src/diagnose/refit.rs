@@ -53,10 +53,10 @@ impl Plan {
         let other = self.squared_errors(|number| {
             free_run(&chosen.campaign, &chosen.fit, number, &chosen.campaign.tracks[number])
         });
-        let nonlinear = self.squared_errors(|number| {
+        let explained_errors = self.squared_errors(|number| {
             free_run(&self.campaign, explained, number, &self.campaign.tracks[number])
         });
-        self.mean(&differences(&other, &nonlinear), explained).is_some_and(|saved| saved.low <= 0.0)
+        self.mean(&differences(&other, &explained_errors), explained).is_some_and(|saved| saved.low <= 0.0)
     }
 
     /// The conclusion that the order is off: `again` is the plan on the nominal model that does what the effects do.

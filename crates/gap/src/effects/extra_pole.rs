@@ -23,7 +23,7 @@ pub(super) const CARD: Card = Card {
     // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
     most_left: 0.02,
     told_first: |reading| {
-        let pole = reading.searched.iter().find(|nonlinear| nonlinear.name == "pole");
+        let pole = reading.searched.iter().find(|o| o.name == "pole");
         pole.and_then(time_constant).into_iter().collect()
     },
     ..Card::of(Stage::Dynamics, variants)

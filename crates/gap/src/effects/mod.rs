@@ -1,7 +1,7 @@
 //! The library of effects: one file an effect, which holds its card ([`Card`]) with everything that the diagnosis knows about it, its laws,
 //! what it leaves in the data and what it is confused with.
 //!
-//! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from own
+//! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from nonlinear
 //! parameters to changes of an [`Assembly`](crate::model::assembly::Assembly). The same assembly is fitted
 //! ([`crate::likelihood::engine`]) and simulated ([`crate::simulation::simulate`]), and effects compose by being applied one after the
 //! other.

@@ -26,8 +26,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let Some(step) = quantisation_step(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
         return Vec::new();
     };
-    let nonlinear = super::parameter("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
-    let mut variant = Variant::new(vec![vec![nonlinear]], move |p, assembly| {
+    let ratio = super::parameter("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
+    let mut variant = Variant::new(vec![vec![ratio]], move |p, assembly| {
         assembly.noise.output_ratio = p[0].exp();
         assembly.noise.quantisation = Some(step);
     });

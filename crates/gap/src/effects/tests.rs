@@ -180,7 +180,7 @@ fn an_after_effect_that_goes_back_is_creep_and_says_so() {
         let campaign = measured(&assembly, &loop_of(HALF, &[]));
         let (best, gain) = explained(&campaign, Effect::Creep).expect("a fit");
         assert!(gain > SIGNIFICANT, "{kappa}: {gain}");
-        let told = best.fit.nonlinear.iter().find(|nonlinear| nonlinear.name == "kappa").expect("a filter");
+        let told = best.fit.nonlinear.iter().find(|o| o.name == "kappa").expect("a filter");
         assert!(told.value * kappa > 0.0, "{kappa}: {:?}", best.fit.nonlinear);
     }
 }

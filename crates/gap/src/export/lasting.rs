@@ -33,14 +33,14 @@ pub(super) fn power_of_waves(linear: &Linear, assembly: &Assembly) -> f64 {
             *waves.entry((track, frequency.to_bits())).or_default() += d * d;
         }
     }
-    let nonlinear = waves.keys().filter_map(|key| key.0).collect::<std::collections::BTreeSet<_>>().len();
+    let records = waves.keys().filter_map(|key| key.0).collect::<std::collections::BTreeSet<_>>().len();
     let power = |((track, bits), square): (&(Option<usize>, u64), &f64)| {
         let omega = f64::from_bits(*bits);
         let part = |trig: fn(f64) -> f64| -> f64 {
             linear.a.iter().enumerate().map(|(i, a)| a * trig(omega * (i + 1) as f64)).sum()
         };
         let (re, im) = (1.0 + part(f64::cos), part(f64::sin));
-        let shares = if track.is_some() { nonlinear.max(1) } else { 1 };
+        let shares = if track.is_some() { records.max(1) } else { 1 };
         square / (2.0 * (re * re + im * im) * shares as f64)
     };
     waves.iter().map(power).sum()
@@ -61,7 +61,7 @@ pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
         notes.push("the phase of the periodic disturbance is unknown here: its size is in the band, the wave is not in y");
     }
     if any(|c| matches!(c, EquationColumn::Local { .. })) {
-        notes.push("the drift that every record had of its nonlinear is taken at its mean level");
+        notes.push("the drift that every record had of its own is taken at its mean level");
     }
     notes.into_iter().map(str::to_owned).collect()
 }
@@ -81,4 +81,35 @@ fn clocks(assembly: &Assembly) -> Vec<Clock> {
         _ => None,
     });
     slow(wear).into_iter().chain(slow(gain)).chain(border).chain(equation).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_last_is_said_sentence_by_sentence() {
+        let trend = |clock| EquationColumn::Trend { clock, degree: 1 };
+        let told = |columns: &[EquationColumn]| {
+            notes(&Assembly { equation_columns: columns.to_vec(), ..Assembly::default() })
+        };
+        assert!(told(&[]).is_empty());
+        assert_eq!(
+            told(&[trend(Clock::Samples)]),
+            ["the slow change in the model is taken as it was at the end of the campaign"]
+        );
+        assert_eq!(
+            told(&[trend(Clock::Record)]),
+            ["the change within each record is taken as it was at a record's end"]
+        );
+        let wave = EquationColumn::Line { frequency: 0.3, track: None, sine: true };
+        let path = EquationColumn::Local { track: 0, piece: 0, pieces: 4 };
+        assert_eq!(
+            told(&[wave, path]),
+            [
+                "the phase of the periodic disturbance is unknown here: its size is in the band, the wave is not in y",
+                "the drift that every record had of its own is taken at its mean level",
+            ]
+        );
+    }
 }

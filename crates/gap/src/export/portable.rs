@@ -68,7 +68,7 @@ pub(super) struct Scales {
     pub(super) y_scale: f64,
 }
 
-/// What a step of an nonlinear parameter makes of the assembly.
+/// What a step of a nonlinear parameter makes of the assembly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Moved {

@@ -36,6 +36,13 @@ pub(crate) struct NonlinearParameter {
     pub(crate) step: f64,
 }
 
+impl NonlinearParameter {
+    /// The step of the numerical derivative, backwards where the upper bound is in the way.
+    pub(crate) fn inward_step(&self) -> f64 {
+        if self.value + self.step > self.high { -self.step } else { self.step }
+    }
+}
+
 /// From nonlinear parameters to an assembly.
 pub(crate) type Build<'a> = dyn Fn(&[f64]) -> Assembly + 'a;
 
@@ -279,10 +286,7 @@ pub(super) fn derivatives(
     (0..nonlinear.len())
         .map(|j| {
             let mut values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
-            let mut h = nonlinear[j].step;
-            if values[j] + h > nonlinear[j].high {
-                h = -h;
-            }
+            let h = nonlinear[j].inward_step();
             values[j] += h;
             let assembly = build(&values);
             let (moved, factor) = if assembly.same_design(&state.assembly) {

@@ -36,9 +36,7 @@ pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> O
     let is_finite = covariance.iter().flatten().all(|x| x.is_finite());
     let moved = (0..fit.nonlinear.len()).map(|j| {
         let mut values: Vec<f64> = fit.nonlinear.iter().map(|o| o.value).collect();
-        let nonlinear = &fit.nonlinear[j];
-        let step =
-            if nonlinear.value + nonlinear.step > nonlinear.high { -nonlinear.step } else { nonlinear.step };
+        let step = fit.nonlinear[j].inward_step();
         values[j] += step;
         (step, build(&values))
     });

@@ -1,4 +1,4 @@
-//! The parameters that are linear or bilinear given the effects' own.
+//! The parameters that are linear or bilinear given the effects' nonlinear ones.
 
 use nalgebra::{Complex, DMatrix};
 use serde::{Deserialize, Serialize};

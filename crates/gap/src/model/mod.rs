@@ -1,4 +1,4 @@
-//! What is fitted: two borders, a composition of effects as plain data, and the parameters linear given the effects' own.
+//! What is fitted: two borders, a composition of effects as plain data, and the parameters linear given the effects' nonlinear ones.
 
 pub(crate) mod assembly;
 pub(crate) mod borders;

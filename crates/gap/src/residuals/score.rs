@@ -10,7 +10,7 @@ use crate::likelihood::design::{Design, DesignTrack, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
 use crate::records::campaign::{Campaign, Track};
-use crate::simulation::beginnings::{with_beginnings, with_courses};
+use crate::simulation::beginnings::{with_beginnings, with_drift_paths};
 
 /// Innovations of a fitted model on the chosen tracks.
 pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track) -> bool) -> Vec<Vec<f64>> {
@@ -33,12 +33,12 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
 /// `k/N` a sample, is paid back (H. Akaike, "Information theory and an extension of the maximum likelihood principle", 1973).
 pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>> {
     let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
-    let (assembly, courses) = with_courses(campaign, &assembly);
+    let (assembly, paths) = with_drift_paths(campaign, &assembly);
     let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let p = fit.linear.padded(fit.grid.len(), &assembly);
-    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts.start..courses.end);
-    let free = |part: &DesignTrack| part.columns.numbers.iter().filter(|&j| courses.contains(j)).count();
+    let w = without(design.innovations(&p, &whitener), &design, &whitener, starts.start..paths.end);
+    let free = |part: &DesignTrack| part.columns.numbers.iter().filter(|&j| paths.contains(j)).count();
     let variance = fit.variance;
     let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
     if let Some((share, ratio)) = fit.assembly.noise.mixture {
@@ -75,14 +75,14 @@ fn without(
 ) -> Vec<Vec<f64>> {
     let columns: Vec<Vec<Vec<f64>>> = columns.map(|j| design.disturbance(j, whitener)).collect();
     for (number, w) in innovations.iter_mut().enumerate() {
-        let nonlinear: Vec<&Vec<f64>> =
+        let of_record: Vec<&Vec<f64>> =
             columns.iter().map(|column| &column[number]).filter(|column| energy(column) > 0.0).collect();
-        let mut normal = Normal::new(nonlinear.len());
-        let row = |t: usize| nonlinear.iter().map(|column| column[t]).collect::<Vec<f64>>();
+        let mut normal = Normal::new(of_record.len());
+        let row = |t: usize| of_record.iter().map(|column| column[t]).collect::<Vec<f64>>();
         (0..w.len()).for_each(|t| normal.add(&row(t), w[t]));
-        let Some(factor) = normal.factor(1e-9).filter(|_| !nonlinear.is_empty()) else { continue };
+        let Some(factor) = normal.factor(1e-9).filter(|_| !of_record.is_empty()) else { continue };
         let taken = factor.solve(&normal.gradient);
-        for (column, d) in nonlinear.iter().zip(taken) {
+        for (column, d) in of_record.iter().zip(taken) {
             w.iter_mut().zip(*column).for_each(|(w, x)| *w -= d * x);
         }
     }

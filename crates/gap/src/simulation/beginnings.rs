@@ -28,8 +28,8 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
         // What dies away more slowly is a drift of its record, which the model ought to know.
         let dies = |radius: f64| radius.powf(BEGINNING * held_out.v.len() as f64) < GONE;
         for column in known {
-            if let EquationColumn::Decay { track: nonlinear, radius, frequency, sine } = *column
-                && nonlinear == track
+            if let EquationColumn::Decay { track: only, radius, frequency, sine } = *column
+                && only == track
                 && dies(radius)
             {
                 let start = EquationColumn::Decay { track: number, radius, frequency, sine };
@@ -43,18 +43,18 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
 
 /// The assembly with waves and drift paths that are free from record to record in the held-out records, too; the numbers of the columns
 /// added. A drift path has pieces as long as in the first record fitted.
-pub(crate) fn with_courses(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
+pub(crate) fn with_drift_paths(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = &assembly.equation_columns;
     let Some(first) = campaign.tracks.iter().position(Track::is_fit) else { return (out, 0..0) };
     for (number, held_out) in campaign.tracks.iter().enumerate().filter(|(_, t)| !t.is_fit()) {
-        let nonlinear = known.iter().filter_map(|column| match *column {
+        let waves = known.iter().filter_map(|column| match *column {
             EquationColumn::Line { frequency, track: Some(track), sine } if track == first => {
                 Some(EquationColumn::Line { frequency, track: Some(number), sine })
             }
             _ => None,
         });
-        out.equation_columns.extend(nonlinear);
+        out.equation_columns.extend(waves);
         let pieces_of = |column: &EquationColumn| match *column {
             EquationColumn::Local { pieces, track, .. } => {
                 let samples = campaign.tracks[track].v.len() / pieces.max(1);
@@ -75,9 +75,9 @@ pub(crate) fn with_courses(campaign: &Campaign, assembly: &Assembly) -> (Assembl
 pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = assembly.equation_columns.len();
-    let is_course = |c: &&EquationColumn| matches!(c, EquationColumn::Local { .. });
-    let mut courses = assembly.equation_columns.iter().filter(is_course).peekable();
-    if courses.peek().is_some() && courses.all(|c| !c.acts_on(number)) {
+    let is_drift_path = |c: &&EquationColumn| matches!(c, EquationColumn::Local { .. });
+    let mut paths = assembly.equation_columns.iter().filter(is_drift_path).peekable();
+    if paths.peek().is_some() && paths.all(|c| !c.acts_on(number)) {
         let level = [0, 1].map(|piece| EquationColumn::Local { track: number, piece, pieces: 1 });
         out.equation_columns.extend(level);
     }
@@ -100,17 +100,17 @@ pub(crate) struct Level {
 impl Level {
     /// That of the fitted records; nothing without drift paths.
     pub(crate) fn of(assembly: &Assembly, coefficients: &[f64]) -> Option<Self> {
-        let mut courses: Vec<(usize, Vec<f64>)> = Vec::new();
+        let mut paths: Vec<(usize, Vec<f64>)> = Vec::new();
         for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
             let EquationColumn::Local { track, .. } = *column else { continue };
-            match courses.last_mut() {
+            match paths.last_mut() {
                 Some((last, values)) if *last == track => values.push(*d),
-                _ => courses.push((track, vec![*d])),
+                _ => paths.push((track, vec![*d])),
             }
         }
-        let count: usize = courses.iter().map(|(_, values)| values.len()).sum();
-        let mean = courses.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64;
-        let about: Vec<[f64; 2]> = courses
+        let count: usize = paths.iter().map(|(_, values)| values.len()).sum();
+        let mean = paths.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64;
+        let about: Vec<[f64; 2]> = paths
             .iter()
             .map(|(_, values)| [values[0] - mean, values.iter().sum::<f64>() / values.len() as f64 - mean])
             .collect();
@@ -158,25 +158,25 @@ pub(crate) fn set_by_first_samples(
     track: &DesignTrack,
     (added, variance): (Range<usize>, f64),
 ) {
-    let nonlinear: Vec<usize> =
+    let here: Vec<usize> =
         (0..track.columns.numbers.len()).filter(|&k| added.contains(&track.columns.numbers[k])).collect();
-    if nonlinear.is_empty() {
+    if here.is_empty() {
         return;
     }
     let first = p.a.len().max(p.b.len() + design.taps.len());
     let errors = design.errors_from(track, p, first);
-    let mut normal = Normal::new(nonlinear.len());
-    let mut row = vec![0.0; nonlinear.len()];
+    let mut normal = Normal::new(here.len());
+    let mut row = vec![0.0; here.len()];
     for (t, e) in (first..track.from).zip(errors) {
         let psi = track.columns.row(t);
-        row.iter_mut().zip(&nonlinear).for_each(|(x, &k)| *x = psi[k]);
+        row.iter_mut().zip(&here).for_each(|(x, &k)| *x = psi[k]);
         normal.add(&row, e);
     }
     let Some(factor) = normal.factor(1e-9) else { return };
     let found = factor.solve(&normal.gradient);
     let gain: f64 = found.iter().zip(&normal.gradient).map(|(d, g)| d * g).sum();
-    if gain > SHOWS * nonlinear.len() as f64 * variance {
-        for (&k, d) in nonlinear.iter().zip(found) {
+    if gain > SHOWS * here.len() as f64 * variance {
+        for (&k, d) in here.iter().zip(found) {
             p.d[track.columns.numbers[k]] = d;
         }
     }
@@ -286,13 +286,13 @@ mod tests {
         campaign.tracks.push(held_out);
         let line = |track, sine| EquationColumn::Line { frequency: 0.3, track, sine };
         let local = |track, piece, pieces| EquationColumn::Local { track, piece, pieces };
-        let nonlinear = [line(Some(0), false), line(Some(0), true), line(None, true)];
+        let waves = [line(Some(0), false), line(Some(0), true), line(None, true)];
         let drift_path = (0..=4).map(|piece| local(0, piece, 4));
         let assembly = Assembly {
-            equation_columns: nonlinear.into_iter().chain(drift_path).collect(),
+            equation_columns: waves.into_iter().chain(drift_path).collect(),
             ..Assembly::default()
         };
-        let (with, added) = with_courses(&campaign, &assembly);
+        let (with, added) = with_drift_paths(&campaign, &assembly);
         // Half as long: half as many pieces. A wave of the campaign goes on.
         let expected =
             [line(Some(1), false), line(Some(1), true), local(1, 0, 2), local(1, 1, 2), local(1, 2, 2)];
@@ -310,7 +310,7 @@ mod tests {
         let columns = [local(0, 0), local(0, 1), local(1, 0), local(1, 1)];
         let assembly = Assembly { equation_columns: columns.into(), ..Assembly::default() };
         // Two records that keep half of what they begin with on the mean.
-        let level = Level::of(&assembly, &[3.0, 1.0, -1.0, 1.0]).expect("courses");
+        let level = Level::of(&assembly, &[3.0, 1.0, -1.0, 1.0]).expect("drift paths");
         assert_eq!(level, Level { mean: 1.0, spread: 4.0, persistence: 0.5 });
         // Four errors of variance 16 average to the first value with variance 4: half of it is noise.
         let given = level.given(&[2.0, 6.0, 4.0, 4.0], 16.0);
@@ -318,7 +318,7 @@ mod tests {
         assert_eq!(level.given(&[], 16.0), 1.0);
         // One record tells nothing of how records differ.
         let one = Assembly { equation_columns: vec![local(0, 0), local(0, 1)], ..Assembly::default() };
-        let alone = Level::of(&one, &[3.0, 1.0]).expect("a drift_path");
+        let alone = Level::of(&one, &[3.0, 1.0]).expect("a drift path");
         assert_eq!((alone.mean, alone.persistence), (2.0, 0.0));
     }
 }

@@ -135,11 +135,11 @@ pub(crate) fn runs_away<'a>(fit: &Fit, runs: impl IntoIterator<Item = &'a [f64]>
 fn started(assembly: &Assembly, number: usize) -> Assembly {
     let mut out = assembly.clone();
     let is_start = |c: &BorderColumn| matches!(c, BorderColumn::Start { .. });
-    let nonlinear = BorderColumn::Start { track: number };
-    if !out.border_columns.contains(&nonlinear)
+    let start = BorderColumn::Start { track: number };
+    if !out.border_columns.contains(&start)
         && let Some(any) = out.border_columns.iter().position(is_start)
     {
-        out.border_columns[any] = nonlinear;
+        out.border_columns[any] = start;
     }
     out
 }

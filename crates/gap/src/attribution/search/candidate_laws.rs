@@ -17,7 +17,7 @@ pub(super) struct CandidateLaw {
 
 /// Starts of a law that are fitted, likeliest first by the score test.
 const STARTS: usize = 5;
-/// Laws of an effect that are looked at, and the share of the best one's score that a further one needs.
+/// Laws of an effect that are screened, and the share of the best one's score that a further one needs.
 const LAWS: usize = 4;
 const LAW: f64 = 0.4;
 

@@ -130,7 +130,7 @@ fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
         there.held(&nonlinear, &nearer.linear, 1)
     };
     let fit = match law.search {
-        // Without nonlinear parameters there is one start, and nothing that a look could compare.
+        // Without nonlinear parameters there is one start, and nothing to compare.
         Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.nonlinear, &base, FINAL),
         Search::Smooth => ahead(starts.filter_map(|nonlinear| task.together(&nonlinear, &base, 1)), |fit| {
             task.from(fit).together(&fit.nonlinear, &fit.linear, SCREENING - 1)

@@ -15,7 +15,7 @@ const BISECTIONS: usize = 3;
 /// Gauss–Newton rounds of the rest at every point.
 const ROUNDS: usize = 2;
 
-/// The 90 % intervals of the nonlinear parameters. Without a standard error, it is where the deviance, the rest fitted anew and the other own
+/// The 90 % intervals of the nonlinear parameters. Without a standard error, it is where the deviance, the rest fitted anew and the other nonlinear
 /// parameters held, stays within the quantile of χ² (D. J. Venzon and S. H. Moolgavkar, "A method for computing
 /// profile-likelihood-based confidence intervals", 1988).
 ///
@@ -42,7 +42,7 @@ pub(crate) fn profiled(
 }
 
 impl Task<'_> {
-    /// Where an nonlinear parameter that moves to one side leaves the interval, or its range ends.
+    /// Where a nonlinear parameter that moves to one side leaves the interval, or its range ends.
     fn end(&self, fit: &Fit, j: usize, side: f64) -> f64 {
         let o = fit.nonlinear[j];
         let most = if side > 0.0 { o.high - o.value } else { o.value - o.low };

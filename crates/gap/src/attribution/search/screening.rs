@@ -15,9 +15,9 @@ pub(crate) struct Screened {
     pub(crate) laws: Vec<Explanation>,
 }
 
-/// Second effects looked at beside a first, the most promising by the score test.
+/// Second effects screened beside a first, the most promising by the score test.
 const SECONDS: usize = 6;
-/// Share of the best score below which one start of an effect's likeliest law is looked at, and the least score that tells so.
+/// Share of the best score below which one start of an effect's likeliest law is screened, and the least score that tells so.
 const HOPELESS: f64 = 0.1;
 const TELLING: f64 = 10.0 * SIGNIFICANT;
 

@@ -22,7 +22,7 @@ pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows
     for (m, &v) in track.moves.iter().zip(&track.v) {
         slope.clear();
         gap.clear();
-        let nonlinear = side(m.branch);
+        let border = side(m.branch);
         let spread = if jitter > 0.0 {
             let p = ascending(m.step, jitter);
             (p * (1.0 - p)).sqrt()
@@ -30,8 +30,8 @@ pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows
             f64::from(u8::from(!m.moves))
         };
         if m.moves || jitter > 0.0 {
-            slope.extend(grid.hat(nonlinear, v + HALF).map(|(i, w)| (i as u32, w / (2.0 * HALF))));
-            slope.extend(grid.hat(nonlinear, v - HALF).map(|(i, w)| (i as u32, -w / (2.0 * HALF))));
+            slope.extend(grid.hat(border, v + HALF).map(|(i, w)| (i as u32, w / (2.0 * HALF))));
+            slope.extend(grid.hat(border, v - HALF).map(|(i, w)| (i as u32, -w / (2.0 * HALF))));
         }
         if spread > 0.0 {
             gap.extend(grid.hat(1, v).map(|(i, w)| (i as u32, spread * w)));

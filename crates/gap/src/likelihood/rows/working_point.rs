@@ -22,12 +22,12 @@ pub(super) struct WorkingPoint<'a> {
     fading: Vec<(u32, f64)>,
     /// The border that the last move was on, the share of the other one in the working point, and what that was just after the last
     /// reversal.
-    nonlinear: usize,
+    border: usize,
     share: f64,
     after_turn: f64,
     /// Room for a sum of terms, and for border values.
     sum: Vec<(u32, f64)>,
-    reidentification: Vec<f64>,
+    sums: Vec<f64>,
     /// Number of border values.
     borders: u32,
 }
@@ -43,14 +43,14 @@ impl<'a> WorkingPoint<'a> {
         let finder = Finder::new(grid);
         let hat = |side, factor| hat(&finder, side, v, factor);
         // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
-        let nonlinear = usize::from(v >= 0.5);
+        let border = usize::from(v >= 0.5);
         let share = match criterion {
             Criterion::OneStep => 0.0,
             // A simulation goes on from there for long: the middle between the borders is never far off.
             Criterion::Simulation { .. } => 0.5,
         };
         let terms =
-            if share == 0.0 { hat(nonlinear, 1.0).to_vec() } else { [0, 1].map(|s| hat(s, share)).concat() };
+            if share == 0.0 { hat(border, 1.0).to_vec() } else { [0, 1].map(|s| hat(s, share)).concat() };
         Self {
             finder,
             transition,
@@ -58,12 +58,12 @@ impl<'a> WorkingPoint<'a> {
             terms,
             at_stop: Vec::new(),
             fading: Vec::new(),
-            nonlinear,
+            border,
             share,
             after_turn: share,
             sum: Vec::new(),
             borders: grid.len() as u32,
-            reidentification: vec![0.0; grid.len() + columns],
+            sums: vec![0.0; grid.len() + columns],
         }
     }
 
@@ -74,8 +74,8 @@ impl<'a> WorkingPoint<'a> {
             TransitionLaw::Held => self.fading.clone_from(&self.terms),
             TransitionLaw::Crossing => {
                 // What was the own border is the other one now, unless the first move is along it.
-                let turned = self.nonlinear != side(m.branch);
-                self.nonlinear = side(m.branch);
+                let turned = self.border != side(m.branch);
+                self.border = side(m.branch);
                 self.after_turn = if turned { 1.0 - self.share } else { self.share };
                 // Beyond the borders' values, what the record began with: it fades once.
                 self.fading.clear();
@@ -84,7 +84,7 @@ impl<'a> WorkingPoint<'a> {
             TransitionLaw::Offset => {
                 self.sum.clone_from(&self.terms);
                 self.sum.extend(hat(&self.finder, side(m.branch), m.turn, -1.0));
-                merge(&self.sum, &mut self.reidentification, &mut self.fading);
+                merge(&self.sum, &mut self.sums, &mut self.fading);
             }
         }
     }
@@ -119,7 +119,7 @@ impl<'a> WorkingPoint<'a> {
             sum.extend(self.fading.iter().map(|&(i, w)| (i, w * fade)));
         }
         if sum.len() > 2 {
-            merge(sum, &mut self.reidentification, &mut self.terms);
+            merge(sum, &mut self.sums, &mut self.terms);
         } else {
             self.terms.clone_from(sum);
         }
@@ -136,7 +136,7 @@ impl<'a> WorkingPoint<'a> {
         sum.clear();
         sum.extend(self.at_stop.iter().map(|&(i, w)| (i, w * (1.0 - share))));
         sum.extend([0, 1].iter().flat_map(|&side| hat(&self.finder, side, v, 0.5 * share)));
-        merge(sum, &mut self.reidentification, &mut self.terms);
+        merge(sum, &mut self.sums, &mut self.terms);
     }
 
     /// The mean over both borders where noise on the position decides the branch.
@@ -154,13 +154,13 @@ fn hat(finder: &Finder<'_>, side: usize, v: f64, factor: f64) -> [(u32, f64); 2]
 }
 
 /// Sums repeated indices and drops negligible weights.
-fn merge(terms: &[(u32, f64)], reidentification: &mut [f64], out: &mut Vec<(u32, f64)>) {
+fn merge(terms: &[(u32, f64)], sums: &mut [f64], out: &mut Vec<(u32, f64)>) {
     for &(i, w) in terms {
-        reidentification[i as usize] += w;
+        sums[i as usize] += w;
     }
     out.clear();
     for &(i, _) in terms {
-        let w = std::mem::take(&mut reidentification[i as usize]);
+        let w = std::mem::take(&mut sums[i as usize]);
         if w.abs() > NEGLIGIBLE {
             out.push((i, w));
         }
