@@ -25,6 +25,19 @@ pub(crate) struct Attribution<'a, W> {
     /// The nominal model with border knots placed from the data: what effects are added to.
     pub(crate) detailed: &'a Explanation,
     pub(crate) workers: &'a W,
+    pub(crate) pair_effort: PairEffort,
+}
+
+/// How far the search for two effects goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PairEffort {
+    /// As far as anything may be gained.
+    Full,
+    /// The dynamics are not identified anew where the forward steps leave most of the gap: models may be compared as simulators instead.
+    WhileHopeful,
+    /// Forward steps only. The errors of simulators never become white, so that the tests of what is left would ask for every step; what
+    /// further ones gain is small against what any model misses.
+    Forward,
 }
 
 impl<W> Attribution<'_, W> {

@@ -44,6 +44,7 @@ impl Plan {
             nominal: &self.nominal.plain,
             detailed: &self.nominal.detailed,
             workers,
+            pair_effort: self.pair_effort,
         };
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
         if (evidence.leaves_something() || evidence.is_coloured())

@@ -17,8 +17,8 @@ use self::evidence::Evidence;
 use self::given_model::GivenModel;
 use self::nominal::Nominal;
 use self::report::Conclusion;
-use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
+use crate::attribution::{PairEffort, SIGNIFICANT};
 use crate::diagnosis::{Diagnosis, Status};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
@@ -82,6 +82,7 @@ fn concluded(
         }
         Choice::Either(steps, simulator) => (plan(steps)?, simulator),
     };
+    steps.pair_effort = PairEffort::WhileHopeful;
     let by_steps = steps.attribute(workers);
     let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
     if told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
@@ -137,6 +138,8 @@ struct Plan {
     runs: Vec<Vec<f64>>,
     /// That of the nominal model.
     structure: Structure,
+    /// How far two effects are looked for.
+    pair_effort: PairEffort,
     /// Whether probabilities were calibrated on records and models like these.
     is_calibrated: bool,
     limitations: Vec<String>,
@@ -162,6 +165,7 @@ impl Plan {
             Some(given) => given.runs.clone(),
             None => nominal.runs(&campaign, &judged),
         };
+        let pair_effort = if campaign.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
         let exporter = Exporter::new(rig);
         let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
         let is_calibrated = declared && holds_out && given.is_none() && !campaign.criterion.simulates();
@@ -173,6 +177,7 @@ impl Plan {
             judged,
             runs,
             structure,
+            pair_effort,
             is_calibrated,
             limitations,
             exporter,

@@ -2,8 +2,8 @@
 
 use super::Firsts;
 use super::pair_search::{PairSearch, RESTARTS};
-use crate::attribution::Attribution;
 use crate::attribution::explain::Explanation;
+use crate::attribution::{Attribution, PairEffort};
 use crate::effect::Effect;
 use crate::workers::Workers;
 
@@ -28,7 +28,7 @@ impl<W: Workers> Attribution<'_, W> {
     /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
     /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
     /// then every law of both members and their twins, and border knots placed anew, with which another law may serve better. No
-    /// knot saves a hopeless pair, and where a pair leaves nothing there is nothing to look for.
+    /// knot saves a hopeless pair, and where a pair leaves nothing there is nothing to look for. [`PairEffort`] may end it sooner.
     pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
         let serious = self.serious(singles);
         let mut search = PairSearch::new(self, singles);
@@ -42,6 +42,15 @@ impl<W: Workers> Attribution<'_, W> {
             }
         }
         search.restart();
+        match self.pair_effort {
+            PairEffort::Full => {}
+            PairEffort::WhileHopeful if !search.is_hopeless() => {}
+            PairEffort::WhileHopeful => return search.found.into_iter().next(),
+            PairEffort::Forward => {
+                search.place_knots_anew();
+                return search.found.into_iter().next();
+            }
+        }
         if search.leaves_much() || search.is_coloured() {
             search.afresh();
         }
