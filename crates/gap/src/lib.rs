@@ -18,7 +18,7 @@
 //! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
 //! | `diagnose`, `diagnosis` | the order of all this, and its report |
 //!
-//! [`workbench`] makes rigs with known causes by plain loops: the oracle of the rest.
+//! Its oracle is the crate `switchback-maker`, which makes rigs with known causes and shares no law with this one.
 
 mod attribution;
 mod closure;
@@ -42,7 +42,6 @@ mod simulation;
 #[cfg(test)]
 mod testing;
 mod verdict;
-pub mod workbench;
 mod workers;
 
 pub use diagnose::{diagnose, diagnose_with};

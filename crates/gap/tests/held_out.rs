@@ -5,8 +5,8 @@ mod bench;
 
 use bench::{input, output, played, record, response, rig, white};
 use switchback_estimator::rig::{RigRecord, Usage};
-use switchback_gap::workbench::{Cause, Foreign, specimen};
 use switchback_gap::{Effect, Model, Settings, Status, Verdict, diagnose};
+use switchback_maker::{Ingredient, MakeRig};
 
 /// A record of the bench's rig behind a play.
 fn loose(name: &str, usage: Usage, (samples, phase): (usize, f64), play: f64) -> RigRecord {
@@ -41,7 +41,8 @@ fn a_cause_that_harms_one_held_out_record_is_out_whatever_another_one_gains() {
 #[test]
 fn what_no_held_out_record_shows_is_no_gap() {
     // The size of the noise moves no simulation, and no candidate has it: it is found one step ahead, where it does no harm.
-    let rig = specimen(&[Cause::Foreign(Foreign::MultiplicativeNoise)], 2.0, 3).rig;
+    let noise = Ingredient::plain("proportional_noise", 2.0).expect("an effect of the maker");
+    let rig = MakeRig::new(3).with(noise).make().expect("a rig can be made of this seed").rig;
     let diagnosis = diagnose(&rig, Model::Identify, &Settings::default()).expect("a diagnosis");
     let told = (diagnosis.verdict.status, diagnosis.probability_none, diagnosis.probability_unexplained);
     assert!(diagnosis.gap.before.ci90[0] <= 0.0, "{:?}", diagnosis.gap);

@@ -1,11 +1,12 @@
 //! A model given by the user, in the campaign's dimensionless form.
 
+use switchback_estimator::linear::is_stable;
+
 use crate::error::DiagnoseError;
 use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
-use crate::model::stability::stable;
 use crate::records::campaign::Campaign;
 use crate::settings::NominalModel;
 
@@ -30,7 +31,7 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
             return bad("border points must be finite");
         }
     }
-    if !stable(&model.a) {
+    if !is_stable(&model.a) {
         return bad("A is unstable");
     }
     let level = (1.0 + model.a.iter().sum::<f64>()) * campaign.y_mean / dc;

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
+use switchback_estimator::linear::is_stable;
+
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::{Assembly, BorderColumn, convolve};
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
-use crate::model::stability::stable;
 use crate::records::campaign::{Campaign, Track};
 use crate::simulation::beginnings::{Level, set_by_first_samples, set_level, with_beginnings, with_level};
 
@@ -128,7 +129,7 @@ pub(crate) fn sensed(assembly: &Assembly, x: f64) -> f64 {
 /// Whether a model has no free run: its `A` is unstable, or its output has come to the bound, or is no number.
 pub(crate) fn runs_away<'a>(fit: &Fit, runs: impl IntoIterator<Item = &'a [f64]>) -> bool {
     let leaves = |y: &f64| !y.is_finite() || y.abs() >= LIMIT;
-    !stable(&fit.linear.a) || runs.into_iter().any(|run| run.iter().any(leaves))
+    !is_stable(&fit.linear.a) || runs.into_iter().any(|run| run.iter().any(leaves))
 }
 
 /// The assembly with an unknown start of the working point for a track that was not fitted, where fitted tracks have one.
