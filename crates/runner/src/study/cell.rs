@@ -1,11 +1,7 @@
 //! What tables and verdicts need to know of a cell, whatever ran its replicates.
 
-use super::execute::Round;
-use super::lane_batch::Memory;
-use super::moments::LaneNoise;
 use super::sections::CellSums;
 use crate::results::{Group, Series};
-use std::ops::Range;
 
 /// One cell of a sweep: a curve at one number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,41 +24,6 @@ pub(super) struct ParameterName {
     pub(super) name: String,
     pub(super) group: Group,
     pub(super) v: Option<f64>,
-}
-
-/// Work that may go on beside other work, in memory that earlier tasks have left behind.
-pub(super) type Task<'a> = Box<dyn FnOnce(&mut Memory) + Send + 'a>;
-
-/// Cells whose replicates are run together: noise is drawn, then the cells take it in.
-///
-/// Every kind of experiment has its own; the rounds, sections and stopping rule know this much of them only. The outcome depends on the seed
-/// and the replicates' numbers, not on threads or on what else is active.
-pub(super) trait Workload: Sync {
-    /// How many cells there are.
-    fn cells(&self) -> usize;
-
-    /// Draws the noise of the replicates `chunk` of a round, whatever `noise` held before; none where a replicate draws its own when the cells
-    /// take it in.
-    fn draw<'a>(
-        &'a self,
-        _round: &'a Round,
-        _chunk: Range<usize>,
-        noise: &'a mut Vec<LaneNoise>,
-    ) -> Vec<Task<'a>> {
-        noise.clear();
-        Vec::new()
-    }
-
-    /// Runs the replicates `chunk` of a round, whose noise has been drawn, in every active cell and adds what came out to their sums.
-    fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>>;
-}
-
-/// Some replicates of a round with their noise.
-#[derive(Debug, Clone)]
-pub(super) struct Chunk<'a> {
-    pub(super) round: &'a Round,
-    pub(super) range: Range<usize>,
-    pub(super) noise: &'a [LaneNoise],
 }
 
 /// The cells of a workload, an entry a cell in both.

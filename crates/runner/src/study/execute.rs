@@ -1,20 +1,15 @@
 //! Running the replicates, in parallel and reproducibly.
 
-use super::cell::{ActiveCells, CellSpec, Chunk, Task, Workload};
-use super::lane_batch::Memory;
-use super::moments::LaneNoise;
-use super::sections::{CellSums, SECTIONS, Sections};
+use super::cell::{ActiveCells, CellSpec};
+use super::memory::Memory;
+use super::noise::LaneNoise;
+use super::round::{BATCH, Round};
+use super::sections::{SECTIONS, Sections};
+use super::workload::{Chunk, Task, Workload};
 use crate::scenario::{Replication, Scenario, Stopping};
 use rayon::prelude::*;
 use std::mem;
 use std::ops::Range;
-
-/// Replicates of one noise pass: a whole number of lanes at every width.
-pub(super) const BATCH: usize = 16;
-
-/// Least and largest number of replicates in a chunk, of which two are held at once, one being drawn and one being taken in: what begins anew
-/// with each chunk costs less a replicate in the larger, and memory more.
-const CHUNKS: [usize; 2] = [8 * BATCH, 32 * BATCH];
 
 /// Told how the work goes on; called from several threads.
 pub trait Progress: Sync {
@@ -140,64 +135,6 @@ pub(super) struct Outcome {
     pub(super) sections: Sections,
     /// Whether each cell is as precise as the scenario asks; `None` where it does not ask.
     pub(super) precise: Option<Vec<bool>>,
-}
-
-/// The replicates between two looks at the stopping rule.
-#[derive(Debug, Clone)]
-pub(super) struct Round {
-    pub(super) seed: u64,
-    pub(super) range: Range<usize>,
-}
-
-impl Round {
-    /// Its replicates in chunks: about sixteen, so that progress is seen.
-    fn chunks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        let [least, largest] = CHUNKS;
-        let chunk = (self.range.len() / 16).next_multiple_of(BATCH).clamp(least, largest);
-        self.range.clone().step_by(chunk).map(move |start| start..self.range.end.min(start + chunk))
-    }
-
-    /// The section that a replicate belongs to: sections are contiguous and of (nearly) equal size.
-    pub(super) fn section(&self, replicate: usize) -> usize {
-        ((replicate - self.range.start + 1) * SECTIONS).div_ceil(self.range.len()) - 1
-    }
-}
-
-/// One task that runs the replicates of a chunk one by one, each drawing its own noise: `replicate` takes the seed, the replicate's number and
-/// which cells are active, and adds to the cells' sums.
-pub(super) fn one_by_one<'a>(
-    chunk: Chunk<'a>,
-    cells: ActiveCells<'a>,
-    replicate: impl Fn(u64, u32, &[bool], &mut [CellSums]) + Send + Sync + 'a,
-) -> Vec<Task<'a>> {
-    let ActiveCells { active, sums } = cells;
-    let seed = chunk.round.seed;
-    vec![Box::new(move |_| by_sections(&chunk, sums, |r, sums| replicate(seed, r, active, sums)))]
-}
-
-/// Runs the replicates of a chunk one by one in parallel: each section's part is summed on its own, and the parts are added in order.
-fn by_sections(
-    chunk: &Chunk<'_>,
-    cells: &mut [Vec<CellSums>],
-    replicate: impl Fn(u32, &mut [CellSums]) + Sync,
-) {
-    let round = chunk.round;
-    let replicates: Vec<usize> = chunk.range.clone().collect();
-    let parts: Vec<&[usize]> = replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
-    let empty: Vec<CellSums> =
-        cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
-    let sums: Vec<Vec<CellSums>> = parts
-        .par_iter()
-        .map(|part| {
-            let mut sums = empty.clone();
-            part.iter().for_each(|&r| replicate(r as u32, &mut sums));
-            sums
-        })
-        .collect();
-    for (part, sums) in parts.iter().zip(&sums) {
-        let section = round.section(part[0]);
-        cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
-    }
 }
 
 /// Up to how many replicates the next round goes, and how many the study will take in all as far as is known.

@@ -1,16 +1,15 @@
 //! A few groups of eight replicates at a time through the cells of a family.
 
 use super::bench::Bench;
-use super::family::FamilyPlan;
-use super::moments::LaneNoise;
-use super::noise_group::{Contender, Setting};
+use super::family_plan::FamilyPlan;
+use super::memory::{Few, LANES_AT_ONCE};
+use super::noise::LaneNoise;
 use super::sections::CellSums;
+use super::setting::{Contender, Setting};
 use std::array;
-use switchback_estimator::estimators::pulse::lanes::{
-    LANES, Lane, LaneFit, LaneSample, LaneStatistics, LaneStep, LaneTerms,
-};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneSample, LaneStep};
 use switchback_estimator::estimators::pulse::{PulseData, StepMean};
-use switchback_estimator::simulation::{LaneCross, LaneGroupedNoise, LaneSuperposition};
+use switchback_estimator::simulation::{LaneCross, LaneGroupedNoise};
 use switchback_estimator::statistics::{LaneErrors, LaneSums};
 
 /// One method at one noise level.
@@ -38,37 +37,6 @@ impl<'a> Cell<'a> {
             self.section = section;
         }
         &mut self.sums[section]
-    }
-}
-
-/// Groups of eight replicates that a cell takes in before the next: so many statistics, and one cell's sums, stay in the cache.
-pub(super) const LANES_AT_ONCE: usize = 4;
-
-/// What one family leaves to the next: memory.
-#[derive(Default)]
-pub(super) struct Memory {
-    /// One a group of eight replicates.
-    pub(super) crosses: Vec<[LaneCross; 2]>,
-    pub(super) few: Few,
-}
-
-/// A few groups of eight replicates at one noise level.
-#[derive(Default)]
-pub(super) struct Few {
-    statistics: [[LaneStatistics; 2]; LANES_AT_ONCE],
-    steps: [[LaneStep; 2]; LANES_AT_ONCE],
-    fits: [LaneFit; LANES_AT_ONCE],
-    terms: [LaneTerms; LANES_AT_ONCE],
-    /// Running sums of the level's cells.
-    pub(super) sums: Vec<LaneSums>,
-}
-
-impl Few {
-    /// Makes room for the statistics of a family.
-    pub(super) fn shape(&mut self, superpositions: &[LaneSuperposition; 2]) {
-        for statistics in &mut self.statistics {
-            statistics.iter_mut().zip(superpositions).for_each(|(s, from)| from.shape(s));
-        }
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`noise_group`), another every cell of `free`, which needs no
 //! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight at once
-//! (`family`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`). The oracle of
+//! (`family`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`; what runs, in which
+//! pieces, is a `workload`). The oracle of
 //! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
 //! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
 
@@ -12,25 +13,31 @@ mod direct;
 mod execute;
 mod expectations;
 mod family;
+mod family_plan;
 mod free;
 mod judge;
 mod lane_batch;
-mod moments;
+mod memory;
+mod noise;
 mod noise_group;
 mod paired;
 mod pulse_kind;
 mod replay;
+mod round;
 mod sections;
+mod setting;
 mod tabulate;
 mod views;
+mod workload;
 
 use crate::results::{BorderCurve, Results, SCHEMA};
 use crate::scenario::{Coupling, Engine, Scenario};
-use cell::{CellSpec, Workload};
+use cell::CellSpec;
 use direct::DirectGroup;
 use execute::Outcome;
 use std::ops::Range;
 use thiserror::Error;
+use workload::Workload;
 
 pub use execute::Progress;
 pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};

@@ -33,7 +33,7 @@ impl PulseKind {
         match self {
             Self::PaperDescendant => &[0],
             Self::PaperAscendant => &[1],
-            _ => &[0, 1],
+            Self::Joint | Self::Efficient | Self::LinearArx | Self::Memoryless => &[0, 1],
         }
     }
 

@@ -3,8 +3,9 @@
 use super::StudyError;
 use super::bench::DIRECTIONS;
 use super::direct::{OpenNoise, OpenRecord};
-use super::moments::{ReplicateNoise, draw};
-use super::noise_group::{self, Contender, NoiseGroup, Setting};
+use super::noise::{ReplicateNoise, draw};
+use super::noise_group::{self, NoiseGroup};
+use super::setting::{Contender, Setting};
 use crate::results::Series;
 use crate::scenario::Scenario;
 use switchback_estimator::estimators::pulse::{PulseData, PulseFitError, StepMean};
@@ -65,9 +66,9 @@ pub fn replay(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedCell>, 
     let groups = noise_group::plan(scenario)?;
     let mut cells = Vec::new();
     for group in &groups {
-        let noise = draw(group, scenario.seed(), replicate..replicate + 1);
+        let noise = draw(&group.noise, scenario.seed(), replicate..replicate + 1);
         for setting in &group.settings {
-            for (checkpoint, &samples) in group.pulses.checkpoints.iter().enumerate() {
+            for (checkpoint, &samples) in group.noise.pulses.checkpoints.iter().enumerate() {
                 let sample = Sample::new(group, setting, checkpoint, &noise[0]);
                 cells.extend(setting.methods.iter().map(|contender| ReplayedCell {
                     series: setting.series(scenario, contender.method),
@@ -88,7 +89,7 @@ struct Sample {
 
 impl Sample {
     fn new(group: &NoiseGroup, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
-        let samples = group.pulses.checkpoints[checkpoint] as f64;
+        let samples = group.noise.pulses.checkpoints[checkpoint] as f64;
         Self {
             data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
             steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),

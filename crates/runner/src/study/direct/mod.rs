@@ -11,10 +11,11 @@ mod regression;
 
 pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
-use super::cell::{ActiveCells, Chunk, Task, Workload};
-use super::execute::one_by_one;
-use super::noise_group::{Contender, NoiseGroup, Setting};
+use super::cell::ActiveCells;
+use super::noise_group::NoiseGroup;
 use super::sections::CellSums;
+use super::setting::{Contender, Setting};
+use super::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Scenario};
 use regression::Experiment;
 use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
@@ -38,7 +39,7 @@ impl<'a> DirectGroup<'a> {
             let border = &case.borders[setting.border];
             let records = [0, 1].map(|k| noise.record(self.group, (case, border), setting, k));
             let bench = Simulated::new(case, setting, &records);
-            for (checkpoint, &samples) in self.group.pulses.checkpoints.iter().enumerate() {
+            for (checkpoint, &samples) in self.group.noise.pulses.checkpoints.iter().enumerate() {
                 let length = (checkpoint, samples);
                 let steps = [0, 1]
                     .map(|k| StepMean { mean: records[k].step_means[checkpoint], samples: samples as f64 });

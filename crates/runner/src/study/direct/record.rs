@@ -1,8 +1,9 @@
 //! Records in the open: the operator, the difference equation and the noise, run sample by sample.
 
 use crate::scenario::{Border, Case, Disturbance};
-use crate::study::moments::draw;
-use crate::study::noise_group::{NoiseGroup, Setting};
+use crate::study::noise::draw;
+use crate::study::noise_group::NoiseGroup;
+use crate::study::setting::Setting;
 use switchback_estimator::linear::filter;
 use switchback_estimator::simulation::noise::{NoiseSamples, StreamId, samples};
 
@@ -32,13 +33,13 @@ pub(in crate::study) struct OpenRecord {
 
 impl OpenNoise {
     pub(in crate::study) fn draw(group: &NoiseGroup, seed: u64, replicate: u32) -> Self {
-        let plan = &group.pulses;
+        let plan = &group.noise.pulses;
         let open = |k: usize| {
             let count = plan.checkpoints.last().copied().unwrap_or_default();
-            let id = StreamId { seed, experiment: group.stream + k as u32, replicate };
+            let id = StreamId { seed, experiment: group.noise.stream + k as u32, replicate };
             samples(plan, id, count).expect("a group's noise plan is valid")
         };
-        let means = draw(group, seed, replicate..replicate + 1);
+        let means = draw(&group.noise, seed, replicate..replicate + 1);
         let steps = |k: usize| (0..plan.checkpoints.len()).map(|c| means[0].step_means(c)[k]).collect();
         Self { pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
     }
@@ -51,7 +52,7 @@ impl OpenNoise {
         setting: &Setting,
         k: usize,
     ) -> OpenRecord {
-        let (lead, bench, noise) = (group.pulses.lags, &setting.bench, &self.pulses[k]);
+        let (lead, bench, noise) = (group.noise.pulses.lags, &setting.bench, &self.pulses[k]);
         let count = noise.w.len() - noise.burn_in;
         // One sample loads the border; then whole periods until both transients and noise have settled.
         let settling = (case.system.settling_samples(SETTLED) + lead).max(noise.burn_in);

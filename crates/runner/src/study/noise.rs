@@ -1,11 +1,28 @@
-//! The noise of a noise group's replicates: one by one, and eight at once.
+//! The noise of replicates that cells share: one by one, and eight at once.
 
-use super::execute::Round;
-use super::noise_group::NoiseGroup;
+use super::round::Round;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
-use switchback_estimator::simulation::noise::{NoisePass, NoiseRecord, Width};
+use switchback_estimator::simulation::noise::{MeanNoise, NoisePass, NoisePlan, NoiseRecord, Width};
 use switchback_estimator::simulation::{Grouping, LaneGroupedNoise, LaneMoments, NoiseMoments};
+
+/// Streams of a noise group: descendant, ascendant, and the two step experiments.
+pub(super) const STREAMS: u32 = 4;
+
+/// What one pass over the noise of a replicate draws and records.
+#[derive(Debug, Clone)]
+pub(super) struct NoiseSource {
+    /// First of its [`STREAMS`] noise streams.
+    pub(super) stream: u32,
+    /// What to record of the pulse experiments' noise.
+    pub(super) pulses: NoisePlan,
+    /// The mean noise in a step experiment; `None` where no method asks for it.
+    pub(super) steps: Option<MeanNoise>,
+    /// Whether any method looks at the descendant, at the ascendant experiment.
+    pub(super) experiments: [bool; 2],
+    /// How samples are sorted into groups, by number of samples and period.
+    pub(super) groupings: Vec<Vec<Grouping>>,
+}
 
 /// Moments of one replicate: for both experiments, by number of samples and period; means of the step noise by number of samples.
 #[derive(Debug, Clone, Default)]
@@ -27,18 +44,18 @@ impl ReplicateNoise {
 }
 
 /// Draws the noise of a run of replicates, lanes at once.
-pub(super) fn draw(group: &NoiseGroup, seed: u64, replicates: Range<u32>) -> Vec<ReplicateNoise> {
+pub(super) fn draw(source: &NoiseSource, seed: u64, replicates: Range<u32>) -> Vec<ReplicateNoise> {
     let mut noise = vec![ReplicateNoise::default(); replicates.len()];
     let start = replicates.start;
     let mut pulses =
-        NoisePass::new(group.pulses.clone(), Width::detect()).expect("a group's noise plan is valid");
+        NoisePass::new(source.pulses.clone(), Width::detect()).expect("a group's noise plan is valid");
     for k in 0..2 {
-        pulses.run(seed, group.stream + k as u32, replicates.clone(), |r, record| {
+        pulses.run(seed, source.stream + k as u32, replicates.clone(), |r, record| {
             noise[(r - start) as usize].pulses[k] = moments(record);
         });
     }
     for k in 0..2 {
-        draw_steps(group, k, seed, replicates.clone(), |r, means| {
+        draw_steps(source, k, seed, replicates.clone(), |r, means| {
             noise[(r - start) as usize].steps[k] = means.to_vec();
         });
     }
@@ -47,14 +64,14 @@ pub(super) fn draw(group: &NoiseGroup, seed: u64, replicates: Range<u32>) -> Vec
 
 /// Visits the mean noise of every replicate in step experiment `k`, one a number of samples; nothing where no method asks for it.
 fn draw_steps(
-    group: &NoiseGroup,
+    source: &NoiseSource,
     k: usize,
     seed: u64,
     replicates: Range<u32>,
     visit: impl FnMut(u32, &[f64]),
 ) {
-    if let Some(steps) = &group.steps {
-        steps.draw(Width::detect(), seed, group.stream + 2 + k as u32, replicates, visit);
+    if let Some(steps) = &source.steps {
+        steps.draw(Width::detect(), seed, source.stream + 2 + k as u32, replicates, visit);
     }
 }
 
@@ -89,7 +106,12 @@ impl LaneNoise {
 }
 
 /// Draws the noise of a run of replicates into `noise`, an entry eight of them.
-pub(super) fn draw_lanes(group: &NoiseGroup, round: &Round, replicates: Range<u32>, noise: &mut [LaneNoise]) {
+pub(super) fn draw_lanes(
+    source: &NoiseSource,
+    round: &Round,
+    replicates: Range<u32>,
+    noise: &mut [LaneNoise],
+) {
     let seed = round.seed;
     let start = replicates.start;
     for (first, noise) in replicates.clone().step_by(LANES).zip(&mut *noise) {
@@ -97,13 +119,13 @@ pub(super) fn draw_lanes(group: &NoiseGroup, round: &Round, replicates: Range<u3
         *noise = LaneNoise { first, sections, ..LaneNoise::default() };
     }
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
-    let plan = &group.pulses;
+    let plan = &source.pulses;
     let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a group's noise plan is valid");
     let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
     let mut moments: Vec<LaneMoments> =
         plan.checkpoints.iter().flat_map(|_| plan.periods.iter().map(zeros)).collect();
-    for k in (0..2).filter(|k| group.experiments[*k]) {
-        pass.run_batched(seed, group.stream + k as u32, replicates.clone(), |first, records| {
+    for k in (0..2).filter(|k| source.experiments[*k]) {
+        pass.run_batched(seed, source.stream + k as u32, replicates.clone(), |first, records| {
             let (lanes, at_once) = (records.lanes(), records.lanes().min(LANES));
             for from in (0..lanes).step_by(at_once) {
                 let (batch, lane) = place(first + from as u32);
@@ -115,11 +137,11 @@ pub(super) fn draw_lanes(group: &NoiseGroup, round: &Round, replicates: Range<u3
                 let last =
                     lane + at_once == LANES || first as usize + from + at_once >= replicates.end as usize;
                 if last {
-                    into.pulses[k] = sort(&group.groupings, &moments);
+                    into.pulses[k] = sort(&source.groupings, &moments);
                 }
             }
         });
-        draw_steps(group, k, seed, replicates.clone(), |r, means| {
+        draw_steps(source, k, seed, replicates.clone(), |r, means| {
             let (batch, lane) = place(r);
             let into = &mut noise[batch].steps[k];
             into.resize(means.len(), Lane::ZERO);
