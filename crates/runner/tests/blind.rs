@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use switchback::blind::{self, Expect, Journal, KEY_FILE, Kind, Sealed, Study, WrittenKeys};
 use switchback::output::sha256;
+use switchback::plots;
 use switchback_estimator::rig::Rig;
 use switchback_gap::{DiagnoseError, Diagnosis, Figure, Gap, ResidualPicture, Settings, Status, Verdict};
 use switchback_maker::Plan;
@@ -80,8 +81,11 @@ fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
         let key = blind::key_file(&sealed);
         let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
         let scores = blind::score(&cases, &study.expect);
-        let files = blind::artefacts(&study, &sha256(&key), &cases, &scores).unwrap();
-        (key, files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect())
+        let files = blind::artefacts(&study, &sha256(&key), &cases, &scores);
+        let tables = files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec()));
+        let figures = plots::blind::figures(&cases, &scores).unwrap();
+        let figures = figures.into_iter().map(|(name, svg)| (name.to_owned(), svg.into_bytes()));
+        (key, tables.chain(figures).collect())
     })
 }
 

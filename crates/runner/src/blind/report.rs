@@ -1,4 +1,4 @@
-//! The report: tables as CSV, figures as SVG, everything in one results.json.
+//! The report's tables as CSV, and everything in one results.json.
 
 mod json;
 mod tables;
@@ -7,19 +7,10 @@ use super::case::Case;
 use super::scenario::Study;
 use super::score::{Bound, Measure, Scores};
 use crate::output::Artefacts;
-use crate::plots::blind as plots;
 use std::fmt::Write;
 
-/// All files of the report but the key.
-///
-/// # Errors
-/// A figure that could not be drawn.
-pub fn artefacts(
-    study: &Study,
-    key_sha256: &str,
-    cases: &[Case],
-    scores: &Scores,
-) -> miette::Result<Artefacts> {
+/// The files of the report but the key and the figures.
+pub fn artefacts(study: &Study, key_sha256: &str, cases: &[Case], scores: &Scores) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("results.json", json::results(study, key_sha256, cases, scores));
     artefacts.add("summary.txt", summary(scores));
@@ -31,13 +22,7 @@ pub fn artefacts(
     artefacts.add("closure.csv", tables::closure(&scores.closure));
     artefacts.add("where.csv", tables::places(&scores.places));
     artefacts.add("baselines.csv", tables::baselines(&scores.baselines));
-    artefacts.add("confusion.svg", plots::confusion(&scores.confusion)?);
-    artefacts.add("accuracy.svg", plots::accuracy(&scores.sizes)?);
-    artefacts.add("calibration.svg", plots::calibration(&scores.calibration)?);
-    artefacts.add("abstention.svg", plots::abstention(&scores.abstention)?);
-    artefacts.add("closure.svg", plots::closure(cases)?);
-    artefacts.add("baselines.svg", plots::baselines(&scores.baselines)?);
-    Ok(artefacts)
+    artefacts
 }
 
 /// The answers alone: what a part of an examination tells before the others are judged.

@@ -5,6 +5,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::input::read_text;
 use crate::options::{Force, Quiet, Shard};
 use crate::output::{Artefacts, OutputFolder, sha256};
+use crate::plots;
 use crate::progress::Meter;
 use crate::study::Progress;
 use miette::Diagnostic;
@@ -154,11 +155,14 @@ pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 /// Scores, writes the report, prints the summary.
 ///
 /// # Errors
-/// A folder that cannot be written.
+/// A folder that cannot be written, or a figure that cannot be drawn.
 pub fn conclude(study: &Study, keys: &str, cases: &[Case], place: Place<'_>, page: Page) -> CommandResult {
     let out = place.folder(study);
     let scores = blind::score(cases, &study.expect);
-    let mut report = blind::artefacts(study, &sha256(keys), cases, &scores)?;
+    let mut report = blind::artefacts(study, &sha256(keys), cases, &scores);
+    for (name, figure) in plots::blind::figures(cases, &scores)? {
+        report.add(name, figure);
+    }
     report.add(KEY_FILE, keys);
     place.force.claim(&out, &FILES)?.commit(&report)?;
     let words = || format!("{}\nwritten to {}\n", blind::summary(&scores), out.display());

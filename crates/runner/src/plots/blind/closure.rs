@@ -11,7 +11,7 @@ const LEAST: f64 = -0.5;
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn closure(cases: &[Case]) -> Result<String, PlotError> {
+pub(super) fn closure(cases: &[Case]) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Closure on the hold-out records: stated against real (× beyond the frame)",
         sample: Sample::Dot,

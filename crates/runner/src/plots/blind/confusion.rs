@@ -13,7 +13,7 @@ const TOP: i32 = 190;
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn confusion(table: &Confusion) -> Result<String, PlotError> {
+pub(super) fn confusion(table: &Confusion) -> Result<String, PlotError> {
     let width = LEFT + CELL * table.columns.len() as i32 + 20;
     let height = TOP + CELL * table.rows.len() as i32 + 20;
     page((width as u32, height as u32), |canvas| {

@@ -10,7 +10,7 @@ const SIZE: (u32, u32) = (720, 460);
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn accuracy(rows: &[SizeRow]) -> Result<String, PlotError> {
+pub(super) fn accuracy(rows: &[SizeRow]) -> Result<String, PlotError> {
     let largest = rows.iter().map(|r| r.wanted).fold(1.0, f64::max);
     let least = rows.iter().map(|r| r.wanted).fold(1.0, f64::min);
     let frame = Frame {
@@ -44,7 +44,7 @@ fn power_of_two(x: &f64) -> String {
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn calibration(table: &Calibration) -> Result<String, PlotError> {
+pub(super) fn calibration(table: &Calibration) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Probabilities mean what they say where the curve follows the diagonal",
         sample: Sample::Line,
@@ -70,7 +70,7 @@ pub fn calibration(table: &Calibration) -> Result<String, PlotError> {
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn abstention(rows: &[AbstentionRow]) -> Result<String, PlotError> {
+pub(super) fn abstention(rows: &[AbstentionRow]) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Staying silent below a probability",
         sample: Sample::Line,

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub fn baselines(rows: &[BaselineRow]) -> Result<String, PlotError> {
+pub(super) fn baselines(rows: &[BaselineRow]) -> Result<String, PlotError> {
     const LEFT: i32 = 200;
     const FULL: f64 = 440.0;
     const BAR: i32 = 16;
