@@ -1,5 +1,6 @@
 //! Which estimator a method is.
 
+use super::pulse::Designed;
 use super::{Identification, IdentificationError, Method, Request, free, pulse};
 use switchback_estimator::estimators::free::{InputMap, Progress};
 use switchback_estimator::rig::Rig;
@@ -23,9 +24,10 @@ pub fn identify_watched(
 ) -> Result<Identification, IdentificationError> {
     match request.method {
         // Their switch is (2.3) and their B begins at b₁: they can always run in real time.
-        Method::PaperDescendant | Method::PaperAscendant | Method::Joint | Method::Efficient => {
-            pulse::identify(rig, request.method)
-        }
+        Method::PaperDescendant => pulse::identify(rig, Designed::PaperDescendant),
+        Method::PaperAscendant => pulse::identify(rig, Designed::PaperAscendant),
+        Method::Joint => pulse::identify(rig, Designed::Joint),
+        Method::Efficient => pulse::identify(rig, Designed::Efficient),
         Method::Free => free::identify(rig, request, InputMap::Borders, progress),
         Method::LinearArx => free::identify(rig, request, InputMap::Linear, progress),
         Method::Memoryless => free::identify(rig, request, InputMap::Static, progress),

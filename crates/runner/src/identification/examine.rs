@@ -89,7 +89,11 @@ fn others(
     let simpler: &[Method] = match request.method {
         Method::LinearArx => &[],
         Method::Memoryless => &[Method::LinearArx],
-        _ => &[Method::Memoryless, Method::LinearArx],
+        Method::PaperDescendant
+        | Method::PaperAscendant
+        | Method::Joint
+        | Method::Efficient
+        | Method::Free => &[Method::Memoryless, Method::LinearArx],
     };
     let mut requests: Vec<Request> = simpler.iter().map(|&method| Request { method, ..request }).collect();
     if !found.obstacles.is_empty() {

@@ -12,8 +12,8 @@ pub fn default_method(rig: &Rig) -> Method {
         (true, true) => Method::Efficient,
         (true, false) if has(Role::StepHigh) => Method::PaperDescendant,
         (false, true) if has(Role::StepLow) => Method::PaperAscendant,
+        (true, false) | (false, true) => Method::Efficient,
         (false, false) => Method::Free,
-        _ => Method::Efficient,
     }
 }
 

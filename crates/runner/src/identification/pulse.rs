@@ -16,14 +16,35 @@ const ORDERS: std::ops::RangeInclusive<usize> = 1..=6;
 /// The share of a step's transient that may remain when its mean is taken.
 const SETTLED: f64 = 1e-4;
 
+/// A method for the designed experiments of a rig.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Designed {
+    PaperDescendant,
+    PaperAscendant,
+    Joint,
+    Efficient,
+}
+
+impl Designed {
+    fn method(self) -> Method {
+        match self {
+            Self::PaperDescendant => Method::PaperDescendant,
+            Self::PaperAscendant => Method::PaperAscendant,
+            Self::Joint => Method::Joint,
+            Self::Efficient => Method::Efficient,
+        }
+    }
+}
+
 /// Identifies from the pulse experiments among the fit records.
-pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, IdentificationError> {
-    let records = experiments(rig, method)?;
+pub(super) fn identify(rig: &Rig, designed: Designed) -> Result<Identification, IdentificationError> {
+    let method = designed.method();
+    let records = experiments(rig, designed)?;
     let mut flags = Vec::new();
     let order = match rig.order {
         Some(order) => order,
         None => {
-            let order = chosen_order(rig, method, &records)?;
+            let order = chosen_order(rig, designed, &records)?;
             let text = format!(
                 "order {order} was chosen from the data (least BIC); set `order` in the rig file if it is known"
             );
@@ -33,10 +54,10 @@ pub(super) fn identify(rig: &Rig, method: Method) -> Result<Identification, Iden
     };
     let data = read(rig, method, &records, order)?;
     let data: Vec<&PulseData> = data.iter().collect();
-    let (fit, covariance) = fit(rig, method, &data)?;
+    let (fit, covariance) = fit(rig, designed, &data)?;
     let estimate = fit.estimate(&data);
     let covariance = by_position(covariance, &data);
-    if method != Method::Joint && data.len() == 1 {
+    if data.len() == 1 {
         let border = match data[0].branch {
             Branch::Descending => "descending",
             Branch::Ascending => "ascending",
@@ -106,22 +127,17 @@ fn by_position(covariance: Vec<Vec<f64>>, data: &[&PulseData]) -> Vec<Vec<f64>> 
 }
 
 /// The fit records that the method works on: the longest of each role it needs.
-fn experiments(rig: &Rig, method: Method) -> Result<Vec<&RigRecord>, IdentificationError> {
+fn experiments(rig: &Rig, designed: Designed) -> Result<Vec<&RigRecord>, IdentificationError> {
+    let method = designed.method();
     let missing = |needed| IdentificationError::MissingExperiment { rig: rig.name.clone(), method, needed };
-    let find = |role| longest(rig, role);
-    match method {
-        Method::PaperDescendant => {
-            Ok(vec![find(Role::Descendant).ok_or_else(|| missing("a `descendant` record"))?])
-        }
-        Method::PaperAscendant => {
-            Ok(vec![find(Role::Ascendant).ok_or_else(|| missing("an `ascendant` record"))?])
-        }
-        Method::Joint => Ok(vec![
-            find(Role::Descendant).ok_or_else(|| missing("a `descendant` record"))?,
-            find(Role::Ascendant).ok_or_else(|| missing("an `ascendant` record"))?,
-        ]),
-        _ => {
-            let found: Vec<_> = [Role::Descendant, Role::Ascendant].into_iter().filter_map(find).collect();
+    let descendant = || longest(rig, Role::Descendant).ok_or_else(|| missing("a `descendant` record"));
+    let ascendant = || longest(rig, Role::Ascendant).ok_or_else(|| missing("an `ascendant` record"));
+    match designed {
+        Designed::PaperDescendant => Ok(vec![descendant()?]),
+        Designed::PaperAscendant => Ok(vec![ascendant()?]),
+        Designed::Joint => Ok(vec![descendant()?, ascendant()?]),
+        Designed::Efficient => {
+            let found: Vec<_> = descendant().into_iter().chain(ascendant()).collect();
             if found.is_empty() { Err(missing("a `descendant` or an `ascendant` record")) } else { Ok(found) }
         }
     }
@@ -161,7 +177,7 @@ fn pulse_data(record: &RigRecord, order: usize) -> Result<PulseData, PulseDataEr
 }
 
 /// The order of least `N ln σ² + p ln N` of the rank-one constrained fit.
-fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usize, IdentificationError> {
+fn chosen_order(rig: &Rig, designed: Designed, records: &[&RigRecord]) -> Result<usize, IdentificationError> {
     let criterion = |order: usize| -> Option<f64> {
         let data: Vec<PulseData> =
             records.iter().map(|record| pulse_data(record, order)).collect::<Result<_, _>>().ok()?;
@@ -176,42 +192,46 @@ fn chosen_order(rig: &Rig, method: Method, records: &[&RigRecord]) -> Result<usi
     match best {
         Some((order, _)) => Ok(order),
         // No order works: say why the simplest does not.
-        None => read(rig, method, records, *ORDERS.start())
-            .and_then(|data| fit(rig, method, &data.iter().collect::<Vec<_>>()).map(|_| *ORDERS.start())),
+        None => read(rig, designed.method(), records, *ORDERS.start())
+            .and_then(|data| fit(rig, designed, &data.iter().collect::<Vec<_>>()).map(|_| *ORDERS.start())),
     }
 }
 
 fn fit(
     rig: &Rig,
-    method: Method,
+    designed: Designed,
     data: &[&PulseData],
 ) -> Result<(PulseFit, Vec<Vec<f64>>), IdentificationError> {
+    let method = designed.method();
     let refused = |reason: String| IdentificationError::Refused {
         rig: rig.name.clone(),
         method,
         reason,
         remedy: "try a lower `order`, a longer record, or `--method free`".to_owned(),
     };
-    let fitted = match method {
-        Method::PaperDescendant | Method::PaperAscendant => {
-            // Any mean serves for a first a, which then says how long the step takes to settle.
-            let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
-            let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
-            PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, &a)? }
-                .fit_with_covariance()
-        }
-        Method::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] }.fit_with_covariance(),
-        _ => PulseMethod::Efficient(data).fit_with_covariance(),
+    let paper = |step: (Role, &'static str)| -> Result<_, IdentificationError> {
+        // Any mean serves for a first a, which then says how long the step takes to settle.
+        let first = PulseMethod::Efficient(data).fit().map_err(|error| refused(error.to_string()))?;
+        let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
+        Ok(PulseMethod::Paper { experiment: data[0], step: step_mean(rig, method, step, &a)? })
     };
+    let fitted = match designed {
+        Designed::PaperDescendant => paper((Role::StepHigh, "a `step_high` record"))?,
+        Designed::PaperAscendant => paper((Role::StepLow, "a `step_low` record"))?,
+        Designed::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] },
+        Designed::Efficient => PulseMethod::Efficient(data),
+    }
+    .fit_with_covariance();
     fitted.map_err(|error| refused(error.to_string()))
 }
 
-/// (3.6) without its transient.
-fn step_mean(rig: &Rig, method: Method, a: &[f64]) -> Result<StepMean, IdentificationError> {
-    let (role, needed) = match method {
-        Method::PaperDescendant => (Role::StepHigh, "a `step_high` record"),
-        _ => (Role::StepLow, "a `step_low` record"),
-    };
+/// (3.6) without its transient, from the longest record of a role, which is given with the words for it.
+fn step_mean(
+    rig: &Rig,
+    method: Method,
+    (role, needed): (Role, &'static str),
+    a: &[f64],
+) -> Result<StepMean, IdentificationError> {
     let record = longest(rig, role).ok_or_else(|| IdentificationError::MissingExperiment {
         rig: rig.name.clone(),
         method,
