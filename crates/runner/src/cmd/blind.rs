@@ -160,8 +160,8 @@ pub fn conclude(study: &Study, keys: &str, cases: &[Case], place: Place<'_>, pag
     let out = place.folder(study);
     let scores = blind::score(cases, &study.expect);
     let mut report = blind::artefacts(study, &sha256(keys), cases, &scores);
-    for (name, figure) in plots::blind::figures(cases, &scores)? {
-        report.add(name, figure);
+    for figure in plots::blind::figures(cases, &scores)? {
+        report.add(figure.name, figure.svg);
     }
     report.add(KEY_FILE, keys);
     place.force.claim(&out, &FILES)?.commit(&report)?;

@@ -71,7 +71,7 @@ impl PulseMethod<'_> {
     fn step(&self) -> Option<StepMean> {
         match *self {
             Self::Paper { step, .. } => Some(step),
-            _ => None,
+            Self::Joint { .. } | Self::Efficient(_) | Self::LinearArx(_) | Self::Memoryless(_) => None,
         }
     }
 }

@@ -8,19 +8,21 @@ mod rules;
 
 pub use page::PlotError;
 
+use super::Figure;
 use crate::blind::{Case, Scores};
 
-/// Every figure with the name of its file.
+/// Every figure.
 ///
 /// # Errors
 /// [`PlotError`] for a figure that could not be drawn.
-pub fn figures(cases: &[Case], scores: &Scores) -> Result<[(&'static str, String); 6], PlotError> {
-    Ok([
+pub fn figures(cases: &[Case], scores: &Scores) -> Result<Vec<Figure>, PlotError> {
+    let figures = [
         ("confusion.svg", confusion::confusion(&scores.confusion)?),
         ("accuracy.svg", curves::accuracy(&scores.sizes)?),
         ("calibration.svg", curves::calibration(&scores.calibration)?),
         ("abstention.svg", curves::abstention(&scores.abstention)?),
         ("closure.svg", closure::closure(cases)?),
         ("baselines.svg", rules::baselines(&scores.baselines)?),
-    ])
+    ];
+    Ok(figures.map(|(name, svg)| Figure { name: name.to_owned(), svg }).into())
 }
