@@ -36,7 +36,7 @@ impl Default for Plan {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
     /// Name of the record.
-    pub name: &'static str,
+    pub name: String,
     /// What drives the input.
     pub role: Role,
     /// Fit or hold-out.
@@ -109,7 +109,7 @@ pub(crate) fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<
         let samples = v.len();
         let (total, total_travel) = (0, 0.0); // known once all passages are laid out
         passages.push(Passage {
-            name,
+            name: name.to_owned(),
             role,
             usage,
             index,
@@ -131,7 +131,7 @@ pub(crate) fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<
 }
 
 /// Loads the border that ends at `start`, and lets the output settle there.
-fn lead_in(interval: Interval, start: f64, settle: usize) -> Vec<f64> {
+pub(crate) fn lead_in(interval: Interval, start: f64, settle: usize) -> Vec<f64> {
     let (low, high) = (interval.low(), interval.high());
     let (near, far) = if start > low { (high, low) } else { (low, high) };
     let mut v = vec![near, far];

@@ -45,6 +45,36 @@ pub enum Nature {
     Noise,
 }
 
+/// How a law comes into records that were measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Planting {
+    /// [`Law::sensor`] acts on the measured output: exact.
+    Reading,
+    /// A gain that changes slowly against the dynamics scales the output as it scales `u`: [`Law::dynamics`] acts on the measured output.
+    Gain,
+    /// The record of the input changes ([`Law::recording`]), the machine does not: exact.
+    Recording,
+    /// The difference between two simulations of a model of the machine, with the law and without, is added to the measured output.
+    Carried,
+}
+
+impl Planting {
+    /// Whether no model takes part.
+    pub fn is_exact(self) -> bool {
+        self != Self::Carried
+    }
+
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reading => "reading",
+            Self::Gain => "gain",
+            Self::Recording => "recording",
+            Self::Carried => "carried",
+        }
+    }
+}
+
 /// How much of an effect, and which of its shapes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dose {
@@ -127,6 +157,18 @@ pub trait Law: Debug + Send + Sync {
     fn oracle_variance(&self, _plant: &Plant, _dose: &Dose) -> f64 {
         1.0
     }
+
+    /// How it comes into measured records.
+    fn planting(&self) -> Planting {
+        match self.stage() {
+            Stage::Sensor => Planting::Reading,
+            Stage::Input | Stage::Operator | Stage::Dynamics | Stage::Disturbance => Planting::Carried,
+        }
+    }
+
+    /// What the record of the input shows, given the input that acts, so that the machine seems to have the effect
+    /// ([`Planting::Recording`]).
+    fn recording(&self, _scene: &mut Scene<'_>, _v: &mut [f64]) {}
 
     /// Input stage: from the commanded input to the one that arrives.
     fn drive(&self, _scene: &mut Scene<'_>, _v: &mut [f64]) {}

@@ -213,7 +213,7 @@ impl MakeRig {
     }
 
     /// The system and the campaign of the recipe.
-    fn workshop(&self) -> Workshop {
+    pub(crate) fn workshop(&self) -> Workshop {
         let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
         let passages = campaign(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
         let refit = Refit::new(&plant, &passages);

@@ -116,7 +116,7 @@ impl Workshop {
             let record =
                 Record::new(passage.recorded(&passage.v).to_vec(), passage.recorded(&trace.y).to_vec())?;
             records.push(RigRecord {
-                name: passage.name.to_owned(),
+                name: passage.name.clone(),
                 role: passage.role,
                 usage: passage.usage,
                 record,
@@ -126,7 +126,7 @@ impl Workshop {
             let white = passage.recorded(&trace.white);
             let surviving = trial.leftover.residuals[i].iter().zip(white).enumerate();
             truth.push(Truth {
-                record: passage.name.to_owned(),
+                record: passage.name.clone(),
                 repeating: passage.recorded(&repeating[i].y).to_vec(),
                 surviving: surviving
                     .map(|(t, (r, w))| if t < first { 0.0 } else { (r - w) / self.plant.noise_sd })

@@ -1,7 +1,7 @@
 //! `gain_drift`: the gain of the linear part changes over the campaign.
 
 use super::envelope::Envelope;
-use crate::law::{Law, Scene};
+use crate::law::{Law, Planting, Scene};
 
 pub(super) static LAWS: [&dyn Law; 4] = [
     &Drift { envelope: Envelope::Ramp },
@@ -31,6 +31,10 @@ impl Law for Drift {
     }
     fn limit(&self) -> f64 {
         0.8
+    }
+
+    fn planting(&self) -> Planting {
+        Planting::Gain
     }
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {

@@ -1,7 +1,7 @@
 //! `input_delay`: the actuator answers late.
 
 use super::card;
-use crate::law::{Law, Scene};
+use crate::law::{Law, Planting, Scene};
 
 pub(super) static LAWS: [&dyn Law; 2] = [&HeldCommand, &LateClock];
 
@@ -11,6 +11,14 @@ struct HeldCommand;
 
 impl Law for HeldCommand {
     card!("input_delay", "held command", Input, "samples", 4.0);
+
+    fn planting(&self) -> Planting {
+        Planting::Recording
+    }
+
+    fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        recorded_early(scene.x(), v);
+    }
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
         let (whole, part) = split(scene.x());
@@ -30,6 +38,14 @@ struct LateClock;
 impl Law for LateClock {
     card!("input_delay", "late clock", Input, "samples", 4.0);
 
+    fn planting(&self) -> Planting {
+        Planting::Recording
+    }
+
+    fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        recorded_early(scene.x(), v);
+    }
+
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
         let (whole, f) = split(scene.x());
         shift(u, whole);
@@ -48,4 +64,22 @@ fn shift(u: &mut [f64], whole: usize) {
     for t in (1..u.len()).rev() {
         u[t] = u[t.saturating_sub(whole)];
     }
+}
+
+/// A record of the input that runs ahead of what acts by `d = k + f` samples: `v'(t) = (1−f)·v(t+k) + f·v(t+k+1)` while the input moves on;
+/// where it rests or turns, the nearer of the two, since a part of a step would be a move of its own. The end is held.
+fn recorded_early(delay: f64, v: &mut [f64]) {
+    let (whole, part) = split(delay);
+    let last = v.len() - 1;
+    let acting = v.to_vec();
+    let at = |t: usize| acting[t.min(last)];
+    for (t, v) in v.iter_mut().enumerate().skip(1) {
+        let [before, now, next] = [at(t + whole - 1), at(t + whole), at(t + whole + 1)];
+        *v = match (now - before) * (next - now) > 0.0 {
+            true => now + part * (next - now),
+            false if part < 0.5 => now,
+            false => next,
+        };
+    }
+    v[0] = at(whole);
 }

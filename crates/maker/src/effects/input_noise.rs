@@ -2,7 +2,7 @@
 
 use super::card;
 use super::motion::{border, directions};
-use crate::law::{INTERVAL_WIDTHS, Law, Nature, Scene};
+use crate::law::{INTERVAL_WIDTHS, Law, Nature, Planting, Scene};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -16,12 +16,20 @@ struct PositionJitter;
 impl Law for PositionJitter {
     card!("input_noise", "position jitter", Input, INTERVAL_WIDTHS, 0.2);
 
+    fn planting(&self) -> Planting {
+        Planting::Recording
+    }
+
+    fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        recorded_beside(scene, v, normal);
+    }
+
     fn nature(&self) -> Nature {
         Nature::Noise
     }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        jitter(scene, v, u, |rng| StandardNormal.sample(rng));
+        jitter(scene, v, u, normal);
     }
 }
 
@@ -51,15 +59,20 @@ struct LaplaceJitter;
 impl Law for LaplaceJitter {
     card!("input_noise", "Laplace jitter", Input, INTERVAL_WIDTHS, 0.2);
 
+    fn planting(&self) -> Planting {
+        Planting::Recording
+    }
+
+    fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        recorded_beside(scene, v, laplace);
+    }
+
     fn nature(&self) -> Nature {
         Nature::Noise
     }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        jitter(scene, v, u, |rng| {
-            let p: f64 = rng.random_range(-0.5..0.5);
-            -p.signum() * (1.0 - 2.0 * p.abs()).max(1e-12).ln() / 2.0_f64.sqrt()
-        });
+        jitter(scene, v, u, laplace);
     }
 }
 
@@ -74,5 +87,30 @@ fn jitter(scene: &mut Scene<'_>, v: &[f64], u: &mut [f64], unit: impl Fn(&mut Ch
             w = sd * miss;
         }
         u[t] += border(plant, directions[t], v[t] + w) - border(plant, directions[t], v[t]);
+    }
+}
+
+/// A standard normal number.
+fn normal(rng: &mut ChaCha8Rng) -> f64 {
+    StandardNormal.sample(rng)
+}
+
+/// A number of the Laplace distribution with unit variance.
+fn laplace(rng: &mut ChaCha8Rng) -> f64 {
+    let p: f64 = rng.random_range(-0.5..0.5);
+    -p.signum() * (1.0 - 2.0 * p.abs()).max(1e-12).ln() / 2.0_f64.sqrt()
+}
+
+/// A record of the input that misses what acts: `v' = v + w`, `w` drawn anew at every move and kept at rest.
+fn recorded_beside(scene: &mut Scene<'_>, v: &mut [f64], unit: impl Fn(&mut ChaCha8Rng) -> f64) {
+    let sd = scene.x() * scene.plant.interval.width();
+    let (mut w, mut last) = (0.0, v[0]);
+    for now in v {
+        let miss = unit(&mut scene.rng);
+        if *now != last {
+            w = sd * miss;
+        }
+        last = *now;
+        *now += w;
     }
 }

@@ -14,7 +14,7 @@ pub struct Table {
 }
 
 impl Table {
-    fn between(&self, values: &[f64], v: f64) -> f64 {
+    pub(crate) fn between(&self, values: &[f64], v: f64) -> f64 {
         let above = self.levels.partition_point(|&level| level <= v);
         if above == 0 {
             return values[0];

@@ -1,0 +1,178 @@
+//! Known faults in measured records: noise, unlogged influences and the model's errors stay those of the machine.
+//!
+//! Some faults need no model ([`Planting`] says which): what the sensor makes of the output, a gain that changes slowly, what the record of
+//! the input shows. All others are *carried*: a model of the machine, identified from its records with one pole and many knots more than
+//! any candidate has, is simulated with the fault and without, and the difference is added to the measured output. That assumes that the
+//! fault does not interact with what the model misses.
+//!
+//! The *size* of a fault is what survives identification anew, against what the base's own model leaves,
+//!
+//! ```text
+//! size = rms(r' − r) / rms(r),   r = y − ŷ,   r' = y' − ŷ'
+//! ```
+//!
+//! over the free runs on the held-out records (the fit records, where none are held out): `ŷ` is the model identified from the fit records
+//! as they are, `ŷ'` one of the same order, delay and knots identified from those with the fault. The *raw* size has `ŷ` in place of `ŷ'`,
+//! on the planted input: what a model given beforehand newly misses.
+
+mod alter;
+mod base;
+mod carrier;
+
+use self::alter::altered;
+use self::base::Base;
+use self::carrier::Carrier;
+use crate::law::{Dose, Nature, Planting, Stage};
+use crate::make::{Ingredient, MakeError};
+use crate::simulate::Active;
+use crate::size::magnitude_for;
+use crate::stream::{Purpose, stream};
+use rand::RngExt;
+use switchback_estimator::estimators::free::FreeError;
+use switchback_estimator::hysteresis::HysteresisError;
+use switchback_estimator::record::RecordError;
+use switchback_estimator::rig::Rig;
+use thiserror::Error;
+
+/// Sizes below this are told as not observable: less than half of what the model misses anyway.
+pub const OBSERVABLE: f64 = 0.5;
+
+/// Sizes are met to this share, in at most so many identifications.
+const TOLERANCE: f64 = 0.05;
+const ROUNDS: usize = 10;
+/// Largest change of the magnitude, as a factor, from one identification to the next.
+const STRIDE: f64 = 4.0;
+
+/// Why no fault could be planted.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlantingError {
+    /// The records give no model.
+    #[error("no model can be identified from the fit records: {0}")]
+    Base(#[from] FreeError),
+    /// The model misses nothing, so that nothing can be large against it.
+    #[error("the model identified from the fit records leaves no residual: a size has no meaning")]
+    NoResidual,
+    /// The model that should carry the fault has no loop.
+    #[error("the identified loop cannot carry the fault: {0}")]
+    NoLoop(#[from] HysteresisError),
+    /// An altered signal was no record.
+    #[error("the fault gave no finite record ({0}); take a smaller size or another seed")]
+    Record(#[from] RecordError),
+    /// The effect or law is unknown, or the size is none.
+    #[error(transparent)]
+    Recipe(#[from] MakeError),
+}
+
+/// A fault as it was planted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlantedFault {
+    /// Its name.
+    pub effect: &'static str,
+    /// Its law.
+    pub law: &'static str,
+    /// Where it acts.
+    pub stage: Stage,
+    /// Whether it moves the expected output.
+    pub nature: Nature,
+    /// How it came into the records.
+    pub planting: Planting,
+    /// Magnitude, in `unit`.
+    pub magnitude: f64,
+    /// What magnitude 1 means.
+    pub unit: &'static str,
+    /// Size that was asked for.
+    pub wanted: f64,
+    /// What survives identification anew.
+    pub size: f64,
+    /// What a model given beforehand newly misses.
+    pub raw: f64,
+    /// Root mean square of what the base's model leaves on the judged records, output units.
+    pub residual: f64,
+}
+
+impl PlantedFault {
+    /// Whether it is large enough to be asked for.
+    pub fn is_observable(&self) -> bool {
+        self.size >= OBSERVABLE
+    }
+}
+
+/// A rig with a fault, and what it is.
+#[derive(Debug)]
+pub struct PlantedRig {
+    /// The records.
+    pub rig: Rig,
+    /// What is withheld.
+    pub fault: PlantedFault,
+}
+
+/// Records with the model that was identified from them, ready for faults.
+#[derive(Debug)]
+pub struct PlantingGround<'a> {
+    rig: &'a Rig,
+    base: Base,
+    carrier: Carrier,
+}
+
+impl<'a> PlantingGround<'a> {
+    /// Identifies what is needed of a rig.
+    ///
+    /// # Errors
+    /// [`PlantingError`] where the records give no model with a loop, or one that misses nothing.
+    pub fn new(rig: &'a Rig) -> Result<Self, PlantingError> {
+        let base = Base::new(rig)?;
+        let carrier = Carrier::new(rig, &base)?;
+        Ok(Self { rig, base, carrier })
+    }
+
+    /// Plants a fault of a size; everything random about it is drawn from the seed.
+    ///
+    /// # Errors
+    /// [`PlantingError::Record`] where the altered signals are not finite.
+    pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
+        let law = ingredient.law;
+        let mut rng = stream(seed, Purpose::Shape(0));
+        let shape = std::array::from_fn(|_| rng.random());
+        let with = |magnitude: f64| {
+            let active = Active { law, dose: Dose { magnitude, shape }, slot: 0 };
+            altered(self.rig, &self.carrier, &active, seed)
+        };
+        // The raw size costs no identification: the search begins where that is as wanted.
+        let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| self.base.raw(&rig));
+        let mut tried = magnitude_for(ingredient.size, law.limit(), raw).magnitude;
+        let mut best: Option<(f64, f64)> = None;
+        for _ in 0..ROUNDS {
+            let size = self.base.surviving(&with(tried)?);
+            let miss = |size: f64| (size / ingredient.size).max(1e-9).ln().abs();
+            if best.is_none_or(|(_, known)| miss(size) < miss(known)) {
+                best = Some((tried, size));
+            }
+            let wanted = ingredient.size / size.max(1e-9);
+            let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(law.limit());
+            if (wanted - 1.0).abs() < TOLERANCE || next == tried {
+                break;
+            }
+            tried = next;
+        }
+        let (magnitude, size) = best.unwrap_or((tried, 0.0));
+        let rig = with(magnitude)?;
+        let fault = PlantedFault {
+            effect: law.effect(),
+            law: law.name(),
+            stage: law.stage(),
+            nature: law.nature(),
+            planting: law.planting(),
+            magnitude,
+            unit: law.unit(),
+            wanted: ingredient.size,
+            size,
+            raw: self.base.raw(&rig),
+            residual: self.base.residual,
+        };
+        Ok(PlantedRig { rig, fault })
+    }
+}
+
+#[cfg(test)]
+mod tests;
