@@ -26,6 +26,15 @@ fn details_of_the_borders_are_the_effect_that_lies_in_the_grid() {
     assert_eq!(in_the_grid, [details().0]);
 }
 
+#[test]
+fn twins_are_mutual_and_no_effect_is_its_own() {
+    for effect in Effect::ALL {
+        for twin in effect.twins() {
+            assert!(*twin != effect && twin.twins().contains(&effect), "{effect} names {twin}");
+        }
+    }
+}
+
 /// Standard deviation of the noise in the output.
 const NOISE: f64 = 1e-3;
 
