@@ -83,6 +83,7 @@ catalogue! {
     SensorQuantisation in sensor_quantisation: "The sensor rounds.",
     SensorNonlinearity in sensor_nonlinearity: "The sensor's characteristic is curved.",
     BorderResolution in border_resolution: "The borders have more detail than the grid they are tabulated on.",
+    RecordOffset in record_offset: "The sensor's zero differs from record to record.",
 }
 
 pub(crate) use border_resolution::details;

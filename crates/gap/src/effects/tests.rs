@@ -10,6 +10,7 @@ use crate::attribution::starts::Known;
 use crate::likelihood::engine::{Ground, fit};
 use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
 use crate::model::linear::Linear;
+use crate::simulation::simulate::free_run;
 use crate::testing::{noise_free, small_campaign, small_model, white};
 
 #[test]
@@ -219,4 +220,47 @@ fn what_has_one_sign_is_never_searched_on_the_other_side() {
             "{effect}: {found:?}"
         );
     }
+}
+
+/// Records of one machine, each with a little noise and a zero of its own.
+fn with_zeros(zeros: &[f64]) -> Campaign {
+    let (campaign, grid) = small_campaign();
+    let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &loop_of(HALF, &[]));
+    let clean = campaign.tracks.remove(0);
+    let mut noise = white();
+    campaign.tracks.extend(zeros.iter().map(|zero| {
+        let mut track = clean.clone();
+        track.y.iter_mut().for_each(|y| *y += zero + NOISE * noise());
+        track
+    }));
+    campaign
+}
+
+#[test]
+fn zeros_of_the_records_are_found_and_told() {
+    let campaign = with_zeros(&[0.3, -0.1, 0.1]);
+    let (best, gain) = explained(&campaign, Effect::RecordOffset).expect("a fit");
+    assert!(gain > SIGNIFICANT, "{gain}");
+    let reading = Reading { campaign: &campaign, fit: &best.fit, searched: &[] };
+    let told = (Effect::RecordOffset.card().told_first)(&reading);
+    let told: Vec<(&str, f64)> = told.iter().map(|p| (p.name, p.value / campaign.y_scale)).collect();
+    let [("largest_difference", largest), ("sd_between_records", sd)] = told[..] else { panic!("{told:?}") };
+    assert!((largest - 0.4).abs() < 0.01 && (sd - 0.2).abs() < 0.01, "{told:?}");
+}
+
+#[test]
+fn a_zero_of_the_only_record_is_a_level_of_the_borders() {
+    assert!(explained(&with_zeros(&[0.3]), Effect::RecordOffset).is_none());
+}
+
+#[test]
+fn a_record_that_was_not_fitted_has_the_zero_that_it_begins_with() {
+    let mut campaign = with_zeros(&[0.3, -0.1, 0.2]);
+    campaign.tracks[2].usage = switchback_estimator::rig::Usage::Holdout;
+    let (best, _) = explained(&campaign, Effect::RecordOffset).expect("a fit");
+    let track = &campaign.tracks[2];
+    let run = free_run(&campaign, &best.fit, 2, track);
+    let missed = track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).abs());
+    let most = missed.fold(0.0, f64::max);
+    assert!(most < 0.02, "{most}");
 }

@@ -51,6 +51,7 @@ catalogue! {
     sensor_quantisation,
     sensor_nonlinearity,
     border_resolution,
+    record_offset,
 }
 
 /// Effects that no library of causes is expected to know.
