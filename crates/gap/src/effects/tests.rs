@@ -40,11 +40,11 @@ fn twins_are_mutual_and_no_effect_is_its_own() {
 const NOISE: f64 = 1e-3;
 
 /// Half the distance between the borders of [`loop_of`].
-const HALF: f64 = 0.25;
+pub(super) const HALF: f64 = 0.25;
 
 /// Bent borders, the ascending one above the descending by twice `half`, and coefficients of columns beside them. Along straight borders
 /// friction in proportion to speed would be a linear filter, which `B` takes.
-fn loop_of(half: f64, columns: &[f64]) -> Linear {
+pub(super) fn loop_of(half: f64, columns: &[f64]) -> Linear {
     let (_, grid) = small_campaign();
     let [down, up] = [0, 1].map(|side| {
         let side_of = if side == 0 { -half } else { half };
@@ -54,7 +54,7 @@ fn loop_of(half: f64, columns: &[f64]) -> Linear {
 }
 
 /// The records of a machine, with a little noise.
-fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
+pub(super) fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
     let (campaign, grid) = small_campaign();
     let mut campaign = noise_free(campaign, &grid, assembly, truth);
     let mut noise = white();
@@ -63,7 +63,7 @@ fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
 }
 
 /// The best fit by the laws of an effect, and the penalised deviance that it gains over the nominal model.
-fn explained(campaign: &Campaign, effect: Effect) -> Option<(Explanation, f64)> {
+pub(super) fn explained(campaign: &Campaign, effect: Effect) -> Option<(Explanation, f64)> {
     let (_, grid) = small_campaign();
     let ground = Ground { campaign, grid: &grid, known: None };
     let start = loop_of(HALF, &[]);

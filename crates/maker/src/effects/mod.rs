@@ -52,6 +52,7 @@ catalogue! {
     sensor_nonlinearity,
     border_resolution,
     record_offset,
+    step_change,
 }
 
 /// Effects that no library of causes is expected to know.

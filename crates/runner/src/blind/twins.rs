@@ -6,9 +6,9 @@
 /// Pairs of effects that leave nearly the same trace. Right class: the answer is the true effect or its twin.
 ///
 /// The first five are the twins that a trial with 18 effects measured (cosines of signatures 0.73 to 0.96, or the border
-/// table absorbing one into the other). The others differ only in an exponent, in a corner, in who sees the shock, or in whether a zero moves
-/// within records or between them.
-const TWINS: [(&str, &str); 11] = [
+/// table absorbing one into the other). The others differ only in an exponent, in a corner, in who sees the shock, in whether a zero moves
+/// within records or between them, or in how fast a gain or a loop changes.
+const TWINS: [(&str, &str); 13] = [
     ("input_delay", "extra_pole"),
     ("border_wear", "gain_drift"),
     ("rate_dependence", "creep"),
@@ -20,6 +20,8 @@ const TWINS: [(&str, &str); 11] = [
     ("sensor_saturation", "sensor_nonlinearity"),
     ("outliers", "input_noise"),
     ("sensor_drift", "record_offset"),
+    ("gain_drift", "step_change"),
+    ("border_wear", "step_change"),
 ];
 
 /// Whether two effects are the same or twins.
