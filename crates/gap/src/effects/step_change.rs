@@ -11,6 +11,9 @@
 //! deviance beyond its place among the parameters, as it was chosen among all (N. R. Zhang and D. O. Siegmund, "A modified Bayes
 //! information criterion with applications to the analysis of array comparative genomic hybridization data", Biometrics 63, 2007).
 //!
+//! Records differ in more than their time: one alone on its side of a change has whatever its own input makes of an inexact law. So the change falls
+//! well within a record, or between records of which two at least lie on either side.
+//!
 //! Parameters: change `g` of the gain (−0.95…4) or narrowing `w` of the loop (−1.5…1.5), `instant` in samples of the campaign, the middle of a
 //! `ramp` of 1 sample to [`LONGEST`] of the campaign. Told: the record by its number, the sample and the time in it, the change in per cent. Stage: operator.
 //! Left by a setting of the actuator that somebody changed, a belt that slipped, a bolt that came loose. Confused with: gain drift, border wear.
@@ -20,7 +23,7 @@ use super::{Card, Reading, Scene, Variant, known, parameter};
 use crate::diagnosis::FittedParameter;
 use crate::effect::{Effect, Stage};
 use crate::likelihood::design::Design;
-use crate::likelihood::engine::NonlinearParameter;
+use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::assembly::{Assembly, Clock, Slow};
 use crate::records::campaign::Campaign;
 use crate::residuals::change_point::{ChangePoint, change_points, likeliest};
@@ -41,6 +44,9 @@ struct Changing {
 
 const GAIN: Changing = Changing { name: "gain_step", bounds: (-0.95, 4.0) };
 const LOOP: Changing = Changing { name: "loop_narrowing", bounds: (-1.5, 1.5) };
+
+/// The name of the instant.
+const INSTANT: &str = "instant";
 
 /// Boundaries between records from which a search starts, and sizes there: borders in which every record has details of its own may have
 /// taken all of a change between records, so that the errors tell nothing of it.
@@ -64,8 +70,9 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         Variant { handicap: penalty, ..law }
     };
     let laws = [
-        law(starts(scene, &GAIN, gain), drift).sound_if(turns_about_an_output),
-        law(starts(scene, &LOOP, wear), wear),
+        law(starts(scene, &GAIN, gain), drift)
+            .sound_if(|own, fit| turns_about_an_output(own, fit) && is_within_its_range(fit)),
+        law(starts(scene, &LOOP, wear), wear).sound_if(|_, fit| is_within_its_range(fit)),
     ];
     laws.into_iter().filter(|law| !law.starts.is_empty()).collect()
 }
@@ -75,6 +82,32 @@ fn step(p: &[f64]) -> Slow {
     let &[size, instant, ramp] = p else { return Slow::on(Clock::Samples) };
     let bends = vec![(instant - 0.5 * ramp, 0.0), (instant + 0.5 * ramp, size)];
     Slow { bends, ..Slow::on(Clock::Samples) }
+}
+
+/// Share of a record that must lie on either side of a change in it.
+const MARGIN: f64 = 0.1;
+/// Records on either side of a change between records at least.
+const RECORDS: usize = 2;
+
+/// Where a change may be told from what differs between records: ranges of the campaign's samples.
+fn ranges(campaign: &Campaign) -> Vec<(f64, f64)> {
+    let count = campaign.fit().count();
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    for (before, track) in campaign.fit().enumerate() {
+        let at = |share: f64| track.clock as f64 + share * track.v.len() as f64;
+        let end = at(1.0 - MARGIN);
+        match ranges.last_mut() {
+            Some(range) if before >= RECORDS && count - before >= RECORDS => range.1 = end,
+            _ => ranges.push((at(MARGIN), end)),
+        }
+    }
+    ranges
+}
+
+/// Whether the instant lies within its range: at an end, it is beyond.
+fn is_within_its_range(fit: &Fit) -> bool {
+    let mut instants = fit.nonlinear.iter().filter(|o| o.name == INSTANT);
+    instants.all(|o| o.low < o.value && o.value < o.high)
 }
 
 /// Size of a change that probes what the errors would be after it.
@@ -99,18 +132,22 @@ fn starts(
         slopes.extend(w.iter().zip(probed).map(|(w, probed)| (probed - w) / PROBE));
         clocks.extend((0..w.len()).map(|k| (track.clock + track.from + k) as f64));
     }
-    let (Some(first), Some(last)) = (clocks.first(), clocks.last()) else { return Vec::new() };
     let longest = (LONGEST * scene.campaign.total as f64).max(2.0 * RAMP);
     let apart = ((APART * errors.len() as f64) as usize).max(1);
+    let ranges = ranges(scene.campaign);
+    let range =
+        |at: usize| ranges.iter().find(|(low, high)| (*low..*high).contains(&(clocks[at] - 0.5))).copied();
     let bounds = changing.bounds;
     let start = |at: usize, size: f64| {
+        let range = range(at).unwrap_or_default();
         vec![
             parameter(changing.name, "1", size.clamp(0.9 * bounds.0, 0.9 * bounds.1), bounds, 0.001),
-            parameter("instant", "samples of the campaign", clocks[at] - 0.5, (*first, *last), 0.5),
+            parameter(INSTANT, "samples of the campaign", clocks[at] - 0.5, range, 0.5),
             parameter("ramp", "samples", RAMP, (1.0, longest), 0.5),
         ]
     };
-    let all = change_points(&errors, &slopes);
+    let mut all = change_points(&errors, &slopes);
+    all.retain(|point| range(point.at).is_some());
     let between: Vec<ChangePoint> =
         all.iter().filter(|p| firsts_of_records.contains(&p.at)).copied().collect();
     // What the errors have, the law takes away.
@@ -148,6 +185,7 @@ mod tests {
     use super::*;
     use crate::attribution::SIGNIFICANT;
     use crate::effects::tests::{HALF, explained, loop_of, measured};
+    use crate::records::campaign::Track;
 
     /// What is told of a change of a known kind, by the laws of the effect.
     fn told(assembly: &Assembly) -> Vec<FittedParameter> {
@@ -184,6 +222,19 @@ mod tests {
             assert_eq!(told[1].value, 1.0);
             assert!((told[2].value - 130.0).abs() <= 2.0, "{told:?}");
         }
+    }
+
+    #[test]
+    fn a_record_alone_on_its_side_tells_nothing_of_a_change_beside_it() {
+        let mut campaign = measured(&Assembly::default(), &loop_of(HALF, &[]));
+        let record = campaign.tracks.remove(0);
+        let taken = |count: usize| {
+            let tracks = (0..count).map(|k| Track { clock: 240 * k, ..record.clone() });
+            ranges(&Campaign { tracks: tracks.collect(), ..campaign.clone() })
+        };
+        assert_eq!(taken(1), [(24.0, 216.0)]);
+        assert_eq!(taken(2), [(24.0, 216.0), (264.0, 456.0)]);
+        assert_eq!(taken(5), [(24.0, 216.0), (264.0, 936.0), (984.0, 1176.0)]);
     }
 
     #[test]
