@@ -231,8 +231,11 @@ pub(super) fn parameters(fitted: &[FittedParameter], units: &Units) -> String {
     }
     let each = fitted.iter().map(|parameter| {
         let told = told(parameter, units);
-        let text =
-            format!("{} {} {}", told.name.replace('_', " "), with_interval(told.value, told.ci90), told.unit);
+        let figure = match parameter.unit {
+            "count" => format!("{:.0}", told.value),
+            _ => with_interval(told.value, told.ci90),
+        };
+        let text = format!("{} {figure} {}", told.name.replace('_', " "), told.unit);
         text.trim_end().to_owned()
     });
     each.collect::<Vec<_>>().join(", ")
