@@ -63,3 +63,17 @@ fn a_zero_that_drifts_on_between_the_records_is_told_from_noise_that_lasts() {
     let closure = diagnosis["gap"]["closure"]["estimate"].as_f64();
     assert!(closure.is_some_and(|closure| closure > 0.9), "{:#}", diagnosis["gap"]);
 }
+
+#[test]
+fn a_zero_that_differs_from_record_to_record_is_no_drift() {
+    let verdict = verdict("record_offset", "0", "2", ("5120933187", "3"));
+    assert_eq!(verdict["effects"], json!(["record_offset"]), "{verdict:#}");
+}
+
+#[test]
+fn a_gain_and_a_loop_that_step_are_no_drift_and_no_wear() {
+    for (law, seed) in [("0", "5120933188"), ("1", "5120933189")] {
+        let verdict = verdict("step_change", law, "2", (seed, "3"));
+        assert_eq!(verdict["effects"], json!(["step_change"]), "{verdict:#}");
+    }
+}

@@ -13,7 +13,7 @@ use crate::effect::Effect;
 use crate::records::campaign::Campaign;
 use crate::settings::Settings;
 
-/// Penalised deviance that an effect must gain before anything is missing at all: covers the search over twenty effects,
+/// Penalised deviance that an effect must gain before anything is missing at all: covers the search over some twenty effects,
 /// their laws and their nonlinear parameters.
 pub(crate) const SIGNIFICANT: f64 = 40.0;
 

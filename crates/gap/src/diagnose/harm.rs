@@ -129,7 +129,9 @@ impl Plan {
 
 /// Whether every record has a zero of its own.
 fn has_a_free_zero(fit: &Fit) -> bool {
-    fit.assembly.equation_columns.iter().any(|c| matches!(c, EquationColumn::Local { .. }))
+    let is_free =
+        |c: &EquationColumn| matches!(c, EquationColumn::Local { .. } | EquationColumn::Offset { .. });
+    fit.assembly.equation_columns.iter().any(is_free)
 }
 
 fn squared(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
@@ -227,13 +229,16 @@ pub(super) mod tests {
         assert!(plan.harms(&poor) && !plan.harms(good));
         // Another zero harms, unless it is free from record to record; a wrong loop always does.
         let local = EquationColumn::Local { track: 0, piece: 0, pieces: 1 };
-        let with_zero = |of: &Explanation, d: f64| {
-            let mut out = of.clone();
-            out.fit.assembly.equation_columns.push(local.clone());
-            out.fit.linear.d.push(d);
-            out
-        };
-        assert!(!plan.harms(&with_zero(good, 0.3)) && plan.harms(&with_zero(&poor, 0.0)));
+        let offset = EquationColumn::Offset { track: 0, against: None };
+        for zero in [local, offset] {
+            let with_zero = |of: &Explanation, d: f64| {
+                let mut out = of.clone();
+                out.fit.assembly.equation_columns.push(zero.clone());
+                out.fit.linear.d.push(d);
+                out
+            };
+            assert!(!plan.harms(&with_zero(good, 0.3)) && plan.harms(&with_zero(&poor, 0.0)));
+        }
         let mut off = good.clone();
         off.fit.linear.f.iter_mut().for_each(|f| *f += 0.3);
         assert!(plan.harms(&off));

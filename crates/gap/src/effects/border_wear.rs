@@ -7,14 +7,14 @@
 //! ```
 //!
 //! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel of the campaign. Stage: operator.
-//! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift.
+//! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift, a loop that steps.
 
 use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::model::assembly::{BorderColumn, Clock, Slow};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::GainDrift],
+    twins: &[Effect::GainDrift, Effect::StepChange],
     of_its_record: true,
     dominates_dynamics: true,
     ..Card::of(Stage::Operator, variants)

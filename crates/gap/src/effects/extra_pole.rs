@@ -7,7 +7,7 @@
 //! ũ = (1−p)²/(1−p q⁻¹)² u          two equal lags
 //! ```
 //!
-//! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance.
+//! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance, creep.
 
 use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, parameter};
 use crate::diagnosis::FittedParameter;
@@ -17,7 +17,7 @@ use crate::model::assembly::EquationColumn;
 use crate::simulation::beginnings::begins_as_a_filter;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::InputDelay, Effect::Resonance],
+    twins: &[Effect::InputDelay, Effect::Resonance, Effect::Creep],
     dominates_dynamics: true,
     room: Some(Room::Order),
     // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.

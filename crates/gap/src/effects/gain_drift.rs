@@ -13,7 +13,7 @@
 //! gain is straight between knots in each record, from where that law ended.
 //!
 //! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the campaign or of the record. Stage: dynamics. Outputs scale with time,
-//! mid-line and loop alike. Confused with: border wear (the mid-line tells), sensor drift.
+//! mid-line and loop alike. Confused with: border wear (the mid-line tells), a gain that steps, sensor drift.
 
 use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
@@ -23,7 +23,7 @@ use crate::model::assembly::{Assembly, Clock, EquationColumn, Slow};
 use crate::records::campaign::Campaign;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::BorderWear],
+    twins: &[Effect::BorderWear, Effect::StepChange],
     of_its_record: true,
     supple: true,
     dominates_dynamics: true,
@@ -69,7 +69,7 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
 }
 
 /// The gain changes about a zero of the output that is estimated.
-fn drift(assembly: &mut Assembly, gain: Slow) {
+pub(super) fn drift(assembly: &mut Assembly, gain: Slow) {
     assembly.gain = Some(gain);
     assembly.equation_columns.push(EquationColumn::Gain);
 }
@@ -108,7 +108,7 @@ fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
 const FARTHEST: f64 = 3.0;
 
 /// Whether the zero that the gain turns about is one that an output may have.
-fn turns_about_an_output(_own: &[f64], fit: &Fit) -> bool {
+pub(super) fn turns_about_an_output(_own: &[f64], fit: &Fit) -> bool {
     let static_gain = fit.linear.b.iter().sum::<f64>() * fit.assembly.static_gain();
     let Some(zero) = share_of_the_change(fit).map(|share| share / static_gain) else { return true };
     let borders = &fit.linear.f[..fit.grid.len()];

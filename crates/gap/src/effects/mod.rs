@@ -83,6 +83,8 @@ catalogue! {
     SensorQuantisation in sensor_quantisation: "The sensor rounds.",
     SensorNonlinearity in sensor_nonlinearity: "The sensor's characteristic is curved.",
     BorderResolution in border_resolution: "The borders have more detail than the grid they are tabulated on.",
+    RecordOffset in record_offset: "The sensor's zero differs from record to record.",
+    StepChange in step_change: "The gain or the distance of the borders changes at one instant.",
 }
 
 pub(crate) use border_resolution::details;

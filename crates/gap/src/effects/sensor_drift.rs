@@ -5,14 +5,20 @@
 //! ```
 //!
 //! Laws: a line or cubic over the campaign, a line that goes on in the pauses between records, a line over each record (common slope), piecewise linear within each
-//! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep.
+//! record, in long pieces or in short ones. Stage: sensor. The residual has a trend that no input explains. Confused with: gain drift, creep,
+//! and a zero of its own in every record.
 
 use super::{Card, Scene, Variant};
-use crate::effect::Stage;
+use crate::effect::{Effect, Stage};
 use crate::model::assembly::{Clock, EquationColumn};
 
-pub(super) const CARD: Card =
-    Card { of_its_record: true, supple: true, dominates_dynamics: true, ..Card::of(Stage::Sensor, variants) };
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::RecordOffset],
+    of_its_record: true,
+    supple: true,
+    dominates_dynamics: true,
+    ..Card::of(Stage::Sensor, variants)
+};
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();

@@ -10,6 +10,7 @@ use crate::attribution::starts::Known;
 use crate::likelihood::engine::{Ground, fit};
 use crate::model::assembly::{Assembly, BorderColumn, Resting, Speeds, Widening};
 use crate::model::linear::Linear;
+use crate::simulation::simulate::free_run;
 use crate::testing::{noise_free, small_campaign, small_model, white};
 
 #[test]
@@ -26,15 +27,24 @@ fn details_of_the_borders_are_the_effect_that_lies_in_the_grid() {
     assert_eq!(in_the_grid, [details().0]);
 }
 
+#[test]
+fn twins_are_mutual_and_no_effect_is_its_own() {
+    for effect in Effect::ALL {
+        for twin in effect.twins() {
+            assert!(*twin != effect && twin.twins().contains(&effect), "{effect} names {twin}");
+        }
+    }
+}
+
 /// Standard deviation of the noise in the output.
 const NOISE: f64 = 1e-3;
 
 /// Half the distance between the borders of [`loop_of`].
-const HALF: f64 = 0.25;
+pub(super) const HALF: f64 = 0.25;
 
 /// Bent borders, the ascending one above the descending by twice `half`, and coefficients of columns beside them. Along straight borders
 /// friction in proportion to speed would be a linear filter, which `B` takes.
-fn loop_of(half: f64, columns: &[f64]) -> Linear {
+pub(super) fn loop_of(half: f64, columns: &[f64]) -> Linear {
     let (_, grid) = small_campaign();
     let [down, up] = [0, 1].map(|side| {
         let side_of = if side == 0 { -half } else { half };
@@ -44,7 +54,7 @@ fn loop_of(half: f64, columns: &[f64]) -> Linear {
 }
 
 /// The records of a machine, with a little noise.
-fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
+pub(super) fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
     let (campaign, grid) = small_campaign();
     let mut campaign = noise_free(campaign, &grid, assembly, truth);
     let mut noise = white();
@@ -53,7 +63,7 @@ fn measured(assembly: &Assembly, truth: &Linear) -> Campaign {
 }
 
 /// The best fit by the laws of an effect, and the penalised deviance that it gains over the nominal model.
-fn explained(campaign: &Campaign, effect: Effect) -> Option<(Explanation, f64)> {
+pub(super) fn explained(campaign: &Campaign, effect: Effect) -> Option<(Explanation, f64)> {
     let (_, grid) = small_campaign();
     let ground = Ground { campaign, grid: &grid, known: None };
     let start = loop_of(HALF, &[]);
@@ -210,4 +220,47 @@ fn what_has_one_sign_is_never_searched_on_the_other_side() {
             "{effect}: {found:?}"
         );
     }
+}
+
+/// Records of one machine, each with a little noise and a zero of its own.
+fn with_zeros(zeros: &[f64]) -> Campaign {
+    let (campaign, grid) = small_campaign();
+    let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &loop_of(HALF, &[]));
+    let clean = campaign.tracks.remove(0);
+    let mut noise = white();
+    campaign.tracks.extend(zeros.iter().map(|zero| {
+        let mut track = clean.clone();
+        track.y.iter_mut().for_each(|y| *y += zero + NOISE * noise());
+        track
+    }));
+    campaign
+}
+
+#[test]
+fn zeros_of_the_records_are_found_and_told() {
+    let campaign = with_zeros(&[0.3, -0.1, 0.1]);
+    let (best, gain) = explained(&campaign, Effect::RecordOffset).expect("a fit");
+    assert!(gain > SIGNIFICANT, "{gain}");
+    let reading = Reading { campaign: &campaign, fit: &best.fit, searched: &[] };
+    let told = (Effect::RecordOffset.card().told_first)(&reading);
+    let told: Vec<(&str, f64)> = told.iter().map(|p| (p.name, p.value / campaign.y_scale)).collect();
+    let [("largest_difference", largest), ("sd_between_records", sd)] = told[..] else { panic!("{told:?}") };
+    assert!((largest - 0.4).abs() < 0.01 && (sd - 0.2).abs() < 0.01, "{told:?}");
+}
+
+#[test]
+fn a_zero_of_the_only_record_is_a_level_of_the_borders() {
+    assert!(explained(&with_zeros(&[0.3]), Effect::RecordOffset).is_none());
+}
+
+#[test]
+fn a_record_that_was_not_fitted_has_the_zero_that_it_begins_with() {
+    let mut campaign = with_zeros(&[0.3, -0.1, 0.2]);
+    campaign.tracks[2].usage = switchback_estimator::rig::Usage::Holdout;
+    let (best, _) = explained(&campaign, Effect::RecordOffset).expect("a fit");
+    let track = &campaign.tracks[2];
+    let run = free_run(&campaign, &best.fit, 2, track);
+    let missed = track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).abs());
+    let most = missed.fold(0.0, f64::max);
+    assert!(most < 0.02, "{most}");
 }

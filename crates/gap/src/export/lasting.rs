@@ -63,6 +63,9 @@ pub(super) fn notes(assembly: &Assembly) -> Vec<String> {
     if any(|c| matches!(c, EquationColumn::Local { .. })) {
         notes.push("the drift that every record had of its own is taken at its mean level");
     }
+    if any(|c| matches!(c, EquationColumn::Offset { .. })) {
+        notes.push("the zero that every record had of its own is taken at its mean, corrected by the first outputs where some are given");
+    }
     notes.into_iter().map(str::to_owned).collect()
 }
 
@@ -104,6 +107,7 @@ mod tests {
         );
         let wave = EquationColumn::Line { frequency: 0.3, track: None, sine: true };
         let path = EquationColumn::Local { track: 0, piece: 0, pieces: 4 };
+        assert_eq!(told(&[EquationColumn::Offset { track: 1, against: Some(0) }]).len(), 1);
         assert_eq!(
             told(&[wave, path]),
             [

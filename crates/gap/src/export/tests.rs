@@ -122,6 +122,7 @@ fn assemblies() -> Vec<Assembly> {
         disturbed(vec![line(Some(0), false), line(Some(0), true), line(Some(1), true)]),
         disturbed(vec![decay(0), decay(1)]),
         disturbed((0..3).map(|piece| EquationColumn::Local { track: 1, piece, pieces: 2 }).collect()),
+        disturbed(vec![EquationColumn::Offset { track: 1, against: Some(0) }]),
         Assembly { gain: Some(slow(Clock::Campaign)), ..disturbed(vec![EquationColumn::Gain]) },
         curve(SensorCurve { powers: vec![0.03, 0.01], ..SensorCurve::default() }),
         curve(SensorCurve { forwards: Some(Forwards::new(0.04, -0.01)), ..SensorCurve::default() }),

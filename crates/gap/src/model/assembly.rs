@@ -206,6 +206,8 @@ pub(crate) enum EquationColumn {
     Decay { track: usize, radius: f64, frequency: f64, sine: bool },
     /// A bump function of a track: linear interpolation between `pieces` equal pieces.
     Local { track: usize, piece: usize, pieces: usize },
+    /// A constant: 1 on one track and −1 on the one it is told against, if any.
+    Offset { track: usize, against: Option<usize> },
 }
 
 impl EquationColumn {
@@ -215,6 +217,7 @@ impl EquationColumn {
             Self::Line { track: Some(only), .. }
             | Self::Decay { track: only, .. }
             | Self::Local { track: only, .. } => *only == number,
+            Self::Offset { track, against } => *track == number || *against == Some(number),
             Self::Line { track: None, .. } | Self::Trend { .. } | Self::Gain => true,
         }
     }

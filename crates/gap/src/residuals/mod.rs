@@ -1,5 +1,6 @@
 //! What is left: tests of the residuals against causes in general, their spectra and scores.
 
+pub(crate) mod change_point;
 pub(crate) mod clustering;
 pub(crate) mod noise_size;
 pub(crate) mod omnibus;

@@ -3,6 +3,7 @@
 //!
 //! Fitted records have coefficients of their own. In held-out records they are unknown: they say nothing about the model.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::least_squares::normal::Normal;
@@ -41,8 +42,8 @@ pub(crate) fn with_beginnings(campaign: &Campaign, assembly: &Assembly) -> (Asse
     (out, added)
 }
 
-/// The assembly with waves and drift paths that are free from record to record in the held-out records, too; the numbers of the columns
-/// added. A drift path has pieces as long as in the first record fitted.
+/// The assembly with waves, drift paths and zeros that are free from record to record in the held-out records, too; the numbers of the
+/// columns added. A drift path has pieces as long as in the first record fitted.
 pub(crate) fn with_drift_paths(campaign: &Campaign, assembly: &Assembly) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = &assembly.equation_columns;
@@ -66,18 +67,34 @@ pub(crate) fn with_drift_paths(campaign: &Campaign, assembly: &Assembly) -> (Ass
             let drift_path = (0..=pieces).map(|piece| EquationColumn::Local { track: number, piece, pieces });
             out.equation_columns.extend(drift_path);
         }
+        if known.iter().any(is_offset) {
+            out.equation_columns.push(EquationColumn::Offset { track: number, against: None });
+        }
     }
     let added = known.len()..out.equation_columns.len();
     (out, added)
 }
 
-/// The assembly with a level of a record that was not fitted, where fitted ones have drift paths; the numbers of the columns added.
+/// Whether a column is part of a drift path of its record.
+fn is_drift_path(column: &EquationColumn) -> bool {
+    matches!(column, EquationColumn::Local { .. })
+}
+
+/// Whether a column is the zero of a record.
+fn is_offset(column: &EquationColumn) -> bool {
+    matches!(column, EquationColumn::Offset { .. })
+}
+
+/// The assembly with a level of a record that was not fitted, where fitted ones have drift paths or zeros of their own; the numbers of the
+/// columns added.
 pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range<usize>) {
     let mut out = assembly.clone();
     let known = assembly.equation_columns.len();
-    let is_drift_path = |c: &&EquationColumn| matches!(c, EquationColumn::Local { .. });
-    let mut paths = assembly.equation_columns.iter().filter(is_drift_path).peekable();
-    if paths.peek().is_some() && paths.all(|c| !c.acts_on(number)) {
+    let differs = |is_level: fn(&EquationColumn) -> bool| {
+        let mut levels = assembly.equation_columns.iter().filter(|c| is_level(c)).peekable();
+        levels.peek().is_some() && levels.all(|c| !c.acts_on(number))
+    };
+    if differs(is_drift_path) || differs(is_offset) {
         let level = [0, 1].map(|piece| EquationColumn::Local { track: number, piece, pieces: 1 });
         out.equation_columns.extend(level);
     }
@@ -85,7 +102,7 @@ pub(crate) fn with_level(assembly: &Assembly, number: usize) -> (Assembly, Range
     (out, added)
 }
 
-/// What the drift paths of the fitted records tell of the level of another one.
+/// What the drift paths or the zeros of the fitted records tell of the level of another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Level {
     /// The mean of all drift paths: what is to be expected where nothing of a record is known.
@@ -98,7 +115,7 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    /// That of the fitted records; nothing without drift paths.
+    /// That of the fitted records; nothing without drift paths or zeros of their own. A zero is a drift path of one value.
     pub(crate) fn of(assembly: &Assembly, coefficients: &[f64]) -> Option<Self> {
         let mut paths: Vec<(usize, Vec<f64>)> = Vec::new();
         for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
@@ -107,6 +124,9 @@ impl Level {
                 Some((last, values)) if *last == track => values.push(*d),
                 _ => paths.push((track, vec![*d])),
             }
+        }
+        if paths.is_empty() {
+            paths = offsets(assembly, coefficients).into_iter().map(|(track, d)| (track, vec![d])).collect();
         }
         let count: usize = paths.iter().map(|(_, values)| values.len()).sum();
         let mean = paths.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64;
@@ -131,6 +151,19 @@ impl Level {
         let known = self.spread / (self.spread + variance / n).max(f64::MIN_POSITIVE);
         self.mean + self.persistence * known * errors.iter().sum::<f64>() / n
     }
+}
+
+/// The zero of each record that has one of its own, as it enters the equation: `A(1)` times that of the output.
+pub(crate) fn offsets(assembly: &Assembly, coefficients: &[f64]) -> BTreeMap<usize, f64> {
+    let mut zeros = BTreeMap::new();
+    for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
+        let EquationColumn::Offset { track, against } = *column else { continue };
+        *zeros.entry(track).or_default() += d;
+        if let Some(against) = against {
+            *zeros.entry(against).or_default() -= d;
+        }
+    }
+    zeros
 }
 
 /// Sets the level of a record that was not fitted: what is to be expected of it, corrected by the equation errors before the first
@@ -316,6 +349,15 @@ mod tests {
         let given = level.given(&[2.0, 6.0, 4.0, 4.0], 16.0);
         assert!((given - (1.0 + 0.5 * 0.5 * 4.0)).abs() < 1e-12, "{given}");
         assert_eq!(level.given(&[], 16.0), 1.0);
+        // Zeros that sum to nothing: 3, −1 and −2. All of a record has the zero that it begins with.
+        let columns = [1, 2].map(|track| EquationColumn::Offset { track, against: Some(0) });
+        let zeros = Assembly { equation_columns: columns.into(), ..Assembly::default() };
+        let level = Level::of(&zeros, &[-1.0, -2.0]).expect("zeros");
+        assert_eq!(level, Level { mean: 0.0, spread: 14.0 / 3.0, persistence: 1.0 });
+        for number in 0..3 {
+            assert!(with_level(&zeros, number).1.is_empty());
+        }
+        assert_eq!(with_level(&zeros, 3).1.len(), 2);
         // One record tells nothing of how records differ.
         let one = Assembly { equation_columns: vec![local(0, 0), local(0, 1)], ..Assembly::default() };
         let alone = Level::of(&one, &[3.0, 1.0]).expect("a drift path");

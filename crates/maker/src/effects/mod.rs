@@ -51,6 +51,8 @@ catalogue! {
     sensor_quantisation,
     sensor_nonlinearity,
     border_resolution,
+    record_offset,
+    step_change,
 }
 
 /// Effects that no library of causes is expected to know.

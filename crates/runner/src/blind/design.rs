@@ -3,7 +3,7 @@
 use super::scenario::Study;
 use super::twins::same_class;
 use serde::{Deserialize, Serialize};
-use switchback_maker::{EFFECTS, FOREIGN, Family, Ingredient, MakeError, MakeRig, laws_of};
+use switchback_maker::{FOREIGN, Family, Ingredient, MakeError, MakeRig, laws_of};
 
 /// What a rig is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -48,7 +48,7 @@ pub struct Ticket {
 /// The tickets of a study, or of its slice, in random order: as many of the first as one likes are a sample of all, and what is
 /// left takes as long a rig as what is done.
 ///
-/// Single effects run over every effect × size × system × seed; every other seed takes the plain law, the rest go
+/// Single effects run over every effect of the study × size × system × seed; every other seed takes the plain law, the rest go
 /// round the effect's other laws. Outsiders are foreign and withheld in turn, at sizes of at least 1. Pairs are drawn
 /// among effects that are no twins, at sizes of at least 1.
 ///
@@ -63,7 +63,7 @@ pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
         let recipe = ingredients.into_iter().fold(plain, MakeRig::with);
         tickets.push(Ticket { id, kind, system, withheld, recipe });
     };
-    for effect in EFFECTS {
+    for &effect in &study.effects {
         let others = laws_of(effect).len() - 1;
         for &size in &study.sizes {
             for system in 0..study.systems {
@@ -80,16 +80,13 @@ pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
     let large: Vec<f64> = study.sizes.iter().copied().filter(|s| *s >= 1.0).collect();
     for i in 0..study.outside {
         let size = large[(i / 2) % large.len()];
-        let (effect, withheld) = if i % 2 == 0 {
-            (FOREIGN[(i / 2) % FOREIGN.len()], None)
-        } else {
-            let effect = EFFECTS[(i / 2) % EFFECTS.len()];
-            (effect, Some(effect))
-        };
+        let withheld = (i % 2 == 1).then(|| study.effects.get((i / 2) % study.effects.len().max(1)).copied());
+        let withheld = withheld.flatten();
+        let effect = withheld.unwrap_or(FOREIGN[(i / 2) % FOREIGN.len()]);
         add(Kind::Outside, (i / 3) % study.systems, withheld, vec![Ingredient::plain(effect, size)?]);
     }
     for i in 0..study.pairs {
-        let (one, other) = pair(scramble(study.seed ^ 0x5041_4952, i as u64));
+        let (one, other) = pair(&study.effects, scramble(study.seed ^ 0x5041_4952, i as u64));
         let size = large[i % large.len()];
         let both = vec![Ingredient::plain(one, size)?, Ingredient::plain(other, size)?];
         add(Kind::Pair, (i / 3) % study.systems, None, both);
@@ -104,12 +101,12 @@ fn sliced(mut tickets: Vec<Ticket>, study: &Study) -> Vec<Ticket> {
     tickets
 }
 
-/// Two effects that are no twins.
-fn pair(mut state: u64) -> (&'static str, &'static str) {
+/// Two of these effects that are no twins: there must be such.
+fn pair(effects: &[&'static str], mut state: u64) -> (&'static str, &'static str) {
     loop {
         state = scramble(state, 1);
-        let one = EFFECTS[(state % EFFECTS.len() as u64) as usize];
-        let other = EFFECTS[(state / 64 % EFFECTS.len() as u64) as usize];
+        let one = effects[(state % effects.len() as u64) as usize];
+        let other = effects[(state / 64 % effects.len() as u64) as usize];
         if !same_class(one, other) {
             return (one, other);
         }

@@ -6,6 +6,7 @@
 //! seed = 1
 //! systems = 3                  # families of nominal systems: orders 1, 2, 3, 1, …
 //! sizes = [0.5, 1.0, 2.0, 4.0] # surviving gap in noise sd
+//! effects = ["backlash"]       # optional: the effects put in; all that can be made if left out
 //! seeds = 20                   # rigs a cell of effect × size × system
 //! none = 300                   # rigs without effect
 //! outside = 300                # effects foreign to the library or taken out of it
@@ -16,11 +17,12 @@
 //! exact = 0.9
 //! ```
 
-use crate::input::{FileError, TomlError, TomlFile};
+use super::twins::same_class;
+use crate::input::{FileError, TomlError, TomlFile, closest};
 use miette::Diagnostic;
 use serde::Deserialize;
 use std::path::Path;
-use switchback_maker::Plan;
+use switchback_maker::{EFFECTS, Plan};
 use thiserror::Error;
 use toml::Spanned;
 
@@ -37,6 +39,8 @@ pub struct Study {
     pub systems: usize,
     /// Surviving gaps in noise sd; positive, at least one of them 1 or more.
     pub sizes: Vec<f64>,
+    /// Effects put in.
+    pub effects: Vec<&'static str>,
     /// Rigs a cell of effect × size × system.
     pub seeds: usize,
     /// Rigs without effect.
@@ -91,10 +95,11 @@ struct WireStudy {
     seed: u64,
     systems: Spanned<usize>,
     sizes: Spanned<Vec<f64>>,
+    effects: Option<Vec<Spanned<String>>>,
     seeds: usize,
     none: usize,
     outside: usize,
-    pairs: usize,
+    pairs: Spanned<usize>,
     slice: Option<Spanned<usize>>,
     #[serde(default)]
     expect: Expect,
@@ -135,16 +140,18 @@ pub fn read(path: &Path) -> Result<Study, BlindError> {
     let file = TomlFile::read(path)?;
     let wire: WireStudy = file.parse()?;
     check(&file, &wire)?;
+    let effects = effects(&file, &wire)?;
     Ok(Study {
         name: path.file_stem().map_or_else(|| "blind".to_owned(), |s| s.to_string_lossy().into_owned()),
         question: wire.question,
         seed: wire.seed,
         systems: wire.systems.into_inner(),
         sizes: wire.sizes.into_inner(),
+        effects,
         seeds: wire.seeds,
         none: wire.none,
         outside: wire.outside,
-        pairs: wire.pairs,
+        pairs: wire.pairs.into_inner(),
         slice: wire.slice.map(Spanned::into_inner),
         plan: Plan::default(),
         expect: wire.expect,
@@ -182,6 +189,36 @@ fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
     Ok(())
 }
 
+/// The effects asked for, by the names of the catalogue.
+fn effects(file: &TomlFile, wire: &WireStudy) -> Result<Vec<&'static str>, TomlError> {
+    let mut effects = Vec::new();
+    for name in wire.effects.iter().flatten() {
+        let known = EFFECTS.into_iter().find(|known| known == name.get_ref());
+        let Some(effect) = known else {
+            let remedy = closest(name.get_ref(), EFFECTS).map_or_else(
+                || format!("known are {}", EFFECTS.join(", ")),
+                |near| format!("did you mean `{near}`?"),
+            );
+            let message = format!("`{}` is no effect that can be made", name.get_ref());
+            return Err(file.error(name.span(), message, remedy));
+        };
+        if effects.contains(&effect) {
+            let message = format!("`{effect}` is listed twice");
+            return Err(file.error(name.span(), message, "name each effect once"));
+        }
+        effects.push(effect);
+    }
+    if wire.effects.is_none() {
+        effects = EFFECTS.to_vec();
+    }
+    let any_pair = effects.iter().any(|one| effects.iter().any(|other| !same_class(one, other)));
+    if *wire.pairs.get_ref() > 0 && !any_pair {
+        let message = "no two of the effects listed may be put in together: all are twins";
+        return Err(file.error(wire.pairs.span(), message, "set pairs = 0, or list more effects"));
+    }
+    Ok(effects)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -202,5 +239,10 @@ mod tests {
         assert!(refused(("[0.5, 1.0]", "[0.5]")).contains(":5:9: no size reaches 1"));
         assert!(refused(("[0.5, 1.0]", "[-1.0, 2.0]")).contains("size -1"));
         assert!(refused(("systems = 3", "systems = 0")).contains(":4:11:"));
+        let listing = |list: &str| refused(("seeds = 2", &format!("seeds = 2\neffects = {list}")));
+        assert!(listing("[\"crep\"]").contains(":7:12: `crep` is no effect"));
+        assert!(listing("[\"creep\", \"creep\"]").contains(":7:21: `creep` is listed twice"));
+        assert!(listing("[\"creep\"]").contains("all are twins"));
+        assert!(listing("[]").contains("all are twins"));
     }
 }

@@ -34,7 +34,7 @@ pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
     let name = parameter.name;
     let scaled = |factor: f64, unit: String| (name.to_owned(), ends.map(|x| factor * x), unit);
     let (name, [low, value, high], unit) = match parameter.unit {
-        "1" => scaled(1.0, String::new()),
+        "1" | "count" => scaled(1.0, String::new()),
         "strokes" => scaled(units.stroke, units.input.clone()),
         "strokes per sample" => scaled(units.stroke / units.sample_time, format!("{}/s", units.input)),
         "radians per sample" => {

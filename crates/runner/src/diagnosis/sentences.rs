@@ -19,6 +19,8 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     let diagnosis = &report.diagnosis;
     let mut sentences = vec![size(report)];
     let tells = !matches!(diagnosis.verdict.status, Status::None);
+    // Of records taken under other conditions no model of the fit records says anything.
+    let augments = tells && diagnosis.verdict.held_out_error_ratio.is_none();
     if tells {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
@@ -26,10 +28,9 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     sentences.extend(uncalibrated(report));
     if diagnosis.verdict.status != Status::Refit {
         sentences.extend(identified_anew(diagnosis));
-        let adds = tells && diagnosis.verdict.held_out_error_ratio.is_none();
-        sentences.extend(adds.then(|| closure(report)).into_iter().flatten());
+        sentences.extend(augments.then(|| closure(report)).into_iter().flatten());
     }
-    sentences.extend(tells.then(|| remainder(diagnosis, &units)));
+    sentences.extend(augments.then(|| remainder(diagnosis, &units)));
     sentences
 }
 
@@ -230,8 +231,11 @@ pub(super) fn parameters(fitted: &[FittedParameter], units: &Units) -> String {
     }
     let each = fitted.iter().map(|parameter| {
         let told = told(parameter, units);
-        let text =
-            format!("{} {} {}", told.name.replace('_', " "), with_interval(told.value, told.ci90), told.unit);
+        let figure = match parameter.unit {
+            "count" => format!("{:.0}", told.value),
+            _ => with_interval(told.value, told.ci90),
+        };
+        let text = format!("{} {figure} {}", told.name.replace('_', " "), told.unit);
         text.trim_end().to_owned()
     });
     each.collect::<Vec<_>>().join(", ")

@@ -117,7 +117,7 @@ fn guessed(
 }
 
 /// Whether what an assembly adds may rule the input or the errors: columns beside the borders, a loop that closes, a gain that
-/// changes, a slow lag, a delay, errors that last, a line, a trend.
+/// changes, a slow lag, a delay, errors that last, a line, a trend, a zero of each record.
 fn may_rule(assembly: &Assembly) -> bool {
     /// A polynomial's value at one, below which its slowest root is slow.
     const SLOW: f64 = 0.25;
@@ -126,8 +126,12 @@ fn may_rule(assembly: &Assembly) -> bool {
     let lag: f64 = assembly.denominator.iter().sum();
     let lags = assembly.denominator.len() > 1 && lag < SLOW;
     let lasts = 1.0 + assembly.noise.ar.iter().sum::<f64>() < SLOW;
-    let of_time =
-        |c: &EquationColumn| matches!(c, EquationColumn::Line { .. } | EquationColumn::Trend { .. });
+    let of_time = |c: &EquationColumn| {
+        matches!(
+            c,
+            EquationColumn::Line { .. } | EquationColumn::Trend { .. } | EquationColumn::Offset { .. }
+        )
+    };
     let follows_time = assembly.equation_columns.iter().any(of_time);
     let delays = assembly.delay > 0.0;
     !assembly.border_columns.is_empty() || closes || changes || lags || delays || lasts || follows_time

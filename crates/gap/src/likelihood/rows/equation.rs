@@ -74,6 +74,10 @@ pub(crate) fn equation_columns(
                 let at = t as f64 / track.v.len() as f64 * pieces as f64;
                 *cell = (1.0 - (at - piece as f64).abs()).max(0.0);
             }),
+            EquationColumn::Offset { track: only, .. } => {
+                let sign = if only == number { 1.0 } else { -1.0 };
+                cells.for_each(|cell| *cell = sign);
+            }
         }
     }
     EquationColumns { numbers, values: out }

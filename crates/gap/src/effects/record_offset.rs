@@ -1,0 +1,51 @@
+//! The sensor's zero differs from record to record.
+//!
+//! ```text
+//! y = x + cₖ in record k,  Σ cₖ = 0;  a zero enters the equation as A(1)·cₖ
+//! ```
+//!
+//! Law: one constant for each fitted record but the first, which has the negative sum of the others: a zero that all records share is a level
+//! of the borders. In another record the zero is predicted from the first samples. Parameters, output units: `largest_difference` between two records
+//! and `sd_between_records`. Stage: sensor. Left by sensors that are switched on, re-zeroed or mounted anew before each record: every
+//! record lies above or below the simulation by a constant. Confused with: sensor drift, of which it is the limit where the zero moves in the pauses only.
+
+use super::{Card, Reading, Scene, Variant, fitted_tracks};
+use crate::diagnosis::FittedParameter;
+use crate::effect::{Effect, Stage};
+use crate::model::assembly::EquationColumn;
+use crate::simulation::beginnings::offsets;
+
+pub(super) const CARD: Card = Card {
+    twins: &[Effect::SensorDrift],
+    of_its_record: true,
+    dominates_dynamics: true,
+    told_first: differences,
+    ..Card::of(Stage::Sensor, variants)
+};
+
+fn variants(scene: &Scene<'_>) -> Vec<Variant> {
+    let tracks = fitted_tracks(scene.campaign);
+    // Of one record the zero is that of the borders.
+    let Some((&first, others)) = tracks.split_first().filter(|(_, others)| !others.is_empty()) else {
+        return Vec::new();
+    };
+    let others = others.to_vec();
+    vec![Variant::new(vec![Vec::new()], move |_, assembly| {
+        let zero = |&track: &usize| EquationColumn::Offset { track, against: Some(first) };
+        assembly.equation_columns.extend(others.iter().map(zero));
+    })]
+}
+
+/// How far the zeros of the fitted records lie apart.
+fn differences(reading: &Reading<'_>) -> Vec<FittedParameter> {
+    let fit = reading.fit;
+    let at_rest = 1.0 + fit.linear.a.iter().sum::<f64>();
+    let zeros: Vec<f64> =
+        offsets(&fit.assembly, &fit.linear.d).into_values().map(|zero| zero / at_rest).collect();
+    let [low, high] = zeros
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &zero| [low.min(zero), high.max(zero)]);
+    // Their mean is zero, and one of them follows from the others.
+    let variance = zeros.iter().map(|zero| zero * zero).sum::<f64>() / (zeros.len() as f64 - 1.0).max(1.0);
+    vec![reading.step("largest_difference", high - low), reading.step("sd_between_records", variance.sqrt())]
+}
