@@ -42,6 +42,7 @@ enum Verb {
     Init(cmd::init::Args),
     Man(cmd::man::Args),
     Merge(cmd::merge::Args),
+    Plant(cmd::plant::Args),
     Rig(cmd::rig::Args),
     Simulate(cmd::simulate::Args),
 }
@@ -117,6 +118,7 @@ impl Cli {
             Some(Verb::Init(args)) => cmd::init::run(&args),
             Some(Verb::Man(args)) => cmd::man::run(&args),
             Some(Verb::Merge(args)) => cmd::merge::run(&args),
+            Some(Verb::Plant(args)) => cmd::plant::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),

@@ -1,7 +1,7 @@
 //! `step_change`: a gain or the width of the loop changes at one instant.
 
 use crate::effects::motion::{directions, half_width};
-use crate::law::{Law, Scene, Stage};
+use crate::law::{Law, Planting, Scene, Stage};
 
 pub(super) static LAWS: [&dyn Law; 4] = [
     &StepChange { of: Of::Gain, course: Course::Abrupt },
@@ -71,6 +71,12 @@ impl Law for StepChange {
     }
     fn limit(&self) -> f64 {
         0.9
+    }
+    fn planting(&self) -> Planting {
+        match self.of {
+            Of::Gain => Planting::Gain,
+            Of::Loop => Planting::Carried,
+        }
     }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {

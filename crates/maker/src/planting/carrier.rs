@@ -20,8 +20,8 @@ pub(super) struct Carrier {
 }
 
 impl Carrier {
-    /// Identifies the carrier: one pole more than the base's model and many knots; where no such model is stable, the base's own.
-    pub(super) fn new(rig: &Rig, base: &Base) -> Result<Self, PlantingError> {
+    /// Identifies the carrier: one pole more than the base's model and many knots; where no such model has a loop, it is the base's own.
+    pub(super) fn identified(rig: &Rig, base: &Base) -> Result<Self, PlantingError> {
         let structure = base.identified.selection.structure;
         let rule = base.identified.model.rule();
         let settings = Settings {
@@ -34,12 +34,13 @@ impl Carrier {
             ..Settings::new(InputMap::Borders)
         };
         let records: Vec<_> = rig.fit_records().map(|r| &r.record).collect();
-        let identified = identify(&records, &settings).map(|found| found.model);
-        let larger = identified.ok().and_then(|model| plant(&model, rig).ok().map(|plant| (plant, model)));
-        let (mut plant, model) = match larger {
-            Some(found) => found,
-            None => (plant(&base.identified.model, rig)?, base.identified.model.clone()),
-        };
+        let larger = identify(&records, &settings).ok().and_then(|found| Self::of(rig, &found.model).ok());
+        larger.map_or_else(|| Self::of(rig, &base.identified.model), Ok)
+    }
+
+    /// A model as the carrier.
+    pub(super) fn of(rig: &Rig, model: &Model) -> Result<Self, PlantingError> {
+        let mut plant = plant(model, rig)?;
         let lead = (-model.structure().delay).max(0) as usize;
         let passages = passages(rig, &plant, (lead, model.rule().threshold));
         plant.noise_sd = equation_error(&plant, &passages, rig);

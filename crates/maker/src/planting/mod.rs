@@ -28,7 +28,7 @@ use crate::simulate::Active;
 use crate::size::magnitude_for;
 use crate::stream::{Purpose, stream};
 use rand::RngExt;
-use switchback_estimator::estimators::free::FreeError;
+use switchback_estimator::estimators::free::{FreeError, Model};
 use switchback_estimator::hysteresis::HysteresisError;
 use switchback_estimator::record::RecordError;
 use switchback_estimator::rig::Rig;
@@ -122,8 +122,16 @@ impl<'a> PlantingGround<'a> {
     /// [`PlantingError`] where the records give no model with a loop, or one that misses nothing.
     pub fn new(rig: &'a Rig) -> Result<Self, PlantingError> {
         let base = Base::new(rig)?;
-        let carrier = Carrier::new(rig, &base)?;
+        let carrier = Carrier::identified(rig, &base)?;
         Ok(Self { rig, base, carrier })
+    }
+
+    /// The same with a model of one's own to carry what has to be carried.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn carried_by(rig: &'a Rig, model: &Model) -> Result<Self, PlantingError> {
+        Ok(Self { rig, base: Base::new(rig)?, carrier: Carrier::of(rig, model)? })
     }
 
     /// Plants a fault of a size; everything random about it is drawn from the seed.

@@ -10,6 +10,7 @@ pub mod identify;
 pub mod init;
 pub mod man;
 pub mod merge;
+pub mod plant;
 pub mod rig;
 pub mod simulate;
 pub mod study;

@@ -79,6 +79,11 @@ impl Curves {
         }
     }
 
+    /// The model that runs.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
     /// A move back by less is no reversal, input units.
     pub fn reversal_threshold(&self) -> f64 {
         self.model.rule().threshold

@@ -1,0 +1,171 @@
+//! `switchback plant DATA.csv … --effect EFFECT --size 2 --out DIR`
+
+use super::data_args::DataArgs;
+use super::rig::RigCommandError;
+use crate::failure::{CommandResult, Outcome};
+use crate::model::{self, ModelFile, System};
+use crate::options::{Force, Quiet, number, whole};
+use crate::output::stamped;
+use crate::rig;
+use miette::Diagnostic;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use switchback_estimator::rig::Rig;
+use switchback_maker::{Ingredient, OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround};
+use thiserror::Error;
+
+/// Put a known fault into measured records, and print what was put in: to try whether a diagnosis finds it.
+///
+/// What the sensor makes of the output, a gain, and what the record of the input shows are changed in the records themselves. Any other
+/// effect is carried by a model of the machine: its simulation with the effect less the one without is added to the measured output.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    data: DataArgs,
+
+    /// Effect to put in; `switchback rig --list` shows all.
+    #[arg(long, value_name = "EFFECT")]
+    effect: String,
+
+    /// Which law of the effect, 0 being the plain one.
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>(0..=u64::from(u32::MAX)))]
+    law: usize,
+
+    /// What survives identification anew, over the residual that the records' own model leaves on held-out ones.
+    #[arg(long, default_value_t = 2.0, value_parser = number)]
+    size: f64,
+
+    /// What else there is to the effect (a frequency, an instant, noise) is drawn from this.
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX))]
+    seed: u64,
+
+    /// Model that carries the effect, of `identify --method free --out` [default: one identified from the fit records, with a pole and knots
+    /// to spare]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Folder for rig.toml and the records; what was put in is printed, not written there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+
+    /// Print what was put in as JSON.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// Why nothing was planted.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum PlantError {
+    /// The records are no ground for a fault.
+    #[error("{data}: {error}")]
+    #[diagnostic(help(
+        "faults are planted into records of a machine with a loop, at least one to fit and better one held out; `switchback identify` shows what \
+         the records tell"
+    ))]
+    Ground {
+        /// The data.
+        data: String,
+        /// What is wrong.
+        error: PlantingError,
+    },
+    /// The model is of another form.
+    #[error("{model}: a model of the form `{kind}` cannot carry a fault")]
+    #[diagnostic(help(
+        "make one with `switchback identify --method free --out DIR`, or leave `--model` out"
+    ))]
+    Model {
+        /// The model file.
+        model: String,
+        /// Its form.
+        kind: &'static str,
+    },
+}
+
+/// What the folder gets.
+const FILES: [&str; 2] = [rig::RIG_FILE, "*.csv"];
+
+/// Plants the fault, writes the folder, prints what was put in.
+///
+/// # Errors
+/// Data that cannot be read or carry nothing, an unknown effect or law, a size that is none, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let ingredient =
+        Ingredient::with_law(&args.effect, args.law, args.size).map_err(RigCommandError::from)?;
+    let carrier = args.model.as_deref().map(model::read).transpose()?;
+    let loaded = args.data.load("plant", args.quiet)?;
+    let folder = args.force.claim_if_asked(Some(&args.out), &FILES, &args.data.inputs(&loaded))?;
+    let planted = planted(&loaded.rig, (args, carrier.as_ref()), &ingredient)?;
+    if let Some(folder) = folder {
+        folder.commit(&rig::artefacts(&planted.rig))?;
+    }
+    args.quiet.tell_or(args.json, || stamped(SCHEMA, &json(&planted.fault)), || told(&planted.fault))?;
+    Ok(Outcome::Done)
+}
+
+fn planted(
+    rig: &Rig,
+    (args, carrier): (&Args, Option<&ModelFile>),
+    ingredient: &Ingredient,
+) -> miette::Result<PlantedRig> {
+    let refused = |error| PlantError::Ground { data: name(args.data.path()), error };
+    let ground = match carrier.map(|file| &file.system) {
+        None => PlantingGround::new(rig),
+        Some(System::Curves(curves)) => PlantingGround::carried_by(rig, curves.model()),
+        Some(other @ (System::Switched(_) | System::Points(_))) => {
+            let model = args.model.as_deref().map_or_else(String::new, name);
+            return Err(PlantError::Model { model, kind: other.kind() }.into());
+        }
+    };
+    Ok(ground.and_then(|ground| ground.plant(ingredient, args.seed)).map_err(refused)?)
+}
+
+fn name(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// Name and version of the layout of what was put in.
+const SCHEMA: &str = "switchback/plant/1";
+
+fn told(fault: &PlantedFault) -> String {
+    let how = if fault.planting.is_exact() {
+        "changed in the records themselves"
+    } else {
+        "carried by a model, as if it did not interact with what that misses"
+    };
+    let mut text = format!(
+        "{} ({}, {}): {:.4} {}, {how}\n",
+        fault.effect,
+        fault.law,
+        fault.stage.name(),
+        fault.magnitude,
+        fault.unit
+    );
+    let _ = writeln!(
+        text,
+        "survives identification anew with {:.2} of the residual {:.4} that the records' own model leaves; a model given beforehand misses {:.2} more",
+        fault.size, fault.residual, fault.raw
+    );
+    if (fault.size / fault.wanted - 1.0).abs() > 0.1 {
+        let _ = writeln!(text, "  (asked for {}; this law and these records go no closer)", fault.wanted);
+    }
+    if !fault.is_observable() {
+        let _ = writeln!(text, "  (below {OBSERVABLE}: not observable in these records)");
+    }
+    text
+}
+
+fn json(fault: &PlantedFault) -> serde_json::Value {
+    serde_json::json!({
+        "effect": fault.effect, "law": fault.law, "stage": fault.stage.name(), "planting": fault.planting.name(),
+        "exact": fault.planting.is_exact(), "magnitude": fault.magnitude, "unit": fault.unit,
+        "wanted_size": fault.wanted, "size": fault.size, "raw_size": fault.raw, "residual": fault.residual,
+        "observable": fault.is_observable(),
+    })
+}
