@@ -13,6 +13,7 @@ mod execute;
 mod expectations;
 mod family;
 mod free;
+mod intervals;
 mod judge;
 mod lane_batch;
 mod moments;
@@ -103,7 +104,7 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
     let paired = (scenario.coupling() == Coupling::Shared)
         .then(|| paired::pairing(&specs, &views, &cells_of_worlds(&workloads)));
-    let expectations = expectations::check(scenario, &summaries);
+    let expectations = expectations::check(scenario, &summaries, &cells);
     Ok(Results {
         schema: SCHEMA,
         study: "consistency".to_owned(),
