@@ -12,8 +12,8 @@ pub(super) struct Places {
     ascending: Vec<f64>,
 }
 
-/// Places that each half of a cell must hold: as many as a straight line takes.
-const FEWEST_PLACES: usize = 2;
+/// Places of the input for every coefficient `bᵢf_k` of the regression, as `Basis::check_length` asks of samples.
+const PLACES_A_COEFFICIENT: usize = 2;
 
 impl Places {
     /// Of ranges of several inputs; a place that is visited again tells nothing new of a border's shape.
@@ -33,11 +33,11 @@ impl Places {
 }
 
 impl Basis {
-    /// The same two borders with every cell halved whose halves both hold two places of the input or more; `None` once these are no more than
-    /// half of the cells: the grid is then as fine as the input.
-    pub(super) fn halved_where_visited(&self, places: &Places) -> Option<Self> {
+    /// The same two borders with every cell halved that the input visits on both halves; `None` if there is none, or if that leaves
+    /// fewer than two places of the input for every coefficient of a regression whose numerator has `numerator` of them.
+    pub(super) fn halved_where_visited(&self, places: &Places, numerator: usize) -> Option<Self> {
         let visited = |low: f64, high: f64, places: &[f64]| {
-            places.partition_point(|&v| v <= high) - places.partition_point(|&v| v < low) >= FEWEST_PLACES
+            places.partition_point(|&v| v <= high) > places.partition_point(|&v| v < low)
         };
         let halve = |knots: &[f64], places: &[f64]| {
             halved(knots, |low, middle, high| visited(low, middle, places) && visited(middle, high, places))
@@ -46,8 +46,9 @@ impl Basis {
             halve(self.descending(), &places.descending),
             halve(self.ascending(), &places.ascending),
         );
-        let (cells, halvings) = (self.features() - 1, finer.features() - self.features());
-        (2 * halvings > cells).then_some(finer)
+        let needed = PLACES_A_COEFFICIENT * numerator * finer.features();
+        let known = places.descending.len() + places.ascending.len();
+        (finer.features() > self.features() && needed <= known).then_some(finer)
     }
 
     /// The same two borders with every cell halved.

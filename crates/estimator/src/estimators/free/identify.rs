@@ -48,7 +48,7 @@ pub struct Identified {
 /// 2. Whether reversals take effect at samples or between them is decided by the fit of a middling structure. Order, delay and knots are chosen by cross-validation where the settings leave them open.
 /// 3. Least squares with one coefficient for every product `bᵢf_k`, drawn to rank one.
 /// 4. With `refine`, Levenberg–Marquardt on the error of the free run. This is the model.
-/// 5. With two borders, the same fit on ever finer grids, until the bias that straight lines between knots leave is small against the noise. The
+/// 5. With two borders, the same fit on grids of halved cells, twice at the most, until the bias that straight lines between knots leave is small against the noise. The
 ///    last of them is the estimate, at the model's knots: what predicts best is too coarse for an interval that holds the truth. What is left of
 ///    the bias joins the standard errors, and a point up to one cell beside a jump that was found gets an interval that spans both
 ///    sides. A jump below the noise is not found, and a point beside it may miss its truth.
@@ -105,7 +105,7 @@ pub fn identify_watched(
     let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
     if basis.is_switched() {
         let start = Fitted { structure, basis: basis.clone(), theta: theta.clone() };
-        let fits = finer_fits(&data, start, settings.refine);
+        let fits = finer_fits(&data, start, settings.refine).take(1 + MOST_HALVINGS);
         if let Some(finer) = undersmoothed(structure, figures, fits) {
             // The noise is that of the model's free run.
             estimate = Estimate { noise_sd: figures.noise_sd, ..finer.estimate };
@@ -118,6 +118,10 @@ pub fn identify_watched(
     Ok(Identified { estimate, level_errors, model, selection, distance, warnings, covariance })
 }
 
+/// Each halving leaves a quarter of the bias of a smooth border. The grid that predicts best leaves about as much bias as noise, so that two
+/// suffice; where more seem to be asked for, the border jumps, or something else is amiss that no grid mends.
+const MOST_HALVINGS: usize = 2;
+
 /// The same fit on its own grid and on ever finer ones.
 fn finer_fits(data: &Data, first: Fitted, refine: bool) -> impl Iterator<Item = GridFit> {
     let structure = first.structure;
@@ -128,7 +132,7 @@ fn finer_fits(data: &Data, first: Fitted, refine: bool) -> impl Iterator<Item = 
     std::iter::from_fn(move || {
         let fitted = start.take()?;
         let fit = grid_fit(data, &fitted, refine)?;
-        start = fitted.basis.halved_where_visited(&places).and_then(|finer| {
+        start = fitted.basis.halved_where_visited(&places, structure.numerator()).and_then(|finer| {
             let featured = data.featured(finer);
             let segments = featured.segments(structure);
             featured

@@ -41,7 +41,7 @@ impl NestedRegressions {
             let basis = next.grid().basis.clone();
             regressions.push(next);
             regressions.push(Regression::unchecked(v, on(basis.halved()), checkpoints)?);
-            let Some(finer) = basis.halved_where_visited(&places) else { break };
+            let Some(finer) = basis.halved_where_visited(&places, grid.structure.numerator()) else { break };
             match Regression::new(v, on(finer), checkpoints) {
                 Ok(regression) => next = regression,
                 // Too many knots for the samples, or a knot that none of them is beside.
