@@ -103,7 +103,7 @@ name = "given"
 [[case]]
 name = "refined"
 knots = "refined"
-expect = { coverage = { mean = [0.88, 1.0], least = 0.8 }, width = { of = "known", at_most = 2.0 } }
+expect = { coverage = { mean = [0.88, 1.0], least = 0.8 }, width = { of = "refined", at_most = 1.0 } }
 [[case]]
 name = "known"
 knots = "known"

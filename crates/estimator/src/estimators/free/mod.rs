@@ -9,6 +9,9 @@
 //! [`InputMap`] makes the same machinery fit what a user would otherwise pick: a straight line (`linear-arx`) or one
 //! static curve (`memoryless`), so that a comparison compares the models and not the effort.
 //!
+//! Intervals come from a grid that is refined until its bias is small against the noise, and beside a jump they span both sides (`undersmoothing`;
+//! [`NestedRegressions`] for many outputs of one input).
+//!
 //! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
 //! on `v`, which fakes reversals; a model that needs `v` ahead of time. What no warning can tell: a static
 //! nonlinearity in series with `v` and a common offset look like other borders.

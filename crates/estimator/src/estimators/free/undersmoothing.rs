@@ -12,7 +12,8 @@
 //!    M. Kolesár, Econometrica 86 (2018), doi 10.3982/ECTA14434).
 //! 4. A jump bends in no way that knots could follow. Where a cell is found to hold one, the points up to one cell beside it get an interval
 //!    that spans both sides: `1.96 se` is at least the largest rise to a neighbouring knot. A jump below the noise of the grid is
-//!    not found, and a point beside it may miss its truth.
+//!    not found, and a point beside it may miss its truth. A corner counts as a bend, or as a jump where it stands out: intervals beside it
+//!    are too wide rather than too narrow, even where a knot lies on the corner.
 //!
 //! The estimate is told at the knots of the first grid.
 
