@@ -87,6 +87,54 @@ fn a_grid_beside_the_corners_is_inconsistent() {
     assert!(results.cells.iter().flat_map(|c| &c.parameters).all(|p| p.theory_sd.is_none()));
 }
 
+/// Four even knots lie beside the corner at 0, and so do the middles of their cells.
+fn beside_the_corners(case: &str) -> String {
+    let sweep =
+        SMALL.split("[expect]").next().expect("the part before it").replace("points = [3]", "points = [4]");
+    format!("{sweep}{case}")
+}
+
+#[test]
+fn a_refined_grid_covers_corners_that_a_given_one_misses() {
+    let study = Study::of(&beside_the_corners(
+        r#"
+[[case]]
+name = "given"
+[[case]]
+name = "refined"
+knots = "refined"
+expect = { coverage = { mean = [0.88, 1.0], least = 0.8 }, width = { of = "refined", at_most = 1.0 } }
+[[case]]
+name = "known"
+knots = "known"
+"#,
+    ));
+    let results = study.results(&[]);
+    assert!(results.as_expected(), "{:?}", results.expectations);
+    assert_eq!(results.expectations.len(), 2);
+    let last = |case: &str| results.cells.iter().rfind(|c| c.series.case == case).expect("a cell");
+    let covered = |case: &str| last(case).find("F_desc(V2)").and_then(|p| p.coverage).expect("one").value();
+    assert!(covered("given") < 0.5 && covered("refined") > 0.8);
+    let places = |case: &str| last(case).parameters.iter().map(|p| p.v).collect::<Vec<_>>();
+    assert_eq!(places("given"), places("refined"));
+    assert!(last("refined").parameters.iter().all(|p| p.theory_sd.is_none()));
+}
+
+#[test]
+fn a_promise_of_coverage_that_is_broken_is_told() {
+    let study = Study::of(&beside_the_corners(
+        r#"
+[[case]]
+name = "given"
+expect = { coverage = { mean = [0.9, 0.98], least = 0.85 }, width = { of = "given", at_most = 0.9 } }
+"#,
+    ));
+    let output = study.run(&[]);
+    assert_eq!(output.status.code(), Some(1));
+    let results = results::read(&study.0.path().join("out/results.json")).expect("a results file");
+    assert_eq!(results.expectations.iter().map(|e| e.held).collect::<Vec<_>>(), [false, false]);
+}
+
 #[test]
 fn output_noise_spoils_it() {
     let noisy = SMALL.split("[expect]").next().expect("the part before it").to_owned()

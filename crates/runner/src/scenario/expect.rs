@@ -5,7 +5,7 @@ use super::Method;
 /// The outcome a scenario promises; a promise that is not kept ends the run with exit code 1.
 ///
 /// Empty lists promise nothing.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expect {
     /// Methods whose every verdict must be consistent.
     pub consistent: Vec<Method>,
@@ -13,12 +13,35 @@ pub struct Expect {
     pub inconsistent: Vec<Method>,
     /// Measures of the `consistent` methods that must agree with theory within Monte-Carlo error.
     pub within_error: Vec<Check>,
+    /// How often the intervals must hold the truth, at every `N`.
+    pub coverage: Option<Coverage>,
+    /// How wide they may be.
+    pub width: Option<Width>,
+}
+
+/// Bounds on the coverage of 95 % intervals, shares from 0 to 1. They hold for `a`, for `b` and for the points of both borders, each averaged over
+/// its parameters, at every `N`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coverage {
+    /// Of the mean over all curves of the case.
+    pub mean: (f64, f64),
+    /// The least that any curve may have.
+    pub least: f64,
+}
+
+/// A bound on the width of intervals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Width {
+    /// The case whose intervals are the measure.
+    pub of: String,
+    /// Largest ratio of the widths: the median over all parameters and curves, at every `N`.
+    pub at_most: f64,
 }
 
 impl Expect {
     /// Whether nothing is promised.
     pub fn is_empty(&self) -> bool {
-        self.consistent.is_empty() && self.inconsistent.is_empty() && self.within_error.is_empty()
+        *self == Self::default()
     }
 }
 

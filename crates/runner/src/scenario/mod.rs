@@ -15,7 +15,7 @@ mod tests;
 mod wire;
 
 pub use error::ScenarioError;
-pub use expect::{Check, Expect};
+pub use expect::{Check, Coverage, Expect, Width};
 pub use method::Method;
 
 use crate::input::TomlFile;
@@ -123,8 +123,41 @@ pub struct Case {
     pub order: usize,
     /// Samples `s` between neighbouring visits of the descendant and ascendant experiments.
     pub spacing: usize,
+    /// On which knots `free` estimates the borders.
+    pub knots: Knots,
     /// What must come out of this case.
     pub expect: Expect,
+}
+
+/// On which knots the method `free` estimates the borders; it tells them at the `m` evenly spaced ones of the sweep in every case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Knots {
+    /// On those `m`, whatever the borders do between them.
+    Given,
+    /// On halvings of those, as fine as the record asks for: see [`switchback_estimator::estimators::free::NestedRegressions`].
+    Refined,
+    /// An oracle: on the first of these grids that holds the true borders, so that the bias of the limit is below a third of the standard error, root mean square
+    /// over coefficients and over points; on the last where none does.
+    Known,
+}
+
+impl Knots {
+    /// Every kind, the default first.
+    pub const ALL: [Self; 3] = [Self::Given, Self::Refined, Self::Known];
+
+    /// The name used in scenario files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Refined => "refined",
+            Self::Known => "known",
+        }
+    }
+
+    /// The kind of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|k| k.name() == name)
+    }
 }
 
 /// A named hysteresis.

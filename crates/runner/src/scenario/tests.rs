@@ -100,6 +100,27 @@ expect = {{ inconsistent = ["joint"] }}
 }
 
 #[test]
+fn knots_and_promises_of_intervals_are_read_and_checked() {
+    let case =
+        |rest: &str| Scenario::parse("knots.toml", &format!("{GOOD}\n[[case]]\nname = \"fine\"\n{rest}\n"));
+    let expect = "expect = { coverage = { mean = [0.9, 0.98], least = 0.85 }, width = { of = \"fine\", at_most = 2.0 } }";
+    let scenario = case(&format!("knots = \"refined\"\n{expect}")).expect("a valid scenario");
+    let [fine] = scenario.cases() else { panic!("one case") };
+    assert_eq!(fine.knots, Knots::Refined);
+    assert_eq!(fine.expect.coverage, Some(Coverage { mean: (0.9, 0.98), least: 0.85 }));
+    assert_eq!(fine.expect.width, Some(Width { of: "fine".to_owned(), at_most: 2.0 }));
+    for (rest, told) in [
+        ("knots = \"refind\"".to_owned(), "refined"),
+        (expect.replace("0.98", "98"), "coverage lies between 0 and 1"),
+        (expect.replace("\"fine\"", "\"fin\""), "no such case"),
+        (expect.replace("2.0", "-2.0"), "at_most must be positive"),
+    ] {
+        let error = case(&rest).expect_err("a refusal");
+        assert!(format!("{error:?}").contains(told), "{error:?}");
+    }
+}
+
+#[test]
 fn an_unknown_key_is_named_with_its_line_and_the_nearest_key() {
     let (message, remedy, line) = refusal("points = [4, 8]", "pionts = [4, 8]");
     assert!(message.contains("`sweep.pionts`") && message.contains("unknown key"), "{message}");

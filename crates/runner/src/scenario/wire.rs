@@ -46,6 +46,7 @@ pub(super) struct WireCase {
     pub(super) disturbance: Option<Spanned<WireDisturbance>>,
     pub(super) order: Option<Spanned<usize>>,
     pub(super) spacing: Option<Spanned<usize>>,
+    pub(super) knots: Option<Spanned<String>>,
     pub(super) expect: Option<WireExpect>,
 }
 
@@ -85,4 +86,20 @@ pub(super) struct WireExpect {
     pub(super) inconsistent: Vec<Spanned<String>>,
     #[serde(default)]
     pub(super) within_error: Vec<Spanned<String>>,
+    pub(super) coverage: Option<Spanned<WireCoverage>>,
+    pub(super) width: Option<Spanned<WireWidth>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireCoverage {
+    pub(super) mean: (f64, f64),
+    pub(super) least: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireWidth {
+    pub(super) of: Spanned<String>,
+    pub(super) at_most: f64,
 }

@@ -1,6 +1,7 @@
 //! Whether what the scenario promises came out.
 
-use crate::results::{Expectation, Summary, Verdict};
+use super::intervals;
+use crate::results::{Cell, Expectation, Summary, Verdict};
 use crate::scenario::{Check, Method, Scenario};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -11,7 +12,7 @@ const FALSE_ALARM: f64 = 0.01;
 const FREEDOM: f64 = (super::sections::SECTIONS - 1) as f64;
 
 /// One entry a promise of each case.
-pub(super) fn check(scenario: &Scenario, summaries: &[Summary]) -> Vec<Expectation> {
+pub(super) fn check(scenario: &Scenario, summaries: &[Summary], cells: &[Cell]) -> Vec<Expectation> {
     let mut expectations = Vec::new();
     for case in scenario.cases() {
         let of_case = |method: Method| -> Vec<&Summary> {
@@ -27,6 +28,12 @@ pub(super) fn check(scenario: &Scenario, summaries: &[Summary]) -> Vec<Expectati
         let rows: Vec<&Summary> = case.expect.consistent.iter().flat_map(|&m| of_case(m)).collect();
         expectations
             .extend(case.expect.within_error.iter().map(|&check| within_error(&prefix, check, &rows)));
+        let cells_of = |case: &str| cells.iter().filter(|c| c.series.case == case).collect::<Vec<_>>();
+        let of_case = cells_of(&case.name);
+        expectations
+            .extend(case.expect.coverage.map(|bounds| intervals::coverage(&prefix, bounds, &of_case)));
+        let width = case.expect.width.as_ref();
+        expectations.extend(width.map(|w| intervals::width(&prefix, w, &of_case, &cells_of(&w.of))));
     }
     expectations
 }

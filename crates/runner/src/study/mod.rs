@@ -15,6 +15,7 @@ mod expectations;
 mod family;
 mod family_plan;
 mod free;
+mod intervals;
 mod judge;
 mod lane_batch;
 mod memory;
@@ -110,7 +111,7 @@ pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Res
     let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
     let paired = (scenario.coupling() == Coupling::Shared)
         .then(|| paired::pairing(&specs, &views, &cells_of_worlds(&workloads)));
-    let expectations = expectations::check(scenario, &summaries);
+    let expectations = expectations::check(scenario, &summaries, &cells);
     Ok(Results {
         schema: SCHEMA,
         study: "consistency".to_owned(),

@@ -141,6 +141,11 @@ fn combined(
     Known { value, se: covariance.standard_error(&derivative) }
 }
 
+/// Whether the normal equations lose half of the digits or more.
+pub(super) fn is_ill_conditioned(information: &DMatrix<f64>, theta: &Parameters) -> bool {
+    condition(information, theta) > HALF_OF_THE_DIGITS
+}
+
 /// Largest over smallest eigenvalue of the information matrix with its columns scaled to one, the scale shared by `b` and `f` set aside;
 /// infinite if a parameter has no information.
 ///

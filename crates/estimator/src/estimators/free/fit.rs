@@ -204,6 +204,24 @@ fn refined(
     Some(refinement(effort).run(structure, start, segments))
 }
 
+/// A fit on a finer grid that contains its own, from where it was.
+pub(super) fn refitted(
+    finer: &Featured,
+    segments: &[Segment],
+    fitted: &Fitted,
+    refine: bool,
+) -> Option<Fitted> {
+    let (structure, basis) = (fitted.structure, finer.basis.clone());
+    let theta = if refine {
+        let curves: Vec<usize> = basis.sizes().collect();
+        let refinement = Refinement { effort: Effort::FINAL, curves: &curves, smoothness: SMOOTHNESS };
+        refinement.run(structure, fitted.lifted(structure, &basis), segments)
+    } else {
+        equation_error_fit(&Moments::of(structure, basis.features(), segments))?
+    };
+    Some(Fitted { structure, basis, theta })
+}
+
 /// By simulation error, least first; unstable ones are dropped.
 fn ranked(structure: Structure, fits: Vec<Parameters>, segments: &[Segment]) -> Vec<Parameters> {
     let costed = fits.into_iter().map(|s| (cost(structure, &s, segments), s));

@@ -9,6 +9,9 @@
 //! [`InputMap`] makes the same machinery fit what a user would otherwise pick: a straight line (`linear-arx`) or one
 //! static curve (`memoryless`), so that a comparison compares the models and not the effort.
 //!
+//! Intervals come from a grid that is refined until its bias is small against the noise, and beside a jump they span both sides (`undersmoothing`;
+//! [`NestedRegressions`] for many outputs of one input).
+//!
 //! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
 //! on `v`, which fakes reversals; a model that needs `v` ahead of time. What no warning can tell: a static
 //! nonlinearity in series with `v` and a common offset look like other borders.
@@ -22,9 +25,13 @@ mod equation_error;
 mod error;
 mod examination;
 mod fit;
+mod grid_bias;
+mod halving;
 mod identify;
+mod jumps;
 mod limit;
 mod model;
+mod nested;
 mod nesting;
 mod normalise;
 mod one_shot;
@@ -36,6 +43,7 @@ mod selection;
 mod sensor;
 mod settings;
 mod simulation_error;
+mod undersmoothing;
 mod warning;
 
 pub use basis::Basis;
@@ -45,6 +53,7 @@ pub use error::FreeError;
 pub use identify::{Identified, identify, identify_watched};
 pub use limit::Limit;
 pub use model::{Coefficients, FreeRun, Model, ModelError, fit_percent};
+pub use nested::NestedRegressions;
 pub use one_shot::{Grid, one_shot};
 pub use problem::Structure;
 pub use progress::Progress;

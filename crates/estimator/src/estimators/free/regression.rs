@@ -41,19 +41,25 @@ impl Regression {
     /// [`FreeError`] if the input never moves or is shorter than the last checkpoint needs, or if the samples of the first one pass by a knot
     /// or are fewer than two a parameter.
     pub fn new(v: &[f64], grid: Grid, checkpoints: &[usize]) -> Result<Self, FreeError> {
+        let regression = Self::unchecked(v, grid, checkpoints)?;
+        if let Some(first) = checkpoints.first() {
+            let (from, cells) = (regression.start, &regression.cells);
+            let segment = [Segment { y: v, cells, from, to: from + first }];
+            regression.grid.basis.check_visits(&segment)?;
+            regression.grid.basis.check_length(regression.grid.structure, &segment)?;
+        }
+        Ok(regression)
+    }
+
+    /// The same for a grid that no estimate is asked of.
+    pub(super) fn unchecked(v: &[f64], grid: Grid, checkpoints: &[usize]) -> Result<Self, FreeError> {
         let Grid { structure, ref basis, rule } = grid;
         let branches = Branches::of(v, rule).ok_or(FreeError::NoMotion { threshold: rule.threshold })?;
         let cells = model::cells(basis, v, &branches);
         let start = branches.first_known() + structure.memory();
-        let (first, last) = (checkpoints.first().copied(), checkpoints.last().copied());
         let available = v.len().saturating_sub(start + structure.ahead());
-        if let Some(wanted) = last.filter(|&last| last > available) {
+        if let Some(wanted) = checkpoints.last().copied().filter(|&last| last > available) {
             return Err(FreeError::InputTooShort { available, wanted });
-        }
-        if let Some(first) = first {
-            let segment = [Segment { y: v, cells: &cells, from: start, to: start + first }];
-            basis.check_visits(&segment)?;
-            basis.check_length(structure, &segment)?;
         }
         let mut regression =
             Self { grid, cells, start, checkpoints: checkpoints.to_vec(), input: Vec::new() };
@@ -139,7 +145,7 @@ impl Regression {
     }
 
     /// The grid.
-    pub(super) fn grid(&self) -> &Grid {
+    pub fn grid(&self) -> &Grid {
         &self.grid
     }
 

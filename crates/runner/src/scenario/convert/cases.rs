@@ -5,7 +5,7 @@ use super::expect::expect;
 use crate::scenario::border::WireBorder;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCase, WireScenario, WireSystem, WireSystemOverride};
-use crate::scenario::{Border, Case, Disturbance, Expect, Method};
+use crate::scenario::{Border, Case, Disturbance, Expect, Knots, Method};
 use std::ops::Range;
 use std::sync::Arc;
 use switchback_estimator::hysteresis::Interval;
@@ -29,9 +29,18 @@ pub(super) fn cases(
             disturbance: Disturbance::White,
             order: n,
             spacing: n.max(2),
+            knots: Knots::Given,
             expect: default.clone(),
             system,
         }]);
+    }
+    let names: Vec<&str> = wire.case.iter().map(|c| c.name.get_ref().as_str()).collect();
+    let expectations = wire.case.iter().filter_map(|c| c.expect.as_ref()).chain([&wire.expect]);
+    for width in expectations.filter_map(|e| e.width.as_ref()) {
+        let of = &width.get_ref().of;
+        if !names.contains(&of.get_ref().as_str()) {
+            return Err(unknown(of, "case", &names));
+        }
     }
     wire.case
         .iter()
@@ -45,6 +54,7 @@ pub(super) fn cases(
                 disturbance: disturbance(case)?,
                 order,
                 spacing: spacing(case, system.order().max(order))?,
+                knots: knots(case)?,
                 expect: case.expect.as_ref().map_or_else(|| Ok(default.clone()), |e| expect(e, swept))?,
                 system,
             })
@@ -148,4 +158,10 @@ fn spacing(case: &WireCase, order: usize) -> Result<usize, Fault> {
             Err(Fault::new(spacing.span(), "pulses cannot coincide", "write 1 or more; max(n, 2) is safe"))
         }
     }
+}
+
+fn knots(case: &WireCase) -> Result<Knots, Fault> {
+    let Some(name) = &case.knots else { return Ok(Knots::Given) };
+    Knots::from_name(name.get_ref())
+        .ok_or_else(|| unknown(name, "choice of knots", &Knots::ALL.map(Knots::name)))
 }

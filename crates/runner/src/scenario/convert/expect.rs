@@ -2,8 +2,8 @@
 
 use super::check::{distinct, non_empty, unknown};
 use crate::scenario::error::Fault;
-use crate::scenario::wire::{WireExpect, WireSweep};
-use crate::scenario::{Check, Expect, Method};
+use crate::scenario::wire::{WireCoverage, WireExpect, WireSweep, WireWidth};
+use crate::scenario::{Check, Coverage, Expect, Method, Width};
 use toml::Spanned;
 
 pub(super) fn methods(sweep: &WireSweep) -> Result<Vec<Method>, Fault> {
@@ -34,5 +34,31 @@ pub(super) fn expect(wire: &WireExpect, swept: &[Method]) -> Result<Expect, Faul
         consistent: wire.consistent.iter().map(in_sweep).collect::<Result<_, _>>()?,
         inconsistent: wire.inconsistent.iter().map(in_sweep).collect::<Result<_, _>>()?,
         within_error: wire.within_error.iter().map(check).collect::<Result<_, _>>()?,
+        coverage: wire.coverage.as_ref().map(coverage).transpose()?,
+        width: wire.width.as_ref().map(width).transpose()?,
     })
+}
+
+fn coverage(wire: &Spanned<WireCoverage>) -> Result<Coverage, Fault> {
+    let WireCoverage { mean, least } = *wire.get_ref();
+    let is_share = |x: f64| (0.0..=1.0).contains(&x);
+    if is_share(mean.0) && is_share(mean.1) && is_share(least) && mean.0 <= mean.1 {
+        Ok(Coverage { mean, least })
+    } else {
+        let remedy = "write shares, as in coverage = { mean = [0.9, 0.98], least = 0.85 }";
+        Err(Fault::new(wire.span(), "coverage lies between 0 and 1", remedy))
+    }
+}
+
+fn width(wire: &Spanned<WireWidth>) -> Result<Width, Fault> {
+    let WireWidth { of, at_most } = wire.get_ref();
+    if at_most.is_finite() && *at_most > 0.0 {
+        Ok(Width { of: of.get_ref().clone(), at_most: *at_most })
+    } else {
+        Err(Fault::new(
+            wire.span(),
+            "at_most must be positive and finite",
+            "write a ratio, as in at_most = 2.0",
+        ))
+    }
 }

@@ -1,17 +1,19 @@
 //! The cells of one case, which share the noise of a replicate.
 
 use super::drive::{self, Program};
-use super::setting::{GridOnDrive, Ingredients, NoiseSums, Response, Setting};
+use super::setting::{GridOnDrive, Ingredients, NoiseSums, Regressions, Response, Setting, Way};
 use super::simulate::Simulator;
-use crate::scenario::{Case, Engine, Sweep};
+use crate::scenario::{Case, Engine, Knots, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{ActiveCells, CellSpec};
 use crate::study::sections::CellSums;
 use crate::study::workload::{Chunk, Task, Workload, one_by_one};
 use nalgebra::DMatrix;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use switchback_estimator::estimators::Estimate;
-use switchback_estimator::estimators::free::{Moments, Regression};
+use switchback_estimator::estimators::free::{Basis, Moments, NestedRegressions, Regression};
 use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
 use switchback_estimator::statistics::ReplicateError;
 
@@ -55,9 +57,15 @@ impl FreeNoiseGroup {
                     ));
                 }
                 let grid = drive::grid(interval, points, case.order);
-                let regression = Regression::new(&v, grid.clone(), &sweep.samples)
-                    .map_err(|error| refusal(format!("free: {error}")))?;
-                Ok(GridOnDrive { points, grid, regression })
+                let regressions = match case.knots {
+                    Knots::Given => Regression::new(&v, grid.clone(), &sweep.samples)
+                        .map(|regression| Regressions::Given(Box::new(regression))),
+                    Knots::Refined | Knots::Known => {
+                        NestedRegressions::new(&v, grid.clone(), &sweep.samples).map(Regressions::Nested)
+                    }
+                };
+                let regressions = regressions.map_err(|error| refusal(format!("free: {error}")))?;
+                Ok(GridOnDrive { points, grid, regressions })
             })
             .collect::<Result<_, _>>()?;
         let responses: Vec<Response> = case
@@ -65,7 +73,7 @@ impl FreeNoiseGroup {
             .iter()
             .map(|border| {
                 let z = drive::response(case, border, &v);
-                Response { lags: grids[0].regression.lag_products(&z, &z), z }
+                Response { lags: grids[0].regressions.all()[0].lag_products(&z, &z), z }
             })
             .collect();
         let mut settings = Vec::new();
@@ -110,54 +118,54 @@ impl FreeNoiseGroup {
         let shared = self.simulator.is_none().then(|| Noise::new(self, &noise));
         let cells = active.chunks(self.checkpoints).zip(sums.chunks_mut(self.checkpoints));
         for (setting, (active, sums)) in self.settings.iter().zip(cells) {
-            let moments = match (&self.simulator, &shared) {
-                (Some(simulator), _) => {
-                    self.of_record(setting, &simulator.output(setting.response, setting.sigma, &noise))
-                }
-                (None, shared) => {
-                    let of = |c| Some(self.superposed(setting, c, shared.as_ref()?.sums(setting, c)));
-                    (0..self.checkpoints).filter_map(of).collect()
-                }
-            };
-            for (checkpoint, moments) in moments.iter().enumerate().filter(|(c, _)| active[*c]) {
-                self.estimate((setting, checkpoint), moments, replicate, &mut sums[checkpoint]);
+            let record = self.simulator.as_ref().map(|simulator| Record {
+                y: simulator.output(setting.response, setting.sigma, &noise),
+                sums: RefCell::default(),
+            });
+            for (checkpoint, sums) in sums.iter_mut().enumerate().filter(|(c, _)| active[*c]) {
+                let moments = |number: usize| {
+                    let regression = (number, &self.grids[setting.grid].regressions.all()[number]);
+                    match (&record, &shared) {
+                        (None, Some(shared)) => {
+                            let noise = shared.sums(setting, number, checkpoint);
+                            setting.moments(regression, &self.responses[setting.response], checkpoint, noise)
+                        }
+                        (Some(record), _) => record.moments(regression, checkpoint),
+                        (None, None) => unreachable!("either engine has its noise"),
+                    }
+                };
+                self.estimate((setting, checkpoint), moments, replicate, sums);
             }
         }
-    }
-
-    /// The moments of a record at every checkpoint, summed from it.
-    fn of_record(&self, setting: &Setting, y: &[f64]) -> Vec<Moments> {
-        let regression = &self.grids[setting.grid].regression;
-        let (lags, input) = (regression.lag_products(y, y), regression.input_products(y));
-        (0..self.checkpoints).map(|c| regression.moments(c, &lags[c], &input[c])).collect()
-    }
-
-    /// The moments at a checkpoint, by superposition.
-    fn superposed(&self, setting: &Setting, checkpoint: usize, noise: NoiseSums<'_>) -> Moments {
-        let regression = &self.grids[setting.grid].regression;
-        setting.moments(regression, &self.responses[setting.response], checkpoint, noise)
     }
 
     fn estimate(
         &self,
         (setting, checkpoint): (&Setting, usize),
-        moments: &Moments,
+        moments: impl Fn(usize) -> Moments,
         replicate: u32,
         sums: &mut CellSums,
     ) {
-        let regression = &self.grids[setting.grid].regression;
+        let on = &self.grids[setting.grid];
+        let regressions = on.regressions.all();
         sums.replicates += 1;
-        match regression.estimate(moments) {
+        let (estimate, first_order) = match (&setting.ways[checkpoint], &on.regressions) {
+            (Way::Given(limit), _) => {
+                let moments = moments(0);
+                (regressions[0].estimate(&moments), Some(limit.first_order(&moments)))
+            }
+            (Way::Known(number), _) => (regressions[*number].estimate(&moments(*number)), None),
+            (Way::Refined, Regressions::Nested(nested)) => (nested.estimate(moments), None),
+            (Way::Refined, Regressions::Given(_)) => unreachable!("a grid that is refined is nested"),
+        };
+        match estimate.map(|estimate| at_knots(estimate, &on.grid.basis)) {
             Ok(estimate) if parameters(&estimate).all(|(x, se)| x.is_finite() && se.is_finite()) => {
-                let first_order = setting.limits[checkpoint].first_order(moments);
                 let truth = &setting.specs[checkpoint].truth;
-                for ((((value, se), first), truth), sums) in
-                    parameters(&estimate).zip(first_order).zip(truth).zip(&mut sums.parameters)
-                {
+                for (k, ((value, se), sums)) in parameters(&estimate).zip(&mut sums.parameters).enumerate() {
                     sums.push(ReplicateError {
-                        error: value - truth,
+                        error: value - truth[k],
                         se,
-                        first_order: Some(first),
+                        first_order: first_order.as_ref().map(|first| first[k]),
                         second_order: 0.0,
                     });
                 }
@@ -180,6 +188,34 @@ impl Workload for FreeNoiseGroup {
     }
 }
 
+/// The estimate at the knots of the sweep alone.
+fn at_knots(mut estimate: Estimate, basis: &Basis) -> Estimate {
+    estimate.descending.retain(|point| basis.descending().contains(&point.v));
+    estimate.ascending.retain(|point| basis.ascending().contains(&point.v));
+    estimate
+}
+
+/// An output, and its sums for the regressions that were asked for.
+#[derive(Debug)]
+struct Record {
+    y: Vec<f64>,
+    /// By number of the regression: the moments at each checkpoint.
+    sums: RefCell<BTreeMap<usize, Vec<Moments>>>,
+}
+
+impl Record {
+    /// The moments of the record at a checkpoint, summed from it.
+    fn moments(&self, (number, regression): (usize, &Regression), checkpoint: usize) -> Moments {
+        let mut sums = self.sums.borrow_mut();
+        let all = sums.entry(number).or_insert_with(|| {
+            let (lags, input) =
+                (regression.lag_products(&self.y, &self.y), regression.input_products(&self.y));
+            (0..lags.len()).map(|c| regression.moments(c, &lags[c], &input[c])).collect()
+        });
+        all[checkpoint].clone()
+    }
+}
+
 /// Values and standard errors in the order of the parameters' names.
 fn parameters(estimate: &Estimate) -> impl Iterator<Item = (f64, f64)> {
     let coefficients = |values: &[f64], errors: &[f64]| {
@@ -197,27 +233,28 @@ struct Noise {
     lags: Vec<DMatrix<f64>>,
     /// With each response.
     cross: Vec<Vec<DMatrix<f64>>>,
-    /// With each grid's regressors.
-    input: Vec<Vec<DMatrix<f64>>>,
+    /// With the regressors of each grid's regressions.
+    input: Vec<Vec<Vec<DMatrix<f64>>>>,
 }
 
 impl Noise {
     fn new(group: &FreeNoiseGroup, noise: &NoiseSamples) -> Self {
         let e = &noise.e[noise.burn_in..];
         // Lag products depend on the rows alone, which every grid shares.
-        let rows = &group.grids[0].regression;
+        let input = |g: &GridOnDrive| g.regressions.all().iter().map(|r| r.input_products(e)).collect();
+        let rows = &group.grids[0].regressions.all()[0];
         Self {
             lags: rows.lag_products(e, e),
             cross: group.responses.iter().map(|r| rows.lag_products(&r.z, e)).collect(),
-            input: group.grids.iter().map(|g| g.regression.input_products(e)).collect(),
+            input: group.grids.iter().map(input).collect(),
         }
     }
 
-    fn sums(&self, setting: &Setting, checkpoint: usize) -> NoiseSums<'_> {
+    fn sums(&self, setting: &Setting, number: usize, checkpoint: usize) -> NoiseSums<'_> {
         NoiseSums {
             lags: &self.lags[checkpoint],
             cross: &self.cross[setting.response][checkpoint],
-            input: &self.input[setting.grid][checkpoint],
+            input: &self.input[setting.grid][number][checkpoint],
         }
     }
 }

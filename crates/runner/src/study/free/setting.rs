@@ -2,12 +2,12 @@
 
 use super::drive;
 use crate::results::{Group, Series};
-use crate::scenario::{Border, Case, Disturbance, Method};
+use crate::scenario::{Border, Case, Disturbance, Knots, Method};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{CellSpec, ParameterName};
 use nalgebra::DMatrix;
-use switchback_estimator::estimators::free::{Grid, Limit, Moments, Regression};
+use switchback_estimator::estimators::free::{Grid, Limit, Moments, NestedRegressions, Regression};
 use switchback_estimator::linear::autocovariance;
 
 /// A grid and the drive's regression on it.
@@ -15,7 +15,37 @@ use switchback_estimator::linear::autocovariance;
 pub(super) struct GridOnDrive {
     pub(super) points: usize,
     pub(super) grid: Grid,
-    pub(super) regression: Regression,
+    pub(super) regressions: Regressions,
+}
+
+/// The regressions that estimates on a grid may take.
+#[derive(Debug)]
+pub(super) enum Regressions {
+    /// On the grid itself.
+    Given(Box<Regression>),
+    /// On its halvings, too.
+    Nested(NestedRegressions),
+}
+
+impl Regressions {
+    /// All of them; the first is that on the grid itself.
+    pub(super) fn all(&self) -> &[Regression] {
+        match self {
+            Self::Given(regression) => std::slice::from_ref(regression),
+            Self::Nested(nested) => nested.regressions(),
+        }
+    }
+}
+
+/// How a cell is estimated.
+#[derive(Debug)]
+pub(super) enum Way {
+    /// On the grid itself, with the limit there.
+    Given(Box<Limit>),
+    /// On the grid that the record asks for.
+    Refined,
+    /// On the grid of the regression of this number, which holds the truth.
+    Known(usize),
 }
 
 /// A border's noise-free output and its lag products at each checkpoint.
@@ -33,10 +63,10 @@ pub(super) struct Setting {
     /// Index of the grid.
     pub(super) grid: usize,
     pub(super) sigma: f64,
-    /// Sums of the noise-free output against the input's regressors, at each checkpoint.
-    input: Vec<DMatrix<f64>>,
+    /// Sums of the noise-free output against the input's regressors, for each regression at each checkpoint.
+    input: Vec<Vec<DMatrix<f64>>>,
     /// One a checkpoint.
-    pub(super) limits: Vec<Limit>,
+    pub(super) ways: Vec<Way>,
     /// One a checkpoint.
     pub(super) specs: Vec<CellSpec>,
 }
@@ -73,19 +103,20 @@ impl Setting {
             response: response_index,
             grid: grid_index,
             sigma,
-            input: on.regression.input_products(&response.z),
-            limits: Vec::new(),
+            input: on.regressions.all().iter().map(|r| r.input_products(&response.z)).collect(),
+            ways: Vec::new(),
             specs: Vec::new(),
         };
         let holds = keeps_assumptions(of.case) && drive::lies_on(&of.border.hysteresis, &on.grid, of.v);
         for (checkpoint, &samples) in of.samples.iter().enumerate() {
-            let expected = setting.expected(of.case, on, response, checkpoint, samples);
-            let limit = Limit::of(&on.regression, &expected, sigma * sigma).map_err(|source| {
-                let (case, border) = (of.case.name.clone(), of.border.name.clone());
-                StudyError::NotFromDrive { case, border, points: on.points, source }
-            })?;
+            let at = Place { checkpoint, samples };
+            let way = setting.way(of, (response, on), at)?;
             // Least squares and rank one on white errors is maximum likelihood: its theory is the bound.
-            let theory = holds.then(|| limit.theory_se());
+            let theory = match &way {
+                Way::Given(limit) => holds.then(|| limit.theory_se()),
+                Way::Refined | Way::Known(_) => None,
+            };
+            setting.ways.push(way);
             setting.specs.push(CellSpec {
                 series: Series {
                     case: of.case.name.clone(),
@@ -100,22 +131,59 @@ impl Setting {
                 bound: theory.clone(),
                 theory,
             });
-            setting.limits.push(limit);
         }
         Ok(setting)
     }
 
-    /// The moments of `y = z + σe` at a checkpoint.
+    /// How the cell at a checkpoint is estimated.
+    fn way(
+        &self,
+        of: Ingredients<'_>,
+        (response, on): (&Response, &GridOnDrive),
+        at: Place,
+    ) -> Result<Way, StudyError> {
+        let limit = |number: usize, regression: &Regression| {
+            let expected = self.expected(of.case, (number, regression), response, at);
+            Limit::of(regression, &expected, self.sigma * self.sigma)
+        };
+        let Regressions::Nested(nested) = &on.regressions else {
+            let limit = limit(0, &on.regressions.all()[0]).map_err(|source| {
+                let (case, border) = (of.case.name.clone(), of.border.name.clone());
+                StudyError::NotFromDrive { case, border, points: on.points, source }
+            })?;
+            return Ok(Way::Given(Box::new(limit)));
+        };
+        if of.case.knots == Knots::Refined {
+            return Ok(Way::Refined);
+        }
+        let mut finest = 0;
+        for (number, regression) in nested.on_grids() {
+            let Ok(limit) = limit(number, regression) else { break };
+            finest = number;
+            let truth = truth(of.case, of.border, regression.grid());
+            let errors = limit.theory_se();
+            let biases = limit.parameters().iter().zip(&truth).zip(&errors);
+            let squares: Vec<f64> = biases.map(|((x, t), se)| ((x - t) / se).powi(2)).collect();
+            let (coefficients, points) = squares.split_at(2 * of.case.order);
+            let mean = |squares: &[f64]| squares.iter().sum::<f64>() / squares.len() as f64;
+            if mean(coefficients).max(mean(points)).sqrt() <= HOLDS {
+                break;
+            }
+        }
+        Ok(Way::Known(finest))
+    }
+
+    /// The moments of `y = z + σe` at a checkpoint, for the regression of a number.
     pub(super) fn moments(
         &self,
-        regression: &Regression,
+        (number, regression): (usize, &Regression),
         response: &Response,
         checkpoint: usize,
         noise: NoiseSums<'_>,
     ) -> Moments {
         let mixed = (noise.cross + noise.cross.transpose()) * self.sigma;
         let lags = &response.lags[checkpoint] + mixed + noise.lags * (self.sigma * self.sigma);
-        let input = &self.input[checkpoint] + noise.input * self.sigma;
+        let input = &self.input[number][checkpoint] + noise.input * self.sigma;
         regression.moments(checkpoint, &lags, &input)
     }
 
@@ -123,21 +191,30 @@ impl Setting {
     fn expected(
         &self,
         case: &Case,
-        on: &GridOnDrive,
+        (number, regression): (usize, &Regression),
         response: &Response,
-        checkpoint: usize,
-        samples: usize,
+        at: Place,
     ) -> Moments {
         let filter = NoiseFilter::of(case);
         let gamma = autocovariance(&filter.ar, &filter.ma, case.order);
         let width = case.order + 1;
-        let lags = DMatrix::from_fn(width, width, |i, l| samples as f64 * gamma[i.abs_diff(l)]);
-        let input = &self.input[checkpoint];
+        let lags = DMatrix::from_fn(width, width, |i, l| at.samples as f64 * gamma[i.abs_diff(l)]);
+        let input = &self.input[number][at.checkpoint];
         let (no_cross, no_input) = (DMatrix::zeros(width, width), input * 0.0);
         let noise = NoiseSums { lags: &lags, cross: &no_cross, input: &no_input };
-        self.moments(&on.regression, response, checkpoint, noise)
+        self.moments((number, regression), response, at.checkpoint, noise)
     }
 }
+
+/// A checkpoint: its number and its samples.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    checkpoint: usize,
+    samples: usize,
+}
+
+/// A grid holds the truth if the bias that it leaves is no larger than this share of the standard error.
+const HOLDS: f64 = 1.0 / 3.0;
 
 /// Whether the regression's equation error is white and its order right.
 fn keeps_assumptions(case: &Case) -> bool {

@@ -1,0 +1,119 @@
+//! Intervals that hold the truth of borders that no grid of knots holds.
+//!
+//! A table of knots cannot follow a border that bends between them, and no standard error says so. The grid that predicts best leaves a
+//! bias about as large as the noise. So, for intervals, the grid is refined beyond it (undersmoothing), until what is left of the bias is
+//! small against the noise:
+//!
+//! 1. Every cell is halved that the input visits on both halves, again and again.
+//! 2. The first of these grids is taken on which the bias, estimated from the bends at the knots, is below a third of the standard error in root
+//!    mean square; or the last before a halving that does not lower this share any more, since noise alone decides from there on.
+//! 3. What is left of the bias joins the standard error: `√(se² + bias²)`. Within 1.96 of these lies the truth with at least 95 %, whatever the
+//!    bias: the 95 % quantile of `|N(b, 1)|`, which the shortest such intervals take, is never above `1.96·√(1 + b²)` (T. B. Armstrong and
+//!    M. Kolesár, Econometrica 86 (2018), doi 10.3982/ECTA14434).
+//! 4. A jump bends in no way that knots could follow. Where a cell is found to hold one, the points up to one cell beside it get an interval
+//!    that spans both sides: `1.96 se` is at least the largest rise to a neighbouring knot. A jump below the noise of the grid is
+//!    not found, and a point beside it may miss its truth. A corner counts as a bend, or as a jump where it stands out: intervals beside it
+//!    are too wide rather than too narrow, even where a knot lies on the corner.
+//!
+//! The estimate is told at the knots of the first grid.
+
+use super::basis::Basis;
+use super::doubt::is_ill_conditioned;
+use super::grid_bias::GridBias;
+use super::identify::Errors;
+use super::jumps::rises_at_jumps;
+use super::normalise::{Figures, level_errors, normalise};
+use super::problem::{Parameters, Structure};
+use crate::estimators::border_distance::joint_limit;
+use crate::estimators::{BorderPoint, Estimate, LevelErrors};
+use nalgebra::DMatrix;
+
+/// A fit on one of the grids.
+#[derive(Debug)]
+pub(super) struct GridFit {
+    pub(super) basis: Basis,
+    pub(super) theta: Parameters,
+    pub(super) errors: Errors,
+    /// The information matrix of the same fit on its halved grid, per unit noise variance.
+    pub(super) halved_information: DMatrix<f64>,
+}
+
+/// An estimate whose intervals allow for the grid.
+#[derive(Debug)]
+pub(super) struct Undersmoothed {
+    pub(super) estimate: Estimate,
+    pub(super) level_errors: LevelErrors,
+}
+
+/// Share of the standard error that the bias may reach: a plain 95 % interval then still holds the truth with 93.7 %.
+const SMALL: f64 = 1.0 / 3.0;
+
+/// The estimate from fits on ever finer grids, told at the knots of the first; `None` if that leaves a parameter open. `figures` are those of
+/// the first fit, and stay but for the noise.
+pub(super) fn undersmoothed(
+    structure: Structure,
+    figures: Figures,
+    fits: impl Iterator<Item = GridFit>,
+) -> Option<Undersmoothed> {
+    let mut best: Option<(GridFit, GridBias)> = None;
+    let mut coarsest = None;
+    for fit in fits {
+        let Some(covariance) = &fit.errors.covariance else { break };
+        if is_ill_conditioned(&fit.errors.information, &fit.theta) && best.is_some() {
+            break;
+        }
+        coarsest.get_or_insert_with(|| fit.basis.clone());
+        let bias = GridBias::of(&fit.theta, &fit.basis, covariance, &fit.halved_information);
+        if best.as_ref().is_some_and(|(_, before)| bias.in_errors() >= before.in_errors()) {
+            break;
+        }
+        let is_small = bias.in_errors() <= SMALL;
+        best = Some((fit, bias));
+        if is_small {
+            break;
+        }
+    }
+    let ((fit, bias), coarsest) = (best?, coarsest?);
+    let covariance = fit.errors.covariance.as_ref()?;
+    let figures = Figures { noise_sd: fit.errors.variance.sqrt(), ..figures };
+    let mut estimate = normalise(&fit.theta, structure, &fit.basis, Some(covariance), figures);
+    let rises = rises_at_jumps(&fit.theta, &fit.basis, covariance);
+    set_errors(&mut estimate, &bias, &rises);
+    keep_knots(&mut estimate.descending, coarsest.descending());
+    keep_knots(&mut estimate.ascending, coarsest.ascending());
+    Some(Undersmoothed { estimate, level_errors: level_errors(&fit.theta, covariance) })
+}
+
+/// Puts the bias, and the rises at jumps, into the standard errors.
+fn set_errors(estimate: &mut Estimate, bias: &GridBias, rises: &[f64]) {
+    let mut errors = bias.errors();
+    for (se, error) in estimate.a_se.iter_mut().chain(&mut estimate.b_se).zip(&mut errors) {
+        *se = error;
+    }
+    let points = estimate.descending.iter_mut().chain(&mut estimate.ascending);
+    for ((point, error), rise) in points.zip(errors).zip(rises) {
+        point.se = error.max(rise / joint_limit(1));
+    }
+}
+
+/// Drops the points between the knots of a coarser grid.
+fn keep_knots(points: &mut Vec<BorderPoint>, coarse: &[f64]) {
+    points.retain(|point| coarse.contains(&point.v));
+}
+
+#[cfg(test)]
+mod tests {
+    use statrs::distribution::{ContinuousCDF, Normal};
+
+    #[test]
+    fn the_root_of_the_mean_square_covers_whatever_the_bias() {
+        let normal = Normal::standard();
+        for bias in (0..500).map(|k| 0.01 * f64::from(k)) {
+            let half = 1.959_964 * f64::sqrt(1.0 + bias * bias);
+            let covered = normal.cdf(half - bias) - normal.cdf(-half - bias);
+            assert!(covered >= 0.95 - 1e-7, "{covered} at a bias of {bias} standard errors");
+        }
+        let third = normal.cdf(1.96 - super::SMALL) - normal.cdf(-1.96 - super::SMALL);
+        assert!((third - 0.937).abs() < 5e-4);
+    }
+}
