@@ -146,7 +146,9 @@ fn there_is_a_manual_page_for_the_program_and_for_every_verb() {
     let folder = Folder::with_good_rig();
     printed(&mut folder.switchback(&["man", "--out", "man1"]));
     let pages = listing(&folder.path("man1"));
-    for verb in ["", "-compare", "-completions", "-gap", "-identify", "-init", "-man", "-rig", "-simulate"] {
+    for verb in
+        ["", "-compare", "-completions", "-gap", "-identify", "-init", "-man", "-plant", "-rig", "-simulate"]
+    {
         assert!(pages.contains(&format!("switchback{verb}.1")), "{verb} is missing in {pages:?}");
     }
     let gap = std::fs::read_to_string(folder.path("man1/switchback-gap.1")).expect("a page");
