@@ -31,6 +31,7 @@ impl Carrier {
             threshold: Some(rule.threshold),
             timing: Some(rule.timing),
             interval: rig.interval,
+            undersmooth: false,
             ..Settings::new(InputMap::Borders)
         };
         let records: Vec<_> = rig.fit_records().map(|r| &r.record).collect();

@@ -1,9 +1,10 @@
 //! How well a structure predicts blocks of time that it was not fitted to.
 
 use super::data::Featured;
-use super::fit::{Effort, Fitted, Ladder};
+use super::fit::{Fitted, Ladder};
 use super::problem::{Segment, Structure};
 use super::progress::Progress;
+use super::simulation_error::Effort;
 use super::simulation_error::cost;
 
 /// Parts that the fit records are cut into; each is left out once.

@@ -6,25 +6,8 @@ use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{alternate, gauss_newton, nearest_rank_one, over_parameterised, residual_energy};
 use super::settings::InputMap;
-use super::simulation_error::{Refinement, cost};
+use super::simulation_error::{Effort, Refinement, cost};
 use crate::linear::is_stable;
-
-/// How hard a refinement tries.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Effort {
-    pub(super) iterations: usize,
-    /// Relative decrease of the cost below which a step counts as the last.
-    pub(super) tolerance: f64,
-}
-
-impl Effort {
-    /// Enough to tell which start is best.
-    const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3 };
-    /// Enough to rank structures.
-    pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3 };
-    /// For the fit that is kept.
-    pub(super) const FINAL: Self = Self { iterations: 200, tolerance: 1e-9 };
-}
 
 /// Weight of the smoothness penalty: decides only what the data leave open.
 const SMOOTHNESS: f64 = 1e-8;

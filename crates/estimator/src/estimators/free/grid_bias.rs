@@ -146,8 +146,8 @@ fn embedded(change: &DVector<f64>, coefficients: usize, basis: &Basis) -> DVecto
 #[cfg(test)]
 mod tests {
     use super::super::branch::ReversalRule;
+    use super::super::errors::Errors;
     use super::super::fit::equation_error_fit;
-    use super::super::identify::Errors;
     use super::super::one_shot::Grid;
     use super::super::problem::Structure;
     use super::super::rank_one::information;

@@ -1,26 +1,27 @@
 //! The entry: records in, a system with its uncertainty out.
 
-use super::basis::Basis;
 use super::data::{Data, Featured};
 use super::doubt::Doubt;
 use super::equation_error::Moments;
 use super::error::FreeError;
+use super::errors::{Errors, figures};
 use super::examination::Examination;
-use super::fit::{Effort, Fitted, Ladder, refitted};
+use super::fit::{Fitted, Ladder, refitted};
 use super::halving::Places;
 use super::model::Model;
-use super::normalise::{Covariance, Figures, level_errors, normalise};
+use super::normalise::{level_errors, normalise};
 use super::problem::{Parameters, Segment, Structure};
 use super::progress::Progress;
-use super::rank_one::{information, residual_energy};
+use super::rank_one::information;
 use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
-use super::simulation_error::{cost, linearise};
+use super::simulation_error::Effort;
+use super::simulation_error::linearise;
+
 use super::undersmoothing::{GridFit, undersmoothed};
 use super::warning::Warning;
 use crate::estimators::{BorderDistance, Estimate, LevelErrors};
 use crate::record::Record;
-use nalgebra::DMatrix;
 
 /// What was identified, how it was chosen, and what speaks against it.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +104,7 @@ pub fn identify_watched(
     let warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
     let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
-    if basis.is_switched() {
+    if settings.undersmooth && basis.is_switched() {
         let start = Fitted { structure, basis: basis.clone(), theta: theta.clone() };
         let fits = finer_fits(&data, start, settings.refine).take(1 + MOST_HALVINGS);
         if let Some(finer) = undersmoothed(structure, figures, fits) {
@@ -163,61 +164,6 @@ fn grid_fit(data: &Data, fitted: &Fitted, refine: bool) -> Option<GridFit> {
         (Errors::of_equation(&moments, &theta), information(&moments_on_halved, &on_halved))
     };
     Some(GridFit { basis, theta, errors, halved_information })
-}
-
-/// What a fit knows of its own errors.
-#[derive(Debug)]
-pub(super) struct Errors {
-    /// Of the noise, squared output units.
-    pub(super) variance: f64,
-    /// Per unit noise variance.
-    pub(super) information: DMatrix<f64>,
-    /// None if a parameter has no information.
-    pub(super) covariance: Option<Covariance>,
-}
-
-impl Errors {
-    /// Of a fit of least simulation error.
-    pub(super) fn of_simulation(moments: &Moments, theta: &Parameters, segments: &[Segment]) -> Self {
-        let structure = moments.structure;
-        let model = linearise(structure, theta, segments);
-        let variance = cost(structure, theta, segments) / freedom(moments, theta);
-        let covariance =
-            Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
-        Self { variance, information: model.information, covariance }
-    }
-
-    /// Of a fit of least equation error.
-    pub(super) fn of_equation(moments: &Moments, theta: &Parameters) -> Self {
-        let variance = residual_energy(moments, theta) / freedom(moments, theta);
-        let information = information(moments, theta);
-        let covariance = Covariance::new(&information, theta, variance);
-        Self { variance, information, covariance }
-    }
-}
-
-/// Normalised parameters of an equation-error fit and their standard errors.
-pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
-    let errors = Errors::of_equation(moments, theta);
-    let figures = figures(moments, errors.variance);
-    normalise(theta, moments.structure, basis, errors.covariance.as_ref(), figures)
-}
-
-/// Samples less free parameters, at least 1; one parameter in `b` and `f` is the scale that they share.
-fn freedom(moments: &Moments, theta: &Parameters) -> f64 {
-    let parameters = theta.a.len() + theta.b.len() + theta.f.len();
-    moments.samples.saturating_sub(parameters).max(1) as f64
-}
-
-pub(super) fn figures(moments: &Moments, variance: f64) -> Figures {
-    Figures { noise_sd: variance.sqrt(), excitation: smallest_eigenvalue(moments), samples: moments.samples }
-}
-
-/// λ_min of the over-parameterised regression's information matrix, per sample.
-fn smallest_eigenvalue(moments: &Moments) -> f64 {
-    let p = moments.constant() + 1;
-    let information: DMatrix<f64> = moments.matrix.view((0, 0), (p, p)) / moments.samples as f64;
-    information.symmetric_eigenvalues().min().max(0.0)
 }
 
 /// Collects the warnings.

@@ -23,6 +23,7 @@ mod data;
 mod doubt;
 mod equation_error;
 mod error;
+mod errors;
 mod examination;
 mod fit;
 mod grid_bias;

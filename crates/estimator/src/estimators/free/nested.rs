@@ -3,9 +3,9 @@
 use super::branch::Branches;
 use super::equation_error::Moments;
 use super::error::FreeError;
+use super::errors::{Errors, figures};
 use super::fit::quick_equation_error_fit;
 use super::halving::Places;
-use super::identify::{Errors, figures};
 use super::one_shot::Grid;
 use super::rank_one::information;
 use super::regression::Regression;

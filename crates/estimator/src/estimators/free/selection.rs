@@ -3,10 +3,11 @@
 use super::cross_validation::{Assessed, FOLDS, assess_all, assess_next};
 use super::data::Data;
 use super::error::FreeError;
-use super::fit::{Effort, FIRST_KNOTS, Ladder};
+use super::fit::{FIRST_KNOTS, Ladder};
 use super::problem::{Segment, Structure};
 use super::progress::Progress;
 use super::settings::{InputMap, Settings};
+use super::simulation_error::Effort;
 use super::simulation_error::cost;
 use std::ops::RangeInclusive;
 

@@ -37,6 +37,8 @@ pub struct Settings {
     pub causal: bool,
     /// Whether to minimise the simulation error after the equation error.
     pub refine: bool,
+    /// Whether standard errors allow for what a grid of knots cannot follow, at the cost of fits on finer grids; the model is the same.
+    pub undersmooth: bool,
 }
 
 impl Settings {
@@ -52,6 +54,7 @@ impl Settings {
             interval: None,
             causal: false,
             refine: true,
+            undersmooth: true,
         }
     }
 

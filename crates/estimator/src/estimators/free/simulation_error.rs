@@ -1,10 +1,26 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
-use super::fit::Effort;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
 use crate::linear::is_stable;
 use nalgebra::{DMatrix, DVector};
+
+/// How hard a refinement tries.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    pub(super) iterations: usize,
+    /// Relative decrease of the cost below which a step counts as the last.
+    pub(super) tolerance: f64,
+}
+
+impl Effort {
+    /// Enough to tell which start is best.
+    pub(super) const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3 };
+    /// Enough to rank structures.
+    pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3 };
+    /// For the fit that is kept.
+    pub(super) const FINAL: Self = Self { iterations: 200, tolerance: 1e-9 };
+}
 
 /// The free run over a stretch: measured outputs before it, simulated ones from there on.
 pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segment) -> Vec<f64> {

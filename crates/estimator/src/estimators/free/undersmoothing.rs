@@ -19,8 +19,8 @@
 
 use super::basis::Basis;
 use super::doubt::is_ill_conditioned;
+use super::errors::Errors;
 use super::grid_bias::GridBias;
-use super::identify::Errors;
 use super::jumps::rises_at_jumps;
 use super::normalise::{Figures, level_errors, normalise};
 use super::problem::{Parameters, Structure};
