@@ -113,7 +113,7 @@ fn records_that_give_no_ground_are_refused() {
         output_label: "y".to_owned(),
         records,
     };
-    let refusal = |records| PlantingGround::new(&rig(records)).err().expect("a refusal");
+    let refusal = |records| PlantingGround::new(&rig(records)).expect_err("a refusal");
     assert!(matches!(refusal(Vec::new()), PlantingError::Base(FreeError::NoRecords)));
     assert!(matches!(refusal(vec![of(vec![1.0; 400])]), PlantingError::Base(FreeError::ConstantOutput)));
     // A line without noise leaves nothing that a size could be measured against.
