@@ -36,9 +36,7 @@ pub enum MakeError {
         law: usize,
     },
     /// The size is no size.
-    #[error(
-        "an effect of size {0} cannot be made; the size is a number of noise standard deviations above 0"
-    )]
+    #[error("an effect of size {0} cannot be made; the size is a number above 0")]
     Size(f64),
     /// The key belongs to another recipe.
     #[error("the key is of the rig with seed {key} and its effects, not of this recipe with seed {recipe}")]

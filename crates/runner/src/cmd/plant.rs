@@ -2,6 +2,7 @@
 
 use super::data_args::DataArgs;
 use super::rig::RigCommandError;
+use crate::diagnosis::Units;
 use crate::failure::{CommandResult, Outcome};
 use crate::model::{self, ModelFile, System};
 use crate::options::{Force, Quiet, number, whole};
@@ -105,7 +106,8 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&planted.rig))?;
     }
-    args.quiet.tell_or(args.json, || stamped(SCHEMA, &json(&planted.fault)), || told(&planted.fault))?;
+    let words = || told(&planted.fault, &Units::of(&planted.rig).output);
+    args.quiet.tell_or(args.json, || stamped(SCHEMA, &json(&planted.fault)), words)?;
     Ok(Outcome::Done)
 }
 
@@ -133,7 +135,7 @@ fn name(path: &Path) -> String {
 /// Name and version of the layout of what was put in.
 const SCHEMA: &str = "switchback/plant/1";
 
-fn told(fault: &PlantedFault) -> String {
+fn told(fault: &PlantedFault, unit: &str) -> String {
     let how = if fault.planting.is_exact() {
         "changed in the records themselves"
     } else {
@@ -149,14 +151,15 @@ fn told(fault: &PlantedFault) -> String {
     );
     let _ = writeln!(
         text,
-        "survives identification anew with {:.2} of the residual {:.4} that the records' own model leaves; a model given beforehand misses {:.2} more",
-        fault.size, fault.residual, fault.raw
+        "size {:.2}: what is left of it when the model is identified anew, over the residual without it, {:.4} {unit}",
+        fault.size, fault.residual
     );
+    let _ = writeln!(text, "raw size {:.2}: what a model given beforehand misses because of it", fault.raw);
     if (fault.size / fault.wanted - 1.0).abs() > 0.1 {
-        let _ = writeln!(text, "  (asked for {}; this law and these records go no closer)", fault.wanted);
+        let _ = writeln!(text, "(asked for {}; this law and these records go no closer)", fault.wanted);
     }
     if !fault.is_observable() {
-        let _ = writeln!(text, "  (below {OBSERVABLE}: not observable in these records)");
+        let _ = writeln!(text, "(below {OBSERVABLE} it is not observable in these records)");
     }
     text
 }
