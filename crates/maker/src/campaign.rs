@@ -58,6 +58,18 @@ pub struct Passage {
 }
 
 impl Passage {
+    /// A record with its lead-in, not in a campaign yet.
+    pub(crate) fn of(
+        index: usize,
+        name: String,
+        (role, usage): (Role, Usage),
+        (mut v, record): (Vec<f64>, Vec<f64>),
+    ) -> Self {
+        let lead = v.len();
+        v.extend(record);
+        Self { name, role, usage, index, v, lead, start: 0, total: 0, travel_before: 0.0, total_travel: 0.0 }
+    }
+
     /// Share of the campaign's time that has passed at sample `t` of the passage, in `[0, 1)`.
     pub fn clock(&self, t: usize) -> f64 {
         (self.start + t) as f64 / self.total as f64
@@ -99,33 +111,23 @@ pub(crate) fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<
         ("drive", Role::Free, Usage::Holdout, free(plan.drive, rng)),
         ("descendant_again", Role::Descendant, Usage::Holdout, descendant(plant, plan.repeat_periods)),
     ];
-    let mut passages: Vec<Passage> = Vec::with_capacity(recorded.len());
+    let passages = recorded.into_iter().enumerate().map(|(index, (name, role, usage, record))| {
+        let lead = lead_in(interval, record[0], settle);
+        Passage::of(index, name.to_owned(), (role, usage), (lead, record))
+    });
+    one_after_the_other(passages.collect())
+}
+
+/// The passages of one campaign, clocks and travel running on.
+pub(crate) fn one_after_the_other(mut passages: Vec<Passage>) -> Vec<Passage> {
     let (mut start, mut travel) = (0, 0.0);
-    for (index, (name, role, usage, record)) in recorded.into_iter().enumerate() {
-        let mut v = lead_in(interval, record[0], settle);
-        let lead = v.len();
-        v.extend(record);
-        let own_travel: f64 = v.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let samples = v.len();
-        let (total, total_travel) = (0, 0.0); // known once all passages are laid out
-        passages.push(Passage {
-            name: name.to_owned(),
-            role,
-            usage,
-            index,
-            v,
-            lead,
-            start,
-            total,
-            travel_before: travel,
-            total_travel,
-        });
-        start += samples;
-        travel += own_travel;
+    for passage in &mut passages {
+        (passage.start, passage.travel_before) = (start, travel);
+        start += passage.v.len();
+        travel += passage.v.windows(2).map(|w| (w[1] - w[0]).abs()).sum::<f64>();
     }
     for passage in &mut passages {
-        passage.total = start;
-        passage.total_travel = travel;
+        (passage.total, passage.total_travel) = (start, travel);
     }
     passages
 }

@@ -2,11 +2,11 @@
 
 use super::PlantingError;
 use super::base::Base;
-use crate::campaign::{Passage, lead_in};
+use crate::campaign::{Passage, lead_in, one_after_the_other};
 use crate::plant::{Plant, Shape, Table};
 use switchback_estimator::estimators::free::{InputMap, Model, Settings, identify};
 use switchback_estimator::hysteresis::{Interval, SwitchedHysteresis};
-use switchback_estimator::rig::Rig;
+use switchback_estimator::rig::{Rig, RigRecord};
 
 /// Knots of each border: more than a diagnosis would choose.
 const KNOTS: usize = 17;
@@ -106,36 +106,14 @@ fn plant(model: &Model, rig: &Rig) -> Result<Plant, PlantingError> {
 /// reversals only: noise on `v` must not switch the borders.
 fn passages(rig: &Rig, plant: &Plant, (lead, threshold): (usize, f64)) -> Vec<Passage> {
     let settle = plant.settling();
-    let (mut start, mut travel) = (0, 0.0);
-    let mut passages: Vec<Passage> = Vec::with_capacity(rig.records.len());
-    for (index, record) in rig.records.iter().enumerate() {
+    let passage = |(index, record): (usize, &RigRecord)| {
         let recorded = quiet(record.record.v(), threshold);
         let last = recorded.len() - 1;
-        let mut v = lead_in(plant.interval, recorded[0], settle);
-        let before = v.len();
-        v.extend((0..=last).map(|t| recorded[(t + lead).min(last)]));
-        let own: f64 = v.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let samples = v.len();
-        passages.push(Passage {
-            name: record.name.clone(),
-            role: record.role,
-            usage: record.usage,
-            index,
-            v,
-            lead: before,
-            start,
-            total: 0,
-            travel_before: travel,
-            total_travel: 0.0,
-        });
-        start += samples;
-        travel += own;
-    }
-    for passage in &mut passages {
-        passage.total = start;
-        passage.total_travel = travel;
-    }
-    passages
+        let led = (0..=last).map(|t| recorded[(t + lead).min(last)]).collect();
+        let lead_in = lead_in(plant.interval, recorded[0], settle);
+        Passage::of(index, record.name.clone(), (record.role, record.usage), (lead_in, led))
+    };
+    one_after_the_other(rig.records.iter().enumerate().map(passage).collect())
 }
 
 /// An input behind a play as wide as the threshold.

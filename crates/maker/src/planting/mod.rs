@@ -149,22 +149,28 @@ impl<'a> PlantingGround<'a> {
         // The raw size costs no identification: the search begins where that is as wanted.
         let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| self.base.raw(&rig));
         let mut tried = magnitude_for(ingredient.size, law.limit(), raw).magnitude;
-        let mut best: Option<(f64, f64)> = None;
-        for _ in 0..ROUNDS {
-            let size = self.base.surviving(&with(tried)?);
-            let miss = |size: f64| (size / ingredient.size).max(1e-9).ln().abs();
-            if best.is_none_or(|(_, known)| miss(size) < miss(known)) {
-                best = Some((tried, size));
-            }
-            let wanted = ingredient.size / size.max(1e-9);
+        let sized = |magnitude: f64| {
+            let rig = with(magnitude)?;
+            let size = self.base.surviving(&rig);
+            Ok::<_, PlantingError>(Trial { magnitude, size, rig })
+        };
+        let miss = |size: f64| (size / ingredient.size).max(1e-9).ln().abs();
+        let mut best = sized(tried)?;
+        let mut last = best.size;
+        for _ in 1..ROUNDS {
+            let wanted = ingredient.size / last.max(1e-9);
             let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(law.limit());
             if (wanted - 1.0).abs() < TOLERANCE || next == tried {
                 break;
             }
             tried = next;
+            let trial = sized(tried)?;
+            last = trial.size;
+            if miss(trial.size) < miss(best.size) {
+                best = trial;
+            }
         }
-        let (magnitude, size) = best.unwrap_or((tried, 0.0));
-        let rig = with(magnitude)?;
+        let Trial { magnitude, size, rig } = best;
         let fault = PlantedFault {
             effect: law.effect(),
             law: law.name(),
@@ -180,6 +186,13 @@ impl<'a> PlantingGround<'a> {
         };
         Ok(PlantedRig { rig, fault })
     }
+}
+
+/// The records with the fault at a magnitude, and its size there.
+struct Trial {
+    magnitude: f64,
+    size: f64,
+    rig: Rig,
 }
 
 #[cfg(test)]
