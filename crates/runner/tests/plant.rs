@@ -115,12 +115,18 @@ fn a_model_of_ones_own_carries_the_fault() {
         .args([&models, &rig])
         .assert()
         .success();
-    switchback()
-        .args(["plant", "--quiet", "--effect", "backlash", "--out"])
-        .args([&out, &rig])
-        .arg("--model")
-        .arg(models.join("model.json"))
-        .assert()
-        .success();
+    let plant = |model: &Path| {
+        let mut command = switchback();
+        command.args(["plant", "--quiet", "--effect", "backlash", "--out"]).args([&out, &rig]);
+        command.arg("--model").arg(model).assert()
+    };
+    // One of records that are sampled otherwise.
+    let file = fs::read_to_string(models.join("model.json")).unwrap();
+    let other = root.path().join("other.json");
+    let time = file.lines().find(|line| line.contains("\"sample_time\"")).unwrap();
+    fs::write(&other, file.replace(time, "  \"sample_time\": 12.5,")).unwrap();
+    plant(&other).code(2).stderr(contains("the model was identified at 12.5 s a sample"));
+    assert!(!out.exists());
+    plant(&models.join("model.json")).success();
     assert!(outputs(&out) != outputs(&base()));
 }

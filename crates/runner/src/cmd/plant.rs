@@ -11,6 +11,7 @@ use crate::rig;
 use miette::Diagnostic;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use switchback_estimator::estimators::free::Model;
 use switchback_estimator::rig::Rig;
 use switchback_maker::{Ingredient, OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround};
 use thiserror::Error;
@@ -87,6 +88,19 @@ pub enum PlantError {
         /// Its form.
         kind: &'static str,
     },
+    /// The model is of records that are sampled otherwise.
+    #[error("{model}: the model was identified at {at} s a sample, these records have {rig} s")]
+    #[diagnostic(help(
+        "identify the model from records that are sampled as these are, or leave `--model` out"
+    ))]
+    SampleTime {
+        /// The model file.
+        model: String,
+        /// Seconds between its samples.
+        at: f64,
+        /// Seconds between those of the records.
+        rig: f64,
+    },
 }
 
 /// What the folder gets.
@@ -117,15 +131,27 @@ fn planted(
     ingredient: &Ingredient,
 ) -> miette::Result<PlantedRig> {
     let refused = |error| PlantError::Ground { data: name(args.data.path()), error };
-    let ground = match carrier.map(|file| &file.system) {
-        None => PlantingGround::new(rig),
-        Some(System::Curves(curves)) => PlantingGround::carried_by(rig, curves.model()),
-        Some(other @ (System::Switched(_) | System::Points(_))) => {
-            let model = args.model.as_deref().map_or_else(String::new, name);
-            return Err(PlantError::Model { model, kind: other.kind() }.into());
-        }
+    let ground = match (carrier, args.model.as_deref()) {
+        (Some(file), Some(path)) => PlantingGround::carried_by(rig, carrying(rig, file, path)?),
+        _ => PlantingGround::new(rig),
     };
     Ok(ground.and_then(|ground| ground.plant(ingredient, args.seed)).map_err(refused)?)
+}
+
+/// The model of a file, where it can carry a fault into the records of a rig.
+fn carrying<'f>(rig: &Rig, file: &'f ModelFile, path: &Path) -> miette::Result<&'f Model> {
+    file.header.check_units([&rig.input_label, &rig.output_label], (path, "rig"))?;
+    let model = name(path);
+    if !file.header.runs_at(rig.sample_time) {
+        let at = file.header.sample_time;
+        return Err(PlantError::SampleTime { model, at, rig: rig.sample_time }.into());
+    }
+    match &file.system {
+        System::Curves(curves) => Ok(curves.model()),
+        other @ (System::Switched(_) | System::Points(_)) => {
+            Err(PlantError::Model { model, kind: other.kind() }.into())
+        }
+    }
 }
 
 fn name(path: &Path) -> String {

@@ -160,10 +160,10 @@ impl Subject {
         mut notes: Vec<String>,
     ) -> Result<Self, SubjectError> {
         model.header.check_units([&rig.input_label, &rig.output_label], (file, "rig"))?;
-        let sample_time = model.header.sample_time;
-        if (sample_time - rig.sample_time).abs() > 1e-6 * rig.sample_time {
+        if !model.header.runs_at(rig.sample_time) {
             let file = file.display().to_string();
-            return Err(SubjectError::SampleTime { file, model: sample_time, rig: rig.sample_time });
+            let model = model.header.sample_time;
+            return Err(SubjectError::SampleTime { file, model, rig: rig.sample_time });
         }
         let plain = match &model.system {
             System::Switched(model) => model.is_plain().then(|| model.system()),

@@ -15,7 +15,15 @@ pub struct UnitError {
     remedy: String,
 }
 
+/// Relative difference of two sample times that are the same.
+const SAME_TIME: f64 = 1e-6;
+
 impl Header {
+    /// Whether the model runs on records sampled so, seconds between samples.
+    pub fn runs_at(&self, sample_time: f64) -> bool {
+        (self.sample_time - sample_time).abs() <= SAME_TIME * sample_time
+    }
+
     /// Compares units where both are known. `labels` are those of the input and of the output, empty where there is none; `what` is what
     /// `file` is called.
     ///

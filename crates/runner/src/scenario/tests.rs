@@ -112,6 +112,7 @@ fn knots_and_promises_of_intervals_are_read_and_checked() {
     for (rest, told) in [
         ("knots = \"refind\"".to_owned(), "refined"),
         (expect.replace("0.98", "98"), "coverage lies between 0 and 1"),
+        (expect.replace("0.98", "0.1"), "begins above its end"),
         (expect.replace("\"fine\"", "\"fin\""), "no such case"),
         (expect.replace("2.0", "-2.0"), "at_most must be positive"),
     ] {

@@ -41,13 +41,18 @@ pub(super) fn expect(wire: &WireExpect, swept: &[Method]) -> Result<Expect, Faul
 
 fn coverage(wire: &Spanned<WireCoverage>) -> Result<Coverage, Fault> {
     let WireCoverage { mean, least } = *wire.get_ref();
-    let is_share = |x: f64| (0.0..=1.0).contains(&x);
-    if is_share(mean.0) && is_share(mean.1) && is_share(least) && mean.0 <= mean.1 {
-        Ok(Coverage { mean, least })
-    } else {
+    let is_share = |x: &f64| (0.0..=1.0).contains(x);
+    let fault = |message: &'static str| {
         let remedy = "write shares, as in coverage = { mean = [0.9, 0.98], least = 0.85 }";
-        Err(Fault::new(wire.span(), "coverage lies between 0 and 1", remedy))
+        Err(Fault::new(wire.span(), message, remedy))
+    };
+    if ![mean.0, mean.1, least].iter().all(is_share) {
+        return fault("coverage lies between 0 and 1");
     }
+    if mean.0 > mean.1 {
+        return fault("the range of the mean coverage begins above its end");
+    }
+    Ok(Coverage { mean, least })
 }
 
 fn width(wire: &Spanned<WireWidth>) -> Result<Width, Fault> {
