@@ -11,10 +11,10 @@ use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::EquationColumn;
 use crate::records::campaign::Criterion;
 use crate::residuals::score::heldout_log_scores;
 use crate::residuals::spectrum::mean_square;
+use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
 
 /// What is left of a move once the model has settled.
@@ -33,10 +33,7 @@ impl Plan {
             0.0
         };
         let is_held_out = |number: &usize| !self.campaign.tracks[*number].is_fit();
-        let saved = match has_a_free_zero(fit) {
-            true => self.saved_about_the_mean(fit),
-            false => self.saved_in_simulation(fit),
-        };
+        let saved = self.saved_beside_own_paths(fit);
         let simulated = self.judged.iter().zip(saved);
         let simulated = simulated.filter(|(number, _)| is_held_out(number));
         let simulated = simulated.map(|(_, saved)| saved.into_iter().map(|x| x + spared).collect());
@@ -91,20 +88,24 @@ impl Plan {
         differences(&before, &after)
     }
 
-    /// The same about the mean error of each record: a model whose zero is free from record to record says nothing of it in another one.
-    fn saved_about_the_mean(&self, fit: &Fit) -> Vec<Vec<f64>> {
-        let [before, after] = self.errors_before_and_after(fit).map(|errors| squared(about_the_mean(errors)));
+    /// The same by what no record has of its own: a model with a zero or a wave free from record to record says nothing of these in
+    /// another one.
+    fn saved_beside_own_paths(&self, fit: &Fit) -> Vec<Vec<f64>> {
+        let lasting = |errors| squared(without_own_paths(&self.campaign, fit, &self.judged, errors));
+        let [before, after] = self.errors_before_and_after(fit).map(lasting);
         differences(&before, &after)
+    }
+
+    /// The judged record with a number, simulated by the model under diagnosis.
+    pub(super) fn run_before(&self, number: usize) -> Vec<f64> {
+        let at = self.judged.iter().position(|&judged| judged == number).unwrap_or_default();
+        self.runs[at].clone()
     }
 
     /// Errors of the simulations by the model under diagnosis and by another one on each judged record.
     fn errors_before_and_after(&self, fit: &Fit) -> [Vec<Vec<f64>>; 2] {
-        let before = |number| {
-            let at = self.judged.iter().position(|&judged| judged == number).unwrap_or_default();
-            self.runs[at].clone()
-        };
         let after = |number| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]);
-        [self.errors(before), self.errors(after)]
+        [self.errors(|number| self.run_before(number)), self.errors(after)]
     }
 
     /// Squared errors of a simulation on each judged record, sample by sample.
@@ -112,7 +113,8 @@ impl Plan {
         squared(self.errors(run))
     }
 
-    fn errors(&self, run: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<f64>> {
+    /// Errors of a simulation on each judged record, sample by sample.
+    pub(super) fn errors(&self, run: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<f64>> {
         let of_record = |&number: &usize| {
             let track = &self.campaign.tracks[number];
             track.y.iter().zip(run(number)).skip(track.from).map(|(y, x)| y - x).collect()
@@ -127,23 +129,8 @@ impl Plan {
     }
 }
 
-/// Whether every record has a zero of its own.
-fn has_a_free_zero(fit: &Fit) -> bool {
-    let is_free =
-        |c: &EquationColumn| matches!(c, EquationColumn::Local { .. } | EquationColumn::Offset { .. });
-    fit.assembly.equation_columns.iter().any(is_free)
-}
-
 fn squared(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     records.iter_mut().flatten().for_each(|x| *x *= *x);
-    records
-}
-
-fn about_the_mean(mut records: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    for record in &mut records {
-        let mean = record.iter().sum::<f64>() / record.len().max(1) as f64;
-        record.iter_mut().for_each(|x| *x -= mean);
-    }
     records
 }
 

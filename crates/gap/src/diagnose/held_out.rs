@@ -124,8 +124,13 @@ impl Plan {
     /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
     /// gap.
     pub(super) fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
-        let simulates = self.campaign.criterion.simulates();
-        simulates.then(|| self.gap_left(fit)).flatten().map(|left| 1.0 - left)
+        if !self.campaign.criterion.simulates() {
+            return None;
+        }
+        let before = mean_square(&self.errors(|number| self.run_before(number)));
+        let after = mean_square(&self.judged_errors(fit));
+        let noise = self.unforeseeable(fit).0;
+        (before > noise).then(|| (before - after) / (before - noise))
     }
 
     /// Whether there is a gap on the judged records that an explanation does not close, though a cause would.
@@ -193,13 +198,8 @@ impl Plan {
         }
     }
 
-    /// Squared error of the free-run simulation, summed over the judged records.
+    /// [Errors](Self::judged_errors) of the free-run simulation, squared and summed over the judged records.
     pub(super) fn simulation_error(&self, fit: &Fit) -> f64 {
-        let error = |&number: &usize| {
-            let track = &self.campaign.tracks[number];
-            let run = free_run(&self.campaign, fit, number, track);
-            track.y.iter().zip(&run).skip(track.from).map(|(y, run)| (y - run).powi(2)).sum::<f64>()
-        };
-        self.judged.iter().map(error).sum()
+        self.judged_errors(fit).iter().flatten().map(|e| e * e).sum()
     }
 }

@@ -7,6 +7,7 @@ use crate::model::sensor::SensorCurve;
 use crate::records::campaign::Criterion;
 use crate::residuals::spectrum::unpredictable_variance;
 use crate::simulation::noise_response::NoiseResponse;
+use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
 
 impl Plan {
@@ -44,16 +45,15 @@ impl Plan {
         (unpredictable_variance(&errors), (2.0 / count.max(1) as f64).sqrt() * 2.0)
     }
 
-    /// Errors of the free run on the judged records.
+    /// Errors of the free run on the judged records. Where models are compared as simulators, what a record has of its own (the phase of a
+    /// wave, the path of a zero) is taken out: it is unknown in a record that was not fitted, and no fault of the model.
     pub(super) fn judged_errors(&self, fit: &Fit) -> Vec<Vec<f64>> {
-        self.judged
-            .iter()
-            .map(|&number| {
-                let track = &self.campaign.tracks[number];
-                let run = free_run(&self.campaign, fit, number, track);
-                run.iter().zip(&track.y).skip(track.from).map(|(x, y)| y - x).collect()
-            })
-            .collect()
+        let run = |number: usize| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]);
+        let errors = self.errors(run);
+        match self.campaign.criterion.simulates() {
+            true => without_own_paths(&self.campaign, fit, &self.judged, errors),
+            false => errors,
+        }
     }
 
     /// Variance of the innovations without the gap.

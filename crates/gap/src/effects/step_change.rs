@@ -84,9 +84,9 @@ fn step(p: &[f64]) -> Slow {
     Slow { bends, ..Slow::on(Clock::Samples) }
 }
 
-/// Share of a record that must lie on either side of a change in it (D. W. K. Andrews, "Tests for parameter instability and structural change
-/// with unknown change point", Econometrica 61, 1993, section 5).
-const MARGIN: f64 = 0.15;
+/// Share of a record that must lie on either side of a change in it: among the trimmings that J. Bai and P. Perron tabulate ("Computation and
+/// analysis of multiple structural change models", J. Applied Econometrics 18, 2003).
+const MARGIN: f64 = 0.1;
 /// Records on either side of a change between records at least.
 const RECORDS: usize = 2;
 

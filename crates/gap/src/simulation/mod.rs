@@ -2,4 +2,5 @@
 
 pub(crate) mod beginnings;
 pub(crate) mod noise_response;
+pub(crate) mod own_paths;
 pub(crate) mod simulate;
