@@ -175,6 +175,28 @@ pub struct FittedParameter {
     pub ci90: [f64; 2],
 }
 
+/// How far ahead models predict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Horizon {
+    /// The next sample, given the measured ones before it and the colour of the errors.
+    Step,
+    /// So many samples, given the measured ones before them.
+    Samples(usize),
+    /// The whole record, given its beginning.
+    FreeRun,
+}
+
+/// What a model gains over another at one horizon, on the fit records.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HorizonGain {
+    /// How far ahead both predict.
+    pub horizon: Horizon,
+    /// Share of the mean square error that it saves; negative where it adds.
+    pub share: f64,
+    /// The same in units of its standard error, which comes from the errors themselves.
+    pub certainty: f64,
+}
+
 /// One effect as an explanation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
@@ -192,6 +214,8 @@ pub struct Candidate {
     pub delta_bic: f64,
     /// Gain in log predictive score over the nominal model, nats per hold-out sample.
     pub heldout_log_score: f64,
+    /// What it gains over the nominal model on the fit records, a horizon at a time, the nearest first; less where errors are no numbers.
+    pub gains: Vec<HorizonGain>,
     /// Closure on the hold-out records with this effect alone; none where there is no gap to close, or the model is unstable.
     pub closure: Option<f64>,
     /// Whether the model with this effect has no free run: its output leaves every range, or its `A` is unstable.

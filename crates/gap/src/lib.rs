@@ -47,7 +47,8 @@ mod workers;
 pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap,
-    HoldoutSeries, Models, NextExperiment, RecordGap, Refit, ResidualPicture, Status, Together, Verdict,
+    HoldoutSeries, Horizon, HorizonGain, Models, NextExperiment, RecordGap, Refit, ResidualPicture, Status,
+    Together, Verdict,
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;

@@ -17,9 +17,6 @@ use crate::residuals::spectrum::mean_square;
 use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
 
-/// What is left of a move once the model has settled.
-const SETTLED: f64 = 0.05;
-
 impl Plan {
     /// Whether an explanation makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
     /// compared by that.
@@ -125,7 +122,10 @@ impl Plan {
     /// The mean of what hangs together as the errors of a model do.
     pub(super) fn mean(&self, records: &[Vec<f64>], fit: &Fit) -> Option<MeanInterval> {
         let records: Vec<&[f64]> = records.iter().map(Vec::as_slice).collect();
-        MeanInterval::of_remembering(&records, settling(fit).max(settling(&self.nominal.plain.fit)))
+        MeanInterval::of_remembering(
+            &records,
+            fit.linear.settling().max(self.nominal.plain.fit.linear.settling()),
+        )
     }
 }
 
@@ -152,20 +152,10 @@ pub(super) fn differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>>
     one.iter().zip(other).map(of_record).collect()
 }
 
-/// Samples until a twentieth of a move is left.
-fn settling(fit: &Fit) -> usize {
-    let slowest = fit.linear.poles().iter().map(|pole| pole.norm()).fold(0.0, f64::max);
-    match slowest {
-        // What never settles remembers all: the blocks are as long as they may be.
-        r if r >= 1.0 => usize::MAX,
-        r if r <= 0.0 => 1,
-        r => (SETTLED.ln() / r.ln()).ceil() as usize,
-    }
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::model::assembly::EquationColumn;
     use crate::nominal::order::{Choice, structure};
     use crate::records::campaign::Campaign;
     use crate::settings::{Model, Settings};

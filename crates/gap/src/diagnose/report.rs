@@ -17,6 +17,7 @@ use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::nominal::order::Structure;
 use crate::phase::Phase;
+use crate::residuals::horizons::Reference;
 use crate::residuals::score::{innovations, picture};
 use crate::simulation::simulate::runs_away;
 use crate::verdict::odds::Odds;
@@ -33,6 +34,16 @@ pub(super) struct Conclusion {
     /// The nominal model of another structure that is the answer: order, delay, its runs of the judged records and the noise that it
     /// leaves in these.
     pub(super) other: Option<Other>,
+}
+
+/// What candidates are compared with.
+struct Compared {
+    /// The nominal model on the fit records.
+    horizons: Reference,
+    /// Variance of the noise in the output and its relative standard error.
+    floor: (f64, f64),
+    /// Log score of the nominal model on the held-out records.
+    score: Option<f64>,
 }
 
 /// A nominal model of another structure.
@@ -86,7 +97,9 @@ impl Plan {
             _ => {}
         }
         let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
-        let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, floor, nominal_score));
+        let nominal =
+            Compared { horizons: Reference::of(&self.nominal.plain.fit), floor, score: nominal_score };
+        let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, &nominal));
         let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
         for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
             candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
@@ -171,11 +184,11 @@ impl Plan {
         }
     }
 
-    fn candidate(&self, s: &Explanation, p: f64, floor: (f64, f64), nominal: Option<f64>) -> Candidate {
+    fn candidate(&self, s: &Explanation, p: f64, nominal: &Compared) -> Candidate {
         let effect = s.parts[0].effect;
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
-            measure(&self.campaign, &runs, floor, (self.settings.seed, 0));
+            measure(&self.campaign, &runs, nominal.floor, (self.settings.seed, 0));
         let unstable = runs_away(&s.fit, runs.iter().map(|run| &run.after[..]));
         let closure = closure.filter(|_| !unstable).map(|_| 1.0 - after.estimate / before.estimate);
         Candidate {
@@ -185,7 +198,8 @@ impl Plan {
             parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
             bic: s.bic(),
             delta_bic: self.nominal.plain.bic() - s.bic(),
-            heldout_log_score: self.score(&s.fit).zip(nominal).map_or(0.0, |(a, b)| a - b),
+            heldout_log_score: self.score(&s.fit).zip(nominal.score).map_or(0.0, |(a, b)| a - b),
+            gains: nominal.horizons.gains(&s.fit),
             closure,
             unstable,
         }

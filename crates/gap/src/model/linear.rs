@@ -69,6 +69,17 @@ impl Linear {
         companion.complex_eigenvalues().iter().copied().collect()
     }
 
+    /// Samples until a twentieth of a move is left: `ln 0.05 / ln |p|` for the slowest pole `p`; all there are where it never settles.
+    pub(crate) fn settling(&self) -> usize {
+        const SETTLED: f64 = 0.05;
+        let slowest = self.poles().iter().map(|pole| pole.norm()).fold(0.0, f64::max);
+        match slowest {
+            r if r >= 1.0 => usize::MAX,
+            r if r <= 0.0 => 1,
+            r => (SETTLED.ln() / r.ln()).ceil() as usize,
+        }
+    }
+
     /// The same system with `Σ b² = 1`: fixes the scale shared by `b` and `f`.
     pub(crate) fn gauged(mut self) -> Self {
         let norm = self.b.iter().map(|b| b * b).sum::<f64>().sqrt();

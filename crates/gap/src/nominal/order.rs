@@ -1,7 +1,5 @@
 //! Order, lead and criterion of the nominal model: chosen from the records where no order is declared.
 
-use std::f64::consts::LN_2;
-
 use switchback_estimator::rig::Rig;
 
 use crate::error::DiagnoseError;
@@ -14,7 +12,7 @@ use crate::nominal::knots::{first_grid, refine};
 use crate::records::campaign::{Campaign, Criterion, Track};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
-use crate::residuals::spectrum::{autocorrelation, mean_square, unpredictable_variance};
+use crate::residuals::spectrum::{independent_share, mean_square, unpredictable_variance};
 use crate::settings::Model;
 use crate::simulation::noise_response::NoiseResponse;
 use crate::simulation::simulate::free_run;
@@ -209,7 +207,7 @@ impl Simulator {
     /// The structure with its borders' knots placed, compared as a simulator from here on.
     pub(crate) fn chosen(&self) -> Chosen {
         let led = self.structure.applied(&self.campaign);
-        let share = independent_share(&led.judged_by(SIMULATION), &self.first);
+        let share = independent_share(&innovations(&led.judged_by(SIMULATION), &self.first, |t| t.is_fit()));
         let campaign = led.judged_by(Criterion::Simulation { share });
         let mut fit = self.first.clone();
         fit.deviance *= share;
@@ -300,18 +298,6 @@ fn simulation_error(campaign: &Campaign, fit: &Fit) -> f64 {
         sum += y.iter().zip(&track.y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
     }
     sum / campaign.fit_samples().max(1) as f64
-}
-
-/// Independent errors per sample: one in `τ = k/ln 2` samples, `k` the lag at which the autocorrelation has fallen to a half.
-///
-/// Of coloured errors `1 + 2Σρ²` samples tell as much about their variance as one white one (Bartlett), which is `τ` for
-/// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
-fn independent_share(campaign: &Campaign, fit: &Fit) -> f64 {
-    let errors = innovations(campaign, fit, |t| t.is_fit());
-    let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
-    let rho = autocorrelation(&errors, (longest / 4).max(1));
-    let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
-    (LN_2 / half as f64).min(1.0)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 pub(crate) mod change_point;
 pub(crate) mod clustering;
+pub(crate) mod horizons;
 pub(crate) mod noise_size;
 pub(crate) mod omnibus;
 pub(crate) mod quantisation_grid;

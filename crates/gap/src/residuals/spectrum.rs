@@ -1,6 +1,6 @@
 //! Periodograms and autocorrelations of residuals.
 
-use std::f64::consts::PI;
+use std::f64::consts::{LN_2, PI};
 
 use realfft::RealFftPlanner;
 
@@ -94,6 +94,17 @@ pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Independent errors per sample: one in `τ = k/ln 2` samples, `k` the lag at which the autocorrelation has fallen to a half.
+///
+/// Of coloured errors `1 + 2Σρ²` samples tell as much about their variance as one white one (Bartlett), which is `τ` for
+/// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
+pub(crate) fn independent_share(errors: &[Vec<f64>]) -> f64 {
+    let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
+    let rho = autocorrelation(errors, (longest / 4).max(1));
+    let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
+    (LN_2 / half as f64).min(1.0)
+}
+
 /// Portmanteau statistic of a white signal of `count` samples: `count·Σ r²` over the lags 1 to `most`.
 pub(crate) fn portmanteau(tracks: &[Vec<f64>], most: usize, count: f64) -> f64 {
     autocorrelation(tracks, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
@@ -135,6 +146,18 @@ pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
         variance *= 1.0 - reflection * reflection;
     }
     (a, variance.max(0.0))
+}
+
+/// The autoregression of signals, of the order up to `most` that the Bayesian information criterion prefers; empty where they are white.
+pub(crate) fn autoregression(signals: &[Vec<f64>], most: usize) -> Vec<f64> {
+    let count = signals.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+    let rho = autocorrelation(signals, most);
+    let cost = |order: usize| {
+        let variance = levinson(&rho[..=order]).1.max(f64::MIN_POSITIVE);
+        count * variance.ln() + order as f64 * count.ln()
+    };
+    let order = (0..=most).min_by(|x, y| cost(*x).total_cmp(&cost(*y))).unwrap_or_default();
+    levinson(&rho[..=order]).0
 }
 
 /// Lags of the autoregression behind [`moving_average`].

@@ -27,6 +27,10 @@ pub struct Args {
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     without: Vec<Effect>,
 
+    /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
+    #[arg(long)]
+    explain: bool,
+
     /// Print one JSON object instead of words.
     #[arg(long)]
     json: bool,
@@ -75,7 +79,10 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }
-    let words = || diagnosis::words(&report, args.out.as_deref());
+    let words = || {
+        let why = if args.explain { diagnosis::why(&report) } else { String::new() };
+        diagnosis::words(&report, args.out.as_deref()) + &why
+    };
     args.quiet.tell_or(args.json, || diagnosis::json(&report), words)?;
     Ok(Outcome::Done)
 }

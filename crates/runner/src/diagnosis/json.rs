@@ -3,7 +3,9 @@
 use super::{Report, Units, told};
 use crate::output::stamped;
 use serde::Serialize;
-use switchback_gap::{Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Together};
+use switchback_gap::{
+    Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Horizon, HorizonGain, Together,
+};
 
 /// Name and version of the layout.
 const SCHEMA: &str = "switchback/gap/1";
@@ -96,8 +98,16 @@ struct Explanation {
     bic: f64,
     delta_bic: f64,
     heldout_log_score: f64,
+    gains: Vec<Gain>,
     closure: Option<f64>,
     unstable: bool,
+}
+
+#[derive(Serialize)]
+struct Gain {
+    samples: Option<usize>,
+    share: f64,
+    certainty: f64,
 }
 
 #[derive(Serialize)]
@@ -134,7 +144,8 @@ struct Next<'a> {
 /// output units, `identified_anew` the `G²` of a nominal model identified from the fit records where another was given,
 /// `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
 /// `bic` is the criterion's value and `delta_bic` its drop, that of the nominal model less that of the candidate: positive where the effect
-/// is worth its parameters. `closure` is null where there is no gap to close, and where `unstable` says that the candidate has no free run.
+/// is worth its parameters. `gains` are shares of the nominal model's mean square error on the fit records that the candidate saves, predicting
+/// so many `samples` ahead (null: the whole record), and the same in standard errors (`certainty`). `closure` is null where there is no gap to close, and where `unstable` says that the candidate has no free run.
 /// A cell of `where` runs from `low` to `high` in `unit`: all three null where the axis has kinds, an end null where it is open. `share` is its
 /// share of the energy beyond the noise, `exposure` its share of the samples (of the frequency range, on that axis), `enrichment` the one over
 /// the other; `q_value` tells whether there is energy beyond the noise, `enrichment_q_value` whether it is denser than elsewhere.
@@ -242,9 +253,19 @@ fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
         bic: candidate.bic,
         delta_bic: candidate.delta_bic,
         heldout_log_score: candidate.heldout_log_score,
+        gains: candidate.gains.iter().map(gain).collect(),
         closure: candidate.closure,
         unstable: candidate.unstable,
     }
+}
+
+fn gain(gain: &HorizonGain) -> Gain {
+    let samples = match gain.horizon {
+        Horizon::Step => Some(1),
+        Horizon::Samples(samples) => Some(samples),
+        Horizon::FreeRun => None,
+    };
+    Gain { samples, share: gain.share, certainty: gain.certainty }
 }
 
 fn parameters(fitted: &[FittedParameter], units: &Units) -> Vec<Parameter> {

@@ -13,6 +13,7 @@ mod place;
 mod sentences;
 mod subject;
 mod units;
+mod why;
 mod words;
 
 pub use crate::model::ModelError;
@@ -25,4 +26,5 @@ pub use parameter::{Told, told};
 pub use place::SIGNIFICANT;
 pub use subject::{Source, Subject, SubjectError};
 pub use units::Units;
+pub use why::why;
 pub use words::{verdict, words};

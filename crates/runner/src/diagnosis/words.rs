@@ -13,7 +13,7 @@ use switchback_gap::Candidate;
 const WIDTH: usize = 100;
 
 /// Explanations listed; the rest is in the JSON.
-const LISTED: usize = 6;
+pub(super) const LISTED: usize = 6;
 
 /// What is left when all candidates are ruled out, and when there is nothing to explain.
 const NONE_OF_THESE: &str = "none of these";
@@ -139,7 +139,7 @@ fn next(report: &Report, file: &str) -> Option<String> {
 }
 
 /// Lines of at most [`WIDTH`] letters, all but the first begun with `indent`; blanks before the first word are kept.
-fn wrapped(text: &str, indent: &str) -> String {
+pub(super) fn wrapped(text: &str, indent: &str) -> String {
     let words = text.trim_start();
     let mut page = String::new();
     let mut line = text[..text.len() - words.len()].to_owned();
@@ -174,6 +174,7 @@ mod tests {
                 bic: -900.0,
                 delta_bic: 34.6,
                 heldout_log_score: 0.1,
+                gains: Vec::new(),
                 closure,
                 unstable,
             };
