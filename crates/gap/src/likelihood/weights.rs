@@ -124,13 +124,16 @@ fn leave_out(scale: &mut [Vec<f64>], masked: &[Vec<bool>]) -> usize {
     left_out
 }
 
-/// The mixture of the samples that are not masked.
+/// The mixture of the samples that are not masked; where all are, no law explains anything, and the deviance is infinite.
 fn mixture_of_the_rest(start: (f64, f64), least: f64, w: &[Vec<f64>], masked: &[Vec<bool>]) -> Weights {
     let counted = |(w, masked): (&Vec<f64>, &Vec<bool>)| {
         w.iter().zip(masked).filter(|(_, c)| !**c).map(|(w, _)| *w).collect::<Vec<f64>>()
     };
     let rest: Vec<Vec<f64>> = w.iter().zip(masked).map(counted).collect();
-    let mut weights = mixture(start, least, &rest);
+    let mut weights = match rest.iter().all(Vec::is_empty) {
+        true => Weights { deviance: Some(f64::INFINITY), ..Weights::default() },
+        false => mixture(start, least, &rest),
+    };
     let mut found = weights.scale.iter().flatten().flatten().copied();
     let mut left_out = 0;
     let scale = masked.iter().map(|track| {
@@ -244,6 +247,15 @@ mod tests {
             h.len() < 8 && h.iter().enumerate().all(|(k, h)| (h - 0.5f64.powi(k as i32 + 1)).abs() < 1e-15)
         );
         assert_eq!(impulse_response(&[0.3, 0.1], &[]), [0.3, 0.1]);
+    }
+
+    #[test]
+    fn a_mixture_of_nothing_explains_nothing() {
+        let w = [vec![0.3, -0.2], vec![0.1]];
+        let of = |masked: &[Vec<bool>]| mixture_of_the_rest((0.05, 8.0), LEAST_VARIANCE, &w, masked);
+        let nothing = of(&[vec![true, true], vec![true]]);
+        assert_eq!((nothing.deviance, nothing.left_out), (Some(f64::INFINITY), 3));
+        assert!(of(&[vec![true, false], vec![true]]).deviance.is_some_and(f64::is_finite));
     }
 
     #[test]
