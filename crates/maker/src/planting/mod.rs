@@ -15,19 +15,16 @@
 //! as they are, `ŷ'` one of the same order, delay and knots identified from those with the fault. The *raw* size has `ŷ` in place of `ŷ'`,
 //! on the planted input: what a model given beforehand newly misses.
 
+mod again;
 mod alter;
 mod base;
 mod carrier;
 
-use self::alter::altered;
 use self::base::Base;
 use self::carrier::Carrier;
-use crate::law::{Dose, Nature, Planting, Stage};
+use crate::law::{Nature, Planting, Stage};
 use crate::make::{Ingredient, MakeError};
-use crate::simulate::Active;
 use crate::size::magnitude_for;
-use crate::stream::{Purpose, stream};
-use rand::RngExt;
 use switchback_estimator::estimators::free::{FreeError, Model};
 use switchback_estimator::hysteresis::HysteresisError;
 use switchback_estimator::record::RecordError;
@@ -140,12 +137,7 @@ impl<'a> PlantingGround<'a> {
     /// [`PlantingError::Record`] where the altered signals are not finite.
     pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
         let law = ingredient.law;
-        let mut rng = stream(seed, Purpose::Shape(0));
-        let shape = std::array::from_fn(|_| rng.random());
-        let with = |magnitude: f64| {
-            let active = Active { law, dose: Dose { magnitude, shape }, slot: 0 };
-            altered(self.rig, &self.carrier, &active, seed)
-        };
+        let with = |magnitude: f64| self.again(ingredient, magnitude, seed);
         // The raw size costs no identification: the search begins where that is as wanted.
         let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| self.base.raw(&rig));
         let mut tried = magnitude_for(ingredient.size, law.limit(), raw).magnitude;

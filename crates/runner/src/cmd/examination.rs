@@ -1,40 +1,14 @@
-//! `switchback SCENARIO.toml` with `study = "blind"`.
+//! `switchback SCENARIO.toml` where rigs are sealed: `study = "blind"` or `study = "field"`.
 
-use crate::blind::{self, Case, Examiner, Journal, KEY_FILE, PART_FILE, Part, Sealed, Study, Ticket};
+use crate::examination::{Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, Sealed, key_file};
 use crate::failure::{CommandResult, Outcome};
 use crate::input::read_text;
 use crate::options::{Force, Quiet, Shard};
 use crate::output::{Artefacts, OutputFolder, sha256};
-use crate::plots;
 use crate::progress::Meter;
 use crate::study::Progress;
-use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use switchback_gap::{Model, diagnose};
-use switchback_maker::MakeError;
-use thiserror::Error;
-
-/// What the folder gets.
-const FILES: [&str; 11] = [
-    KEY_FILE,
-    "results.json",
-    "summary.txt",
-    "answers.csv",
-    "confusion.*",
-    "accuracy.*",
-    "calibration.*",
-    "abstention.*",
-    "closure.*",
-    "baselines.*",
-    "where.csv",
-];
-
-/// Why a study stopped.
-#[derive(Debug, Error, Diagnostic)]
-#[error("a rig of the study could not be made: {0}")]
-#[diagnostic(help("this is a mistake of the program; another seed may avoid it"))]
-pub struct StudyError(#[from] MakeError);
 
 /// Where the report goes.
 #[derive(Debug, Clone, Copy)]
@@ -46,9 +20,9 @@ pub struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The folder asked for, or the one that belongs to a study.
-    fn folder(self, study: &Study) -> PathBuf {
-        self.out.map_or_else(|| Path::new("reports").join(&study.name), Path::to_owned)
+    /// The folder asked for, or the one that belongs to an examination.
+    fn folder(self, name: &str) -> PathBuf {
+        self.out.map_or_else(|| Path::new("reports").join(name), Path::to_owned)
     }
 }
 
@@ -59,36 +33,40 @@ impl Place<'_> {
 /// Runs on the rayon pool that it is called from. Only the printed time depends on it.
 ///
 /// # Errors
-/// A scenario that cannot be used, or a folder that cannot be written.
-pub fn run(scenario: &Path, place: Place<'_>, page: Page) -> CommandResult {
-    let study = blind::read(scenario)?;
-    let out = place.folder(&study);
-    place.force.claim(&out, &FILES)?;
+/// A design that cannot be made, or a folder that cannot be written.
+pub fn run<E: Examination>(examination: &E, place: Place<'_>, page: Page) -> CommandResult {
+    let out = place.folder(examination.name());
+    place.force.claim(&out, E::FILES)?;
     // What a former run left stays until there is another report.
     let folder = place.force.claim(&out, &[KEY_FILE])?;
-    let tickets = blind::design(&study).map_err(StudyError)?;
-    let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;
-    let outcome = conclude(&study, &keys, &cases, Place { out: Some(&out), ..place }, page)?;
+    let Opened { keys, cases, journal } = judge(examination, examination.design()?, folder, page)?;
+    let outcome = conclude(examination, (&keys, &cases), Place { out: Some(&out), ..place }, page)?;
     journal.close()?;
     Ok(outcome)
 }
 
-/// The same for one part of the rigs, which is judged and not scored: [`merge`](super::merge) makes the report.
+/// The same for one part of the rigs, which is judged and not scored: [`merge`](super::merge) makes the report. `scenario` is the file of
+/// the examination.
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_part(scenario: &Path, shard: Shard, place: Place<'_>, page: Page) -> CommandResult {
-    let study = blind::read(scenario)?;
+pub fn run_part<E: Examination>(
+    examination: &E,
+    (scenario, shard): (&Path, Shard),
+    place: Place<'_>,
+    page: Page,
+) -> CommandResult {
     let text = read_text(scenario)?;
-    let default = Path::new("reports").join(format!("{}-part-{}-of-{}", study.name, shard.number, shard.of));
+    let default =
+        Path::new("reports").join(format!("{}-part-{}-of-{}", examination.name(), shard.number, shard.of));
     let out = place.out.unwrap_or(&default);
     let name = scenario.file_name().unwrap_or_default().to_string_lossy();
     let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
     place.force.claim(out, &files)?;
     let folder = place.force.claim(out, &[KEY_FILE])?;
-    let tickets = blind::design(&study).map_err(StudyError)?.into_iter().enumerate();
+    let tickets = examination.design()?.into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
-    let Judged { keys, cases, journal } = judge(&study, tickets, folder, page)?;
+    let Opened { keys, cases, journal } = judge(examination, tickets, folder, page)?;
     let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
     place.force.claim(out, &[])?.commit(&part.artefacts())?;
     journal.close()?;
@@ -97,30 +75,35 @@ pub fn run_part(scenario: &Path, shard: Shard, place: Place<'_>, page: Page) -> 
 }
 
 /// Rigs that were judged, with their key file.
-struct Judged {
+struct Opened<C> {
     keys: String,
-    cases: Vec<Case>,
-    journal: Journal,
+    cases: Vec<C>,
+    journal: Journal<C>,
 }
 
 /// Makes and seals the rigs, writes the key, diagnoses and opens.
-fn judge(study: &Study, tickets: Vec<Ticket>, folder: OutputFolder, page: Page) -> miette::Result<Judged> {
-    page.say(&format!("{}: {}", study.name, study.question))?;
+fn judge<E: Examination>(
+    examination: &E,
+    tickets: Vec<E::Ticket>,
+    folder: OutputFolder,
+    page: Page,
+) -> miette::Result<Opened<E::Case>> {
+    page.say(&format!("{}: {}", examination.name(), examination.question()))?;
     let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
     let out = folder.path().to_owned();
     let mut journal = Journal::open(&out, JUDGING_SOURCES)?;
-    let sealed = blind::seal(tickets, &journal.keys(), &|| meter.advanced(1)).map_err(StudyError)?;
+    let sealed = examination.seal(tickets, &journal.keys(), &|| meter.advanced(1))?;
     meter.finish();
-    let keys = blind::key_file(&sealed);
+    let keys = key_file(&sealed);
     let hash = sha256(&keys);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
     folder.commit(&only(KEY_FILE, keys.clone()))?;
     journal.keep_keys(&hash)?;
     page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join(KEY_FILE).display()))?;
     page.say(&format!("SHA-256 {hash}"))?;
-    let cases = examine(sealed, &mut journal, page)?;
-    Ok(Judged { keys, cases, journal })
+    let cases = examine(examination, sealed, &mut journal, page)?;
+    Ok(Opened { keys, cases, journal })
 }
 
 /// Rigs diagnosed before their keys are opened and they are kept; bounds memory and what an interruption costs, changes no result.
@@ -128,10 +111,19 @@ fn judge(study: &Study, tickets: Vec<Ticket>, folder: OutputFolder, page: Page) 
 const BATCH: usize = 64;
 
 /// Judges what the journal does not know, batch after batch. Cases come by their number in the design.
-fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Result<Vec<Case>> {
-    let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
-    let mut cases: Vec<Case> = sealed.iter().filter_map(|rig| journal.recall(rig).cloned()).collect();
-    let new: Vec<Sealed> = sealed.into_iter().filter(|rig| journal.recall(rig).is_none()).collect();
+fn examine<E: Examination>(
+    examination: &E,
+    sealed: Vec<E::Sealed>,
+    journal: &mut Journal<E::Case>,
+    page: Page,
+) -> miette::Result<Vec<E::Case>> {
+    let (mut cases, mut new) = (Vec::new(), Vec::new());
+    for rig in sealed {
+        match journal.recall(&rig.key_line()) {
+            Some(case) => cases.push(case.clone()),
+            None => new.push(rig),
+        }
+    }
     if !cases.is_empty() {
         page.say(&format!("{} of them are judged already: taken up where it was interrupted", cases.len()))?;
     }
@@ -139,13 +131,13 @@ fn examine(sealed: Vec<Sealed>, journal: &mut Journal, page: Page) -> miette::Re
     meter.planned(new.len() as u64);
     let start = Instant::now();
     for batch in new.chunks(BATCH) {
-        let judged = blind::examine(batch, examiner, &|| meter.advanced(1)).map_err(StudyError)?;
-        journal.keep(batch, &judged)?;
+        let judged = examination.judge(batch, &|| meter.advanced(1))?;
+        journal.keep(batch.iter().map(Sealed::key_line).zip(&judged))?;
         cases.extend(judged);
     }
     meter.finish();
     page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
-    cases.sort_by_key(|case| case.id);
+    cases.sort_by_key(Judged::id);
     Ok(cases)
 }
 
@@ -156,19 +148,19 @@ pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 ///
 /// # Errors
 /// A folder that cannot be written, or a figure that cannot be drawn.
-pub fn conclude(study: &Study, keys: &str, cases: &[Case], place: Place<'_>, page: Page) -> CommandResult {
-    let out = place.folder(study);
-    let scores = blind::score(cases, &study.expect);
-    let mut report = blind::artefacts(study, &sha256(keys), cases, &scores);
-    for figure in plots::blind::figures(cases, &scores)? {
-        report.add(figure.name, figure.svg);
-    }
-    report.add(KEY_FILE, keys);
-    place.force.claim(&out, &FILES)?.commit(&report)?;
-    let words = || format!("{}\nwritten to {}\n", blind::summary(&scores), out.display());
-    page.quiet.tell_or(page.json, || report.text("results.json"), words)?;
-    let broken = scores.measures.iter().any(blind::Measure::is_unexpected);
-    Ok(if broken { Outcome::Unmet } else { Outcome::Done })
+pub fn conclude<E: Examination>(
+    examination: &E,
+    (keys, cases): (&str, &[E::Case]),
+    place: Place<'_>,
+    page: Page,
+) -> CommandResult {
+    let out = place.folder(examination.name());
+    let mut report = examination.report(&sha256(keys), cases)?;
+    report.files.add(KEY_FILE, keys);
+    place.force.claim(&out, E::FILES)?.commit(&report.files)?;
+    let words = || format!("{}\nwritten to {}\n", report.summary, out.display());
+    page.quiet.tell_or(page.json, || report.files.text("results.json"), words)?;
+    Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })
 }
 
 fn only(name: &str, contents: String) -> Artefacts {
