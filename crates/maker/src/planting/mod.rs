@@ -19,12 +19,13 @@ mod again;
 mod alter;
 mod base;
 mod carrier;
+mod search;
 
-use self::base::Base;
+pub(crate) use self::base::Base;
 use self::carrier::Carrier;
+pub(crate) use self::search::{Trial, search};
 use crate::law::{Nature, Planting, Stage};
 use crate::make::{Ingredient, MakeError};
-use crate::size::magnitude_for;
 use switchback_estimator::estimators::free::{FreeError, Model};
 use switchback_estimator::hysteresis::HysteresisError;
 use switchback_estimator::record::RecordError;
@@ -33,12 +34,6 @@ use thiserror::Error;
 
 /// Sizes below this are told as not observable: less than half of what the model misses anyway.
 pub const OBSERVABLE: f64 = 0.5;
-
-/// Sizes are met to this share, in at most so many identifications.
-const TOLERANCE: f64 = 0.05;
-const ROUNDS: usize = 10;
-/// Largest change of the magnitude, as a factor, from one identification to the next.
-const STRIDE: f64 = 4.0;
 
 /// Why no fault could be planted.
 #[derive(Debug, Error)]
@@ -138,31 +133,7 @@ impl<'a> PlantingGround<'a> {
     pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
         let law = ingredient.law;
         let with = |magnitude: f64| self.again(ingredient, magnitude, seed);
-        // The raw size costs no identification: the search begins where that is as wanted.
-        let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| self.base.raw(&rig));
-        let mut tried = magnitude_for(ingredient.size, law.limit(), raw).magnitude;
-        let sized = |magnitude: f64| {
-            let rig = with(magnitude)?;
-            let size = self.base.surviving(&rig);
-            Ok::<_, PlantingError>(Trial { magnitude, size, rig })
-        };
-        let miss = |size: f64| (size / ingredient.size).max(1e-9).ln().abs();
-        let mut best = sized(tried)?;
-        let mut last = best.size;
-        for _ in 1..ROUNDS {
-            let wanted = ingredient.size / last.max(1e-9);
-            let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(law.limit());
-            if (wanted - 1.0).abs() < TOLERANCE || next == tried {
-                break;
-            }
-            tried = next;
-            let trial = sized(tried)?;
-            last = trial.size;
-            if miss(trial.size) < miss(best.size) {
-                best = trial;
-            }
-        }
-        let Trial { magnitude, size, rig } = best;
+        let Trial { magnitude, size, rig } = search(&self.base, ingredient.size, law.limit(), with)?;
         let fault = PlantedFault {
             effect: law.effect(),
             law: law.name(),
@@ -178,13 +149,6 @@ impl<'a> PlantingGround<'a> {
         };
         Ok(PlantedRig { rig, fault })
     }
-}
-
-/// The records with the fault at a magnitude, and its size there.
-struct Trial {
-    magnitude: f64,
-    size: f64,
-    rig: Rig,
 }
 
 #[cfg(test)]

@@ -38,6 +38,8 @@ impl Examination for Blind {
         "where.csv",
     ];
 
+    const BATCH: usize = 64;
+
     fn name(&self) -> &str {
         &self.0.name
     }

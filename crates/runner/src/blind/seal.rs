@@ -109,6 +109,8 @@ struct WrittenKey<'a> {
     curved: bool,
     noise_sd: f64,
     size: f64,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    base: &'a [&'a str],
     effects: Vec<WrittenEffect<'a>>,
 }
 
@@ -142,6 +144,7 @@ fn key_line(ticket: &Ticket, key: &Key) -> String {
         curved: key.curved,
         noise_sd: key.noise_sd,
         size: key.size,
+        base: &key.base,
         effects: key
             .effects
             .iter()

@@ -106,10 +106,6 @@ fn judge<E: Examination>(
     Ok(Opened { keys, cases, journal })
 }
 
-/// Rigs diagnosed before their keys are opened and they are kept; bounds memory and what an interruption costs, changes no result.
-/// At the end of a batch threads wait for the last rig.
-const BATCH: usize = 64;
-
 /// Judges what the journal does not know, batch after batch. Cases come by their number in the design.
 fn examine<E: Examination>(
     examination: &E,
@@ -130,7 +126,7 @@ fn examine<E: Examination>(
     let meter = Meter::counting("rigs diagnosed", page.quiet);
     meter.planned(new.len() as u64);
     let start = Instant::now();
-    for batch in new.chunks(BATCH) {
+    for batch in new.chunks(E::BATCH) {
         let judged = examination.judge(batch, &|| meter.advanced(1))?;
         journal.keep(batch.iter().map(Sealed::key_line).zip(&judged))?;
         cases.extend(judged);

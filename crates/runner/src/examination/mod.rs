@@ -76,6 +76,10 @@ pub trait Examination: Sync {
     /// The files of a report.
     const FILES: &'static [&'static str];
 
+    /// Rigs diagnosed before they are kept; bounds memory and what an interruption costs, changes no result. At the end of a batch threads
+    /// wait for the last rig.
+    const BATCH: usize;
+
     /// The scenario's name: that of the report's folder.
     fn name(&self) -> &str;
 

@@ -102,6 +102,8 @@ impl Case {
                 closure: stated.zip(actual).map(check),
             }
         };
+        // The maker puts a fault in the place of what the machine has of it by itself.
+        let is_replaced = |own: &str| ticket.fault.is_some_and(|fault| fault.by_maker && fault.effect == own);
         let fault = ticket.fault.zip(key.fault.as_ref()).map(|(wanted, found)| Fault {
             effect: wanted.effect,
             law: found.law.clone(),
@@ -116,7 +118,7 @@ impl Case {
             kind: ticket.kind,
             base: base.name.clone(),
             is_measured: base.made.is_none(),
-            own: base.own.clone(),
+            own: base.own.iter().copied().filter(|own| !is_replaced(own)).collect(),
             fault,
             refused: key.refused.clone(),
             answers: diagnoses.into_iter().map(answered).collect(),

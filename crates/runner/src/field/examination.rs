@@ -15,17 +15,22 @@ use std::sync::OnceLock;
 use switchback_estimator::Record;
 use switchback_estimator::estimators::free::{FreeError, Identified, InputMap, Model, Settings, identify};
 use switchback_estimator::rig::{Rig, RigRecord};
-use switchback_gap::{Diagnosis, diagnose};
+use switchback_gap::{DiagnoseError, Diagnosis, diagnose};
 use switchback_maker::{Nature, PlantedFault, PlantingGround, laws_of};
 
-/// A field examination with the program's own diagnosis.
+/// A field examination.
 #[derive(Debug)]
 pub struct Field<'a> {
     study: Study,
     bases: &'a Bases,
+    examiner: Examiner,
     /// What is identified of each base, when it is first needed.
     known: Vec<OnceLock<Known<'a>>>,
 }
+
+/// Who diagnoses: a function of what a user's folder holds, of a model given or none, and of settings.
+pub type Examiner =
+    fn(&Rig, switchback_gap::Model, &switchback_gap::Settings) -> Result<Diagnosis, DiagnoseError>;
 
 /// What is identified of a base once. Words say why something is not there.
 #[derive(Debug)]
@@ -42,10 +47,15 @@ struct Opened {
 }
 
 impl<'a> Field<'a> {
-    /// An examination on some bases.
+    /// An examination of the program's own diagnosis on some bases.
     pub fn new(study: Study, bases: &'a Bases) -> Self {
+        Self::of(diagnose, study, bases)
+    }
+
+    /// The same of any diagnosis.
+    pub fn of(examiner: Examiner, study: Study, bases: &'a Bases) -> Self {
         let known = bases.all.iter().map(|_| OnceLock::new()).collect();
-        Self { study, bases, known }
+        Self { study, bases, examiner, known }
     }
 
     fn base(&self, ticket: &Ticket) -> &'a Base {
@@ -105,7 +115,7 @@ impl<'a> Field<'a> {
         if let (Some(seed), Some(fault), Some(put_in)) = (base.made, &ticket.fault, &key.fault)
             && let Some(noise_sd) = put_in.noise_sd
         {
-            let found = (noise_sd, (put_in.magnitude, put_in.size));
+            let found = (noise_sd, put_in.magnitude, put_in.size);
             let found = made::again(seed, fault, found).map_err(told)?.ok_or("a fault without magnitude")?;
             return Ok(Opened { nominal: nominal(&found.before), rig: found.rig, before: found.before });
         }
@@ -131,7 +141,7 @@ impl<'a> Field<'a> {
         match self.open(sealed) {
             Ok(opened) => {
                 let actual = opened.closure().filter(|_| moves_simulation(&sealed.ticket));
-                Case::judge(sealed, base, opened.diagnoses(), actual)
+                Case::judge(sealed, base, opened.diagnoses(self.examiner), actual)
             }
             Err(reason) => {
                 let key = Key { refused: Some(reason), ..sealed.key.clone() };
@@ -150,12 +160,12 @@ impl Field<'static> {
 }
 
 impl Opened {
-    fn diagnoses(&self) -> Vec<(bool, Option<Diagnosis>)> {
+    fn diagnoses(&self, examiner: Examiner) -> Vec<(bool, Option<Diagnosis>)> {
         let settings = switchback_gap::Settings::default();
-        let without = diagnose(&self.rig, switchback_gap::Model::Identify, &settings).ok();
+        let without = examiner(&self.rig, switchback_gap::Model::Identify, &settings).ok();
         let with = self.nominal.as_ref().ok().and_then(|nominal| {
             let (rig, model) = met_by(self.rig.clone(), &nominal.model);
-            diagnose(&rig, model, &settings).ok()
+            examiner(&rig, model, &settings).ok()
         });
         vec![(false, without), (true, with)]
     }
@@ -250,6 +260,8 @@ impl Examination for Field<'_> {
         "confusion.*",
         "calibration.*",
     ];
+
+    const BATCH: usize = 8;
 
     fn name(&self) -> &str {
         &self.study.name

@@ -1,22 +1,18 @@
-//! Made bases, as the field has them: nothing is declared.
+//! Made bases, as the field has them.
 
 use super::design::Wanted;
 use switchback_estimator::rig::Rig;
-use switchback_maker::{Key, MadeRig, MakeError, MakeRig, Plan};
+use switchback_maker::{Key, MadeRig, MakeError, MakeRig, Setting};
 
-/// The recipe of a made base: short records, as the field has them.
-pub(super) fn recipe(seed: u64) -> MakeRig {
-    MakeRig::new(seed).plan(Plan { step: 120, periods: 8, sweep: 1500, drive: 800, repeat_periods: 3 })
-}
-
-/// A made rig as its user would describe it.
-fn undeclared(made: MadeRig) -> Rig {
-    Rig { order: None, interval: None, ..made.rig }
+/// The recipe of a made base.
+fn recipe(seed: u64) -> MakeRig {
+    MakeRig::new(seed).setting(Setting::Field)
 }
 
 /// A base without fault, and the effects that the machine has by itself.
 pub(super) fn base(seed: u64) -> Result<(Rig, Vec<&'static str>), MakeError> {
-    Ok((undeclared(recipe(seed).make()?), Vec::new()))
+    let made = recipe(seed).make()?;
+    Ok((made.rig, made.key.base))
 }
 
 /// What is known of a fault that the maker put into a machine.
@@ -31,21 +27,22 @@ pub(super) struct Found {
 
 /// The machine of a base with a fault, whose magnitude is searched for.
 pub(super) fn with_fault(seed: u64, fault: &Wanted) -> Result<Found, MakeError> {
-    let made = recipe(seed).with(fault.ingredient()?).make()?;
-    found(seed, made)
+    let recipe = recipe(seed).with(fault.ingredient()?);
+    let made = recipe.make()?;
+    found(recipe, made)
 }
 
-/// The same from what was found: standard deviation of the noise, magnitude and size.
+/// The same from what was found: standard deviation of the noise, magnitude and size. None where that is of another fault.
 pub(super) fn again(
     seed: u64,
     fault: &Wanted,
-    (noise_sd, found_before): (f64, (f64, f64)),
+    (noise_sd, magnitude, size): (f64, f64, f64),
 ) -> Result<Option<Found>, MakeError> {
-    let made = recipe(seed).with(fault.ingredient()?).from_found(noise_sd, &[found_before])?;
-    made.map(|made| found(seed, made)).transpose()
+    let recipe = recipe(seed).with(fault.ingredient()?);
+    let made = recipe.from_found(noise_sd, &[(magnitude, size)])?;
+    made.map(|made| found(recipe, made)).transpose()
 }
 
-fn found(seed: u64, made: MadeRig) -> Result<Found, MakeError> {
-    let before = recipe(seed).from_found(made.key.noise_sd, &[])?.expect("no effect, no magnitude");
-    Ok(Found { key: made.key.clone(), rig: undeclared(made), before: undeclared(before) })
+fn found(recipe: MakeRig, MadeRig { rig, key, .. }: MadeRig) -> Result<Found, MakeError> {
+    Ok(Found { key, rig, before: recipe.base().make()?.rig })
 }

@@ -23,7 +23,7 @@ mod seal;
 pub use bases::{Base, BaseError, Bases};
 pub use case::{Answered, Case, Fault};
 pub use design::{Kind, Ticket, design};
-pub use examination::Field;
+pub use examination::{Examiner, Field};
 pub use scenario::{Expect, Study, is_field, read};
 pub use score::{AnswerRow, Asked, BaseVerdicts, Claims, Rating, Scores, Stratum, TARGETS, score};
 pub use seal::{How, Key, Sealed};
