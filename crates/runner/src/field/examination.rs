@@ -3,20 +3,20 @@
 use super::bases::{Base, Bases};
 use super::case::Case;
 use super::design::{Kind, Ticket, Wanted, design};
+use super::fault::{by_maker, left, mean_square, nominal, planted, told};
 use super::made;
 use super::resample::resampled;
 use super::scenario::Study;
-use super::seal::{How, Key, PutIn, Sealed, WrittenKeys};
+use super::seal::{Key, PutIn, Sealed, WrittenKeys};
 use super::{report, score};
 use crate::diagnosis::met_by;
 use crate::examination::{Done, Examination, KEY_FILE, Report};
 use rayon::prelude::*;
 use std::sync::OnceLock;
-use switchback_estimator::Record;
-use switchback_estimator::estimators::free::{FreeError, Identified, InputMap, Model, Settings, identify};
-use switchback_estimator::rig::{Rig, RigRecord};
-use switchback_gap::{DiagnoseError, Diagnosis, diagnose};
-use switchback_maker::{Nature, PlantedFault, PlantingGround, laws_of};
+use switchback_estimator::estimators::free::Identified;
+use switchback_estimator::rig::Rig;
+use switchback_gap::{DiagnoseError, Diagnosis, Model, Settings, diagnose};
+use switchback_maker::{Nature, PlantingGround, laws_of};
 
 /// A field examination.
 #[derive(Debug)]
@@ -29,8 +29,7 @@ pub struct Field<'a> {
 }
 
 /// Who diagnoses: a function of what a user's folder holds, of a model given or none, and of settings.
-pub type Examiner =
-    fn(&Rig, switchback_gap::Model, &switchback_gap::Settings) -> Result<Diagnosis, DiagnoseError>;
+pub type Examiner = fn(&Rig, Model, &Settings) -> Result<Diagnosis, DiagnoseError>;
 
 /// What is identified of a base once. Words say why something is not there.
 #[derive(Debug)]
@@ -161,8 +160,8 @@ impl Field<'static> {
 
 impl Opened {
     fn diagnoses(&self, examiner: Examiner) -> Vec<(bool, Option<Diagnosis>)> {
-        let settings = switchback_gap::Settings::default();
-        let without = examiner(&self.rig, switchback_gap::Model::Identify, &settings).ok();
+        let settings = Settings::default();
+        let without = examiner(&self.rig, Model::Identify, &settings).ok();
         let with = self.nominal.as_ref().ok().and_then(|nominal| {
             let (rig, model) = met_by(self.rig.clone(), &nominal.model);
             examiner(&rig, model, &settings).ok()
@@ -178,71 +177,9 @@ impl Opened {
     }
 }
 
-/// What the default of `identify` gives.
-fn nominal(rig: &Rig) -> Result<Identified, String> {
-    let records: Vec<&Record> = rig.fit_records().map(|record| &record.record).collect();
-    let open = Settings { order: rig.order, interval: rig.interval, ..Settings::new(InputMap::Borders) };
-    identify(&records, &open).map_err(|error: FreeError| error.to_string())
-}
-
-/// A fault that the maker simulates in the machine itself.
-fn by_maker(seed: u64, fault: &Wanted) -> Result<PutIn, String> {
-    let found = made::with_fault(seed, fault).map_err(told)?;
-    let model = nominal(&found.before)?.model;
-    let differences = left(&model, &found.rig).zip(left(&model, &found.before)).map(|(now, then)| now - then);
-    let raw = (mean_square(differences) / mean_square(left(&model, &found.before))).sqrt();
-    let put_in = found.key.effects.first().ok_or("the maker put nothing in")?;
-    Ok(PutIn {
-        effect: put_in.effect.to_owned(),
-        law: put_in.law.to_owned(),
-        how: How::Made,
-        magnitude: put_in.magnitude,
-        unit: put_in.unit.to_owned(),
-        wanted: put_in.wanted,
-        size: put_in.size,
-        raw,
-        noise_sd: Some(found.key.noise_sd),
-    })
-}
-
-fn planted(fault: PlantedFault) -> PutIn {
-    PutIn {
-        effect: fault.effect.to_owned(),
-        law: fault.law.to_owned(),
-        how: if fault.planting.is_exact() { How::Exact } else { How::Carried },
-        magnitude: fault.magnitude,
-        unit: fault.unit.to_owned(),
-        wanted: fault.wanted,
-        size: fault.size,
-        raw: fault.raw,
-        noise_sd: None,
-    }
-}
-
-fn told(error: impl std::fmt::Display) -> String {
-    error.to_string()
-}
-
 fn moves_simulation(ticket: &Ticket) -> bool {
     let law = ticket.fault.and_then(|fault| laws_of(fault.effect).get(fault.law));
     law.is_some_and(|law| law.nature() == Nature::Systematic)
-}
-
-/// Simulation errors of a model on the held-out records, all where none is held out.
-fn left<'r>(model: &'r Model, rig: &'r Rig) -> impl Iterator<Item = f64> + 'r {
-    let any = rig.holdout_records().next().is_some();
-    let judged =
-        rig.records.iter().filter(move |r| !any || r.usage == switchback_estimator::rig::Usage::Holdout);
-    judged.flat_map(move |record: &RigRecord| {
-        let run = model.free_run(&record.record);
-        let y = record.record.y();
-        (0..y.len()).map(move |t| if t < run.start { 0.0 } else { y[t] - run.y[t] }).collect::<Vec<f64>>()
-    })
-}
-
-fn mean_square(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), x| (sum + x * x, count + 1));
-    sum / count.max(1) as f64
 }
 
 impl Examination for Field<'_> {
