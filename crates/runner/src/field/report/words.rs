@@ -62,15 +62,15 @@ fn notes(cases: &[Case], scores: &Scores) -> Vec<String> {
     );
     if scores.not_observable > 0 {
         notes.push(format!(
-            "{} faults are not observable (size below ½) and not counted.",
+            "Not observable (size below ½) and not counted: {} faults.",
             scores.not_observable
         ));
     }
     if !scores.refused.is_empty() {
-        notes.push(format!("{} rigs could not be made; results.json says why.", scores.refused.len()));
+        notes.push(format!("Could not be made, results.json says why: {} rigs.", scores.refused.len()));
     }
     if scores.failed > 0 {
-        notes.push(format!("{} diagnoses were refused; they count as silent.", scores.failed));
+        notes.push(format!("Refused, and counted as silent: {} diagnoses.", scores.failed));
     }
     if let Some(worst) = scores.strata.first() {
         let excess = worst.claims.excess().unwrap_or(0.0);

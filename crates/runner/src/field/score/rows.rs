@@ -26,7 +26,7 @@ pub struct AnswerRow {
 }
 
 /// The share of judged answers with one of some ratings.
-pub(super) fn share<'c>(asked: impl Iterator<Item = &'c Asked<'c>>, wanted: &[Rating]) -> Share {
+pub(super) fn share<'a, 'c: 'a>(asked: impl Iterator<Item = &'a Asked<'c>>, wanted: &[Rating]) -> Share {
     let ratings: Vec<Rating> = asked.filter_map(Asked::rating).collect();
     Share::over(ratings.iter(), |rating| wanted.contains(rating))
 }
@@ -47,17 +47,13 @@ pub(super) fn by<'c>(asked: &[Asked<'c>], key: impl Fn(&Asked<'c>) -> Option<Str
                 |(key, a): &&(String, &Asked<'_>)| *key == of && a.answer.with_model == with_model;
             keyed.iter().filter(is_inside).map(|(_, a)| *a)
         };
-        let counted = |wanted: &[Rating]| {
-            let ratings: Vec<Rating> = inside().filter_map(Asked::rating).collect();
-            Share::over(ratings.iter(), |rating| wanted.contains(rating))
-        };
         AnswerRow {
             with_model,
             asked: inside().count(),
-            exact: counted(&[Rating::Exact]),
-            class: counted(&RIGHT),
-            silent: counted(&[Rating::Silent]),
-            wrong: counted(&[Rating::Wrong]),
+            exact: share(inside(), &[Rating::Exact]),
+            class: share(inside(), &RIGHT),
+            silent: share(inside(), &[Rating::Silent]),
+            wrong: share(inside(), &[Rating::Wrong]),
             of: of.clone(),
         }
     };
