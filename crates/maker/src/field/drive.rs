@@ -23,6 +23,9 @@ impl Drive {
     pub(super) const ALL: [Self; 5] =
         [Self::Multisine, Self::RandomSteps, Self::Triangle, Self::SlowSweep, Self::OperatingCycles];
 
+    /// Those that come by every place again and again.
+    pub(super) const THOROUGH: [Self; 3] = [Self::Multisine, Self::Triangle, Self::SlowSweep];
+
     /// The name of a record with it.
     pub(super) fn name(self) -> &'static str {
         match self {

@@ -23,9 +23,10 @@ const WITH_FAST_POLE: f64 = 0.3;
 /// Correlation time of the equation noise, and the time constant of the fast pole, over the slowest time constant.
 const COLOUR: Range<f64> = 0.05..1.0;
 const FAST: Range<f64> = 0.06..0.2;
-/// Noise on the recorded input, and the travel along which soft borders switch, in interval widths; drawn evenly over the logarithm.
+/// Noise on the recorded input, and the travel along which soft borders switch, in interval widths; drawn evenly over the logarithm. Dahl's
+/// law is through after 2√2 lengths: the shortest is longer than what the fastest triangle, 2/24 widths a sample, could hide.
 const READING_NOISE: Range<f64> = 1e-4..3e-3;
-const TRANSITION: Range<f64> = 0.01..0.15;
+const TRANSITION: Range<f64> = 0.03..0.1;
 
 /// Draws all properties and leaves out those of the given names: the others stay what they were.
 pub(super) fn draw(seed: u64, time_constant: f64, spared: &[&str], rng: &mut ChaCha8Rng) -> Vec<Active> {

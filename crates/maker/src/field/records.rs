@@ -13,7 +13,7 @@ const MOST: usize = 4;
 /// What of a single record is held out, at its end.
 const HELD_OUT: f64 = 0.3;
 /// What most of the input takes there and back, in slowest time constants.
-const PERIOD: Range<f64> = 4.0..10.0;
+const PERIOD: Range<f64> = 6.0..10.0;
 /// Length of a record in periods, and its bounds in samples.
 const PERIODS: Range<f64> = 15.0..40.0;
 const SAMPLES: (f64, f64) = (800.0, 4000.0);
@@ -27,11 +27,12 @@ const RUN_IN: f64 = 2.0;
 /// Draws one to four records; one is held out, or the last part of a single one.
 pub(super) fn campaign(plant: &Plant, time_constant: f64, rng: &mut ChaCha8Rng) -> Vec<Passage> {
     let count = rng.random_range(1..=MOST);
-    // The first record uses the whole interval: it is one of those that are fitted, and what is held out asks for no more.
+    // The first record visits the whole interval: it is one of those that are fitted, and what is held out asks for no more.
     let held_out = if count > 1 { rng.random_range(1..count) } else { MOST };
     let record = |index: usize| {
         let usage = if index == held_out { Usage::Holdout } else { Usage::Fit };
-        let drive = Drive::ALL[rng.random_range(0..Drive::ALL.len())];
+        let drives = if index == 0 { &Drive::THOROUGH } else { Drive::ALL.as_slice() };
+        let drive = drives[rng.random_range(0..drives.len())];
         let period = time_constant * rng.random_range(PERIOD);
         let samples = (period * rng.random_range(PERIODS)).clamp(SAMPLES.0, SAMPLES.1) as usize;
         let run_in = (RUN_IN * time_constant).ceil() as usize;
