@@ -7,7 +7,15 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// The sources, and the versions of the libraries.
-const JUDGES: [&str; 5] = ["../estimator/src", "../gap/src", "../maker/src", "src/blind", "../../Cargo.lock"];
+const JUDGES: [&str; 7] = [
+    "../estimator/src",
+    "../gap/src",
+    "../maker/src",
+    "src/blind",
+    "src/examination",
+    "src/field",
+    "../../Cargo.lock",
+];
 
 fn main() -> io::Result<()> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());

@@ -41,12 +41,14 @@ pub struct Passage {
     pub role: Role,
     /// Fit or hold-out.
     pub usage: Usage,
-    /// Position in the campaign.
+    /// Position in the campaign; the parts of one recording share it, and with it all that is drawn.
     pub index: usize,
     /// Commanded input, lead-in first.
     pub v: Vec<f64>,
     /// Samples of the lead-in.
     pub lead: usize,
+    /// Samples between the lead-in and this record: those that an earlier part of the same recording holds.
+    pub skipped: usize,
     /// Samples that the campaign has run before this passage.
     pub start: usize,
     /// Samples of the whole campaign.
@@ -67,7 +69,28 @@ impl Passage {
     ) -> Self {
         let lead = v.len();
         v.extend(record);
-        Self { name, role, usage, index, v, lead, start: 0, total: 0, travel_before: 0.0, total_travel: 0.0 }
+        Self {
+            name,
+            role,
+            usage,
+            index,
+            v,
+            lead,
+            skipped: 0,
+            start: 0,
+            total: 0,
+            travel_before: 0.0,
+            total_travel: 0.0,
+        }
+    }
+
+    /// The record in two parts, the first `samples` of it and the rest, which is held out. Both belong to one recording: time, travel and
+    /// noise run on.
+    pub(crate) fn parted(self, samples: usize) -> [Self; 2] {
+        let mut first = self.clone();
+        first.v.truncate(self.lead + samples);
+        let name = format!("{}-held-out", self.name);
+        [first, Self { name, usage: Usage::Holdout, skipped: samples, ..self }]
     }
 
     /// Share of the campaign's time that has passed at sample `t` of the passage, in `[0, 1)`.
@@ -91,7 +114,7 @@ impl Passage {
 
     /// The part of a signal that is recorded.
     pub fn recorded<'s>(&self, signal: &'s [f64]) -> &'s [f64] {
-        &signal[self.lead..]
+        &signal[self.lead + self.skipped..]
     }
 }
 

@@ -1,6 +1,7 @@
 //! What was put into a rig: the key that stays sealed until the diagnosis is done.
 
 use crate::law::{INTERVAL_WIDTHS, Nature, Stage};
+use crate::setting::Setting;
 use switchback_estimator::hysteresis::Interval;
 
 /// One effect that a rig was made with.
@@ -24,7 +25,10 @@ pub struct TrueEffect {
     pub quantity: Option<&'static str>,
     /// Size that was asked for.
     pub wanted: f64,
-    /// Size that it has by itself: what survives the best nominal re-fit, in noise sd.
+    /// Size that it has by itself. In the laboratory what survives the best nominal re-fit, in noise sd; in the field what survives
+    /// identification anew, over what the model of the machine without the effect leaves on held-out records ([`PlantedFault::size`]).
+    ///
+    /// [`PlantedFault::size`]: crate::PlantedFault::size
     pub size: f64,
 }
 
@@ -50,11 +54,18 @@ pub struct Key {
     pub borders: &'static str,
     /// Whether they are curved between the levels too.
     pub curved: bool,
-    /// Standard deviation of the white equation error.
+    /// The working interval.
+    pub interval: Interval,
+    /// Standard deviation of the white equation error; where it is coloured, of its innovations.
     pub noise_sd: f64,
+    /// Where the rig stands.
+    pub setting: Setting,
+    /// Names of the effects that the machine has by itself, before any is put in; empty in the laboratory. A diagnosis that names one of
+    /// these is not wrong.
+    pub base: Vec<&'static str>,
     /// The effects; none, one or more.
     pub effects: Vec<TrueEffect>,
-    /// Size of all effects together.
+    /// Size of all effects together, in the unit of [`TrueEffect::size`].
     pub size: f64,
 }
 
@@ -65,8 +76,8 @@ pub struct Truth {
     pub record: String,
     /// Output without noise, systematic effects included.
     pub repeating: Vec<f64>,
-    /// What survives the best nominal re-fit, one step ahead, in noise sd: residual less the white equation error. Zero
-    /// before [`Truth::first`].
+    /// What survives the best nominal re-fit, one step ahead: residual less the white equation error, in noise sd. In the field residual
+    /// less that without the effects, in standard deviations of the latter. Zero before [`Truth::first`].
     pub surviving: Vec<f64>,
     /// First sample that the re-fit predicts.
     pub first: usize,

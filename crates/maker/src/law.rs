@@ -138,6 +138,11 @@ pub trait Law: Debug + Send + Sync {
     /// What magnitude 1 means.
     fn unit(&self) -> &'static str;
 
+    /// Whether the magnitude counts standard deviations of the white equation error, and so has no meaning of its own.
+    fn counts_noise(&self) -> bool {
+        self.unit() == "noise sd"
+    }
+
     /// What the magnitude is, where its unit does not say it.
     fn quantity(&self) -> Option<&'static str> {
         None

@@ -6,6 +6,9 @@
 //! besides (Bouc–Wen, Dahl, Maxwell slip, Preisach, LuGre, other envelopes, other noises). Some effects are in
 //! no library of causes at all; they serve to try whether a diagnosis can say "none of these".
 //!
+//! A rig stands in the laboratory or, by [`MakeRig::setting`], in the [field](Setting::Field): nothing is declared, no experiment is
+//! designed, the noise has a colour, and the machine has by itself what no simple model has. Sizes of effects are measured against that.
+//!
 //! The crate knows nothing of the candidates that explain a gap: it shares no law with them. It is pure: no files,
 //! clocks, threads or ambient randomness.
 //!
@@ -20,12 +23,14 @@
 
 mod campaign;
 mod effects;
+mod field;
 mod key;
 mod law;
 mod make;
 mod plant;
 mod planting;
 mod refit;
+mod setting;
 mod simulate;
 mod size;
 mod stream;
@@ -38,3 +43,4 @@ pub use law::{Dose, INTERVAL_WIDTHS, Law, Nature, Planting, Scene, Stage};
 pub use make::{Ingredient, MadeRig, MakeError, MakeRig};
 pub use plant::{Family, Plant, Shape, Table};
 pub use planting::{OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround};
+pub use setting::Setting;

@@ -2,13 +2,14 @@
 
 use crate::campaign::{Plan, campaign};
 use crate::effects::laws_of;
+use crate::field;
 use crate::key::{Key, TrueEffect, Truth};
 use crate::law::Law;
 use crate::plant::{Family, Plant};
-use crate::refit::Refit;
+use crate::setting::Setting;
 use crate::simulate::Active;
 use crate::stream::{Purpose, stream};
-use crate::workshop::Workshop;
+use crate::workshop::{Description, Workshop};
 use switchback_estimator::record::RecordError;
 use switchback_estimator::rig::Rig;
 use thiserror::Error;
@@ -39,13 +40,18 @@ pub enum MakeError {
     #[error("an effect of size {0} cannot be made; the size is a number above 0")]
     Size(f64),
     /// The key belongs to another recipe.
-    #[error("the key is of the rig with seed {key} and its effects, not of this recipe with seed {recipe}")]
+    #[error(
+        "the key is of the rig with seed {key}, its setting and its effects, not of this recipe with seed {recipe}"
+    )]
     ForeignKey {
         /// Seed of the recipe.
         recipe: u64,
         /// Seed in the key.
         key: u64,
     },
+    /// The machine's records without effects give no model that a size could be measured against.
+    #[error("the size of an effect cannot be measured in this machine ({0}); take another seed")]
+    NoSize(String),
     /// A simulated signal was no record.
     #[error("the drawn system and effect gave no finite record ({0}); take another seed")]
     Record(#[from] RecordError),
@@ -112,7 +118,10 @@ pub struct MakeRig {
     seed: u64,
     family: Family,
     plan: Plan,
+    setting: Setting,
     ingredients: Vec<Ingredient>,
+    /// Effects that the machine does not have by itself.
+    spared: Vec<&'static str>,
 }
 
 /// A rig and, apart from it, its key.
@@ -133,7 +142,9 @@ impl MakeRig {
             seed,
             family: Family { order: None, shape: None },
             plan: Plan::default(),
+            setting: Setting::default(),
             ingredients: Vec::new(),
+            spared: Vec::new(),
         }
     }
 
@@ -144,26 +155,44 @@ impl MakeRig {
         self
     }
 
-    /// Another plan of records.
+    /// Where the rig stands; the laboratory, if nothing is said.
+    #[must_use]
+    pub fn setting(mut self, setting: Setting) -> Self {
+        self.setting = setting;
+        self
+    }
+
+    /// Another plan of the laboratory's records; campaigns in the field have none.
     #[must_use]
     pub fn plan(mut self, plan: Plan) -> Self {
         self.plan = plan;
         self
     }
 
-    /// Adds an effect.
+    /// Adds an effect. A machine of the field that has it by itself loses that: what is put in is all of it.
     #[must_use]
     pub fn with(mut self, ingredient: Ingredient) -> Self {
+        self.spared.push(ingredient.law.effect());
         self.ingredients.push(ingredient);
         self
+    }
+
+    /// The same machine, inputs and noise without the effects that were added: what the rig was before.
+    #[must_use]
+    pub fn base(&self) -> Self {
+        Self { ingredients: Vec::new(), ..self.clone() }
     }
 
     /// Draws the system and the inputs, sizes each effect by itself, and takes the records.
     ///
     /// # Errors
-    /// [`MakeError::Record`] if the output is not finite.
+    /// [`MakeError::Record`] if the output is not finite, [`MakeError::NoSize`] if an effect in the field has no size.
     pub fn make(&self) -> Result<MadeRig, MakeError> {
         let mut workshop = self.workshop();
+        if self.setting == Setting::Field {
+            let (active, effects) = field::sized(&workshop, &self.ingredients)?;
+            return workshop.assemble(&active, effects);
+        }
         let (mut active, mut effects): (Vec<_>, Vec<_>) =
             self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
         if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
@@ -179,12 +208,17 @@ impl MakeRig {
     pub fn again(&self, key: &Key) -> Result<MadeRig, MakeError> {
         let same_effect =
             |(i, e): (&Ingredient, &TrueEffect)| i.law.effect() == e.effect && i.law.name() == e.law;
+        let foreign = || MakeError::ForeignKey { recipe: self.seed, key: key.seed };
         let same_count = self.ingredients.len() == key.effects.len();
-        if self.seed != key.seed || !same_count || !self.ingredients.iter().zip(&key.effects).all(same_effect)
-        {
-            return Err(MakeError::ForeignKey { recipe: self.seed, key: key.seed });
+        let same_effects = same_count && self.ingredients.iter().zip(&key.effects).all(same_effect);
+        if (self.seed, self.setting) != (key.seed, key.setting) || !same_effects {
+            return Err(foreign());
         }
-        self.with_found(key.noise_sd, key.effects.clone())
+        let made = self.with_found(key.noise_sd, key.effects.clone())?;
+        if made.key.base != key.base {
+            return Err(foreign());
+        }
+        Ok(made)
     }
 
     /// The same rig once more from what a search found: standard deviation of the noise, magnitude and size of each effect. `None`
@@ -212,11 +246,19 @@ impl MakeRig {
 
     /// The system and the campaign of the recipe.
     pub(crate) fn workshop(&self) -> Workshop {
+        if self.setting == Setting::Field {
+            return field::workshop(self.seed, self.family, &self.spared);
+        }
         let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
         let passages = campaign(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
-        let refit = Refit::new(&plant, &passages);
-        let mut workshop = Workshop { plant, passages, refit, seed: self.seed };
-        workshop.measure_reach();
-        workshop
+        let description = Description {
+            setting: Setting::Laboratory,
+            order: Some(plant.order()),
+            interval: Some(plant.interval),
+            input: "v".to_owned(),
+            output: "y".to_owned(),
+            base: Vec::new(),
+        };
+        Workshop::new(self.seed, (plant, Vec::new()), passages, description)
     }
 }

@@ -3,6 +3,7 @@
 mod draw;
 mod table;
 
+pub(crate) use draw::{CURVED, multiply};
 pub use draw::{Family, Shape};
 pub use table::Table;
 
@@ -65,13 +66,18 @@ impl Plant {
 
     /// Output noise sd over equation noise sd: `√Σe²`, `e` the impulse response of `1/A`.
     pub fn noise_amplification(&self) -> f64 {
-        self.noise_response().iter().map(|e| e * e).sum::<f64>().sqrt()
+        amplification(&self.a)
     }
 
     /// Samples after which a transient has fallen below 10⁻⁶ of its start.
     pub fn settling(&self) -> usize {
         self.noise_response().len()
     }
+}
+
+/// Standard deviation of white noise of unit variance behind `1/A`: `√Σe²`.
+pub(crate) fn amplification(a: &[f64]) -> f64 {
+    impulse_response(a).iter().map(|e| e * e).sum::<f64>().sqrt()
 }
 
 /// Impulse response of `1/A` until it has stayed below 10⁻⁶ for the length of `a`, at most 2,000 samples.

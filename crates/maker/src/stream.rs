@@ -10,6 +10,8 @@ pub(crate) enum Purpose {
     Plant,
     /// The inputs of the records.
     Drive,
+    /// What the machine has before any effect is put in.
+    Base,
     /// The shape numbers of the `i`-th effect.
     Shape(usize),
     /// The white equation error of a record.
@@ -28,6 +30,7 @@ pub(crate) fn stream(seed: u64, purpose: Purpose) -> ChaCha8Rng {
     let number = match purpose {
         Purpose::Plant => 0,
         Purpose::Drive => 1,
+        Purpose::Base => 2,
         Purpose::Shape(effect) => 16 + effect as u64,
         Purpose::Noise(record) => 1 << 16 | record as u64,
         Purpose::Effect { effect, record } => 1 << 32 | (effect as u64) << 16 | record as u64,

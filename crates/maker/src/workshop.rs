@@ -1,21 +1,40 @@
 //! A system with its campaign, on which effects are tried.
 
 use crate::campaign::Passage;
+use crate::field;
 use crate::key::{Key, TrueEffect, Truth};
-use crate::law::{Dose, Law, Nature};
+use crate::law::{Dose, Law, Nature, Scene};
 use crate::make::{Ingredient, MadeRig, MakeError};
 use crate::plant::Plant;
 use crate::refit::{Leftover, Refit};
+use crate::setting::Setting;
 use crate::simulate::{Active, Noise, Trace, simulate};
 use crate::size::magnitude_for;
 use crate::stream::{Purpose, stream};
 use rand::RngExt;
-use switchback_estimator::record::Record;
+use switchback_estimator::hysteresis::Interval;
+use switchback_estimator::record::{Record, RecordError};
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
+
+/// What is told of a machine, openly and in the key.
+pub(crate) struct Description {
+    pub(crate) setting: Setting,
+    /// Order and interval, where they are declared.
+    pub(crate) order: Option<usize>,
+    pub(crate) interval: Option<Interval>,
+    /// Labels of the signals.
+    pub(crate) input: String,
+    pub(crate) output: String,
+    /// Names of what the machine has by itself.
+    pub(crate) base: Vec<&'static str>,
+}
 
 /// A system with its campaign, on which effects are tried.
 pub(crate) struct Workshop {
     pub(crate) plant: Plant,
+    /// What the system has before any effect is put in.
+    base: Vec<Active>,
+    description: Description,
     pub(crate) passages: Vec<Passage>,
     pub(crate) refit: Refit,
     pub(crate) seed: u64,
@@ -25,19 +44,38 @@ pub(crate) struct Workshop {
 struct Trial {
     traces: Vec<Trace>,
     leftover: Leftover,
-    size: f64,
 }
 
 impl Workshop {
+    /// Lays out the re-fit of a system with what it has by itself, and learns what its output reaches.
+    pub(crate) fn new(
+        seed: u64,
+        (plant, base): (Plant, Vec<Active>),
+        passages: Vec<Passage>,
+        description: Description,
+    ) -> Self {
+        let refit = Refit::new(&plant, &passages);
+        let mut workshop = Self { plant, base, description, passages, refit, seed };
+        workshop.measure_reach();
+        workshop
+    }
+
+    /// What the system has before any effect is put in.
+    #[cfg(test)]
+    pub(crate) fn base(&self) -> &[Active] {
+        &self.base
+    }
+
     /// Runs the nominal rig once, without noise, to learn what its output reaches.
-    pub(crate) fn measure_reach(&mut self) {
+    fn measure_reach(&mut self) {
         let centre = self.plant.y_centre();
         let outputs = self.recorded(&self.traces(&[], Noise::None));
         self.plant.reach = outputs.iter().flatten().fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
     }
 
     fn traces(&self, active: &[Active], noise: Noise) -> Vec<Trace> {
-        self.passages.iter().map(|p| simulate(&self.plant, active, p, self.seed, noise)).collect()
+        let all = [&self.base, active].concat();
+        self.passages.iter().map(|p| simulate(&self.plant, &all, p, self.seed, noise)).collect()
     }
 
     fn recorded(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
@@ -47,18 +85,23 @@ impl Workshop {
     fn trial(&self, active: &[Active]) -> Trial {
         let traces = self.traces(active, Noise::Recorded);
         let leftover = self.refit.solve(&self.passages, &self.recorded(&traces));
+        Trial { traces, leftover }
+    }
+
+    /// The size of effects in the laboratory.
+    fn size(&self, active: &[Active], Trial { traces, leftover }: &Trial) -> f64 {
         // The realised noise, not σ², so that its sampling error cancels.
         let (mut sum, mut count) = (0.0, 0_usize);
-        for (passage, trace) in self.passages.iter().zip(&traces) {
+        for ((passage, trace), first) in self.passages.iter().zip(traces).zip(&leftover.first) {
             if passage.usage == Usage::Fit {
-                let white = &passage.recorded(&trace.white)[leftover.first[passage.index]..];
+                let white = &passage.recorded(&trace.white)[*first..];
                 sum += white.iter().map(|w| w * w).sum::<f64>();
                 count += white.len();
             }
         }
         let oracle: f64 = active.iter().map(|e| e.law.oracle_variance(&self.plant, &e.dose)).product();
         let ratio = leftover.variance / (oracle * sum / count as f64);
-        Trial { traces, leftover, size: (ratio - 1.0).max(0.0).sqrt() }
+        (ratio - 1.0).max(0.0).sqrt()
     }
 
     /// A law at a magnitude; its shape numbers are the rig's.
@@ -67,11 +110,15 @@ impl Workshop {
         Active { law, dose: Dose { magnitude, shape: std::array::from_fn(|_| rng.random()) }, slot }
     }
 
+    fn size_of(&self, active: &[Active]) -> f64 {
+        self.size(active, &self.trial(active))
+    }
+
     /// Finds the magnitude of one effect, alone in the rig.
     pub(crate) fn sized(&self, slot: usize, ingredient: &Ingredient) -> (Active, TrueEffect) {
         let law = ingredient.law;
         let active = |magnitude: f64| self.active(slot, law, magnitude);
-        let found = magnitude_for(ingredient.size, law.limit(), |x| self.trial(&[active(x)]).size);
+        let found = magnitude_for(ingredient.size, law.limit(), |x| self.size_of(&[active(x)]));
         (active(found.magnitude), ingredient.found(found.magnitude, found.size))
     }
 
@@ -82,12 +129,12 @@ impl Workshop {
     /// noise sds would scale along and stay.
     pub(crate) fn tune_noise(&mut self, one: &mut Active, entry: &mut TrueEffect) {
         const ROUNDS: usize = 4;
-        if one.law.nature() == Nature::Noise || one.law.unit() == "noise sd" {
+        if one.law.nature() == Nature::Noise || one.law.counts_noise() {
             return;
         }
         if one.dose.magnitude < one.law.least() {
             one.dose.magnitude = one.law.least();
-            entry.size = self.trial(std::slice::from_ref(one)).size;
+            entry.size = self.size_of(std::slice::from_ref(one));
         }
         let span = 2.0 * self.plant.y_half() / self.plant.noise_amplification();
         for _ in 0..ROUNDS {
@@ -96,53 +143,62 @@ impl Workshop {
             }
             self.plant.noise_sd =
                 (self.plant.noise_sd * entry.size / entry.wanted).clamp(2e-4 * span, 0.06 * span);
-            entry.size = self.trial(std::slice::from_ref(one)).size;
+            entry.size = self.size_of(std::slice::from_ref(one));
         }
         if entry.size > 1.05 * entry.wanted {
             let dose = |magnitude: f64| Active { dose: Dose { magnitude, ..one.dose }, ..*one };
-            let found = magnitude_for(entry.wanted, one.dose.magnitude, |x| self.trial(&[dose(x)]).size);
+            let found = magnitude_for(entry.wanted, one.dose.magnitude, |x| self.size_of(&[dose(x)]));
             (one.dose.magnitude, entry.size) = (found.magnitude, found.size);
         }
         entry.magnitude = one.dose.magnitude;
     }
 
-    pub(crate) fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
-        let trial = self.trial(active);
-        let repeating = self.traces(active, Noise::None);
-        let mut records = Vec::with_capacity(self.passages.len());
-        let mut truth = Vec::with_capacity(self.passages.len());
-        for (i, passage) in self.passages.iter().enumerate() {
-            let trace = &trial.traces[i];
-            let record =
-                Record::new(passage.recorded(&passage.v).to_vec(), passage.recorded(&trace.y).to_vec())?;
-            records.push(RigRecord {
+    /// What a user's folder would hold.
+    pub(crate) fn rig(&self, active: &[Active]) -> Result<Rig, RecordError> {
+        self.rig_of(&self.traces(active, Noise::Recorded))
+    }
+
+    fn rig_of(&self, traces: &[Trace]) -> Result<Rig, RecordError> {
+        let record = |(passage, trace): (&Passage, &Trace)| {
+            let input = self.recorded_input(passage);
+            Ok(RigRecord {
                 name: passage.name.clone(),
                 role: passage.role,
                 usage: passage.usage,
-                record,
+                record: Record::new(input, passage.recorded(&trace.y).to_vec())?,
                 predicted: None,
-            });
-            let first = trial.leftover.first[i];
-            let white = passage.recorded(&trace.white);
-            let surviving = trial.leftover.residuals[i].iter().zip(white).enumerate();
-            truth.push(Truth {
-                record: passage.name.clone(),
-                repeating: passage.recorded(&repeating[i].y).to_vec(),
-                surviving: surviving
-                    .map(|(t, (r, w))| if t < first { 0.0 } else { (r - w) / self.plant.noise_sd })
-                    .collect(),
-                first,
-            });
-        }
-        let rig = Rig {
+            })
+        };
+        Ok(Rig {
             name: format!("rig-{}", self.seed),
             sample_time: self.plant.sample_time,
-            order: Some(self.plant.order()),
-            interval: Some(self.plant.interval),
-            input_label: "v".to_owned(),
-            output_label: "y".to_owned(),
-            records,
+            order: self.description.order,
+            interval: self.description.interval,
+            input_label: self.description.input.clone(),
+            output_label: self.description.output.clone(),
+            records: self.passages.iter().zip(traces).map(record).collect::<Result<_, RecordError>>()?,
+        })
+    }
+
+    /// The input of a passage, as the machine by itself records it.
+    fn recorded_input(&self, passage: &Passage) -> Vec<f64> {
+        let mut v = passage.v.clone();
+        for Active { law, dose, slot } in &self.base {
+            let rng = stream(self.seed, Purpose::Effect { effect: *slot, record: passage.index });
+            law.recording(&mut Scene { plant: &self.plant, passage, dose: *dose, rng }, &mut v);
+        }
+        passage.recorded(&v).to_vec()
+    }
+
+    /// The rig with its key and its truth.
+    pub(crate) fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
+        let trial = self.trial(active);
+        let rig = self.rig_of(&trial.traces)?;
+        let size = match self.description.setting {
+            Setting::Laboratory => self.size(active, &trial),
+            Setting::Field => field::size_of_all(self, active, &effects)?,
         };
+        let truth = self.truth(active, &trial);
         let key = Key {
             seed: self.seed,
             order: self.plant.order(),
@@ -150,10 +206,44 @@ impl Workshop {
             b: self.plant.b.clone(),
             borders: self.plant.shape.name(),
             curved: self.plant.curved,
+            interval: self.plant.interval,
             noise_sd: self.plant.noise_sd,
+            setting: self.description.setting,
+            base: self.description.base.clone(),
             effects,
-            size: trial.size,
+            size,
         };
         Ok(MadeRig { rig, key, truth })
+    }
+
+    fn truth(&self, active: &[Active], trial: &Trial) -> Vec<Truth> {
+        let repeating = self.traces(active, Noise::None);
+        let (expected, scale) = self.without_effects(trial);
+        let of = |(i, passage): (usize, &Passage)| {
+            let first = trial.leftover.first[i];
+            let both = trial.leftover.residuals[i].iter().zip(&expected[i]).enumerate();
+            Truth {
+                record: passage.name.clone(),
+                repeating: passage.recorded(&repeating[i].y).to_vec(),
+                surviving: both.map(|(t, (r, w))| if t < first { 0.0 } else { (r - w) / scale }).collect(),
+                first,
+            }
+        };
+        self.passages.iter().enumerate().map(of).collect()
+    }
+
+    /// What the re-fit would leave of each record if there were no effects, and its standard deviation: of a nominal system the white
+    /// equation error.
+    fn without_effects(&self, trial: &Trial) -> (Vec<Vec<f64>>, f64) {
+        match self.description.setting {
+            Setting::Laboratory => {
+                let white = |(p, t): (&Passage, &Trace)| p.recorded(&t.white).to_vec();
+                (self.passages.iter().zip(&trial.traces).map(white).collect(), self.plant.noise_sd)
+            }
+            Setting::Field => {
+                let base = self.trial(&[]).leftover;
+                (base.residuals, base.variance.sqrt())
+            }
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! The blind study, with examiners that are easy to foresee in place of the diagnosis.
 
 use std::collections::BTreeMap;
-use switchback::blind::{self, Expect, Journal, KEY_FILE, Kind, Sealed, Study, WrittenKeys};
+use switchback::blind::{self, Case, Expect, Kind, Sealed, Study, WrittenKeys};
+use switchback::examination::{Journal, KEY_FILE, Sealed as _, key_file};
 use switchback::output::sha256;
 use switchback::plots;
 use switchback_estimator::rig::Rig;
@@ -105,7 +106,7 @@ fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
     pool.install(|| {
         let study = study();
         let sealed = sealed(&study);
-        let key = blind::key_file(&sealed);
+        let key = key_file(&sealed);
         let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
         let scores = blind::score(&cases, &study.expect);
         let files = blind::artefacts(&study, &sha256(&key), &cases, &scores);
@@ -176,6 +177,10 @@ fn a_refused_rig_counts_as_failed() {
     assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
 }
 
+fn keep(journal: &mut Journal<Case>, rigs: &[Sealed], cases: &[Case]) {
+    journal.keep(rigs.iter().map(|rig| rig.key_line()).zip(cases)).unwrap();
+}
+
 #[test]
 fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     let folder = tempfile::tempdir().unwrap();
@@ -183,27 +188,27 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     study.slice = Some(4);
     let sealed = sealed(&study);
     let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
-    let mut journal = Journal::open(folder.path(), "one").unwrap();
-    assert!(sealed.iter().all(|rig| journal.recall(rig).is_none()));
-    journal.keep(&sealed[..2], &cases[..2]).unwrap();
+    let mut journal = Journal::<Case>::open(folder.path(), "one").unwrap();
+    assert!(sealed.iter().all(|rig| journal.recall(&rig.key_line()).is_none()));
+    keep(&mut journal, &sealed[..2], &cases[..2]);
     drop(journal);
 
     // Interrupted within a line, and taken up.
     let path = folder.path().join("unfinished.jsonl");
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, &text[..text.len() - 9]).unwrap();
-    let mut journal = Journal::open(folder.path(), "one").unwrap();
-    let known: Vec<_> = sealed.iter().map(|rig| journal.recall(rig)).collect();
+    let mut journal = Journal::<Case>::open(folder.path(), "one").unwrap();
+    let known: Vec<_> = sealed.iter().map(|rig| journal.recall(&rig.key_line())).collect();
     assert_eq!(known, [Some(&cases[0]), None, None, None]);
-    journal.keep(&sealed[1..3], &cases[1..3]).unwrap();
+    keep(&mut journal, &sealed[1..3], &cases[1..3]);
     drop(journal);
 
     let known = |program: &str| {
-        let journal = Journal::open(folder.path(), program).unwrap();
-        sealed.iter().filter(|rig| journal.recall(rig).is_some()).count()
+        let journal = Journal::<Case>::open(folder.path(), program).unwrap();
+        sealed.iter().filter(|rig| journal.recall(&rig.key_line()).is_some()).count()
     };
     assert_eq!([known("one"), known("another")], [3, 0]);
-    Journal::open(folder.path(), "one").unwrap().close().unwrap();
+    Journal::<Case>::open(folder.path(), "one").unwrap().close().unwrap();
     assert_eq!(known("one"), 0);
 }
 
@@ -213,17 +218,17 @@ fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
     let folder = parent.path().join("new");
     let mut study = study();
     study.slice = Some(4);
-    let file = blind::key_file(&sealed(&study));
-    assert!(Journal::open(&folder, "one").unwrap().keys().is_empty());
+    let file = key_file(&sealed(&study));
+    assert!(Journal::<Case>::open(&folder, "one").unwrap().keys().is_empty());
     std::fs::write(folder.join(KEY_FILE), &file).unwrap();
-    let is_known = |program: &str| !Journal::open(&folder, program).unwrap().keys().is_empty();
+    let is_known = |program: &str| !Journal::<Case>::open(&folder, program).unwrap().keys().is_empty();
     // A file that nobody vouches for.
     assert!(!is_known("one"));
-    Journal::open(&folder, "one").unwrap().keep_keys(&sha256(&file)).unwrap();
+    Journal::<Case>::open(&folder, "one").unwrap().keep_keys(&sha256(&file)).unwrap();
     assert_eq!([is_known("one"), is_known("another")], [true, false]);
-    let keys = Journal::open(&folder, "one").unwrap().keys();
+    let keys = WrittenKeys::read(&Journal::<Case>::open(&folder, "one").unwrap().keys());
     let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();
-    assert_eq!(blind::key_file(&again), file);
+    assert_eq!(key_file(&again), file);
     // A file that was changed since.
     std::fs::write(folder.join(KEY_FILE), file.replacen("size", "sice", 1)).unwrap();
     assert!(!is_known("one"));

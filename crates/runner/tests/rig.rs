@@ -85,3 +85,35 @@ fn a_play_is_told_by_its_full_width_in_input_units() {
     assert_eq!((&effect["quantity"], &effect["unit"]), (&"full width".into(), &"input units".into()));
     assert!((effect["magnitude"].as_f64().unwrap() - 0.4).abs() < 1e-9, "{effect}");
 }
+
+#[test]
+fn a_rig_of_the_field_declares_nothing_and_its_key_tells_the_machine_from_what_was_put_in() {
+    let root = tempfile::tempdir().unwrap();
+    let made = |name: &str, options: &[&str]| {
+        let out = root.path().join(name);
+        let run = switchback()
+            .args(["rig", "--field", "--seed", "5"])
+            .args(options)
+            .arg("--out")
+            .arg(&out)
+            .assert();
+        let told = String::from_utf8(run.success().get_output().stdout.clone()).unwrap();
+        (told, fs::read_to_string(out.join("rig.toml")).unwrap())
+    };
+    let (told, manifest) = made("bare", &[]);
+    assert!(told.contains("of the field: by itself it has coloured_noise"), "{told}");
+    assert!(told.ends_with("no effect\n"), "{told}");
+    assert!(!manifest.contains("order") && !manifest.contains("interval"), "{manifest}");
+    assert!(manifest.contains("role = \"free\"") && manifest.contains("use = \"holdout\""), "{manifest}");
+    assert_eq!(manifest.matches("role = ").count(), manifest.matches("role = \"free\"").count());
+
+    let (told, of_backlash) = made("backlash", &["--effect", "backlash", "--size", "2"]);
+    let survives = "times what the model leaves without it";
+    assert!(told.contains("backlash (play, operator): full width") && told.contains(survives), "{told}");
+    assert_eq!(of_backlash, manifest, "the description must not tell");
+
+    let (told, _) = made("json", &["--json"]);
+    let key: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((&key["setting"], &key["base"][0]), (&"field".into(), &"coloured_noise".into()));
+    assert_eq!(key["effects"], serde_json::json!([]));
+}

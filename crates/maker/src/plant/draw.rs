@@ -63,6 +63,16 @@ impl Shape {
 impl Plant {
     /// Draws a system: order, poles, zeros, interval, levels, borders, units, noise.
     pub(crate) fn draw(family: Family, rng: &mut ChaCha8Rng) -> Self {
+        Self::draw_with(family, (draw_poles, CURVED), rng)
+    }
+
+    /// The same with a law of its own for the denominator of a given order, and with so many of the borders that bend curved between the
+    /// levels.
+    pub(crate) fn draw_with(
+        family: Family,
+        (poles, often_curved): (impl FnOnce(usize, &mut ChaCha8Rng) -> Vec<f64>, f64),
+        rng: &mut ChaCha8Rng,
+    ) -> Self {
         let order = family.order.unwrap_or_else(|| rng.random_range(1..=3));
         let shape = family.shape.unwrap_or_else(|| Shape::ALL[rng.random_range(0..Shape::ALL.len())]);
         let interval = draw_interval(rng);
@@ -70,13 +80,13 @@ impl Plant {
         let levels: Vec<f64> =
             (0..=m).map(|j| interval.low() + interval.width() * f64::from(j) / f64::from(m)).collect();
         let borders = Borders::draw(shape, &levels, rng);
-        let a = draw_poles(order, rng);
+        let a = poles(order, rng);
         let span = rng.random_range(-0.5..2.0_f64).exp2() * 10.0_f64.powi(rng.random_range(-1..=2));
         let b = draw_numerator(&a, span, rng);
         let sample_time = [1e-4, 1e-3, 0.01, 0.05][rng.random_range(0..4)];
         // The output's noise, not the equation's, is what an engineer sees: 0.1 % to 2 % of the stationary span.
         let noise = 10.0_f64.powf(rng.random_range(-3.0..-1.7));
-        let curved = shape.is_curved() && rng.random_bool(CURVED);
+        let curved = shape.is_curved() && rng.random_bool(often_curved);
         let table = borders.table(&levels, if curved { POINTS } else { 1 });
         let hysteresis =
             SwitchedHysteresis::new(interval, Box::new(table)).expect("drawn borders span exactly one");
@@ -110,7 +120,7 @@ fn draw_interval(rng: &mut ChaCha8Rng) -> Interval {
 }
 
 /// How often borders that bend do so between the levels too, and in how many straight pieces a cell.
-const CURVED: f64 = 0.5;
+pub(crate) const CURVED: f64 = 0.5;
 const POINTS: usize = 16;
 
 /// The curves that borders follow.
@@ -222,7 +232,8 @@ fn draw_numerator(a: &[f64], span: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
     }
 }
 
-fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
+/// Product of two polynomials, constant term first.
+pub(crate) fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; p.len() + q.len() - 1];
     for (i, x) in p.iter().enumerate() {
         for (j, y) in q.iter().enumerate() {

@@ -15,19 +15,17 @@
 //! as they are, `ŷ'` one of the same order, delay and knots identified from those with the fault. The *raw* size has `ŷ` in place of `ŷ'`,
 //! on the planted input: what a model given beforehand newly misses.
 
+mod again;
 mod alter;
 mod base;
 mod carrier;
+mod search;
 
-use self::alter::altered;
-use self::base::Base;
+pub(crate) use self::base::Base;
 use self::carrier::Carrier;
-use crate::law::{Dose, Nature, Planting, Stage};
+pub(crate) use self::search::{Trial, search};
+use crate::law::{Nature, Planting, Stage};
 use crate::make::{Ingredient, MakeError};
-use crate::simulate::Active;
-use crate::size::magnitude_for;
-use crate::stream::{Purpose, stream};
-use rand::RngExt;
 use switchback_estimator::estimators::free::{FreeError, Model};
 use switchback_estimator::hysteresis::HysteresisError;
 use switchback_estimator::record::RecordError;
@@ -36,12 +34,6 @@ use thiserror::Error;
 
 /// Sizes below this are told as not observable: less than half of what the model misses anyway.
 pub const OBSERVABLE: f64 = 0.5;
-
-/// Sizes are met to this share, in at most so many identifications.
-const TOLERANCE: f64 = 0.05;
-const ROUNDS: usize = 10;
-/// Largest change of the magnitude, as a factor, from one identification to the next.
-const STRIDE: f64 = 4.0;
 
 /// Why no fault could be planted.
 #[derive(Debug, Error)]
@@ -140,37 +132,8 @@ impl<'a> PlantingGround<'a> {
     /// [`PlantingError::Record`] where the altered signals are not finite.
     pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
         let law = ingredient.law;
-        let mut rng = stream(seed, Purpose::Shape(0));
-        let shape = std::array::from_fn(|_| rng.random());
-        let with = |magnitude: f64| {
-            let active = Active { law, dose: Dose { magnitude, shape }, slot: 0 };
-            altered(self.rig, &self.carrier, &active, seed)
-        };
-        // The raw size costs no identification: the search begins where that is as wanted.
-        let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| self.base.raw(&rig));
-        let mut tried = magnitude_for(ingredient.size, law.limit(), raw).magnitude;
-        let sized = |magnitude: f64| {
-            let rig = with(magnitude)?;
-            let size = self.base.surviving(&rig);
-            Ok::<_, PlantingError>(Trial { magnitude, size, rig })
-        };
-        let miss = |size: f64| (size / ingredient.size).max(1e-9).ln().abs();
-        let mut best = sized(tried)?;
-        let mut last = best.size;
-        for _ in 1..ROUNDS {
-            let wanted = ingredient.size / last.max(1e-9);
-            let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(law.limit());
-            if (wanted - 1.0).abs() < TOLERANCE || next == tried {
-                break;
-            }
-            tried = next;
-            let trial = sized(tried)?;
-            last = trial.size;
-            if miss(trial.size) < miss(best.size) {
-                best = trial;
-            }
-        }
-        let Trial { magnitude, size, rig } = best;
+        let with = |magnitude: f64| self.again(ingredient, magnitude, seed);
+        let Trial { magnitude, size, rig } = search(&self.base, ingredient.size, law.limit(), with)?;
         let fault = PlantedFault {
             effect: law.effect(),
             law: law.name(),
@@ -186,13 +149,6 @@ impl<'a> PlantingGround<'a> {
         };
         Ok(PlantedRig { rig, fault })
     }
-}
-
-/// The records with the fault at a magnitude, and its size there.
-struct Trial {
-    magnitude: f64,
-    size: f64,
-    rig: Rig,
 }
 
 #[cfg(test)]

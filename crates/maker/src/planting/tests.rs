@@ -1,8 +1,10 @@
+use super::alter::altered;
 use super::*;
 use crate::campaign::Plan;
 use crate::effects::{EFFECTS, FOREIGN, laws_of};
+use crate::law::Dose;
 use crate::make::MakeRig;
-use crate::simulate::{Noise, simulate};
+use crate::simulate::{Active, Noise, simulate};
 use switchback_estimator::record::Record;
 use switchback_estimator::rig::{RigRecord, Role, Usage};
 
@@ -73,7 +75,9 @@ fn sizes_are_what_survives_identification_anew() {
         assert!((fault.size / 2.0 - 1.0).abs() < 0.1 && fault.is_observable(), "{fault:?}");
         assert_eq!(fault.planting.is_exact(), is_exact, "{fault:?}");
         assert!(fault.raw > 0.5 && fault.residual > 0.0, "{fault:?}");
-        // The same seed, the same fault; another one, another.
+        // The same seed, the same fault, searched for or not; another one, another.
+        let known = ground.again(&ingredient, fault.magnitude, 11).expect("a fault");
+        assert!(planted.records == known.records, "{fault:?}");
         let again = ground.plant(&ingredient, 11).expect("a fault").rig;
         assert!(planted.records == again.records, "{fault:?}");
     }

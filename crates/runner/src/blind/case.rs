@@ -3,26 +3,10 @@
 use super::design::{Kind, Ticket};
 use super::place::{PlaceCheck, check};
 use super::twins::same_class;
+use crate::examination::{ClosureCheck, Evidence, Judged, Reply};
 use serde::{Deserialize, Serialize};
-use switchback_gap::{Diagnosis, Status, Together};
+use switchback_gap::Diagnosis;
 use switchback_maker::{MadeRig, Nature};
-
-/// What a diagnosis said, in the words of its JSON.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Reply {
-    /// `none`, `named`, `class`, `ambiguous`, `unexplained`, or `failed` where the rig was refused.
-    pub status: &'static str,
-    /// Effects named; empty unless `named`.
-    pub effects: Vec<&'static str>,
-    /// Effects left standing (`class`, `ambiguous`).
-    pub class: Vec<&'static str>,
-    /// Stage pointed at.
-    pub stage: Option<&'static str>,
-    /// Probability that the verdict holds.
-    pub probability: f64,
-    /// The likeliest explanation (an effect, `none` or `unexplained`) and its probability.
-    pub top: (&'static str, f64),
-}
 
 /// What simpler rules would have named from the same fits; none where they see no gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,77 +17,6 @@ pub struct Baseline {
     pub heldout_winner: Option<&'static str>,
     /// The candidate with the lowest BIC.
     pub plain_bic: Option<&'static str>,
-}
-
-/// What the fits left and gained.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(bound(deserialize = "'de: 'static"))]
-pub struct Evidence {
-    /// Deviance that causes in general would still gain.
-    pub left: f64,
-    /// Best candidates: effect, gain in penalised deviance, held-out gain in nats a sample, held-out closure.
-    pub candidates: Vec<(&'static str, f64, f64, Option<f64>)>,
-    /// Samples fitted.
-    pub samples: usize,
-    /// The best pair of effects, where one was looked for.
-    pub together: Option<PairEvidence>,
-}
-
-/// What the best pair of effects gained and left.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(bound(deserialize = "'de: 'static"))]
-pub struct PairEvidence {
-    /// Both effects.
-    pub effects: Vec<&'static str>,
-    /// Penalised deviance gained over the best single effect.
-    pub gain: f64,
-    /// Deviance that causes in general would still gain beside the pair.
-    pub left: f64,
-    /// The same beside the best single effect.
-    pub left_by_single: f64,
-}
-
-impl PairEvidence {
-    fn of(pair: &Together) -> Self {
-        Self {
-            effects: pair.effects.iter().map(|e| e.name()).collect(),
-            gain: pair.gain,
-            left: pair.left,
-            left_by_single: pair.left_by_single,
-        }
-    }
-}
-
-impl Evidence {
-    /// Candidates kept.
-    const KEPT: usize = 4;
-
-    fn of(d: &Diagnosis) -> Self {
-        let mut candidates: Vec<_> = d
-            .candidates
-            .iter()
-            .map(|c| (c.effect.name(), c.delta_bic, c.heldout_log_score, c.closure))
-            .collect();
-        candidates.sort_by(|x, y| y.1.total_cmp(&x.1));
-        candidates.truncate(Self::KEPT);
-        Self {
-            left: d.left,
-            candidates,
-            samples: d.samples,
-            together: d.together.as_ref().map(PairEvidence::of),
-        }
-    }
-}
-
-/// The closure stated against the closure that the stated models really have.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ClosureCheck {
-    /// Stated.
-    pub estimate: f64,
-    /// Stated 90 % interval.
-    pub ci90: [f64; 2],
-    /// `1 − Σ(ȳ − ŷ_augmented)²/Σ(ȳ − ŷ_nominal)²` over the hold-out records, `ȳ` the output without noise.
-    pub actual: f64,
 }
 
 /// One rig, judged.
@@ -231,25 +144,13 @@ impl Case {
     }
 }
 
-impl Reply {
-    fn refused() -> Self {
-        let (effects, class) = (Vec::new(), Vec::new());
-        Self { status: "failed", effects, class, stage: None, probability: 0.0, top: ("failed", 0.0) }
+impl Judged for Case {
+    fn id(&self) -> usize {
+        self.id
     }
 
-    fn of(d: &Diagnosis) -> Self {
-        let named = if d.verdict.status == Status::Named { d.verdict.effects.as_slice() } else { &[] };
-        let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
-        let effects = d.candidates.iter().map(|c| (c.effect.name(), c.probability));
-        let top = effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best });
-        Self {
-            status: d.verdict.status.name(),
-            effects: named.iter().map(|e| e.name()).collect(),
-            class: d.verdict.class.iter().map(|e| e.name()).collect(),
-            stage: d.verdict.stage.map(|s| s.name()),
-            probability: d.verdict.probability,
-            top,
-        }
+    fn answers(cases: &[Self]) -> String {
+        super::report::answers(cases)
     }
 }
 
@@ -269,6 +170,7 @@ impl Baseline {
     }
 }
 
+/// What really closes is `1 − Σ(ȳ − ŷ_augmented)²/Σ(ȳ − ŷ_nominal)²` over the hold-out records, `ȳ` the output without noise.
 fn closure(d: &Diagnosis, made: &MadeRig) -> Option<ClosureCheck> {
     let stated = d.gap.closure?;
     if made.key.effects.iter().all(|e| e.nature == Nature::Noise) {

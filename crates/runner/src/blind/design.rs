@@ -2,6 +2,7 @@
 
 use super::scenario::Study;
 use super::twins::same_class;
+use crate::examination::scramble;
 use serde::{Deserialize, Serialize};
 use switchback_maker::{FOREIGN, Family, Ingredient, MakeError, MakeRig, laws_of};
 
@@ -111,12 +112,4 @@ fn pair(effects: &[&'static str], mut state: u64) -> (&'static str, &'static str
             return (one, other);
         }
     }
-}
-
-/// A well-mixed number from a seed and a position: SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
-pub(super) fn scramble(seed: u64, position: u64) -> u64 {
-    let mut z = seed.wrapping_add((position + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
 }

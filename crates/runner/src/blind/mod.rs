@@ -10,9 +10,8 @@
 
 mod case;
 mod design;
+mod examination;
 mod examine;
-mod journal;
-mod part;
 mod place;
 mod report;
 mod scenario;
@@ -20,17 +19,16 @@ mod score;
 mod seal;
 mod twins;
 
-pub use case::{Baseline, Case, ClosureCheck, Reply};
+pub use case::{Baseline, Case};
 pub use design::{Kind, Ticket, design};
+pub use examination::Blind;
 pub use examine::{Examiner, examine};
-pub use journal::{Journal, JournalError, KEY_FILE};
-pub use part::{MergeError, PART_FILE, Part, merged};
 pub use place::PlaceCheck;
 pub use report::{artefacts, summary};
-pub use scenario::{BlindError, Expect, Study, is_blind, read};
+pub use scenario::{Expect, Study, is_blind, read};
 pub use score::{
-    AbstentionRow, AccuracyRow, BaselineRow, Bound, Calibration, CalibrationBin, ClosureRow, Confusion,
-    Measure, PlaceRow, Scores, Share, SizeRow, TARGETS, score,
+    AbstentionRow, AccuracyRow, BaselineRow, Calibration, ClosureRow, Confusion, PlaceRow, Scores, SizeRow,
+    TARGETS, score,
 };
-pub use seal::{Sealed, WrittenKeys, key_file, seal};
+pub use seal::{Sealed, WrittenKeys, seal};
 pub use twins::{class_of, same_class};

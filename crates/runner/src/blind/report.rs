@@ -5,7 +5,8 @@ mod tables;
 
 use super::case::Case;
 use super::scenario::Study;
-use super::score::{Bound, Measure, Scores};
+use super::score::Scores;
+use crate::examination::measures_table;
 use crate::output::Artefacts;
 use std::fmt::Write;
 
@@ -15,7 +16,7 @@ pub fn artefacts(study: &Study, key_sha256: &str, cases: &[Case], scores: &Score
     artefacts.add("results.json", json::results(study, key_sha256, cases, scores));
     artefacts.add("summary.txt", summary(scores));
     artefacts.add("answers.csv", tables::answers(cases));
-    artefacts.add("confusion.csv", tables::confusion(&scores.confusion));
+    artefacts.add("confusion.csv", scores.confusion.csv());
     artefacts.add("accuracy.csv", tables::accuracy(&scores.accuracy));
     artefacts.add("calibration.csv", tables::calibration(&scores.calibration));
     artefacts.add("abstention.csv", tables::abstention(&scores.abstention));
@@ -30,27 +31,9 @@ pub(super) fn answers(cases: &[Case]) -> String {
     tables::answers(cases)
 }
 
-/// The table of measures, as printed: measure, what must be reached, what was and its 95 % interval, how many
-/// rigs tell.
+/// The table of measures and that of simpler rules, as printed.
 pub fn summary(scores: &Scores) -> String {
-    let mut text = format!(
-        "{:51} {:>11} {:>9} {:>15} {:>6}\n",
-        "measure", "must reach", "reached", "95 % interval", "rigs"
-    );
-    for measure in &scores.measures {
-        let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| figure(measure, x));
-        let mark = match (measure.reached, measure.meets_target()) {
-            (None, _) => "  not told",
-            (_, Some(false)) => "  short",
-            _ => "",
-        };
-        let interval = measure
-            .interval
-            .map_or_else(String::new, |[low, high]| format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high));
-        let target = measure.target.map_or_else(String::new, |bound| told(measure, bound));
-        let (what, rigs, broken) = (measure.text, measure.rigs, unexpected(measure));
-        let _ = writeln!(text, "{what:51} {target:>11} {reached:>9} {interval:>15} {rigs:>6}{mark}{broken}");
-    }
+    let mut text = measures_table(&scores.measures);
     let _ = writeln!(
         text,
         "\n{:24} {:>13} {:>12} {:>14} {:>10}",
@@ -64,27 +47,4 @@ pub fn summary(scores: &Scores) -> String {
     }
     text.push_str("The rules name one effect: precision is that over rigs with one or none.\n");
     text
-}
-
-fn unexpected(measure: &Measure) -> String {
-    match measure.expected.filter(|_| measure.is_unexpected()) {
-        Some(bound) => format!("  UNEXPECTED: the scenario wants {}", told(measure, bound)),
-        None => String::new(),
-    }
-}
-
-/// Shares in percent, everything else as it is.
-fn figure(measure: &Measure, x: f64) -> String {
-    match measure.key {
-        "ece" | "closure_error" | "where_f1" => format!("{x:.3}"),
-        _ => format!("{:.1} %", 100.0 * x),
-    }
-}
-
-fn told(measure: &Measure, bound: Bound) -> String {
-    match bound {
-        Bound::AtLeast(x) => format!("≥ {}", figure(measure, x)),
-        Bound::AtMost(x) => format!("≤ {}", figure(measure, x)),
-        Bound::Within(low, high) => format!("{:.0}–{:.0} %", 100.0 * low, 100.0 * high),
-    }
 }

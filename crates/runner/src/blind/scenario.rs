@@ -18,12 +18,11 @@
 //! ```
 
 use super::twins::same_class;
-use crate::input::{FileError, TomlError, TomlFile, closest};
-use miette::Diagnostic;
+use crate::examination::{ScenarioError, effects_listed, study_of};
+use crate::input::{TomlError, TomlFile};
 use serde::Deserialize;
 use std::path::Path;
-use switchback_maker::{EFFECTS, Plan};
-use thiserror::Error;
+use switchback_maker::Plan;
 use toml::Spanned;
 
 /// A blind study that can be run.
@@ -105,38 +104,16 @@ struct WireStudy {
     expect: Expect,
 }
 
-/// Why a file is no blind study.
-#[derive(Debug, Error, Diagnostic)]
-#[non_exhaustive]
-pub enum BlindError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    File(#[from] FileError),
-    /// Its content is refused.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Content(Box<TomlError>),
-}
-
-impl From<TomlError> for BlindError {
-    fn from(error: TomlError) -> Self {
-        Self::Content(Box::new(error))
-    }
-}
-
 /// Whether a file calls itself a blind study; one that cannot be read or parsed does not.
 pub fn is_blind(path: &Path) -> bool {
-    let Ok(file) = TomlFile::read(path) else { return false };
-    let table: Result<toml::Table, _> = file.parse();
-    table.is_ok_and(|t| t.get("study").and_then(toml::Value::as_str) == Some("blind"))
+    study_of(path).as_deref() == Some("blind")
 }
 
 /// Reads and checks a scenario with `study = "blind"`.
 ///
 /// # Errors
-/// [`BlindError`] if it cannot be read, holds unknown keys or impossible values; content errors name the place.
-pub fn read(path: &Path) -> Result<Study, BlindError> {
+/// [`ScenarioError`] if it cannot be read, holds unknown keys or impossible values; content errors name the place.
+pub fn read(path: &Path) -> Result<Study, ScenarioError> {
     let file = TomlFile::read(path)?;
     let wire: WireStudy = file.parse()?;
     check(&file, &wire)?;
@@ -189,28 +166,9 @@ fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
     Ok(())
 }
 
-/// The effects asked for, by the names of the catalogue.
+/// The effects asked for, where pairs can be made of them if any are wanted.
 fn effects(file: &TomlFile, wire: &WireStudy) -> Result<Vec<&'static str>, TomlError> {
-    let mut effects = Vec::new();
-    for name in wire.effects.iter().flatten() {
-        let known = EFFECTS.into_iter().find(|known| known == name.get_ref());
-        let Some(effect) = known else {
-            let remedy = closest(name.get_ref(), EFFECTS).map_or_else(
-                || format!("known are {}", EFFECTS.join(", ")),
-                |near| format!("did you mean `{near}`?"),
-            );
-            let message = format!("`{}` is no effect that can be made", name.get_ref());
-            return Err(file.error(name.span(), message, remedy));
-        };
-        if effects.contains(&effect) {
-            let message = format!("`{effect}` is listed twice");
-            return Err(file.error(name.span(), message, "name each effect once"));
-        }
-        effects.push(effect);
-    }
-    if wire.effects.is_none() {
-        effects = EFFECTS.to_vec();
-    }
+    let effects = effects_listed(file, wire.effects.as_deref())?;
     let any_pair = effects.iter().any(|one| effects.iter().any(|other| !same_class(one, other)));
     if *wire.pairs.get_ref() > 0 && !any_pair {
         let message = "no two of the effects listed may be put in together: all are twins";

@@ -1,6 +1,7 @@
 //! Making the rigs and sealing their keys.
 
 use super::design::Ticket;
+use crate::examination;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -88,11 +89,6 @@ impl WrittenKeys {
         Self(key_file.lines().filter_map(key).collect())
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// The key of a rig, if making the rig again from what was found gives the line that was written.
     fn reopened(&self, ticket: &Ticket) -> Result<Option<Key>, MakeError> {
         let Some((line, Found { noise_sd, effects, .. })) = self.0.get(&ticket.id) else { return Ok(None) };
@@ -113,6 +109,8 @@ struct WrittenKey<'a> {
     curved: bool,
     noise_sd: f64,
     size: f64,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    base: &'a [&'a str],
     effects: Vec<WrittenEffect<'a>>,
 }
 
@@ -125,9 +123,12 @@ struct WrittenEffect<'a> {
     size: f64,
 }
 
-impl Sealed {
-    /// The rig's line in the key file: whatever makes one rig another.
-    pub fn key_line(&self) -> String {
+impl examination::Sealed for Sealed {
+    fn id(&self) -> usize {
+        self.ticket.id
+    }
+
+    fn key_line(&self) -> String {
         key_line(&self.ticket, &self.key)
     }
 }
@@ -143,6 +144,7 @@ fn key_line(ticket: &Ticket, key: &Key) -> String {
         curved: key.curved,
         noise_sd: key.noise_sd,
         size: key.size,
+        base: &key.base,
         effects: key
             .effects
             .iter()
@@ -158,17 +160,11 @@ fn key_line(ticket: &Ticket, key: &Key) -> String {
     serde_json::to_string(&written).expect("numbers and strings are JSON")
 }
 
-/// The key file: one JSON object a line and a rig, in the order of the design.
-pub fn key_file(sealed: &[Sealed]) -> String {
-    let mut all: Vec<&Sealed> = sealed.iter().collect();
-    all.sort_by_key(|one| one.ticket.id);
-    all.into_iter().fold(String::new(), |text, one| text + &one.key_line() + "\n")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::blind::Kind;
+    use crate::examination::key_file;
     use switchback_maker::{Ingredient, MakeRig, Plan};
 
     #[test]

@@ -1,11 +1,13 @@
 //! `switchback merge DIR… --out DIR`
 
-use super::blind::{JUDGING_SOURCES, Page, Place, conclude};
-use crate::blind::{Part, merged};
+use super::examination::{JUDGING_SOURCES, Page, Place, conclude};
+use crate::blind::{self, Blind};
+use crate::examination::{Examination, Part, Whole, merged, scenario_of};
 use crate::failure::CommandResult;
+use crate::field::{self, Field};
 use crate::options::{Force, Quiet};
 use miette::Diagnostic;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Make one report of all parts of an examination, the bytes of one run.
@@ -43,7 +45,16 @@ pub struct OtherProgram {
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let mut parts = Vec::new();
+    let first = scenario_of(&args.folders[0])?;
+    if field::is_field(&first) {
+        return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));
+    }
+    merge(args, |scenario| Ok(Blind(blind::read(scenario)?)))
+}
+
+/// The same once the kind of examination is known; `read` makes it from its scenario.
+fn merge<E: Examination>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>) -> CommandResult {
+    let mut parts: Vec<Part<E::Case>> = Vec::new();
     for folder in &args.folders {
         let part = Part::read(folder)?;
         if part.program() != JUDGING_SOURCES {
@@ -51,7 +62,7 @@ pub fn run(args: &Args) -> CommandResult {
         }
         parts.push(part);
     }
-    let (study, keys, cases) = merged(parts)?;
+    let Whole { scenario, keys, cases } = merged(parts)?;
     let place = Place { out: Some(&args.out), force: args.force };
-    conclude(&study, &keys, &cases, place, Page { json: args.json, quiet: args.quiet })
+    conclude(&read(&scenario)?, (&keys, &cases), place, Page { json: args.json, quiet: args.quiet })
 }

@@ -1,10 +1,10 @@
 //! One file a verb: its arguments and what it does.
 
-pub mod blind;
 pub mod compare;
 pub mod completions;
 pub mod data_args;
 pub mod design;
+pub mod examination;
 pub mod gap;
 pub mod identify;
 pub mod init;

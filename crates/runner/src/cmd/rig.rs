@@ -1,4 +1,4 @@
-//! `switchback rig --effect EFFECT --size 2 --seed 7 --out DIR`
+//! `switchback rig [--field] --effect EFFECT --size 2 --seed 7 --out DIR`
 
 use crate::diagnosis::Units;
 use crate::failure::{CommandResult, Outcome};
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use switchback_estimator::rig::Rig;
 use switchback_maker::{
-    EFFECTS, FOREIGN, Family, Ingredient, MadeRig, MakeError, MakeRig, TrueEffect, laws_of,
+    EFFECTS, FOREIGN, Family, Ingredient, Key, MadeRig, MakeError, MakeRig, Setting, TrueEffect, laws_of,
 };
 use thiserror::Error;
 
@@ -26,7 +26,12 @@ pub struct Args {
     #[arg(long, default_value_t = 0, value_parser = whole::<usize>(0..=u64::from(u32::MAX)))]
     law: usize,
 
-    /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise.
+    /// A rig as the field has them: nothing declared, no designed experiment, coloured noise, and what machines have besides.
+    #[arg(long)]
+    field: bool,
+
+    /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise; with `--field` what survives
+    /// identification anew, over what the model of the rig without it leaves on held-out records.
     #[arg(long, default_value_t = 1.0, value_parser = number)]
     size: f64,
 
@@ -98,7 +103,8 @@ pub fn run(args: &Args) -> CommandResult {
 
 fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
     let family = Family { order: args.order.map(usize::from), shape: None };
-    let mut recipe = MakeRig::new(args.seed).family(family);
+    let setting = if args.field { Setting::Field } else { Setting::Laboratory };
+    let mut recipe = MakeRig::new(args.seed).family(family).setting(setting);
     for effect in args.effect.iter().filter(|name| *name != "none") {
         recipe = recipe.with(Ingredient::with_law(effect, args.law, args.size)?);
     }
@@ -112,8 +118,8 @@ const SCHEMA: &str = "switchback/rig/1";
 const LIST_SCHEMA: &str = "switchback/rig-list/1";
 
 /// The magnitude of an effect and its unit: lengths along the input in the input's own.
-fn measured(effect: &TrueEffect, rig: &Rig) -> (f64, String) {
-    let length = rig.interval.and_then(|interval| effect.length(interval));
+fn measured(effect: &TrueEffect, (rig, key): (&Rig, &Key)) -> (f64, String) {
+    let length = effect.length(key.interval);
     length.map_or_else(|| (effect.magnitude, effect.unit.to_owned()), |x| (x, Units::of(rig).input))
 }
 
@@ -121,16 +127,23 @@ fn told(MadeRig { rig, key, .. }: &MadeRig) -> String {
     let between = if key.curved { " curved between the levels" } else { "" };
     let mut text =
         format!("order {}, {} borders{between}, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
+    if key.setting == Setting::Field {
+        let _ = writeln!(text, "of the field: by itself it has {}", in_a_row(&key.base));
+    }
+    let survives = match key.setting {
+        Setting::Laboratory => "the best nominal re-fit with {} noise sd",
+        Setting::Field => "identification anew with {} times what the model leaves without it",
+    };
     for e in &key.effects {
-        let (magnitude, unit) = measured(e, rig);
+        let (magnitude, unit) = measured(e, (rig, key));
         let quantity = e.quantity.map_or_else(String::new, |quantity| format!("{quantity} "));
         let _ = writeln!(
             text,
-            "{} ({}, {}): {quantity}{magnitude:.4} {unit}; survives the best nominal re-fit with {:.2} noise sd",
+            "{} ({}, {}): {quantity}{magnitude:.4} {unit}; survives {}",
             e.effect,
             e.law,
             e.stage.name(),
-            e.size
+            survives.replace("{}", &format!("{:.2}", e.size))
         );
         if (e.size / e.wanted - 1.0).abs() > 0.05 {
             let _ = writeln!(text, "  (asked for {}; this system and law go no closer)", e.wanted);
@@ -142,13 +155,21 @@ fn told(MadeRig { rig, key, .. }: &MadeRig) -> String {
     text
 }
 
+fn in_a_row(names: &[&str]) -> String {
+    match names {
+        [] => "nothing".to_owned(),
+        [one] => (*one).to_owned(),
+        [others @ .., last] => format!("{} and {last}", others.join(", ")),
+    }
+}
+
 /// What was put in as JSON.
 fn key_json(MadeRig { rig, key, .. }: &MadeRig) -> serde_json::Value {
     let effects: Vec<_> = key
         .effects
         .iter()
         .map(|e| {
-            let (magnitude, unit) = measured(e, rig);
+            let (magnitude, unit) = measured(e, (rig, key));
             serde_json::json!({
                 "effect": e.effect, "law": e.law, "plain": e.plain, "stage": e.stage.name(),
                 "quantity": e.quantity, "magnitude": magnitude, "unit": unit, "wanted_size": e.wanted, "size": e.size,
@@ -158,6 +179,7 @@ fn key_json(MadeRig { rig, key, .. }: &MadeRig) -> serde_json::Value {
     serde_json::json!({
         "seed": key.seed, "order": key.order, "a": key.a, "b": key.b, "borders": key.borders,
         "curved": key.curved, "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
+        "setting": key.setting.name(), "base": key.base,
     })
 }
 

@@ -1,13 +1,17 @@
 //! `switchback SCENARIO.toml`
 
+use super::examination::{Page, Place, run_part};
+use crate::blind::{self, Blind};
+use crate::examination::Examination;
 use crate::failure::{CommandResult, Outcome};
+use crate::field::{self, Field};
 use crate::input::FileKind;
 use crate::options::{Force, Quiet, Shard, Threads};
 use crate::progress::Meter;
 use crate::results::to_json;
 use crate::rig::in_shell;
 use crate::scenario::{Engine, Scenario};
-use crate::{blind, report, study};
+use crate::{report, study};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::path::{Path, PathBuf};
@@ -61,17 +65,14 @@ pub fn run(args: &Args) -> CommandResult {
     };
     refuse_other_kinds(file)?;
     if blind::is_blind(file) {
-        if args.engine.is_some() {
-            let path = file.display();
-            return Err(miette!("{path} is a blind study, which has no engines; leave out --engine"));
-        }
-        let page = super::blind::Page { json: args.json, quiet: args.quiet };
-        let place = super::blind::Place { out: args.out.as_deref(), force: args.force };
-        let run = || match args.shard {
-            Some(shard) => super::blind::run_part(file, shard, place, page),
-            None => super::blind::run(file, place, page),
-        };
-        return args.threads.install(run)?;
+        refuse_engine(args, "a blind study")?;
+        return examined(args, file, &Blind(blind::read(file)?));
+    }
+    if field::is_field(file) {
+        refuse_engine(args, "a field examination")?;
+        let study = field::read(file)?;
+        let bases = field::Bases::load(&study, args.quiet)?;
+        return examined(args, file, &Field::new(study, &bases));
     }
     if args.shard.is_some() {
         let path = file.display();
@@ -93,6 +94,22 @@ pub fn run(args: &Args) -> CommandResult {
     let words = || format!("{}\nwritten to {place}\n", report::table(&results).trim_end());
     args.quiet.tell_or(args.json, || to_json(&results), words)?;
     Ok(if results.as_expected() { Outcome::Done } else { Outcome::Unmet })
+}
+
+/// Runs an examination, or the part of it that is asked for.
+fn examined<E: Examination>(args: &Args, file: &Path, examination: &E) -> CommandResult {
+    let page = Page { json: args.json, quiet: args.quiet };
+    let place = Place { out: args.out.as_deref(), force: args.force };
+    args.threads.install(|| match args.shard {
+        Some(shard) => run_part(examination, (file, shard), place, page),
+        None => super::examination::run(examination, place, page),
+    })?
+}
+
+/// Only the engines of a consistency study can be chosen.
+fn refuse_engine(args: &Args, kind: &str) -> miette::Result<()> {
+    let Some(path) = args.scenario.as_ref().filter(|_| args.engine.is_some()) else { return Ok(()) };
+    Err(miette!("{} is {kind}, which has no engines; leave out --engine", path.display()))
 }
 
 /// A file of another kind was given.

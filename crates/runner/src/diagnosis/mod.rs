@@ -24,7 +24,7 @@ pub use json::json;
 pub use number::{closed_percent, digits, fit_percent};
 pub use parameter::{Told, told};
 pub use place::SIGNIFICANT;
-pub use subject::{Source, Subject, SubjectError};
+pub use subject::{Source, Subject, SubjectError, met_by};
 pub use units::Units;
 pub use why::why;
 pub use words::{verdict, words};

@@ -2,10 +2,10 @@
 
 use super::model_file::{self, Given};
 use crate::identification::EstimatedSystem;
-use crate::model::{ModelError, ModelFile, System, UnitError};
+use crate::model::{self, ModelError, ModelFile, System, UnitError};
 use miette::Diagnostic;
 use std::path::Path;
-use switchback_estimator::estimators::Estimate;
+use switchback_estimator::estimators::{Estimate, free};
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
 use switchback_gap::{Model, NominalModel};
@@ -210,6 +210,19 @@ impl Subject {
         };
         Ok(Self { rig, model, source: Source::Given, notes })
     }
+}
+
+/// A rig with the model of an identification, as `gap --model` has both: given as it is where it has the paper's structure, else by its
+/// free runs.
+pub fn met_by(rig: Rig, model: &free::Model) -> (Rig, Model) {
+    if let Some(plain) = model::plain(model) {
+        return (rig, Model::Given(plain));
+    }
+    let run = |record: &RigRecord| {
+        let run = model.free_run(&record.record);
+        (run.start < record.record.len()).then_some(run.y)
+    };
+    (with_predictions(rig, run), Model::Predicted)
 }
 
 /// The records a gap is measured on: the hold-outs, or all where there is none.

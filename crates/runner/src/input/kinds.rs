@@ -50,6 +50,7 @@ pub(super) fn of_json(value: &Value) -> Option<&'static str> {
         ("switchback/identify/", "an identification"),
         ("switchback/simulate/", "the report of a simulation"),
         ("switchback/blind/", "the results of a blind study"),
+        ("switchback/field/", "the results of a field examination"),
         ("switchback/rig-list/", "a list of effects"),
         ("switchback/rig/", "what was put into a made rig"),
     ];

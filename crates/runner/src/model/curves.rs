@@ -99,13 +99,9 @@ impl Curves {
         (a, b)
     }
 
-    /// The same system as borders between which nothing is left out; none with a delay, a look ahead or a gain of zero, or where it is a
-    /// line that goes on beyond its ends.
+    /// The same system as borders between which nothing is left out; see [`plain`].
     pub fn plain(&self) -> Option<NominalModel> {
-        let (a, b) = self.linear();
-        let is_plain = self.delay() == 0 && !self.model.basis().is_line() && b.iter().sum::<f64>() != 0.0;
-        let [descending, ascending] = self.borders();
-        is_plain.then_some(NominalModel { a, b, descending, ascending })
+        plain(&self.model)
     }
 
     /// Covariance of the coefficients, rows of the lower triangle.
@@ -115,16 +111,7 @@ impl Curves {
 
     /// The curves `(v, u)`, descending and ascending, with the constant as a level of `u` where `B(1)` is not zero.
     pub(super) fn borders(&self) -> [Vec<(f64, f64)>; 2] {
-        let Coefficients { b, f, c, .. } = self.model.coefficients();
-        let level = c / b.iter().sum::<f64>();
-        let level = if level.is_finite() { level } else { 0.0 };
-        let value = |k: usize| level + if k == 0 { 0.0 } else { f[k - 1] };
-        let basis = self.model.basis();
-        let curve = |knots: &[f64], first: usize| -> Vec<(f64, f64)> {
-            knots.iter().enumerate().map(|(k, &v)| (v, value(first + k))).collect()
-        };
-        let first = if basis.is_switched() { basis.descending().len() } else { 0 };
-        [curve(basis.descending(), 0), curve(basis.ascending(), first)]
+        borders(&self.model)
     }
 
     /// A free run; see [`super::ModelFile::run`].
@@ -140,6 +127,28 @@ impl Curves {
         let measured = y.unwrap_or(&simulated).to_vec();
         Run::with_band(FreeRun::new(&measured, simulated, start), &variances, y.is_some())
     }
+}
+
+/// An identified system as borders between which nothing is left out; none with a delay, a look ahead or a gain of zero, or where it is a
+/// line that goes on beyond its ends.
+pub fn plain(model: &Model) -> Option<NominalModel> {
+    let Coefficients { a, b, .. } = model.coefficients();
+    let is_plain = model.structure().delay == 0 && !model.basis().is_line() && b.iter().sum::<f64>() != 0.0;
+    let [descending, ascending] = borders(model);
+    is_plain.then_some(NominalModel { a, b, descending, ascending })
+}
+
+fn borders(model: &Model) -> [Vec<(f64, f64)>; 2] {
+    let Coefficients { b, f, c, .. } = model.coefficients();
+    let level = c / b.iter().sum::<f64>();
+    let level = if level.is_finite() { level } else { 0.0 };
+    let value = |k: usize| level + if k == 0 { 0.0 } else { f[k - 1] };
+    let basis = model.basis();
+    let curve = |knots: &[f64], first: usize| -> Vec<(f64, f64)> {
+        knots.iter().enumerate().map(|(k, &v)| (v, value(first + k))).collect()
+    };
+    let first = if basis.is_switched() { basis.descending().len() } else { 0 };
+    [curve(basis.descending(), 0), curve(basis.ascending(), first)]
 }
 
 impl TryFrom<Wire> for Curves {

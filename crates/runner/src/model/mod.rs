@@ -28,7 +28,7 @@ mod run;
 mod series;
 mod units;
 
-pub use curves::Curves;
+pub use curves::{Curves, plain};
 pub use domain::Domain;
 pub use file::{Header, ModelFile, SCHEMA, System};
 pub use make::{diagnosed, identified};

@@ -9,6 +9,7 @@ pub mod blind;
 mod borders;
 pub mod canvas;
 mod convergence;
+pub mod field;
 pub mod gap;
 pub mod identify;
 pub mod legend;

@@ -3,7 +3,8 @@
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
 use crate::blind::scenario::Study;
-use crate::blind::score::{Bound, Scores, Share};
+use crate::blind::score::Scores;
+use crate::examination::{bins_json, measure_json, share_json as share};
 use crate::output::stamped;
 use serde_json::{Value, json};
 
@@ -28,18 +29,14 @@ pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &
         "key_sha256": key_sha256,
         "rigs": rigs,
         "refused": cases.iter().filter(|c| c.reply.status == "failed").map(|c| c.id).collect::<Vec<_>>(),
-        "measures": scores.measures.iter().map(|m| json!({
-            "key": m.key, "measure": m.text, "must_reach": m.target.map(bound), "expected": m.expected.map(bound),
-            "reached": m.reached, "interval": m.interval, "rigs": m.rigs, "meets": m.meets_target(),
-        })).collect::<Vec<_>>(),
+        "measures": scores.measures.iter().map(measure_json).collect::<Vec<_>>(),
         "sizes": scores.sizes.iter().map(|r| json!({
             "size": r.wanted, "exact": share(r.exact), "class": share(r.class),
             "mismatch_class": share(r.mismatch_class), "wrong": share(r.wrong),
         })).collect::<Vec<_>>(),
         "calibration": {
             "ece": scores.calibration.ece, "top_ece": scores.calibration.top_ece,
-            "bins": scores.calibration.bins.iter()
-                .map(|b| json!({"claimed": b.claimed, "held": share(b.held)})).collect::<Vec<_>>(),
+            "bins": bins_json(&scores.calibration.bins),
         },
         "where": scores.places.iter().map(|p| json!({
             "axis": p.axis, "precision": p.precision, "recall": p.recall, "f1": p.f1, "cells": p.cells,
@@ -54,16 +51,4 @@ pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &
         })).collect::<Vec<_>>(),
     });
     stamped(SCHEMA, &value)
-}
-
-fn share(share: Share) -> Value {
-    json!({"share": share.value(), "count": share.count, "of": share.of})
-}
-
-fn bound(bound: Bound) -> Value {
-    match bound {
-        Bound::AtLeast(x) => json!({"at_least": x}),
-        Bound::AtMost(x) => json!({"at_most": x}),
-        Bound::Within(low, high) => json!({"within": [low, high]}),
-    }
 }

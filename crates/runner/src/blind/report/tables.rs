@@ -1,9 +1,8 @@
 //! The tables as CSV.
 
 use crate::blind::case::Case;
-use crate::blind::score::{
-    AbstentionRow, AccuracyRow, BaselineRow, Calibration, ClosureRow, Confusion, PlaceRow, Share,
-};
+use crate::blind::score::{AbstentionRow, AccuracyRow, BaselineRow, Calibration, ClosureRow, PlaceRow};
+use crate::examination::{csv, share_field as share};
 
 /// One row a rig: what was put in, what was said.
 pub(super) fn answers(cases: &[Case]) -> String {
@@ -62,7 +61,7 @@ pub(super) fn answers(cases: &[Case]) -> String {
             figure(c.closure.map(|x| x.ci90[1])),
             figure(c.closure.map(|x| x.actual)),
             format!("{:.0}", c.evidence.left),
-            gains(c),
+            c.evidence.gains(),
             c.evidence.samples.to_string(),
             together(c),
         ]
@@ -70,27 +69,10 @@ pub(super) fn answers(cases: &[Case]) -> String {
     csv(&header, rows)
 }
 
-/// `effect:ΔBIC:nats:closure` of the best candidates.
-fn gains(case: &Case) -> String {
-    let one = |&(effect, gain, nats, closure): &(&str, f64, f64, Option<f64>)| {
-        let closure = closure.map_or_else(String::new, |c| format!("{c:.3}"));
-        format!("{effect}:{gain:.0}:{nats:.4}:{closure}")
-    };
-    case.evidence.candidates.iter().map(one).collect::<Vec<_>>().join("|")
-}
-
 /// `effects:gain over the best single one:left by both:left by the single one` of the best pair.
 fn together(case: &Case) -> String {
     let Some(pair) = &case.evidence.together else { return String::new() };
     format!("{}:{:.0}:{:.0}:{:.0}", pair.effects.join("+"), pair.gain, pair.left, pair.left_by_single)
-}
-
-pub(super) fn confusion(table: &Confusion) -> String {
-    let header: Vec<&str> = std::iter::once("truth").chain(table.columns.iter().copied()).collect();
-    let rows = table.rows.iter().zip(&table.counts).map(|(truth, counts)| {
-        std::iter::once((*truth).to_owned()).chain(counts.iter().map(usize::to_string)).collect()
-    });
-    csv(&header, rows)
 }
 
 pub(super) fn accuracy(rows: &[AccuracyRow]) -> String {
@@ -159,17 +141,4 @@ pub(super) fn baselines(rows: &[BaselineRow]) -> String {
         ]
     });
     csv(&["rule", "exact", "false_alarm", "outside_named", "precision"], rows)
-}
-
-fn share(share: Share) -> String {
-    share.value().map_or_else(String::new, |x| format!("{x:.4}"))
-}
-
-fn csv(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header).expect("writing to memory");
-    for row in rows {
-        writer.write_record(row).expect("writing to memory, each row as long as the header");
-    }
-    String::from_utf8(writer.into_inner().expect("writing to memory")).expect("every field is UTF-8")
 }

@@ -1,8 +1,8 @@
 //! Accuracy against effect, size and law.
 
-use super::Share;
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
+use crate::examination::Share;
 
 /// The rigs of one effect, wanted size and kind of law.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! Simpler rules on the same fits.
 
-use super::Share;
 use crate::blind::case::{Baseline, Case};
 use crate::blind::design::Kind;
+use crate::examination::Share;
 
 /// How one rule fares.
 #[derive(Debug, Clone, PartialEq)]

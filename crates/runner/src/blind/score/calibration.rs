@@ -1,8 +1,8 @@
 //! Whether probabilities mean what they say.
 
-use super::Share;
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
+use crate::examination::{CalibrationBin, Share, calibration_bins, calibration_error};
 
 /// Claimed probability of verdicts against how often they hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,15 +13,6 @@ pub struct Calibration {
     pub ece: Option<f64>,
     /// The same for the likeliest explanation, `none` and `unexplained` among the explanations.
     pub top_ece: Option<f64>,
-}
-
-/// Verdicts of similar probability.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CalibrationBin {
-    /// Mean probability claimed.
-    pub claimed: f64,
-    /// Share of verdicts that hold.
-    pub held: Share,
 }
 
 /// What an answer costs when verdicts below a probability are withheld.
@@ -35,13 +26,11 @@ pub struct AbstentionRow {
     pub right: Share,
 }
 
-const BINS: usize = 10;
-
 pub(super) fn calibration(cases: &[Case]) -> Calibration {
     let claims: Vec<(f64, bool)> = judged(cases).map(|c| (c.reply.probability, c.verdict_holds())).collect();
     let tops: Vec<(f64, bool)> = judged(cases).map(|c| (c.reply.top.1, c.top_is_true())).collect();
-    let bins = bins(&claims);
-    Calibration { ece: ece(&bins), top_ece: ece(&self::bins(&tops)), bins }
+    let bins = calibration_bins(&claims);
+    Calibration { ece: calibration_error(&bins), top_ece: calibration_error(&calibration_bins(&tops)), bins }
 }
 
 pub(super) fn abstention(cases: &[Case]) -> Vec<AbstentionRow> {
@@ -61,23 +50,4 @@ pub(super) fn abstention(cases: &[Case]) -> Vec<AbstentionRow> {
 /// Rigs with one explanation at most; of pairs no single probability speaks.
 fn judged(cases: &[Case]) -> impl Iterator<Item = &Case> {
     cases.iter().filter(|c| c.kind != Kind::Pair && c.reply.status != "failed")
-}
-
-fn bins(claims: &[(f64, bool)]) -> Vec<CalibrationBin> {
-    (0..BINS)
-        .filter_map(|k| {
-            let inside: Vec<_> =
-                claims.iter().filter(|(p, _)| ((p * BINS as f64) as usize).min(BINS - 1) == k).collect();
-            let of = inside.len();
-            let claimed = inside.iter().map(|(p, _)| p).sum::<f64>() / of as f64;
-            let count = inside.iter().filter(|(_, held)| *held).count();
-            (of > 0).then_some(CalibrationBin { claimed, held: Share { count, of } })
-        })
-        .collect()
-}
-
-fn ece(bins: &[CalibrationBin]) -> Option<f64> {
-    let all: usize = bins.iter().map(|b| b.held.of).sum();
-    let miss = |b: &CalibrationBin| b.held.of as f64 * (b.claimed - b.held.value().unwrap_or(0.0)).abs();
-    (all > 0).then(|| bins.iter().map(miss).sum::<f64>() / all as f64)
 }

@@ -1,8 +1,8 @@
 //! How far: stated closure against the closure that the stated models have.
 
-use super::Share;
-use crate::blind::case::{Case, ClosureCheck};
+use crate::blind::case::Case;
 use crate::blind::design::Kind;
+use crate::examination::{ClosureCheck, Share};
 
 /// Closure of the rigs of one effect.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +37,7 @@ pub(super) fn rows(cases: &[Case]) -> Vec<ClosureRow> {
                 stated: mean(|c| c.estimate)?,
                 actual: mean(|c| c.actual)?,
                 coverage: coverage(checks.iter()),
-                error: mean(error)?,
+                error: mean(ClosureCheck::error)?,
             })
         })
         .collect()
@@ -53,15 +53,7 @@ fn label(case: &Case) -> Option<&'static str> {
 
 /// Intervals that hold the truth.
 pub(super) fn coverage<'a>(checks: impl Iterator<Item = &'a ClosureCheck>) -> Share {
-    checks.fold(Share::default(), |s, c| Share {
-        count: s.count + usize::from((c.ci90[0]..=c.ci90[1]).contains(&c.actual)),
-        of: s.of + 1,
-    })
-}
-
-/// Distance of the stated closure from the real one.
-pub(super) fn error(check: &ClosureCheck) -> f64 {
-    (check.estimate - check.actual).abs()
+    checks.fold(Share::default(), |s, c| Share { count: s.count + usize::from(c.is_covered()), of: s.of + 1 })
 }
 
 /// Mean; none of nothing.

@@ -2,6 +2,7 @@
 
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
+use crate::examination::csv;
 use switchback_maker::EFFECTS;
 
 /// Counts of answers (columns) by truth (rows).
@@ -13,6 +14,17 @@ pub struct Confusion {
     pub columns: Vec<&'static str>,
     /// Counts, a row a truth.
     pub counts: Vec<Vec<usize>>,
+}
+
+impl Confusion {
+    /// The table as CSV.
+    pub fn csv(&self) -> String {
+        let header: Vec<&str> = std::iter::once("truth").chain(self.columns.iter().copied()).collect();
+        let rows = self.rows.iter().zip(&self.counts).map(|(truth, counts)| {
+            std::iter::once((*truth).to_owned()).chain(counts.iter().map(usize::to_string)).collect()
+        });
+        csv(&header, rows)
+    }
 }
 
 pub(super) fn confusion(cases: &[Case]) -> Confusion {

@@ -2,11 +2,12 @@
 
 use super::accuracy::singles;
 use super::calibration::Calibration;
+use super::closure;
 use super::places::PlaceRow;
-use super::{Share, closure};
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
 use crate::blind::scenario::Expect;
+use crate::examination::{Bound, ClosureCheck, Measure, Share};
 
 /// What a diagnosis must reach.
 pub const TARGETS: Expect = Expect {
@@ -23,59 +24,6 @@ pub const TARGETS: Expect = Expect {
     pairs_exact: Some(0.85),
     phantom: Some(0.05),
 };
-
-/// What a figure must be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
-    /// At least this.
-    AtLeast(f64),
-    /// At most this.
-    AtMost(f64),
-    /// From the first to the second.
-    Within(f64, f64),
-}
-
-impl Bound {
-    /// Whether a figure meets the bound.
-    pub fn holds(self, x: f64) -> bool {
-        match self {
-            Self::AtLeast(low) => x >= low,
-            Self::AtMost(high) => x <= high,
-            Self::Within(low, high) => (low..=high).contains(&x),
-        }
-    }
-}
-
-/// One line of the summary.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
-    /// The key in `[expect]`.
-    pub key: &'static str,
-    /// What is measured.
-    pub text: &'static str,
-    /// What must be reached.
-    pub target: Option<Bound>,
-    /// What the scenario expects.
-    pub expected: Option<Bound>,
-    /// What was reached; none where no rig tells.
-    pub reached: Option<f64>,
-    /// Its 95 % interval, where it is a share of rigs.
-    pub interval: Option<[f64; 2]>,
-    /// Rigs that tell, or cells for *where*.
-    pub rigs: usize,
-}
-
-impl Measure {
-    /// Whether the target is met, where a rig tells.
-    pub fn meets_target(&self) -> Option<bool> {
-        Some(self.target?.holds(self.reached?))
-    }
-
-    /// Whether the scenario's expectation is broken. A figure that no rig tells breaks it, too.
-    pub fn is_unexpected(&self) -> bool {
-        self.expected.is_some_and(|bound| !self.reached.is_some_and(|x| bound.holds(x)))
-    }
-}
 
 /// Takes a measure's bound out of a set of expectations.
 type Bounds = fn(&Expect) -> Option<Bound>;
@@ -170,7 +118,7 @@ pub(super) fn measures(
             "closure_error",
             "mean error of the closure, ≥ 1 sd",
             |e| e.closure_error.map(Bound::AtMost),
-            (closure::mean(large_closures().map(closure::error)), None, large_closures().count()),
+            (closure::mean(large_closures().map(ClosureCheck::error)), None, large_closures().count()),
         ),
         (
             "pairs_exact",
@@ -195,6 +143,7 @@ pub(super) fn measures(
             reached,
             interval,
             rigs,
+            in_percent: !matches!(key, "ece" | "closure_error" | "where_f1"),
         })
         .collect()
 }

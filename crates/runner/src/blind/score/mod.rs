@@ -10,45 +10,15 @@ mod places;
 
 pub use accuracy::{AccuracyRow, SizeRow};
 pub use baseline::BaselineRow;
-pub use calibration::{AbstentionRow, Calibration, CalibrationBin};
+pub use calibration::{AbstentionRow, Calibration};
 pub use closure::ClosureRow;
 pub use confusion::Confusion;
-pub use measure::{Bound, Measure, TARGETS};
+pub use measure::TARGETS;
 pub use places::PlaceRow;
 
 use super::case::Case;
 use super::scenario::Expect;
-
-/// A share of counted rigs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Share {
-    /// Rigs for which it holds.
-    pub count: usize,
-    /// Rigs counted.
-    pub of: usize,
-}
-
-impl Share {
-    /// Counts over some cases.
-    pub fn over<'a>(cases: impl Iterator<Item = &'a Case>, holds: impl Fn(&Case) -> bool) -> Self {
-        cases.fold(Self::default(), |s, c| Self { count: s.count + usize::from(holds(c)), of: s.of + 1 })
-    }
-
-    /// The share; none of nothing.
-    pub fn value(self) -> Option<f64> {
-        (self.of > 0).then(|| self.count as f64 / self.of as f64)
-    }
-
-    /// Its 95 % interval (Wilson, J. Am. Stat. Assoc. 22, 1927): what other rigs drawn alike may say.
-    pub fn interval(self) -> Option<[f64; 2]> {
-        const Z: f64 = 1.96;
-        let (p, n) = (self.value()?, self.of as f64);
-        let centre = p + Z * Z / (2.0 * n);
-        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        let scale = 1.0 + Z * Z / n;
-        Some([((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0)])
-    }
-}
+use crate::examination::Measure;
 
 /// All tables of a blind study.
 #[derive(Debug, Clone)]

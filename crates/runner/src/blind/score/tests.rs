@@ -1,6 +1,7 @@
 use super::*;
-use crate::blind::case::{Baseline, ClosureCheck, Reply};
+use crate::blind::case::Baseline;
 use crate::blind::design::Kind;
+use crate::examination::{ClosureCheck, Evidence, Reply, Share};
 
 fn case(kind: Kind, truth: &[&'static str], status: &'static str, effects: &[&'static str]) -> Case {
     Case {
@@ -21,7 +22,7 @@ fn case(kind: Kind, truth: &[&'static str], status: &'static str, effects: &[&'s
             top: (effects.first().copied().unwrap_or("none"), 0.95),
         },
         baseline: Baseline { lowest_rmse: None, heldout_winner: None, plain_bic: Some("creep") },
-        evidence: crate::blind::case::Evidence::default(),
+        evidence: Evidence::default(),
         closure: None,
         places: Vec::new(),
     }

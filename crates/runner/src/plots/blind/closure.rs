@@ -1,7 +1,8 @@
 //! Stated closure against what the stated models really close.
 
 use super::page::{COLOURS, Frame, INK, PlotError, Sample, page, tick};
-use crate::blind::{Case, ClosureCheck};
+use crate::blind::Case;
+use crate::examination::ClosureCheck;
 use plotters::prelude::*;
 
 /// Where the axes begin.

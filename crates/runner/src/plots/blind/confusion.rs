@@ -9,15 +9,15 @@ const CELL: i32 = 27;
 const LEFT: i32 = 180;
 const TOP: i32 = 190;
 
-/// Rows are truths, columns answers; shade and number are the row's share in percent.
+/// Rows are truths, columns answers; shade and number are the row's share in percent. `rows` says which rigs have a row.
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub(super) fn confusion(table: &Confusion) -> Result<String, PlotError> {
+pub(in crate::plots) fn confusion(table: &Confusion, rows: &str) -> Result<String, PlotError> {
     let width = LEFT + CELL * table.columns.len() as i32 + 20;
     let height = TOP + CELL * table.rows.len() as i32 + 20;
     page((width as u32, height as u32), |canvas| {
-        let title = "What was put in (rows, surviving gap ≥ 1 sd) and what was said (columns), % of a row";
+        let title = format!("What was put in (rows, {rows}) and what was said (columns), % of a row");
         canvas.draw(&Text::new(title, (16, 10), letters(17))).map_err(PlotError::new)?;
         let name = letters(13).pos(Pos::new(HPos::Right, VPos::Center));
         for (i, row) in table.rows.iter().enumerate() {

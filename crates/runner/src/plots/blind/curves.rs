@@ -1,7 +1,8 @@
 //! Shares as curves: accuracy against size, calibration, abstention.
 
 use super::page::{COLOURS, Chart, Frame, INK, PlotError, Sample, page};
-use crate::blind::{AbstentionRow, Calibration, Share, SizeRow};
+use crate::blind::{AbstentionRow, SizeRow};
+use crate::examination::{CalibrationBin, Share};
 use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (720, 460);
@@ -44,7 +45,7 @@ fn power_of_two(x: &f64) -> String {
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library fails.
-pub(super) fn calibration(table: &Calibration) -> Result<String, PlotError> {
+pub(in crate::plots) fn calibration(bins: &[CalibrationBin]) -> Result<String, PlotError> {
     let frame = Frame {
         title: "Probabilities mean what they say where the curve follows the diagonal",
         sample: Sample::Line,
@@ -59,7 +60,7 @@ pub(super) fn calibration(table: &Calibration) -> Result<String, PlotError> {
             |chart| {
                 let diagonal = LineSeries::new([(0.0, 0.0), (1.0, 1.0)], INK.mix(0.4));
                 chart.draw_series(diagonal).map_err(PlotError::new)?;
-                let points: Vec<_> = table.bins.iter().map(|b| (b.claimed, b.held)).collect();
+                let points: Vec<_> = bins.iter().map(|b| (b.claimed, b.held)).collect();
                 curve(chart, COLOURS[0], &points)
             },
         )

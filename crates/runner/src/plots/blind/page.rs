@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// A figure could not be drawn.
 #[derive(Debug, Error, Diagnostic)]
-#[error("a figure of the blind study could not be drawn: {0}")]
+#[error("a figure of the examination could not be drawn: {0}")]
 pub struct PlotError(String);
 
 impl PlotError {

@@ -1,7 +1,8 @@
 //! The diagnosis beside simpler rules, as bars.
 
 use super::page::{COLOURS, PlotError, letters, page};
-use crate::blind::{BaselineRow, Share};
+use crate::blind::BaselineRow;
+use crate::examination::Share;
 use plotters::prelude::*;
 
 /// Four shares a rule.

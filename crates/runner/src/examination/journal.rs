@@ -4,8 +4,7 @@
 //! rig's line in the key file. Only the same sources' judgement of the same rig counts. A line once keys are sealed:
 //! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same sources found need not be searched for again.
 
-use super::case::Case;
-use super::seal::{Sealed, WrittenKeys};
+use super::Judged;
 use crate::output::sha256;
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
@@ -17,11 +16,11 @@ use thiserror::Error;
 
 /// Judged rigs, in memory and on disk.
 #[derive(Debug)]
-pub struct Journal {
+pub struct Journal<C> {
     path: PathBuf,
     file: File,
     program: String,
-    known: HashMap<String, Case>,
+    known: HashMap<String, C>,
     /// SHA-256 of the key file sealed last.
     keys: Option<String>,
 }
@@ -36,11 +35,10 @@ pub struct JournalError {
 }
 
 #[derive(Serialize, Deserialize)]
-#[serde(bound(deserialize = "'de: 'static"))]
-struct Line<'a> {
+struct Line<'a, C> {
     program: &'a str,
     rig: String,
-    case: Case,
+    case: C,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -55,7 +53,7 @@ const BEGINNING: &[u8] = b"{\"program\":";
 /// The key file of a report folder.
 pub const KEY_FILE: &str = "key.jsonl";
 
-impl Journal {
+impl<C: Judged> Journal<C> {
     /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells the sources that judge apart.
     ///
     /// # Errors
@@ -80,7 +78,7 @@ impl Journal {
         let text: &'static str = String::from_utf8_lossy(&text).into_owned().leak();
         let known = text
             .lines()
-            .filter_map(|line| serde_json::from_str::<Line<'_>>(line).ok())
+            .filter_map(|line| serde_json::from_str::<Line<'_, C>>(line).ok())
             .filter(|line| line.program == program)
             .map(|line| (line.rig, line.case))
             .collect();
@@ -93,13 +91,10 @@ impl Journal {
         Ok(Self { path, file, program: program.to_owned(), known, keys })
     }
 
-    /// The keys beside the journal, if the same sources sealed them; else none.
-    pub fn keys(&self) -> WrittenKeys {
+    /// The text of the key file beside the journal, if the same sources sealed it; else none.
+    pub fn keys(&self) -> String {
         let text = fs::read_to_string(self.path.with_file_name(KEY_FILE)).unwrap_or_default();
-        match &self.keys {
-            Some(hash) if *hash == sha256(&text) => WrittenKeys::read(&text),
-            _ => WrittenKeys::default(),
-        }
+        if self.keys.as_ref() == Some(&sha256(&text)) { text } else { String::new() }
     }
 
     /// Keeps that keys were sealed in a file with this SHA-256.
@@ -112,22 +107,25 @@ impl Journal {
         self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
     }
 
-    /// What was judged of a rig before.
-    pub fn recall(&self, rig: &Sealed) -> Option<&Case> {
-        self.known.get(&sha256(rig.key_line()))
+    /// What was judged before of the rig with this line in the key file.
+    pub fn recall(&self, key_line: &str) -> Option<&C> {
+        self.known.get(&sha256(key_line))
     }
 
-    /// Keeps judged rigs.
+    /// Keeps judged rigs, each with its line in the key file.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
-    pub fn keep(&mut self, rigs: &[Sealed], cases: &[Case]) -> Result<(), JournalError> {
-        let lines: String = rigs.iter().zip(cases).map(|(rig, case)| self.line(rig, case)).collect();
+    pub fn keep<'c>(&mut self, judged: impl IntoIterator<Item = (String, &'c C)>) -> Result<(), JournalError>
+    where
+        C: 'c,
+    {
+        let lines: String = judged.into_iter().map(|(key_line, case)| self.line(&key_line, case)).collect();
         self.file.write_all(lines.as_bytes()).map_err(|source| self.error(source))
     }
 
-    fn line(&self, rig: &Sealed, case: &Case) -> String {
-        let line = Line { program: &self.program, rig: sha256(rig.key_line()), case: case.clone() };
+    fn line(&self, key_line: &str, case: &C) -> String {
+        let line = Line { program: &self.program, rig: sha256(key_line), case: case.clone() };
         serde_json::to_string(&line).expect("names and numbers are JSON") + "\n"
     }
 

@@ -3,10 +3,8 @@
 //! The folder of a part holds `part.json` (which part of which scenario, and what made and judged it), the scenario as it was, the keys of
 //! its rigs, its answers, and `cases.jsonl`, a line a rig with all that a report is made of.
 
-use super::case::Case;
+use super::Judged;
 use super::journal::KEY_FILE;
-use super::report::answers;
-use super::scenario::{BlindError, Study, read};
 use crate::input::{FileError, read_text};
 use crate::options::Shard;
 use crate::output::{Artefacts, sha256, stamped};
@@ -42,12 +40,23 @@ struct WrittenLabel {
 
 /// A part of an examination that was judged.
 #[derive(Debug, Clone)]
-pub struct Part {
+pub struct Part<C> {
     folder: PathBuf,
     label: Label,
     scenario: String,
     keys: String,
-    cases: Vec<Case>,
+    cases: Vec<C>,
+}
+
+/// Parts put together.
+#[derive(Debug, Clone)]
+pub struct Whole<C> {
+    /// The scenario's file, in the folder of one of the parts.
+    pub scenario: PathBuf,
+    /// The key file.
+    pub keys: String,
+    /// All cases, by their number in the design.
+    pub cases: Vec<C>,
 }
 
 /// Why folders make no whole.
@@ -58,10 +67,6 @@ pub enum MergeError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     File(#[from] FileError),
-    /// A part's scenario cannot be used.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Scenario(#[from] BlindError),
     /// The folder holds something else.
     #[error("{folder}: holds no part of an examination")]
     #[diagnostic(help(
@@ -117,14 +122,14 @@ pub enum MergeError {
     },
 }
 
-impl Part {
+impl<C: Judged> Part<C> {
     /// A part that was just judged: the scenario's file and text, which part, the sources that judged, its keys and cases.
     pub fn new(
         file: &Path,
         text: String,
         (shard, program): (Shard, &str),
         keys: String,
-        cases: Vec<Case>,
+        cases: Vec<C>,
     ) -> Self {
         let scenario = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let label = Label { scenario, shard, program: program.to_owned(), key_sha256: sha256(&keys) };
@@ -137,13 +142,8 @@ impl Part {
         artefacts.add(PART_FILE, stamped(SCHEMA, &self.label));
         artefacts.add(self.label.scenario.as_str(), self.scenario.as_str());
         artefacts.add(KEY_FILE, self.keys.as_str());
-        artefacts.add("answers.csv", answers(&self.cases));
-        let cases = self.cases.iter().fold(String::new(), |mut lines, case| {
-            let line = serde_json::to_string(case).expect("names and numbers are JSON");
-            let _ = writeln!(lines, "{line}");
-            lines
-        });
-        artefacts.add(CASES_FILE, cases);
+        artefacts.add("answers.csv", C::answers(&self.cases));
+        artefacts.add(CASES_FILE, case_lines(&self.cases));
         artefacts
     }
 
@@ -153,17 +153,8 @@ impl Part {
     /// [`MergeError`] if it holds none, or a file is not as it was written.
     pub fn read(folder: &Path) -> Result<Self, MergeError> {
         let name = || folder.display().to_string();
-        let no_part = || MergeError::NoPart { folder: name() };
         let changed = |file| MergeError::Changed { folder: name(), file };
-        if !folder.join(PART_FILE).is_file() {
-            return Err(no_part());
-        }
-        let written: WrittenLabel =
-            serde_json::from_str(&read_text(&folder.join(PART_FILE))?).map_err(|_| no_part())?;
-        if written.schema != SCHEMA {
-            return Err(no_part());
-        }
-        let label = written.label;
+        let label = label(folder)?;
         let scenario = read_text(&folder.join(&label.scenario))?;
         let keys = read_text(&folder.join(KEY_FILE))?;
         if sha256(&keys) != label.key_sha256 {
@@ -171,12 +162,12 @@ impl Part {
         }
         // Cases hold names, which live as long as the program: so does the text, which is read once.
         let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
-        let cases: Vec<Case> = text
+        let cases: Vec<C> = text
             .lines()
             .map(serde_json::from_str)
             .collect::<Result<_, _>>()
             .map_err(|_| changed(CASES_FILE))?;
-        let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id)).collect();
+        let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id())).collect();
         let sealed: Vec<Option<usize>> = keys.lines().map(id_of).collect();
         if judged != sealed {
             return Err(changed(CASES_FILE));
@@ -205,17 +196,45 @@ impl Part {
     }
 }
 
+/// Cases as lines of JSON, all that a report is made of.
+pub fn case_lines<C: Judged>(cases: &[C]) -> String {
+    cases.iter().fold(String::new(), |mut lines, case| {
+        let line = serde_json::to_string(case).expect("names and numbers are JSON");
+        let _ = writeln!(lines, "{line}");
+        lines
+    })
+}
+
 /// The number of the rig of a line of a key file.
 fn id_of(line: &str) -> Option<usize> {
     let value: serde_json::Value = serde_json::from_str(line).ok()?;
     value["id"].as_u64().map(|id| id as usize)
 }
 
-/// The whole that parts make: its study, its key file and its cases by their number in the design.
+/// The scenario's file of a part's folder: it tells which kind of examination the part is of.
+///
+/// # Errors
+/// [`MergeError`] if the folder holds no part.
+pub fn scenario_of(folder: &Path) -> Result<PathBuf, MergeError> {
+    Ok(folder.join(label(folder)?.scenario))
+}
+
+/// What a folder says that it is.
+fn label(folder: &Path) -> Result<Label, MergeError> {
+    let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
+    if !folder.join(PART_FILE).is_file() {
+        return Err(no_part());
+    }
+    let written: WrittenLabel =
+        serde_json::from_str(&read_text(&folder.join(PART_FILE))?).map_err(|_| no_part())?;
+    if written.schema == SCHEMA { Ok(written.label) } else { Err(no_part()) }
+}
+
+/// The whole that parts make.
 ///
 /// # Errors
 /// [`MergeError`] if they are parts of different wholes, one of them is there twice, or some are missing.
-pub fn merged(mut parts: Vec<Part>) -> Result<(Study, String, Vec<Case>), MergeError> {
+pub fn merged<C: Judged>(mut parts: Vec<Part<C>>) -> Result<Whole<C>, MergeError> {
     parts.sort_by_key(|part| part.label.shard);
     let Some(first) = parts.first() else {
         return Err(MergeError::NoPart { folder: ".".to_owned() });
@@ -237,11 +256,11 @@ pub fn merged(mut parts: Vec<Part>) -> Result<(Study, String, Vec<Case>), MergeE
         let scenario = first.label.scenario.clone();
         return Err(MergeError::Missing { scenario, missing: all.join(", "), first: first_missing });
     }
-    let study = read(&first.folder.join(&first.label.scenario))?;
+    let scenario = first.folder.join(&first.label.scenario);
     let mut lines: Vec<&str> = parts.iter().flat_map(|part| part.keys.lines()).collect();
     lines.sort_by_key(|line| id_of(line));
     let keys = lines.iter().fold(String::new(), |text, line| text + line + "\n");
-    let mut cases: Vec<Case> = parts.iter().flat_map(|part| part.cases.clone()).collect();
-    cases.sort_by_key(|case| case.id);
-    Ok((study, keys, cases))
+    let mut cases: Vec<C> = parts.iter().flat_map(|part| part.cases.clone()).collect();
+    cases.sort_by_key(|case| case.id());
+    Ok(Whole { scenario, keys, cases })
 }

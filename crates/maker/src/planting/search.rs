@@ -1,0 +1,56 @@
+//! The magnitude that gives a wanted size.
+
+use super::PlantingError;
+use super::base::Base;
+use crate::size::magnitude_for;
+use switchback_estimator::rig::Rig;
+
+/// Sizes are met to this share, in at most so many identifications.
+const TOLERANCE: f64 = 0.05;
+const ROUNDS: usize = 10;
+/// Largest change of the magnitude, as a factor, from one identification to the next.
+const STRIDE: f64 = 4.0;
+
+/// The records with the fault at a magnitude, and its size there.
+pub(crate) struct Trial {
+    pub(crate) magnitude: f64,
+    pub(crate) size: f64,
+    pub(crate) rig: Rig,
+}
+
+/// Finds the magnitude, up to a limit, whose surviving size is as wanted, or comes closest; `with` gives the records with the fault.
+///
+/// # Errors
+/// Those of `with`.
+pub(crate) fn search(
+    base: &Base,
+    wanted_size: f64,
+    limit: f64,
+    with: impl Fn(f64) -> Result<Rig, PlantingError>,
+) -> Result<Trial, PlantingError> {
+    // The raw size costs no identification: the search begins where that is as wanted.
+    let raw = |magnitude: f64| with(magnitude).map_or(f64::INFINITY, |rig| base.raw(&rig));
+    let mut tried = magnitude_for(wanted_size, limit, raw).magnitude;
+    let sized = |magnitude: f64| {
+        let rig = with(magnitude)?;
+        let size = base.surviving(&rig);
+        Ok::<_, PlantingError>(Trial { magnitude, size, rig })
+    };
+    let miss = |size: f64| (size / wanted_size).max(1e-9).ln().abs();
+    let mut best = sized(tried)?;
+    let mut last = best.size;
+    for _ in 1..ROUNDS {
+        let wanted = wanted_size / last.max(1e-9);
+        let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(limit);
+        if (wanted - 1.0).abs() < TOLERANCE || next == tried {
+            break;
+        }
+        tried = next;
+        let trial = sized(tried)?;
+        last = trial.size;
+        if miss(trial.size) < miss(best.size) {
+            best = trial;
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,124 @@
+//! What sealed examinations have in common: keys are written before the first diagnosis, parts run apart and are put together, an
+//! interrupted one goes on where it stood, and a report says what must be reached and what was.
+//!
+//! ```text
+//! scenario → design → seal (make, hash the keys) → judge (diagnose, open, compare) → report
+//! ```
+//!
+//! [`Examination`] is what one of them must tell; [`cmd::examination`](crate::cmd::examination) runs any of them.
+
+mod calibration;
+mod journal;
+mod json;
+mod measure;
+mod part;
+mod random;
+mod reply;
+mod scenario;
+mod tables;
+
+pub use calibration::{CalibrationBin, calibration_bins, calibration_error};
+pub use journal::{Journal, JournalError, KEY_FILE};
+pub use json::{bins_json, measure_json, share_json};
+pub use measure::{Bound, Measure, Share, measures_table};
+pub use part::{MergeError, PART_FILE, Part, Whole, case_lines, merged, scenario_of};
+pub use random::{scramble, uniform};
+pub use reply::{ClosureCheck, Evidence, PairEvidence, Reply};
+pub use scenario::{ScenarioError, effects_listed, study_of};
+pub use tables::{csv, share_field};
+
+use crate::output::Artefacts;
+use serde::{Deserialize, Serialize};
+
+/// Hears of each piece of work that is done.
+pub type Done<'a> = &'a (dyn Fn() + Sync);
+
+/// A rig of the design with its key closed.
+pub trait Sealed: Send + Sync {
+    /// Its number in the full design.
+    fn id(&self) -> usize;
+
+    /// Its line in the key file: whatever makes one rig another.
+    fn key_line(&self) -> String;
+}
+
+/// A rig after its key was opened: all that a report is made of.
+///
+/// Read back only from a text that is never let go: its names may be slices of it.
+pub trait Judged: Clone + Send + Serialize + Deserialize<'static> {
+    /// Its number in the full design.
+    fn id(&self) -> usize;
+
+    /// The table of answers.
+    fn answers(cases: &[Self]) -> String;
+}
+
+/// A report, and whether it is what the scenario expects.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// All its files but the key.
+    pub files: Artefacts,
+    /// What is printed.
+    pub summary: String,
+    /// Whether every expectation of the scenario is met.
+    pub is_as_expected: bool,
+}
+
+/// One kind of examination, ready to run. Nothing that it gives depends on the number of threads.
+pub trait Examination: Sync {
+    /// A rig to be made.
+    type Ticket: Send;
+    /// A rig that was made.
+    type Sealed: Sealed;
+    /// A rig that was judged.
+    type Case: Judged;
+
+    /// The files of a report.
+    const FILES: &'static [&'static str];
+
+    /// Rigs diagnosed before they are kept; bounds memory and what an interruption costs, changes no result. At the end of a batch threads
+    /// wait for the last rig.
+    const BATCH: usize;
+
+    /// The scenario's name: that of the report's folder.
+    fn name(&self) -> &str;
+
+    /// What it is to answer.
+    fn question(&self) -> &str;
+
+    /// Rigs to be made, in random order.
+    ///
+    /// # Errors
+    /// A design that cannot be made.
+    fn design(&self) -> miette::Result<Vec<Self::Ticket>>;
+
+    /// Makes rigs in parallel and keeps their keys; `before` is the text of a key file that the same program wrote, or empty.
+    ///
+    /// # Errors
+    /// A rig that cannot be made.
+    fn seal(
+        &self,
+        tickets: Vec<Self::Ticket>,
+        before: &str,
+        done: Done<'_>,
+    ) -> miette::Result<Vec<Self::Sealed>>;
+
+    /// Diagnoses rigs in parallel, and opens their keys when all of them are diagnosed; in the order of `batch`.
+    ///
+    /// # Errors
+    /// A rig that cannot be made again.
+    fn judge(&self, batch: &[Self::Sealed], done: Done<'_>) -> miette::Result<Vec<Self::Case>>;
+
+    /// Scores the cases.
+    ///
+    /// # Errors
+    /// A figure that cannot be drawn.
+    fn report(&self, key_sha256: &str, cases: &[Self::Case]) -> miette::Result<Report>;
+}
+
+/// The key file: one JSON object a line and a rig, in the order of the design.
+pub fn key_file<S: Sealed>(sealed: &[S]) -> String {
+    let mut all: Vec<&S> = sealed.iter().collect();
+    all.sort_by_key(|one| one.id());
+    all.into_iter().fold(String::new(), |text, one| text + &one.key_line() + "\n")
+}

@@ -1,0 +1,134 @@
+//! The summary: what must be reached, what was, and what the scenario expects.
+
+use super::calibration::Claims;
+use super::rating::{Asked, Rating};
+use super::rows::{RIGHT, share};
+use crate::examination::{Bound, ClosureCheck, Measure, Share};
+use crate::field::design::Kind;
+use crate::field::scenario::Expect;
+
+/// What a diagnosis must reach.
+pub const TARGETS: Expect = Expect {
+    model_class: Some(0.85),
+    model_exact: Some(0.70),
+    class: Some(0.75),
+    exact: Some(0.60),
+    wrong: Some(0.05),
+    false_alarm_made: Some(0.03),
+    false_alarm_resampled: Some(0.03),
+    outside_named: None,
+    calibration: Some(0.03),
+    coverage: Some([0.85, 0.95]),
+};
+
+/// Takes a measure's bound out of a set of expectations.
+type Bounds = fn(&Expect) -> Option<Bound>;
+/// What was reached, its interval, and how many answers tell.
+type Told = (Option<f64>, Option<[f64; 2]>, usize);
+/// Key, text, bound and figure of one measure.
+type Line = (&'static str, &'static str, Bounds, Told);
+
+pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) -> Vec<Measure> {
+    let told = |s: Share| (s.value(), s.interval(), s.of);
+    let large =
+        |with_model: bool| asked.iter().filter(move |a| a.is_large() && a.answer.with_model == with_model);
+    let answered = |a: &&Asked<'_>| a.rating().is_some_and(|rating| rating != Rating::Silent);
+    let bare_made = asked.iter().filter(|a| a.case.kind == Kind::Bare && !a.case.is_measured);
+    let of = |kind: Kind| asked.iter().filter(move |a| a.case.kind == kind);
+    let wrong = [Rating::Wrong];
+    let closures = |is_right: bool| {
+        let judged = asked.iter().filter(move |a| {
+            let rating = a.rating();
+            a.truth().is_some() && rating.is_some_and(|rating| !is_right || RIGHT.contains(&rating))
+        });
+        judged.filter_map(|a| a.answer.closure.as_ref())
+    };
+    let lines: [Line; 13] = [
+        (
+            "model_class",
+            "model given: right class, size ≥ 2",
+            |e| e.model_class.map(Bound::AtLeast),
+            told(share(large(true), &RIGHT)),
+        ),
+        (
+            "model_exact",
+            "model given: exact effect named, size ≥ 2",
+            |e| e.model_exact.map(Bound::AtLeast),
+            told(share(large(true), &[Rating::Exact])),
+        ),
+        (
+            "class",
+            "no model given: right class, size ≥ 2",
+            |e| e.class.map(Bound::AtLeast),
+            told(share(large(false), &RIGHT)),
+        ),
+        (
+            "exact",
+            "no model given: exact effect named, size ≥ 2",
+            |e| e.exact.map(Bound::AtLeast),
+            told(share(large(false), &[Rating::Exact])),
+        ),
+        (
+            "wrong",
+            "of all causes named, wrong ones",
+            |e| e.wrong.map(Bound::AtMost),
+            told(share(asked.iter().filter(answered), &wrong)),
+        ),
+        (
+            "wrong_planted",
+            "the same, only where a fault of the library is",
+            |_| None,
+            told(share(of(Kind::Planted).filter(answered), &wrong)),
+        ),
+        (
+            "false_alarm_made",
+            "made base without fault: a cause named",
+            |e| e.false_alarm_made.map(Bound::AtMost),
+            told(share(bare_made, &wrong)),
+        ),
+        (
+            "false_alarm_resampled",
+            "residuals resampled: a cause not the base's own",
+            |e| e.false_alarm_resampled.map(Bound::AtMost),
+            told(share(of(Kind::Resampled), &wrong)),
+        ),
+        (
+            "outside_named",
+            "foreign fault, yet a cause named",
+            |e| e.outside_named.map(Bound::AtMost),
+            told(share(of(Kind::Outside), &wrong)),
+        ),
+        (
+            "calibration",
+            "calibration error over that of perfect claims",
+            |e| e.calibration.map(Bound::AtMost),
+            (claims.excess(), None, claims.count),
+        ),
+        ("ece", "calibration error (ECE) itself", |_| None, (claims.error, None, claims.count)),
+        (
+            "coverage",
+            "coverage of the 90 % closure interval, model given",
+            |e| e.coverage.map(|[low, high]| Bound::Within(low, high)),
+            told(Share::over(closures(false), ClosureCheck::is_covered)),
+        ),
+        (
+            "coverage_right",
+            "the same, only where the right class is told",
+            |_| None,
+            told(Share::over(closures(true), ClosureCheck::is_covered)),
+        ),
+    ];
+    lines
+        .into_iter()
+        .map(|(key, text, bound, (reached, interval, rigs))| Measure {
+            key,
+            text,
+            target: bound(&TARGETS),
+            expected: bound(expect),
+            reached,
+            interval,
+            rigs,
+            in_percent: !matches!(key, "calibration" | "ece"),
+        })
+        .collect()
+}
