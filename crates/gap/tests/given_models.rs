@@ -2,9 +2,9 @@
 
 mod bench;
 
-use bench::{rig, whole};
-use switchback_estimator::rig::{Rig, RigRecord};
-use switchback_gap::{Diagnosis, Model, NominalModel, Settings, Status, diagnose};
+use bench::{made, played, record, response, rig, white, whole};
+use switchback_estimator::rig::{Rig, RigRecord, Usage};
+use switchback_gap::{Diagnosis, Effect, Model, NominalModel, Settings, Status, diagnose};
 
 /// The bench's own model, its ascending border raised.
 fn raised(by: f64) -> NominalModel {
@@ -60,4 +60,47 @@ fn the_map_of_another_simulator_shows_its_errors() {
         .map(|c| c.share)
         .collect();
     assert!(upper.len() == 5 && upper.iter().sum::<f64>() > 0.9, "{:?}", found.where_);
+}
+
+/// The bench after its input has got a play.
+fn worn() -> Vec<RigRecord> {
+    let worn = |name, usage, samples, phase| {
+        let sound = made(name, usage, samples, phase);
+        let v = sound.record.v().to_vec();
+        let mut white = white(7);
+        let y = response(&played(&v, 0.3), &[-0.6], &mut || 0.01 * white());
+        record(name, usage, v, y)
+    };
+    vec![worn("sweep", Usage::Fit, 3000, 0.0), worn("drive", Usage::Holdout, 1500, 1.0)]
+}
+
+#[test]
+fn what_has_changed_is_told_on_top_of_the_given_model() {
+    let dynamics = |found: &Diagnosis| found.models.as_ref().expect("models").augmented.system().a;
+    let by_table = found(&rig(None, worn()), Model::Given(raised(0.0)));
+    assert_eq!(by_table.verdict.effects, [Effect::Backlash], "{:?}", by_table.verdict);
+    assert!((dynamics(&by_table)[0] + 0.6).abs() < 1e-9, "{:?}", dynamics(&by_table));
+    // The same model as another simulator's predictions: what stands in for it behaves as it does.
+    let predicted = |mut r: RigRecord| {
+        r.predicted = Some(response(r.record.v(), &[-0.6], &mut || 0.0));
+        r
+    };
+    let records: Vec<RigRecord> = worn().into_iter().map(predicted).collect();
+    let by_runs = found(&rig(None, records), Model::Predicted);
+    assert_eq!(by_runs.verdict.effects, [Effect::Backlash], "{:?}", by_runs.verdict);
+    assert!((dynamics(&by_runs)[0] + 0.6).abs() < 1e-3, "{:?}", dynamics(&by_runs));
+    for found in [by_table, by_runs] {
+        let closure = found.gap.closure.expect("a gap").estimate;
+        assert!(closure > 0.95, "{closure}");
+    }
+}
+
+#[test]
+fn a_gain_that_is_another_one_is_no_effect() {
+    let stronger = |r: RigRecord| {
+        let y = r.record.y().iter().map(|y| 1.2 * y).collect();
+        record(&r.name, r.usage, r.record.v().to_vec(), y)
+    };
+    let found = found(&rig(None, whole().into_iter().map(stronger).collect()), Model::Given(raised(0.0)));
+    assert_eq!(found.verdict.status, Status::Refit, "{:?}", found.verdict);
 }

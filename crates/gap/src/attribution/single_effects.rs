@@ -25,7 +25,7 @@ impl<W: Workers> Attribution<'_, W> {
         if self.settings.consider_details() {
             self.compare_with_detail(&mut singles);
         }
-        if self.gain(singles.first()) > 0.5 * SIGNIFICANT {
+        if !self.campaign.holds_nominal() && self.gain(singles.first()) > 0.5 * SIGNIFICANT {
             singles = self.knots_placed_anew(singles);
         }
         singles

@@ -47,7 +47,8 @@ impl Plan {
             pair_effort: self.pair_effort,
         };
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
-        if (evidence.leaves_something() || evidence.is_coloured())
+        if !self.campaign.holds_nominal()
+            && (evidence.leaves_something() || evidence.is_coloured())
             && let Some(better) = evidence.improved(attribution.dominant_reidentified(&evidence.all))
         {
             evidence = self.weigh_in(attribution.workers, better);

@@ -63,7 +63,7 @@ impl GivenModel {
 }
 
 /// The `y_sim` of every record that has one for each of its samples, dimensionless.
-fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>> {
+pub(super) fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>> {
     let scaled = |y: &Vec<f64>| y.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect();
     let whole = |r: &RigRecord| {
         r.predicted

@@ -1,5 +1,6 @@
 //! The diagnosis itself: the nominal model, attribution, verdict, report.
 
+mod changed;
 mod evidence;
 mod given_model;
 mod harm;
@@ -60,12 +61,19 @@ pub fn diagnose_with(
     let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings.max_order)?;
+    let changed = changed::concluded(workers, changed::plan(workers, (rig, &model), &records, settings)?);
+    // Where parameters are all that has changed nothing is missing.
+    let changed = changed.filter(|(plan, c)| !plan.does_the_same(chosen.first(), &c.augmented.fit));
     let (first, conclusion) = concluded(workers, chosen, &plan)?;
     let (last, conclusion) = match declared {
         Some(_) => (first, conclusion),
         None => with_room_for_dynamics(workers, (first, conclusion), (&records, &plan))?,
     };
-    Ok(last.report(workers, conclusion))
+    let anew = (&last.campaign, &conclusion.augmented.fit);
+    match changed.filter(|(plan, c)| !plan.is_outdone_by(anew, &c.augmented.fit)) {
+        Some((plan, conclusion)) => Ok(plan.report(workers, conclusion)),
+        None => Ok(last.report(workers, conclusion)),
+    }
 }
 
 /// The diagnosis of one choice; of two, that one step ahead where it tells a cause with which no simulator is needed.
@@ -195,6 +203,9 @@ impl Plan {
     /// The nominal model on the grid of the best explanation, where that is smooth, though it seemed to follow details, and the effect
     /// gains nothing on it: the borders are curved, and the effect only rides on the knots.
     fn on_the_grid_of(&self, best: &Explanation) -> Option<Nominal> {
+        if self.campaign.holds_nominal() {
+            return None;
+        }
         let least = self.nominal.plain.bic() - SIGNIFICANT;
         best.without_parts(&self.campaign).filter(|alone| alone.bic() < least)?;
         let smooth = best.on_a_smooth_grid(&self.campaign)?;

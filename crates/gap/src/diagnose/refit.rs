@@ -7,6 +7,7 @@ use crate::diagnosis::{Status, Verdict};
 use crate::effects::Room;
 use crate::likelihood::engine::Fit;
 use crate::nominal::order::Chosen;
+use crate::records::campaign::Campaign;
 use crate::simulation::simulate::free_run;
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
@@ -50,13 +51,23 @@ impl Plan {
     /// Whether a nominal model of another structure does as well on the judged records as an explanation, but for the error of the
     /// difference.
     pub(super) fn does_the_same(&self, chosen: &Chosen, explained: &Fit) -> bool {
-        let other = self.squared_errors(|number| {
-            free_run(&chosen.campaign, &chosen.fit, number, &chosen.campaign.tracks[number])
-        });
-        let explained_errors = self.squared_errors(|number| {
-            free_run(&self.campaign, explained, number, &self.campaign.tracks[number])
-        });
-        self.mean(&differences(&other, &explained_errors), explained).is_some_and(|saved| saved.low <= 0.0)
+        self.mean(&self.saved_over((&chosen.campaign, &chosen.fit), explained), explained)
+            .is_some_and(|saved| saved.low <= 0.0)
+    }
+
+    /// Whether a model does better on the judged records than an explanation, beyond the error of the difference.
+    pub(super) fn is_outdone_by(&self, other: (&Campaign, &Fit), explained: &Fit) -> bool {
+        self.mean(&self.saved_over(other, explained), explained).is_some_and(|saved| saved.high < 0.0)
+    }
+
+    /// Squared error that simulating the judged records with an explanation saves over another model, which sees them as a campaign of its
+    /// own.
+    fn saved_over(&self, (campaign, fit): (&Campaign, &Fit), explained: &Fit) -> Vec<Vec<f64>> {
+        let run = |campaign: &Campaign, fit: &Fit, number: usize| {
+            free_run(campaign, fit, number, &campaign.tracks[number])
+        };
+        let other = self.squared_errors(|number| run(campaign, fit, number));
+        differences(&other, &self.squared_errors(|number| run(&self.campaign, explained, number)))
     }
 
     /// The conclusion that the order is off: `again` is the plan on the nominal model that does what the effects do.

@@ -185,6 +185,7 @@ impl Wire {
             travel: self.clock.travel,
             rule: self.rule,
             criterion: self.criterion,
+            known_borders: None,
             lead: self.lead,
         }
     }

@@ -143,7 +143,7 @@ pub(crate) fn fit(
     rounds: usize,
 ) -> Option<Fit> {
     let design_of = |assembly: &Assembly, known: Option<&Design>| {
-        Design::like(known, ground.campaign, ground.grid, assembly)
+        Design::like(known, ground.campaign, &ground.campaign.placed(ground.grid, assembly.play), assembly)
     };
     let mut nonlinear = nonlinear.to_vec();
     let mut p = start.clone().gauged();
@@ -153,11 +153,17 @@ pub(crate) fn fit(
     let mut state = evaluate(&design, assembly, &p)?;
     let mut nonlinear_se = vec![f64::NAN; nonlinear.len()];
     let mut damping = 1e-9;
+    // Border columns, filters' taps and all else that an effect adds lie behind these.
+    let order = p.a.len();
+    let held = [0..2 * order, order + p.b.len()..order + p.b.len() + ground.grid.len()];
     for _ in 0..rounds {
         let extra = derivatives(&ground, build, &nonlinear, &design, &state, &p);
         let w = state.weights.applied(&state.innovations);
         let mut normal = normal_equations(&design, &p, &state.whitener, &state.weights, (&w, &extra));
         priors(&mut normal, ground.grid, &p, &state.assembly);
+        if ground.campaign.holds_nominal() {
+            normal = normal.restricted(|i| !held.iter().any(|held| held.contains(&i)));
+        }
         let mut better = None;
         let mut step_norm = 0.0;
         for _ in 0..4 {
@@ -248,14 +254,15 @@ pub(crate) fn fit(
     }
     let power = sum / f64::max(count, 1.0);
     // One direction of (b, f) is fixed by the gauge.
-    let parameters = p.len() as f64 - 1.0 + nonlinear.len() as f64;
+    let known = if ground.campaign.holds_nominal() { held.iter().map(|held| held.len()).sum() } else { 1 };
+    let parameters = (p.len() - known + nonlinear.len()) as f64;
     let mut assembly = state.assembly;
     if let Some(mixture) = state.weights.mixture {
         assembly.noise.mixture = Some(mixture);
     }
     Some(Fit {
         assembly,
-        grid: ground.grid.clone(),
+        grid: design.grid.clone(),
         linear: p,
         nonlinear,
         nonlinear_se,
@@ -293,7 +300,12 @@ pub(super) fn derivatives(
                 let errors = errors.get_or_init(|| design.all_errors(p)).clone();
                 (design.whitened(errors, &design.whitener(&assembly.noise, &p.a)), 1.0)
             } else {
-                let there = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
+                let there = Design::like(
+                    Some(design),
+                    ground.campaign,
+                    &ground.campaign.placed(ground.grid, assembly.play),
+                    &assembly,
+                );
                 let moved = there.innovations(p, &there.whitener(&assembly.noise, &p.a));
                 (moved, (-(there.log_slope() - design.log_slope()) / n).exp())
             };

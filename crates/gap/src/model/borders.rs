@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::records::motion::Play;
+
 /// Knots of both borders on the dimensionless input axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,6 +18,13 @@ pub(crate) fn side(branch: f64) -> usize {
 }
 
 impl Grid {
+    /// The grid of the recorded input where the operator's own lies behind a play.
+    pub(crate) fn seen_through(&self, play: Play) -> Self {
+        let [descending, ascending] = &self.knots;
+        let seen = |knots: &[f64], branch| knots.iter().map(|k| play.input_at(*k, branch)).collect();
+        Self { knots: [seen(descending, -1.0), seen(ascending, 1.0)] }
+    }
+
     /// Number of border values of both borders together.
     pub(crate) fn len(&self) -> usize {
         self.knots[0].len() + self.knots[1].len()

@@ -40,6 +40,15 @@ pub(crate) enum Choice {
     Either(Chosen, Box<Simulator>),
 }
 
+impl Choice {
+    /// What is fitted already.
+    pub(crate) fn first(&self) -> &Chosen {
+        match self {
+            Self::One(chosen) | Self::Either(chosen, _) => chosen,
+        }
+    }
+}
+
 /// The best structure identified as a simulator.
 #[derive(Debug)]
 pub(crate) struct Simulator {
@@ -95,8 +104,13 @@ impl Structure {
         later.filter(|_| is_late).chain(higher).collect()
     }
 
+    /// That of a model in the form of the paper.
+    pub(crate) fn of_order(order: usize) -> Self {
+        Self { order, lead: 0, begins: Begins::default() }
+    }
+
     /// The records as this structure sees them.
-    fn applied(&self, campaign: &Campaign) -> Campaign {
+    pub(crate) fn applied(&self, campaign: &Campaign) -> Campaign {
         campaign.with_branches_from(self.begins).led_by(self.lead)
     }
 }
@@ -138,7 +152,7 @@ pub(crate) fn structure(
     match declared {
         Some(n) => {
             let fit = identify(&campaign, n.max(1))?;
-            let structure = Structure { order: n, lead: 0, begins: Begins::default() };
+            let structure = Structure::of_order(n);
             Ok(Choice::One(Chosen { campaign, fit, structure, told: None }))
         }
         None => choose(workers, &campaign, most),
@@ -176,6 +190,22 @@ fn choose(workers: &impl Workers, campaign: &Campaign, most: usize) -> Result<Ch
         (Some(steps), _) => Ok(Choice::One(steps)),
         (None, Some(runs)) => Ok(Choice::One(runs.chosen())),
         (None, None) => Err(unstable()),
+    }
+}
+
+/// The nominal model that simulates the fit records best, of all structures: what behaves as another simulator does, whose predictions the
+/// records hold.
+pub(crate) fn best_simulator(workers: &impl Workers, campaign: &Campaign, most: usize) -> Option<Chosen> {
+    match choose(workers, campaign, most).ok()? {
+        Choice::One(chosen) => Some(chosen),
+        Choice::Either(steps, simulator) => {
+            let error = if settles(&steps.fit.linear.a) {
+                simulation_error(&steps.campaign, &steps.fit)
+            } else {
+                f64::INFINITY
+            };
+            Some(if error <= simulator.first.power { steps } else { simulator.chosen() })
+        }
     }
 }
 

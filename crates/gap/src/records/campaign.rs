@@ -1,11 +1,13 @@
 //! The records of a rig in dimensionless form: what every fit works on.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
+use crate::model::borders::Grid;
 use crate::records::motion::{Begins, Motion, Play, ReversalRule, motions};
 use crate::records::passes::Passes;
 
@@ -74,6 +76,8 @@ pub(crate) struct Campaign {
     pub(crate) rule: ReversalRule,
     /// What a model is held against.
     pub(crate) criterion: Criterion,
+    /// The knots of a model that is known: its `A`, `B` and border values stay, and only what effects add is fitted.
+    pub(crate) known_borders: Option<Arc<Grid>>,
     /// Samples by which the input was [led](Self::led_by).
     pub(crate) lead: isize,
     /// Passes over the fit records.
@@ -182,6 +186,7 @@ impl Campaign {
             travel,
             rule,
             criterion: Criterion::OneStep,
+            known_borders: None,
             lead: 0,
             passes: Passes::default(),
         })
@@ -212,6 +217,25 @@ impl Campaign {
     /// The same records, models held against another criterion.
     pub(crate) fn judged_by(&self, criterion: Criterion) -> Self {
         Self { criterion, ..self.clone() }
+    }
+
+    /// The same records, held against a nominal model that is known, by its knots.
+    pub(crate) fn with_nominal_held(&self, borders: &Grid) -> Self {
+        Self { known_borders: Some(borders.clone().into()), ..self.clone() }
+    }
+
+    /// Whether the nominal model is known, and stays.
+    pub(crate) fn holds_nominal(&self) -> bool {
+        self.known_borders.is_some()
+    }
+
+    /// The knots of a model, at the recorded input: known ones where a play has moved them to, others as they are.
+    pub(crate) fn placed<'a>(&'a self, grid: &'a Grid, play: Play) -> Cow<'a, Grid> {
+        match self.known_borders.as_deref() {
+            None => Cow::Borrowed(grid),
+            Some(known) if play.is_none() => Cow::Borrowed(known),
+            Some(known) => Cow::Owned(known.seen_through(play)),
+        }
     }
 
     pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {

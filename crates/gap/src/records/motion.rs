@@ -66,6 +66,12 @@ impl Play {
         self.width == 0.0
     }
 
+    /// The input at which the play's output passes `p` on a branch: `v = p + branch·play(v)/2`.
+    pub(crate) fn input_at(&self, p: f64, branch: f64) -> f64 {
+        let width = branch * self.width;
+        (p + 0.5 * width * (1.0 - self.taper)) / (1.0 - width * self.taper)
+    }
+
     /// Half the width at `v`, which runs from 0 to 1.
     fn half(&self, v: f64) -> f64 {
         0.5 * self.width * (1.0 + self.taper * (2.0 * v - 1.0)).max(0.0)
@@ -188,6 +194,16 @@ mod tests {
         assert_eq!(branches, [0.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
         let moves: Vec<bool> = motions(&v, play, ReversalRule::default()).iter().map(|m| m.moves).collect();
         assert_eq!(moves, [false, true, true, false, true, true, true]);
+    }
+
+    #[test]
+    fn the_output_of_a_play_passes_a_place_where_the_input_is_half_the_play_further() {
+        for play in [Play { width: 0.2, taper: 0.0 }, Play { width: 0.2, taper: 0.6 }] {
+            for (p, branch) in [(0.3, 1.0), (0.3, -1.0), (0.9, 1.0)] {
+                let v = play.input_at(p, branch);
+                assert!((v - branch * play.half(v) - p).abs() < 1e-12, "{v}");
+            }
+        }
     }
 
     #[test]

@@ -198,6 +198,9 @@ impl Task<'_> {
 
     /// `A` and `B` by least squares; nothing without a filter. Where the filter of the noise follows from `A`, by some rounds.
     fn dynamics_refitted(&self, nonlinear: &[NonlinearParameter], start: &Linear) -> Option<Linear> {
+        if self.ground.campaign.holds_nominal() {
+            return None;
+        }
         let assembly = self.assembly(nonlinear);
         let noise = &assembly.noise;
         let coloured = !noise.ar.is_empty() || !noise.ma.is_empty();
