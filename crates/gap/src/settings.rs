@@ -7,6 +7,8 @@ use crate::effect::Effect;
 pub struct Settings {
     /// The effects to consider.
     pub effects: Vec<Effect>,
+    /// Effects that are told as a cause though they belong to the model of such records: the colour of noise, where nobody designed these.
+    pub asked: Vec<Effect>,
     /// Largest order tried where the rig declares none.
     pub max_order: usize,
     /// Most effects named together.
@@ -27,6 +29,13 @@ impl Settings {
         self
     }
 
+    /// The same with some effects asked for.
+    #[must_use]
+    pub fn asking(mut self, effects: &[Effect]) -> Self {
+        self.asked.extend(effects);
+        self
+    }
+
     /// Whether details of the borders are a candidate: elsewhere no knots may follow them.
     pub(crate) fn consider_details(&self) -> bool {
         self.effects.iter().any(|effect| effect.card().lies_in_the_grid)
@@ -37,6 +46,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             effects: Effect::ALL.to_vec(),
+            asked: Vec::new(),
             max_order: 4,
             max_effects: 2,
             name_at: 0.85,

@@ -65,3 +65,27 @@ fn what_a_higher_order_does_is_no_cause() {
     let verdict = told(None, records, &settings);
     assert!(verdict.effects.is_empty() && verdict.class.is_empty() && !verdict.calibrated, "{verdict:?}");
 }
+
+#[test]
+fn the_colour_of_noise_is_a_cause_only_where_it_is_asked_for_or_the_order_is_known() {
+    let coloured = |name: &str, usage: Usage, (samples, phase): (usize, f64), seed: u64| {
+        let (v, mut white, mut error) = (input(samples, phase), white(seed), 0.0);
+        let mut noise = || {
+            error = 0.9 * error + 0.01 * white();
+            error
+        };
+        let y = response(&v, &[-0.6], &mut noise);
+        record(name, usage, v, y)
+    };
+    let records = || {
+        vec![coloured("sweep", Usage::Fit, (3000, 0.0), 5), coloured("drive", Usage::Holdout, (1500, 1.0), 6)]
+    };
+    // A second pole would take the colour.
+    let plain = Settings { max_order: 1, ..Settings::default() };
+    let in_the_field = told(None, records(), &plain);
+    assert_eq!(in_the_field.status, Status::None, "{in_the_field:?}");
+    for (order, settings) in [(None, plain.clone().asking(&[Effect::ColouredNoise])), (Some(1), plain)] {
+        let verdict = told(order, records(), &settings);
+        assert_eq!(verdict.effects, [Effect::ColouredNoise], "{verdict:?}");
+    }
+}

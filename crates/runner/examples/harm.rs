@@ -9,7 +9,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use switchback::diagnosis::{self, Report, Subject};
-use switchback_gap::{Effect, HoldoutSeries};
+use switchback_gap::{Effect, HoldoutSeries, Settings};
 
 /// Blocks that a record is cut into: each is long against the memory of its errors, unless these last through the record.
 const BLOCKS: usize = 15;
@@ -32,7 +32,7 @@ fn main() -> miette::Result<()> {
                 continue;
             }
         };
-        match diagnosis::examine(Subject::choose(rig, None)?, &[]) {
+        match diagnosis::examine(Subject::choose(rig, None)?, &Settings::default()) {
             Ok(report) => harmed += told(&name, &report, began.elapsed().as_secs_f64()),
             Err(error) => println!("{name}: {error}"),
         }

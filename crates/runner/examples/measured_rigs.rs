@@ -11,6 +11,7 @@ use switchback::identification::{Method, identify};
 use switchback::output::{Artefacts, OutputFolder};
 use switchback::plots;
 use switchback_estimator::rig::Usage;
+use switchback_gap::Settings;
 
 const RIGS: [&str; 3] = ["mr-damper", "pneumatic-seal", "piezo-stage"];
 const METHODS: [Method; 3] = [Method::Free, Method::Memoryless, Method::LinearArx];
@@ -44,7 +45,8 @@ fn main() -> miette::Result<()> {
                 }
             }
         }
-        let report = diagnosis::examine(Subject::choose(rig, None)?, &[]).map_err(|e| e.in_file(&path))?;
+        let report = diagnosis::examine(Subject::choose(rig, None)?, &Settings::default())
+            .map_err(|e| e.in_file(&path))?;
         let words = diagnosis::words(&report, None);
         println!("{words}");
         artefacts.add(format!("gap-{name}.txt"), words);

@@ -48,7 +48,8 @@ pub(super) fn plan(
     let Some((structure, known)) = known else { return Ok(None) };
     let led = structure.applied(records).with_nominal_held(&known.grid);
     let Some((campaign, nominal)) = compared_by_simulation(&led, &known) else { return Ok(None) };
-    let mut limitations = Vec::new();
+    let mut limitations =
+        vec!["effects were added to the given model, whose own parameters stayed as they are".to_owned()];
     let judged = super::judged_tracks(&campaign, &mut limitations);
     let Some(given) = GivenModel::of(model, rig, records, &judged)? else { return Ok(None) };
     super::note_what_the_records_lack(&campaign, &mut limitations);
@@ -64,6 +65,7 @@ pub(super) fn plan(
         judged,
         structure,
         pair_effort: PairEffort::Forward,
+        owns_colour: true,
         is_calibrated: false,
         limitations,
         exporter: Exporter::new(rig),

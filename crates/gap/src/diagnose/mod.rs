@@ -29,7 +29,7 @@ use crate::phase::Phase;
 use crate::records::campaign::Campaign;
 use crate::residuals::omnibus::omnibus;
 use crate::settings::{Model, Settings};
-use crate::verdict::decide::{held_out_differs, parameters_are_off, unresolved, verdict};
+use crate::verdict::decide::{held_out_differs, parameters_are_off, unresolved, verdict, without_colour};
 use crate::verdict::odds::{Leavings, holds_together, odds, odds_together};
 use crate::verdict::simulators::weighed_by_closure;
 use crate::workers::{Serial, Workers};
@@ -93,7 +93,9 @@ fn concluded(
     steps.pair_effort = PairEffort::WhileHopeful;
     let by_steps = steps.attribute(workers);
     let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
-    if told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
+    // No simulator sees noise that is asked for.
+    let is_asked = by_steps.verdict.effects.iter().any(|effect| steps.settings.asked.contains(effect));
+    if is_asked || told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
         return Ok((steps, by_steps));
     }
     let mut runs = plan(simulator.chosen())?;
@@ -132,6 +134,10 @@ fn with_room_for_dynamics(
     Ok((again, anew))
 }
 
+/// What is told of noise whose colour is no cause.
+const COLOURED: &str = "the errors of the equation are coloured, as they are wherever nobody designed the records: that belongs to the model; \
+                        ask for coloured_noise to have it told as a cause";
+
 /// What is known before any effect is tried.
 #[derive(Debug)]
 struct Plan {
@@ -148,6 +154,8 @@ struct Plan {
     structure: Structure,
     /// How far two effects are looked for.
     pair_effort: PairEffort,
+    /// Whether the colour of the noise belongs to the model, and is no cause: of records that nobody designed.
+    owns_colour: bool,
     /// Whether probabilities were calibrated on records and models like these.
     is_calibrated: bool,
     limitations: Vec<String>,
@@ -174,6 +182,8 @@ impl Plan {
             None => nominal.runs(&campaign, &judged),
         };
         let pair_effort = if campaign.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
+        let owns_colour =
+            !declared && !campaign.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
         let exporter = Exporter::new(rig);
         let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
         let is_calibrated = declared && holds_out && given.is_none() && !campaign.criterion.simulates();
@@ -186,6 +196,7 @@ impl Plan {
             runs,
             structure,
             pair_effort,
+            owns_colour,
             is_calibrated,
             limitations,
             exporter,
@@ -267,12 +278,23 @@ impl Plan {
             Some(closure) if significant => weighed_by_closure(odds, closure),
             _ => odds,
         };
+        let told = &joint.as_ref().map_or(&best, |(explanation, _)| explanation).parts;
+        if self.owns_colour && significant && told.iter().any(|part| part.effect.card().colours_noise) {
+            self.limitations.push(COLOURED.into());
+        }
+        let odds = match joint.is_none() && self.owns_colour {
+            true => odds.with_colour_in_the_model(singles.iter().map(|s| s.parts[0].effect)),
+            false => odds,
+        };
         let mut ranked: Vec<(Effect, f64)> =
             singles.iter().zip(&odds.effects).map(|(s, p)| (s.parts[0].effect, *p)).collect();
         ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
         let causes = joint.as_ref().map(|(_, causes)| causes);
         let mut verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
         let explanation = joint.map_or(best, |(explanation, _)| explanation);
+        if self.owns_colour {
+            verdict = without_colour(verdict);
+        }
         if self.only_parameters_are_off(verdict.status, &explanation.fit) {
             verdict = parameters_are_off(&verdict);
         } else if verdict.status == Status::Unexplained && self.resolves_no_gap(&explanation.fit) {

@@ -238,6 +238,11 @@ impl Campaign {
         }
     }
 
+    /// Whether any fit record is a designed experiment.
+    pub(crate) fn is_designed(&self) -> bool {
+        self.fit().any(Track::is_pulsed)
+    }
+
     pub(crate) fn fit(&self) -> impl Iterator<Item = &Track> {
         self.tracks.iter().filter(|t| t.is_fit())
     }

@@ -48,6 +48,13 @@ pub(crate) fn parameters_are_off(verdict: &Verdict) -> Verdict {
     naming_nothing(Status::Refit, None, verdict.probability)
 }
 
+/// The verdict on two effects where the colour of noise belongs to the model and is no cause: it takes what the law of the other one leaves.
+pub(crate) fn without_colour(verdict: Verdict) -> Verdict {
+    let (takes, effects): (Vec<Effect>, Vec<Effect>) =
+        verdict.effects.iter().partition(|effect| effect.card().colours_noise);
+    Verdict { effects, corrected_by: verdict.corrected_by.or(takes.first().copied()), ..verdict }
+}
+
 /// The verdict on one or several effects; `together` are those that a pair names.
 pub(crate) fn verdict(
     ranked: &[(Effect, f64)],
@@ -119,6 +126,18 @@ mod tests {
         assert_eq!(ambiguous.status, Status::Ambiguous);
         assert_eq!(ambiguous.class, [Effect::GainDrift, Effect::ExtraPole, Effect::SensorDrift]);
         assert!((ambiguous.probability - 0.83).abs() < 1e-9);
+    }
+
+    #[test]
+    fn beside_a_cause_the_colour_of_noise_corrects_it() {
+        let named = |effects: &[Effect]| Verdict {
+            effects: effects.to_vec(),
+            ..naming_nothing(Status::Named, Some(Stage::Disturbance), 0.9)
+        };
+        let beside = without_colour(named(&[Effect::ColouredNoise, Effect::Backlash]));
+        assert_eq!((beside.status, &beside.effects[..]), (Status::Named, &[Effect::Backlash][..]));
+        assert_eq!(beside.corrected_by, Some(Effect::ColouredNoise));
+        assert_eq!(without_colour(named(&[Effect::Backlash])), named(&[Effect::Backlash]));
     }
 
     #[test]

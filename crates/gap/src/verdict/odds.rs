@@ -21,6 +21,15 @@ pub(crate) struct Odds {
 }
 
 impl Odds {
+    /// The same where the colour of noise belongs to the model: where nothing but that is found nothing is missing. `effects` are those
+    /// that the probabilities are of.
+    pub(crate) fn with_colour_in_the_model(mut self, effects: impl Iterator<Item = Effect>) -> Self {
+        for (p, _) in self.effects.iter_mut().zip(effects).filter(|(_, effect)| effect.card().colours_noise) {
+            self.none += std::mem::take(p);
+        }
+        self
+    }
+
     /// Probability that something is missing and one of the candidates is it.
     pub(crate) fn told(&self) -> f64 {
         1.0 - self.none - self.unexplained
@@ -277,6 +286,14 @@ mod tests {
         let sum = odds.effects.iter().sum::<f64>() + odds.none + odds.unexplained;
         assert!((sum - 1.0).abs() < 1e-9, "probabilities sum to {sum}");
         odds
+    }
+
+    #[test]
+    fn where_the_model_has_the_colour_of_noise_nothing_is_missing() {
+        let odds = Odds { effects: vec![0.7, 0.1], none: 0.05, unexplained: 0.15 };
+        let moved = odds.with_colour_in_the_model([Effect::ColouredNoise, Effect::Backlash].into_iter());
+        assert!((moved.none - 0.75).abs() < 1e-12 && moved.effects == [0.0, 0.1], "{moved:?}");
+        assert!((moved.effects.iter().sum::<f64>() + moved.none + moved.unexplained - 1.0).abs() < 1e-12);
     }
 
     #[test]

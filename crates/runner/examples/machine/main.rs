@@ -13,7 +13,7 @@ use simulated::Machine;
 use std::fs;
 use std::time::Instant;
 use switchback::diagnosis::{self, Report, Subject};
-use switchback_gap::{Effect, Status};
+use switchback_gap::{Effect, Settings, Status};
 
 fn main() -> miette::Result<()> {
     let wishes: Vec<String> = std::env::args().collect();
@@ -32,7 +32,7 @@ fn main() -> miette::Result<()> {
     for seed in first..first + seeds {
         let machine = Machine::draw(seed, play, holds);
         let (began, used) = (Instant::now(), processor_seconds());
-        let report = diagnosis::examine(Subject::choose(machine.rig(seed), None)?, &[])?;
+        let report = diagnosis::examine(Subject::choose(machine.rig(seed), None)?, &Settings::default())?;
         let told = told(&report, play);
         counted.add(told);
         println!(

@@ -10,7 +10,7 @@ use crate::plots;
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
-use switchback_gap::Effect;
+use switchback_gap::{Effect, Settings};
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
@@ -26,6 +26,11 @@ pub struct Args {
     /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     without: Vec<Effect>,
+
+    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    ask: Vec<Effect>,
 
     /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
     #[arg(long)]
@@ -73,7 +78,8 @@ pub fn run(args: &Args) -> CommandResult {
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let subject = Subject::choose(loaded.rig, args.model.as_deref())?;
     let watch = Watch::new(args.quiet);
-    let report = args.threads.install(|| diagnosis::examine_watched(subject, &args.without, &watch))?;
+    let settings = Settings::default().without(&args.without).asking(&args.ask);
+    let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings, &watch))?;
     watch.finish();
     let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {

@@ -37,13 +37,12 @@ impl Workers for Pool<'_> {
     }
 }
 
-/// Diagnoses with the default settings on all cores, some effects left out; the result does not depend on how many cores there
-/// are.
+/// Diagnoses on all cores; the result does not depend on how many there are.
 ///
 /// # Errors
 /// [`DiagnosisError`] where nothing can be judged; what can be judged only in part becomes a limitation of the report.
-pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, DiagnosisError> {
-    examine_watched(subject, without, &Watch::silent())
+pub fn examine(subject: Subject, settings: &Settings) -> Result<Report, DiagnosisError> {
+    examine_watched(subject, settings, &Watch::silent())
 }
 
 /// [`examine`], which shows how far it has come.
@@ -52,21 +51,20 @@ pub fn examine(subject: Subject, without: &[Effect]) -> Result<Report, Diagnosis
 /// As [`examine`].
 pub fn examine_watched(
     subject: Subject,
-    without: &[Effect],
+    settings: &Settings,
     watch: &Watch,
 ) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
-    let settings = Settings::default().without(without);
-    let mut diagnosis = diagnose_with(&Pool(watch), &rig, model, &settings)
+    let mut diagnosis = diagnose_with(&Pool(watch), &rig, model, settings)
         .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
     diagnosis.limitations.extend(notes);
-    diagnosis.limitations.extend(left_out(without));
+    diagnosis.limitations.extend(left_out(settings));
     Ok(Report { rig, source, diagnosis })
 }
 
 /// What a reader must know where candidates were left out.
-fn left_out(without: &[Effect]) -> Option<String> {
+fn left_out(settings: &Settings) -> Option<String> {
     let names: Vec<&str> =
-        Effect::ALL.into_iter().filter(|e| without.contains(e)).map(Effect::name).collect();
+        Effect::ALL.into_iter().filter(|e| !settings.effects.contains(e)).map(Effect::name).collect();
     (!names.is_empty()).then(|| format!("left out of the candidates, as asked: {}", names.join(", ")))
 }
