@@ -233,9 +233,9 @@ mod tests {
             let tracks = (0..count).map(|k| Track { clock: 240 * k, ..record.clone() });
             ranges(&Campaign { tracks: tracks.collect(), ..campaign.clone() })
         };
-        assert_eq!(taken(1), [(36.0, 204.0)]);
-        assert_eq!(taken(2), [(36.0, 204.0), (276.0, 444.0)]);
-        assert_eq!(taken(5), [(36.0, 204.0), (276.0, 924.0), (996.0, 1164.0)]);
+        assert_eq!(taken(1), [(24.0, 216.0)]);
+        assert_eq!(taken(2), [(24.0, 216.0), (264.0, 456.0)]);
+        assert_eq!(taken(5), [(24.0, 216.0), (264.0, 936.0), (984.0, 1176.0)]);
     }
 
     #[test]
