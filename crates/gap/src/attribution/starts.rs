@@ -142,12 +142,7 @@ impl ScoreTest<'_> {
     /// The log slope of a sensor enters as a factor, as it does in the fit.
     fn moved(&self, assembly: &Assembly, p: &Linear, like: &Design) -> Moved {
         let fit = &self.known.explanation.fit;
-        let design = Design::like(
-            Some(like),
-            self.known.campaign,
-            &self.known.campaign.placed(&fit.grid, assembly.play),
-            assembly,
-        );
+        let design = Design::like(Some(like), self.known.campaign, &fit.grid, assembly);
         let whitener = design.whitener(&assembly.noise, &p.a);
         let mut innovations = design.innovations(p, &whitener);
         let slope = design.log_slope() - fit.design.log_slope();

@@ -89,8 +89,10 @@ impl Design {
         Self::of(campaign, grid, assembly, &numbered)
     }
 
-    /// The design of the fit records; what a design of the same records has in common with it is shared.
+    /// The design of the fit records; what a design of the same records has in common with it is shared. Borders that are known lie where
+    /// the assembly's play has moved them to.
     pub(crate) fn like(known: Option<&Self>, campaign: &Campaign, grid: &Grid, assembly: &Assembly) -> Self {
+        let grid = &*campaign.placed(grid, assembly.play);
         let numbered: Vec<(usize, &Track)> =
             campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).collect();
         let known = known.filter(|k| k.criterion == campaign.criterion && k.tracks.len() == numbered.len());
@@ -105,6 +107,7 @@ impl Design {
         assembly: &Assembly,
         tracks: &[(usize, &Track)],
     ) -> Self {
+        let grid = &*campaign.placed(grid, assembly.play);
         Self::sharing(None, campaign, (grid, assembly), tracks)
     }
 

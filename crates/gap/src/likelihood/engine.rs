@@ -143,7 +143,7 @@ pub(crate) fn fit(
     rounds: usize,
 ) -> Option<Fit> {
     let design_of = |assembly: &Assembly, known: Option<&Design>| {
-        Design::like(known, ground.campaign, &ground.campaign.placed(ground.grid, assembly.play), assembly)
+        Design::like(known, ground.campaign, ground.grid, assembly)
     };
     let mut nonlinear = nonlinear.to_vec();
     let mut p = start.clone().gauged();
@@ -300,12 +300,7 @@ pub(super) fn derivatives(
                 let errors = errors.get_or_init(|| design.all_errors(p)).clone();
                 (design.whitened(errors, &design.whitener(&assembly.noise, &p.a)), 1.0)
             } else {
-                let there = Design::like(
-                    Some(design),
-                    ground.campaign,
-                    &ground.campaign.placed(ground.grid, assembly.play),
-                    &assembly,
-                );
+                let there = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
                 let moved = there.innovations(p, &there.whitener(&assembly.noise, &p.a));
                 (moved, (-(there.log_slope() - design.log_slope()) / n).exp())
             };
