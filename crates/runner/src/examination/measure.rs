@@ -76,6 +76,32 @@ pub struct Measure {
     pub in_percent: bool,
 }
 
+/// What was reached, its interval, and how many rigs tell.
+pub type Reached = (Option<f64>, Option<[f64; 2]>, usize);
+
+/// A measure of an examination whose expectations are `E`: its key, what is measured, where its bound stands among expectations, and what was
+/// reached.
+pub type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
+
+/// Lines with what must be reached and what a scenario expects; all are shares but those whose keys are given.
+pub fn bounded<E, const N: usize>(
+    lines: [Line<E>; N],
+    (targets, expect): (&E, &E),
+    no_shares: &[&str],
+) -> Vec<Measure> {
+    let measure = |(key, text, bound, (reached, interval, rigs)): Line<E>| Measure {
+        key,
+        text,
+        target: bound(targets),
+        expected: bound(expect),
+        reached,
+        interval,
+        rigs,
+        in_percent: !no_shares.contains(&key),
+    };
+    lines.into_iter().map(measure).collect()
+}
+
 impl Measure {
     /// Whether the target is met, where a rig tells.
     pub fn meets_target(&self) -> Option<bool> {

@@ -7,7 +7,7 @@ use super::places::PlaceRow;
 use crate::blind::case::Case;
 use crate::blind::design::Kind;
 use crate::blind::scenario::Expect;
-use crate::examination::{Bound, ClosureCheck, Measure, Share};
+use crate::examination::{Bound, ClosureCheck, Line, Measure, Share, bounded};
 
 /// What a diagnosis must reach.
 pub const TARGETS: Expect = Expect {
@@ -25,13 +25,6 @@ pub const TARGETS: Expect = Expect {
     phantom: Some(0.05),
 };
 
-/// Takes a measure's bound out of a set of expectations.
-type Bounds = fn(&Expect) -> Option<Bound>;
-/// What was reached, its interval, and how many rigs tell.
-type Told = (Option<f64>, Option<[f64; 2]>, usize);
-/// Key, text, bound and figure of one measure.
-type Line = (&'static str, &'static str, Bounds, Told);
-
 pub(super) fn measures(
     cases: &[Case],
     calibration: &Calibration,
@@ -47,7 +40,7 @@ pub(super) fn measures(
     let place = places.iter().find(|p| p.axis == "all");
     let share = |s: Share| (s.value(), s.interval(), s.of);
     let two = |c: &Case| c.reply.status == "named" && c.reply.effects.len() > 1;
-    let lines: [Line; 14] = [
+    let lines: [Line<Expect>; 14] = [
         (
             "exact",
             "exact effect named, surviving gap ≥ 1 sd",
@@ -133,17 +126,5 @@ pub(super) fn measures(
             share(Share::over(singles(cases), two)),
         ),
     ];
-    lines
-        .into_iter()
-        .map(|(key, text, bound, (reached, interval, rigs))| Measure {
-            key,
-            text,
-            target: bound(&TARGETS),
-            expected: bound(expect),
-            reached,
-            interval,
-            rigs,
-            in_percent: !matches!(key, "ece" | "closure_error" | "where_f1"),
-        })
-        .collect()
+    bounded(lines, (&TARGETS, expect), &["ece", "closure_error", "where_f1"])
 }

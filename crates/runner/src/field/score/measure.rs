@@ -3,7 +3,7 @@
 use super::calibration::Claims;
 use super::rating::{Asked, Rating};
 use super::rows::{RIGHT, share};
-use crate::examination::{Bound, ClosureCheck, Measure, Share};
+use crate::examination::{Bound, ClosureCheck, Line, Measure, Share, bounded};
 use crate::field::design::Kind;
 use crate::field::scenario::Expect;
 
@@ -21,13 +21,6 @@ pub const TARGETS: Expect = Expect {
     coverage: Some([0.85, 0.95]),
 };
 
-/// Takes a measure's bound out of a set of expectations.
-type Bounds = fn(&Expect) -> Option<Bound>;
-/// What was reached, its interval, and how many answers tell.
-type Told = (Option<f64>, Option<[f64; 2]>, usize);
-/// Key, text, bound and figure of one measure.
-type Line = (&'static str, &'static str, Bounds, Told);
-
 pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) -> Vec<Measure> {
     let told = |s: Share| (s.value(), s.interval(), s.of);
     let large =
@@ -43,7 +36,7 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
         });
         judged.filter_map(|a| a.answer.closure.as_ref())
     };
-    let lines: [Line; 13] = [
+    let lines: [Line<Expect>; 13] = [
         (
             "model_class",
             "model given: right class, size ≥ 2",
@@ -118,17 +111,5 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
             told(Share::over(closures(true), ClosureCheck::is_covered)),
         ),
     ];
-    lines
-        .into_iter()
-        .map(|(key, text, bound, (reached, interval, rigs))| Measure {
-            key,
-            text,
-            target: bound(&TARGETS),
-            expected: bound(expect),
-            reached,
-            interval,
-            rigs,
-            in_percent: !matches!(key, "calibration" | "ece"),
-        })
-        .collect()
+    bounded(lines, (&TARGETS, expect), &["calibration", "ece"])
 }
