@@ -10,7 +10,8 @@ use switchback_maker::EFFECTS;
 pub struct Confusion {
     /// Truths: every effect at a size of at least 1, then `none` and `outside`.
     pub rows: Vec<&'static str>,
-    /// Answers: every effect named alone, then `several`, `class`, `ambiguous`, `none`, `unexplained`, `failed`.
+    /// Answers: every effect named alone, then `several`, `class`, `ambiguous`, `none`, `refit` where parameters may be all
+    /// that has changed, `unexplained`, `failed`.
     pub columns: Vec<&'static str>,
     /// Counts, a row a truth.
     pub counts: Vec<Vec<usize>>,

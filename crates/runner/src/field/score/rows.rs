@@ -63,7 +63,7 @@ pub(super) fn by<'c>(asked: &[Asked<'c>], key: impl Fn(&Asked<'c>) -> Option<Str
 /// What was put in, at a size of 2 at least, against what was said beyond the base's own verdict.
 pub(super) fn confusion(asked: &[Asked<'_>]) -> Confusion {
     let rows: Vec<_> = EFFECTS.into_iter().chain(["none", "outside"]).collect();
-    let rest = ["several", "class", "ambiguous", "none", "unexplained", "failed"];
+    let rest = ["several", "class", "ambiguous", "none", "refit", "unexplained", "failed"];
     let columns: Vec<_> = EFFECTS.into_iter().chain(rest).collect();
     let mut counts = vec![vec![0; columns.len()]; rows.len()];
     for one in asked.iter().filter(|a| a.rating().is_some()) {
@@ -78,7 +78,7 @@ pub(super) fn confusion(asked: &[Asked<'_>]) -> Confusion {
             ("named", [effect]) => *effect,
             ("named", [_, ..]) => "several",
             (status @ ("class" | "ambiguous"), [_, ..]) => status,
-            (status @ ("unexplained" | "failed"), _) => status,
+            (status @ ("refit" | "unexplained" | "failed"), _) => status,
             _ => "none",
         };
         let row = rows.iter().position(|r| *r == truth);

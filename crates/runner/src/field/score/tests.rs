@@ -76,6 +76,14 @@ fn each_answer_about_a_fault_has_its_worth() {
 }
 
 #[test]
+fn other_parameters_are_an_answer_of_their_own() {
+    let table = score(&[planted(answered("refit", &[]))], &Expect::default()).confusion;
+    let at = |names: &[&str], name: &str| names.iter().position(|n| *n == name).expect(name);
+    assert_eq!(table.counts[at(&table.rows, "backlash")][at(&table.columns, "refit")], 1);
+    assert_eq!(table.counts.iter().flatten().sum::<usize>(), 1);
+}
+
+#[test]
 fn what_a_measured_base_shows_by_itself_is_neither_right_nor_wrong() {
     let on_seal =
         |effects: &[&'static str]| case(Kind::Planted, "seal", Some("backlash"), answered("named", effects));

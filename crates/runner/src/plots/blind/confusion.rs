@@ -19,6 +19,8 @@ pub(in crate::plots) fn confusion(table: &Confusion, rows: &str) -> Result<Strin
     page((width as u32, height as u32), |canvas| {
         let title = format!("What was put in (rows, {rows}) and what was said (columns), % of a row");
         canvas.draw(&Text::new(title, (16, 10), letters(17))).map_err(PlotError::new)?;
+        let key = "blue: the right answer; orange: another one";
+        canvas.draw(&Text::new(key, (16, 34), letters(14))).map_err(PlotError::new)?;
         let name = letters(13).pos(Pos::new(HPos::Right, VPos::Center));
         for (i, row) in table.rows.iter().enumerate() {
             let at = (LEFT - 8, TOP + CELL * i as i32 + CELL / 2);
@@ -40,9 +42,9 @@ pub(in crate::plots) fn confusion(table: &Confusion, rows: &str) -> Result<Strin
     })
 }
 
-/// Whether an answer is the right one: the effect itself, silence where there is none, "none of these" for outsiders.
+/// Whether an answer is the right one: the effect itself, nothing or other parameters where there is none, "none of these" for outsiders.
 fn is_right(truth: &str, answer: &str) -> bool {
-    truth == answer || (truth, answer) == ("outside", "unexplained")
+    truth == answer || matches!((truth, answer), ("outside", "unexplained") | ("none", "refit"))
 }
 
 fn draw_cell(

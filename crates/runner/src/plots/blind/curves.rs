@@ -49,7 +49,7 @@ pub(in crate::plots) fn calibration(bins: &[CalibrationBin]) -> Result<String, P
     let frame = Frame {
         title: "Probabilities mean what they say where the curve follows the diagonal",
         sample: Sample::Line,
-        names: &["verdicts"],
+        names: &["verdicts; bars: 95 % intervals (Wilson); grey: as much holds as is claimed"],
         x: ("probability claimed", 0.0..1.02),
         y: ("share that holds", 0.0..1.02),
     };
