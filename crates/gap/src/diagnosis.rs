@@ -1,6 +1,7 @@
 //! What a diagnosis says, field by field as the JSON contract has it.
 
 use crate::effect::{Effect, Stage};
+use crate::evidence::Compared;
 use crate::export::PortableModel;
 
 /// How far the verdict goes.
@@ -186,6 +187,26 @@ pub enum Horizon {
     FreeRun,
 }
 
+impl Horizon {
+    /// Samples ahead; 0 for the whole record.
+    pub(crate) fn samples(self) -> usize {
+        match self {
+            Self::Step => 1,
+            Self::Samples(h) => h,
+            Self::FreeRun => 0,
+        }
+    }
+
+    /// The horizon so many samples ahead.
+    pub(crate) fn of_samples(samples: usize) -> Self {
+        match samples {
+            0 => Self::FreeRun,
+            1 => Self::Step,
+            h => Self::Samples(h),
+        }
+    }
+}
+
 /// What a model gains over another at one horizon, on the fit records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HorizonGain {
@@ -348,6 +369,8 @@ pub struct Diagnosis {
     pub probability_unexplained: f64,
     /// Deviance that causes in general would still gain beside what the verdict rests on, beyond chance.
     pub left: f64,
+    /// What the records say of every effect, a way of comparing at a time, that of the verdict first.
+    pub evidence: Vec<Compared>,
     /// Samples fitted, which deviances grow with.
     pub samples: usize,
     /// Passes over all of these samples that the diagnosis took: what it cost.

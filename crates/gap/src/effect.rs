@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 pub use crate::effects::Effect;
 
 /// A stage of the block diagram `v → input → operator → dynamics → (disturbance) → sensor → y`.
@@ -73,6 +76,20 @@ impl Effect {
     /// Whether a simulation without the effect is as good as one with it: it is noise, or rounds.
     pub(crate) fn moves_no_simulation(self) -> bool {
         self.is_noise() || self.card().rounds
+    }
+}
+
+/// By its name.
+impl Serialize for Effect {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Effect {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::from_name(&name).ok_or_else(|| D::Error::custom(format!("`{name}` is no effect")))
     }
 }
 

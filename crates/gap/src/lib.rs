@@ -27,6 +27,7 @@ mod diagnosis;
 mod effect;
 mod effects;
 mod error;
+mod evidence;
 mod experiments;
 mod export;
 mod least_squares;
@@ -52,6 +53,7 @@ pub use diagnosis::{
 };
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
+pub use evidence::{Compared, Comparison, EffectEvidence};
 pub use export::{PortableError, PortableModel, Simulated};
 pub use phase::Phase;
 pub use settings::{Model, NominalModel, Settings};

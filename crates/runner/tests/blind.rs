@@ -94,6 +94,7 @@ fn silent(status: Status) -> Diagnosis {
         residuals_after: ResidualPicture::default(),
         limitations: vec![],
         models: None,
+        evidence: vec![],
     }
 }
 

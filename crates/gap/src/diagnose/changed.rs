@@ -7,11 +7,9 @@
 use switchback_estimator::rig::Rig;
 
 use super::given_model::{GivenModel, predicted};
-use super::report::Conclusion;
 use super::{Nominal, Plan};
 use crate::attribution::PairEffort;
 use crate::attribution::explain::Explanation;
-use crate::diagnosis::Status;
 use crate::error::DiagnoseError;
 use crate::export::Exporter;
 use crate::likelihood::engine::{Fit, Ground, fit};
@@ -71,14 +69,6 @@ pub(super) fn plan(
         exporter: Exporter::new(rig),
         campaign,
     }))
-}
-
-/// A plan with what it tells; nothing where it tells no cause.
-pub(super) fn concluded(workers: &impl Workers, plan: Option<Plan>) -> Option<(Plan, Conclusion)> {
-    let mut plan = plan?;
-    let conclusion = plan.attribute(workers);
-    let tells = matches!(conclusion.verdict.status, Status::Named | Status::Class | Status::Ambiguous);
-    tells.then_some((plan, conclusion))
 }
 
 /// A nominal model that does on these records what the predictions in them say; nothing where none does, or where a record has none.

@@ -1,6 +1,7 @@
 //! The diagnosis itself: the nominal model, attribution, verdict, report.
 
 mod changed;
+mod compared;
 mod evidence;
 mod given_model;
 mod harm;
@@ -11,6 +12,7 @@ mod other_conditions;
 mod parameters;
 mod refit;
 mod report;
+mod ways;
 
 use switchback_estimator::rig::Rig;
 
@@ -18,6 +20,7 @@ use self::evidence::Evidence;
 use self::given_model::GivenModel;
 use self::nominal::Nominal;
 use self::report::Conclusion;
+use self::ways::{Way, Ways};
 use crate::attribution::explain::Explanation;
 use crate::attribution::{PairEffort, SIGNIFICANT};
 use crate::diagnosis::{Diagnosis, Status};
@@ -61,77 +64,74 @@ pub fn diagnose_with(
     let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings.max_order)?;
-    let changed = changed::concluded(workers, changed::plan(workers, (rig, &model), &records, settings)?);
+    let held =
+        changed::plan(workers, (rig, &model), &records, settings)?.map(|plan| Way::gone(workers, plan));
     // Where parameters are all that has changed nothing is missing.
-    let changed = changed.filter(|(plan, c)| !plan.does_the_same(chosen.first(), &c.augmented.fit));
-    let (first, conclusion) = concluded(workers, chosen, &plan)?;
-    let (last, conclusion) = match declared {
-        Some(_) => (first, conclusion),
-        None => with_room_for_dynamics(workers, (first, conclusion), (&records, &plan))?,
-    };
-    let anew = (&last.campaign, &conclusion.augmented.fit);
-    match changed.filter(|(plan, c)| !plan.is_outdone_by(anew, &c.augmented.fit)) {
-        Some((plan, conclusion)) => Ok(plan.report(workers, conclusion)),
-        None => Ok(last.report(workers, conclusion)),
+    let counts = held.as_ref().is_some_and(|way| way.tells_a_cause() && !way.does_the_same(chosen.first()));
+    let (mut told, mut others) = gone(workers, chosen, &plan)?;
+    if declared.is_none() {
+        told = with_room_for_dynamics(workers, told, (&records, &plan))?;
     }
+    match held {
+        Some(held) if counts && !held.is_outdone_by(&told) => others.push(std::mem::replace(&mut told, held)),
+        held => others.extend(held),
+    }
+    Ok(Ways::new(workers, told, others).report(workers))
 }
 
-/// The diagnosis of one choice; of two, that one step ahead where it tells a cause with which no simulator is needed.
-fn concluded(
+/// The way of one choice; of two, that one step ahead where it tells a cause with which no simulator is needed. Behind it the other way,
+/// where that was gone, too.
+fn gone(
     workers: &impl Workers,
     choice: Choice,
     plan: &impl Fn(Chosen) -> Result<Plan, DiagnoseError>,
-) -> Result<(Plan, Conclusion), DiagnoseError> {
+) -> Result<(Way, Vec<Way>), DiagnoseError> {
     let (mut steps, simulator) = match choice {
-        Choice::One(chosen) => {
-            let mut only = plan(chosen)?;
-            let conclusion = only.attribute(workers);
-            return Ok((only, conclusion));
-        }
+        Choice::One(chosen) => return Ok((Way::gone(workers, plan(chosen)?), Vec::new())),
         Choice::Either(steps, simulator) => (plan(steps)?, simulator),
     };
     steps.pair_effort = PairEffort::WhileHopeful;
-    let by_steps = steps.attribute(workers);
-    let told = matches!(by_steps.verdict.status, Status::Named | Status::Class);
+    let steps = Way::gone(workers, steps);
+    let verdict = &steps.conclusion.verdict;
+    let told = matches!(verdict.status, Status::Named | Status::Class);
     // No simulator sees noise that is asked for.
-    let is_asked = by_steps.verdict.effects.iter().any(|effect| steps.settings.asked.contains(effect));
-    if is_asked || told && simulator.is_needless_beside(&steps.campaign, &by_steps.augmented.fit) {
-        return Ok((steps, by_steps));
+    let is_asked = verdict.effects.iter().any(|effect| steps.plan.settings.asked.contains(effect));
+    if is_asked || told && simulator.is_needless_beside(&steps.plan.campaign, &steps.conclusion.augmented.fit)
+    {
+        return Ok((steps, Vec::new()));
     }
-    let mut runs = plan(simulator.chosen())?;
-    let by_runs = runs.attribute(workers);
+    let runs = Way::gone(workers, plan(simulator.chosen())?);
     // What a simulator leaves alone may be what it cannot see.
-    match (by_steps.verdict.status, by_runs.verdict.status) {
-        (Status::Unexplained, Status::None) => Ok((steps, by_steps)),
-        _ => Ok((runs, by_runs)),
-    }
+    Ok(match (verdict.status, runs.conclusion.verdict.status) {
+        (Status::Unexplained, Status::None) => (steps, vec![runs]),
+        _ => (runs, vec![steps]),
+    })
 }
 
-/// The diagnosis on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be told and a higher
+/// The way on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be told and a higher
 /// order or another delay does the same on the held-out records. What that one tells counts, unless it is such an effect again, or
 /// nothing of use: then the order is the answer.
 fn with_room_for_dynamics(
     workers: &impl Workers,
-    (first, conclusion): (Plan, Conclusion),
+    first: Way,
     (records, plan): (&Campaign, &impl Fn(Chosen) -> Result<Plan, DiagnoseError>),
-) -> Result<(Plan, Conclusion), DiagnoseError> {
-    if !refit::tells_dynamics(&conclusion.verdict) {
-        return Ok((first, conclusion));
+) -> Result<Way, DiagnoseError> {
+    if !refit::tells_dynamics(&first.conclusion.verdict) {
+        return Ok(first);
     }
-    let simulates = first.campaign.criterion.simulates();
-    let wider = first.structure.wider(refit::tells_a_delay(&conclusion.verdict));
+    let simulates = first.plan.campaign.criterion.simulates();
+    let wider = first.plan.structure.wider(refit::tells_a_delay(&first.conclusion.verdict));
     let fitted = workers.map(&wider, |structure| of_structure(records, *structure, simulates).ok());
-    let does_the_same = |chosen: &Chosen| first.does_the_same(chosen, &conclusion.augmented.fit);
-    let Some(chosen) = fitted.into_iter().flatten().find(does_the_same) else {
-        return Ok((first, conclusion));
+    let Some(chosen) = fitted.into_iter().flatten().find(|chosen| first.does_the_same(chosen)) else {
+        return Ok(first);
     };
-    let mut again = plan(chosen)?;
-    let anew = again.attribute(workers);
-    if refit::tells_dynamics(&anew.verdict) || anew.verdict.status == Status::Unexplained {
-        let refitted = first.refitted(conclusion, &again);
-        return Ok((first, refitted));
+    let again = Way::gone(workers, plan(chosen)?);
+    let verdict = &again.conclusion.verdict;
+    if refit::tells_dynamics(verdict) || verdict.status == Status::Unexplained {
+        let conclusion = first.plan.refitted(first.conclusion, &again.plan);
+        return Ok(Way { conclusion, ..first });
     }
-    Ok((again, anew))
+    Ok(again)
 }
 
 /// What is told of noise whose colour is no cause.
@@ -309,7 +309,7 @@ impl Plan {
             Status::None | Status::Refit => self.nominal.plain.clone(),
             _ => explanation,
         };
-        Conclusion { singles, odds, verdict, augmented, left, together: found, other: None }
+        Conclusion { fitted: all, singles, odds, verdict, augmented, left, together: found, other: None }
     }
 }
 

@@ -8,23 +8,24 @@ use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, measure};
 use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, Figure, FittedParameter, Gap, HoldoutSeries, Models, Refit, Status, Together,
+    Candidate, Cell, Diagnosis, Figure, FittedParameter, HoldoutSeries, Models, Refit, Status, Together,
     Verdict,
 };
 use crate::effect::Effect;
+use crate::evidence::Compared;
 use crate::export::PortableModel;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::nominal::order::Structure;
-use crate::phase::Phase;
-use crate::residuals::horizons::Reference;
 use crate::residuals::score::{innovations, picture};
-use crate::simulation::simulate::runs_away;
 use crate::verdict::odds::Odds;
 use crate::workers::Workers;
 
 /// What the report is made of.
 pub(super) struct Conclusion {
+    /// Every effect with a fit of its own.
+    pub(super) fitted: Vec<Explanation>,
+    /// Those of them that may be the cause.
     pub(super) singles: Vec<Explanation>,
     pub(super) odds: Odds,
     pub(super) verdict: Verdict,
@@ -36,16 +37,6 @@ pub(super) struct Conclusion {
     pub(super) other: Option<Other>,
 }
 
-/// What candidates are compared with.
-struct Compared {
-    /// The nominal model on the fit records.
-    horizons: Reference,
-    /// Variance of the noise in the output and its relative standard error.
-    floor: (f64, f64),
-    /// Log score of the nominal model on the held-out records.
-    score: Option<f64>,
-}
-
 /// A nominal model of another structure.
 pub(super) struct Other {
     pub(super) structure: Structure,
@@ -54,8 +45,13 @@ pub(super) struct Other {
 }
 
 impl Plan {
-    pub(super) fn report(self, workers: &impl Workers, c: Conclusion) -> Diagnosis {
-        workers.begin(Phase::Report);
+    /// The diagnosis of a conclusion; `candidates` are the effects that have a probability, `evidence` is what the records say of every one.
+    pub(super) fn report(
+        self,
+        c: Conclusion,
+        candidates: Vec<Candidate>,
+        evidence: Vec<Compared>,
+    ) -> Diagnosis {
         let campaign = &self.campaign;
         let mut floor = self.noise_floor(&c.augmented.fit);
         let mut runs = self.simulations(&c.augmented.fit);
@@ -96,17 +92,6 @@ impl Plan {
             }
             _ => {}
         }
-        let weighed: Vec<(&Explanation, &f64)> = c.singles.iter().zip(&c.odds.effects).collect();
-        let nominal =
-            Compared { horizons: Reference::of(&self.nominal.plain.fit), floor, score: nominal_score };
-        let mut candidates = workers.map(&weighed, |(s, p)| self.candidate(s, **p, &nominal));
-        let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
-        for (candidate, single) in candidates.iter_mut().zip(&c.singles).filter(|(c, _)| is_told(c.effect)) {
-            candidate.parameters = parameters(campaign, (single, 0), &profiled(workers, campaign, single));
-        }
-        candidates.sort_by(|x, y| {
-            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
-        });
         let where_ = self.map(&c.augmented.fit, floor.0);
         let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
         let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
@@ -128,6 +113,7 @@ impl Plan {
             residuals_before: before,
             residuals_after: after,
             limitations,
+            evidence,
             models: Some(Models {
                 nominal: self.nominal_model(),
                 augmented: self.exporter.fitted(campaign, &c.augmented),
@@ -181,27 +167,6 @@ impl Plan {
             Some(GivenModel { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
             Some(GivenModel { residuals, .. }) => localise(&self.campaign, residuals, floor),
             None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.plain.fit), floor),
-        }
-    }
-
-    fn candidate(&self, s: &Explanation, p: f64, nominal: &Compared) -> Candidate {
-        let effect = s.parts[0].effect;
-        let runs = self.simulations(&s.fit);
-        let Gap { before, closure, after, .. } =
-            measure(&self.campaign, &runs, nominal.floor, (self.settings.seed, 0));
-        let unstable = runs_away(&s.fit, runs.iter().map(|run| &run.after[..]));
-        let closure = closure.filter(|_| !unstable).map(|_| 1.0 - after.estimate / before.estimate);
-        Candidate {
-            effect,
-            stage: effect.stage(),
-            probability: p,
-            parameters: parameters(&self.campaign, (s, 0), &s.fit.intervals()),
-            bic: s.bic(),
-            delta_bic: self.nominal.plain.bic() - s.bic(),
-            heldout_log_score: self.score(&s.fit).zip(nominal.score).map_or(0.0, |(a, b)| a - b),
-            gains: nominal.horizons.gains(&s.fit),
-            closure,
-            unstable,
         }
     }
 

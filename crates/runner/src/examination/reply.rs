@@ -1,7 +1,7 @@
 //! What a diagnosis said, and on what evidence, as plain data that lasts.
 
 use serde::{Deserialize, Serialize};
-use switchback_gap::{Diagnosis, Status, Together};
+use switchback_gap::{Compared, Diagnosis, Status, Together};
 
 /// What a diagnosis said, in the words of its JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,6 +56,9 @@ pub struct Evidence {
     pub samples: usize,
     /// The best pair of effects, where one was looked for.
     pub together: Option<PairEvidence>,
+    /// What the records say of every effect, a way of comparing at a time: what a verdict is fitted to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub compared: Vec<Compared>,
 }
 
 /// What the best pair of effects gained and left.
@@ -110,6 +113,7 @@ impl Evidence {
             candidates,
             samples: d.samples,
             together: d.together.as_ref().map(PairEvidence::of),
+            compared: d.evidence.clone(),
         }
     }
 }

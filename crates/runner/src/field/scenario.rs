@@ -77,6 +77,8 @@ pub struct Expect {
     pub false_alarm_resampled: Option<f64>,
     /// Largest share of foreign faults for which a cause is named.
     pub outside_named: Option<f64>,
+    /// Largest share of effects named alone that harm a held-out record beyond its error.
+    pub harms: Option<f64>,
     /// Largest calibration error over what perfect calibration would show on as many rigs.
     pub calibration: Option<f64>,
     /// Least and largest coverage of the 90 % closure intervals.

@@ -17,6 +17,7 @@ pub const TARGETS: Expect = Expect {
     false_alarm_made: Some(0.03),
     false_alarm_resampled: Some(0.03),
     outside_named: None,
+    harms: Some(0.0),
     calibration: Some(0.03),
     coverage: Some([0.85, 0.95]),
 };
@@ -36,7 +37,8 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
         });
         judged.filter_map(|a| a.answer.closure.as_ref())
     };
-    let lines: [Line<Expect>; 13] = [
+    let harms: Vec<bool> = asked.iter().filter_map(Asked::harms).collect();
+    let lines: [Line<Expect>; 14] = [
         (
             "model_class",
             "model given: right class, size ≥ 2",
@@ -90,6 +92,12 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
             "foreign fault, yet a cause named",
             |e| e.outside_named.map(Bound::AtMost),
             told(share(of(Kind::Outside), &wrong)),
+        ),
+        (
+            "harms",
+            "named although it harms a held-out record",
+            |e| e.harms.map(Bound::AtMost),
+            told(Share::over(harms.iter(), |harms| *harms)),
         ),
         (
             "calibration",

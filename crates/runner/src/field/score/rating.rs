@@ -123,6 +123,13 @@ impl<'c> Asked<'c> {
         Some((self.answer.reply.probability, holds))
     }
 
+    /// Whether the one effect named makes a held-out record worse beyond its error; none where not one is named.
+    pub fn harms(&self) -> Option<bool> {
+        let [named] = self.answer.reply.effects[..] else { return None };
+        let effects = &self.answer.evidence.compared.first()?.effects;
+        effects.iter().find(|known| known.effect.name() == named).map(|known| known.harms)
+    }
+
     /// Whether a fault of the library is large enough that it must be named.
     pub fn is_large(&self) -> bool {
         self.truth().is_some() && self.case.fault.as_ref().is_some_and(|fault| fault.reaches(LARGE))

@@ -1,0 +1,111 @@
+//! The ways in which explanations were compared, and what is told of every effect in the end.
+
+use super::Plan;
+use super::parameters::parameters;
+use super::report::Conclusion;
+use crate::attribution::explain::Explanation;
+use crate::attribution::search::profiled;
+use crate::diagnosis::{Candidate, Diagnosis, Status};
+use crate::effect::Effect;
+use crate::evidence::{Compared, EffectEvidence};
+use crate::nominal::order::Chosen;
+use crate::phase::Phase;
+use crate::workers::Workers;
+
+/// One way of comparing explanations, and what it concludes.
+pub(super) struct Way {
+    pub(super) plan: Plan,
+    pub(super) conclusion: Conclusion,
+}
+
+impl Way {
+    /// Goes a way.
+    pub(super) fn gone(workers: &impl Workers, mut plan: Plan) -> Self {
+        let conclusion = plan.attribute(workers);
+        Self { plan, conclusion }
+    }
+
+    /// Whether it tells a cause.
+    pub(super) fn tells_a_cause(&self) -> bool {
+        matches!(self.conclusion.verdict.status, Status::Named | Status::Class | Status::Ambiguous)
+    }
+
+    /// Whether a nominal model of another structure does on the judged records what the augmented model does.
+    pub(super) fn does_the_same(&self, chosen: &Chosen) -> bool {
+        self.plan.does_the_same(chosen, &self.conclusion.augmented.fit)
+    }
+
+    /// Whether the augmented model of another way does better on the judged records.
+    pub(super) fn is_outdone_by(&self, other: &Self) -> bool {
+        let anew = (&other.plan.campaign, &other.conclusion.augmented.fit);
+        self.plan.is_outdone_by(anew, &self.conclusion.augmented.fit)
+    }
+}
+
+/// All ways that were gone, with what each says of every effect.
+pub(super) struct Ways {
+    /// That of the verdict.
+    told: Way,
+    evidence: Compared,
+    others: Vec<(Way, Compared)>,
+}
+
+impl Ways {
+    /// Asks each way about every effect.
+    pub(super) fn new(workers: &impl Workers, told: Way, others: Vec<Way>) -> Self {
+        workers.begin(Phase::Report);
+        let asked = |way: &Way| way.plan.compared(workers, &way.conclusion);
+        let evidence = asked(&told);
+        let others =
+            others.into_iter().map(|way| (asked(&way), way)).map(|(says, way)| (way, says)).collect();
+        Self { told, evidence, others }
+    }
+
+    /// The diagnosis that is handed out.
+    pub(super) fn report(self, workers: &impl Workers) -> Diagnosis {
+        let candidates = self.candidates(workers);
+        let evidence = std::iter::once(self.evidence).chain(self.others.into_iter().map(|(_, says)| says));
+        let Way { plan, conclusion } = self.told;
+        plan.report(conclusion, candidates, evidence.collect())
+    }
+
+    /// The effects that have a probability, the likeliest first.
+    fn candidates(&self, workers: &impl Workers) -> Vec<Candidate> {
+        let Conclusion { singles, odds, verdict, .. } = &self.told.conclusion;
+        let weighed: Vec<(&Explanation, &f64)> = singles.iter().zip(&odds.effects).collect();
+        let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
+        let one = |(single, p): &(&Explanation, &f64)| {
+            let effect = single.parts[0].effect;
+            let says = self.evidence.effects.iter().find(|says| says.effect == effect)?;
+            let plan = &self.told.plan;
+            let intervals = match is_told(effect) {
+                true => profiled(workers, &plan.campaign, single),
+                false => single.fit.intervals(),
+            };
+            let parameters = parameters(&plan.campaign, (single, 0), &intervals);
+            Some(Candidate { parameters, ..candidate((single, **p), says) })
+        };
+        let mut candidates: Vec<Candidate> = workers.map(&weighed, one).into_iter().flatten().collect();
+        candidates.sort_by(|x, y| {
+            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
+        });
+        candidates
+    }
+}
+
+/// A candidate with its probability, its parameters left out.
+fn candidate((single, probability): (&Explanation, f64), says: &EffectEvidence) -> Candidate {
+    let effect: Effect = says.effect;
+    Candidate {
+        effect,
+        stage: effect.stage(),
+        probability,
+        parameters: Vec::new(),
+        bic: single.bic(),
+        delta_bic: says.delta_bic,
+        heldout_log_score: says.heldout_log_score,
+        gains: says.gains.clone(),
+        closure: says.closure,
+        unstable: says.unstable,
+    }
+}
