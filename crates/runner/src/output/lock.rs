@@ -45,35 +45,47 @@ impl Held {
         if path.join(LOCK).is_file() { Self::take_within(path, Duration::ZERO).ok() } else { None }
     }
 
+    /// Tries until patience ends: who only clears away what a dead process left will be gone.
     fn take_within(path: &Path, patience: Duration) -> Result<Self, Untaken> {
-        let (start, place) = (Instant::now(), path.join(LOCK));
+        let start = Instant::now();
         loop {
-            let is_new = make_folder(path)?;
-            let taken = open(&place).map(|file| (file.try_lock(), file));
-            let is_late = start.elapsed() >= patience;
-            match taken {
-                Ok((Ok(()), file)) if is_at(&file, &place) => return Self::signed(path, file),
-                // Where the file system knows no locks, a folder is held by whoever made it.
-                Ok((Err(TryLockError::Error(_)), file)) if is_new => return Self::signed(path, file),
-                Ok((Err(TryLockError::Error(_)), _)) => return Err(Untaken::Busy(holder(&place))),
-                Ok((Err(TryLockError::WouldBlock), _)) if is_late => {
-                    return Err(Untaken::Busy(holder(&place)));
+            let taken = Self::try_take(path);
+            let is_passing = match &taken {
+                Ok(_) => false,
+                Err(Untaken::Busy(_)) => true,
+                Err(Untaken::Refused(error)) => {
+                    matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::AlreadyExists)
                 }
-                Err(error) if is_late || error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
-                // Someone is just clearing it away.
-                _ => sleep(PATIENCE / 20),
+            };
+            if !is_passing || start.elapsed() >= patience {
+                return taken;
+            }
+            sleep(PATIENCE / 20);
+        }
+    }
+
+    fn try_take(path: &Path) -> Result<Self, Untaken> {
+        let (is_new, place) = (make_folder(path)?, path.join(LOCK));
+        let lock = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&place)?;
+        match lock.try_lock() {
+            Ok(()) if is_at(&lock, &place) => Ok(Self::signed(path, lock)?),
+            Ok(()) => Err(io::Error::from(io::ErrorKind::NotFound).into()),
+            Err(TryLockError::WouldBlock) => Err(Untaken::Busy(holder(&place))),
+            // Where the file system knows no locks, a folder is held by whoever made it.
+            Err(TryLockError::Error(_)) if is_new => Ok(Self::signed(path, lock)?),
+            Err(TryLockError::Error(_)) => {
+                let (holder, path) = (holder(&place), path.display());
+                Err(Untaken::Busy(format!("{holder}, unless it has ended and left {path},")))
             }
         }
     }
 
-    fn signed(path: &Path, mut lock: File) -> Result<Self, Untaken> {
+    fn signed(path: &Path, mut lock: File) -> io::Result<Self> {
         let signed = lock.set_len(0).and_then(|()| write!(lock, "{}", std::process::id()));
-        if let Err(error) = signed {
-            // What a dead process left in it stays.
+        if signed.is_err() && !is_filled(path) {
             let_go(path);
-            return Err(error.into());
         }
-        Ok(Self { path: path.to_owned(), _lock: lock })
+        signed.map(|()| Self { path: path.to_owned(), _lock: lock })
     }
 
     /// The folder.
@@ -104,17 +116,25 @@ fn let_go(path: &Path) {
     let _ = fs::remove_dir(path);
 }
 
-/// Whether the folder was not there before.
+/// Whether the folder was not there before. One that is there is cleared later, so that it must be the program's: it holds a lock, or
+/// nothing yet, and no link leads to it.
 fn make_folder(path: &Path) -> io::Result<bool> {
     match fs::create_dir(path) {
-        Ok(()) => Ok(true),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
-        Err(error) => Err(error),
+        Ok(()) => return Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        Err(error) => return Err(error),
     }
+    let is_link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
+    if is_link || (is_filled(path) && !path.join(LOCK).is_file()) {
+        let told = format!("something else uses {}, where it would be prepared", path.display());
+        return Err(io::Error::new(io::ErrorKind::AlreadyExists, told));
+    }
+    Ok(false)
 }
 
-fn open(place: &Path) -> io::Result<File> {
-    OpenOptions::new().read(true).write(true).create(true).truncate(false).open(place)
+/// Whether something besides the lock is in a folder.
+fn is_filled(path: &Path) -> bool {
+    fs::read_dir(path).is_ok_and(|entries| entries.flatten().any(|entry| entry.file_name() != LOCK))
 }
 
 /// Whether a file that was opened at a place is there still: a lock of one that was removed meanwhile holds nobody off.
@@ -157,20 +177,44 @@ mod tests {
     }
 
     #[test]
-    fn many_take_turns_while_it_comes_and_goes() {
+    fn a_folder_of_someone_else_is_left_alone() {
         let root = tempdir().unwrap();
         let path = root.path().join("staging");
-        let inside = std::sync::atomic::AtomicUsize::new(0);
+        fs::create_dir(&path).unwrap();
+        fs::write(path.join("measured"), "").unwrap();
+        assert!(matches!(Held::take(&path), Err(Untaken::Refused(_))));
+        #[cfg(unix)]
+        {
+            let link = root.path().join("link");
+            std::os::unix::fs::symlink(&path, &link).unwrap();
+            fs::write(path.join(LOCK), "").unwrap();
+            assert!(matches!(Held::take(&link), Err(Untaken::Refused(_))));
+        }
+        assert!(path.join("measured").exists());
+    }
+
+    #[test]
+    fn many_take_turns_while_it_comes_and_goes() {
+        use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
+        let root = tempdir().unwrap();
+        let path = root.path().join("staging");
+        let (inside, turns) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let work = || {
-            for _ in 0..50 {
-                if let Ok(held) = Held::take(&path) {
-                    assert_eq!(inside.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0, "two hold it");
-                    inside.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);
-                    remove(held.path());
-                }
+            for _ in 0..30 {
+                let Ok(held) = Held::take(&path) else { continue };
+                assert_eq!(inside.fetch_add(1, SeqCst), 0, "two hold it");
+                sleep(Duration::from_micros(200));
+                inside.fetch_sub(1, SeqCst);
+                turns.fetch_add(1, SeqCst);
+                remove(held.path());
             }
         };
-        std::thread::scope(|scope| (0..4).for_each(|_| drop(scope.spawn(work))));
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(work);
+            }
+        });
+        assert!(turns.into_inner() >= 30);
         assert!(!path.exists());
     }
 }
