@@ -105,12 +105,11 @@ fn where_folders_cannot_be_exchanged_a_mixture_is_seen_and_mended() {
             break;
         }
         let now = change.now();
-        let is_whole = now == change.old || now == change.new;
-        let (code, told) = run(&change.folder, &["compare", "out", "out", "--quiet"], "");
-        if is_whole {
+        if now == change.old || now == change.new {
             wholes += 1;
             continue;
         }
+        let (code, told) = run(&change.folder, &["compare", "out", "out", "--quiet"], "");
         assert_eq!(code, Some(2), "a mixture at call {call} is not seen");
         assert!(told.contains("out: is half replaced") && told.contains("help: run the command"), "{told}");
         mixtures += 1;

@@ -30,6 +30,10 @@ impl OutputFile {
     /// [`OutputError`] if something stands there, unless `forced`, if it is an input or its folder a file, if another run writes it, or
     /// the system refuses.
     pub fn claim(target: &Path, forced: bool, inputs: &[&Path]) -> Result<Self, OutputError> {
+        Self::claim_on(Disk::default(), target, (forced, inputs))
+    }
+
+    fn claim_on(disk: Disk, target: &Path, (forced, inputs): (bool, &[&Path])) -> Result<Self, OutputError> {
         let shown = target.display().to_string();
         if target.is_dir() {
             return Err(OutputError::IsFolder { target: shown });
@@ -46,7 +50,6 @@ impl OutputFile {
         if !nearest.is_dir() {
             return Err(OutputError::NoFolder { target: shown, obstacle: nearest.display().to_string() });
         }
-        let disk = Disk::default();
         let (place, staging) = Staging::claim(target, (&disk, forced)).map_err(|why| match why {
             Unstaged::Busy(holder) => OutputError::Busy { target: shown, holder },
             Unstaged::Refused(source) => OutputError::FileUnwritable { target: shown, source },
@@ -86,6 +89,7 @@ impl OutputFile {
 
 #[cfg(test)]
 mod tests {
+    use super::super::faults::Faults;
     use super::*;
     use tempfile::tempdir;
 
@@ -113,6 +117,26 @@ mod tests {
         assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1, "nothing else is left");
         let error = OutputFile::claim(&place.join("below"), false, &[]).unwrap_err();
         assert!(matches!(error, OutputError::NoFolder { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_call_that_fails_leaves_what_was_there() {
+        for old in [Some("old"), None] {
+            let mut failures = 0;
+            for call in 1..=8 {
+                let root = tempdir().unwrap();
+                let place = root.path().join("rig.toml");
+                old.inspect(|old| fs::write(&place, old).unwrap());
+                let disk = Disk::with(Faults { fail: Some(call), ..Faults::default() });
+                let written = OutputFile::claim_on(disk, &place, (true, &[])).unwrap().commit("new");
+                let now = fs::read_to_string(&place).ok();
+                assert_eq!(now.as_deref(), if written.is_ok() { Some("new") } else { old }, "call {call}");
+                assert_eq!(fs::read_dir(root.path()).unwrap().count(), usize::from(now.is_some()));
+                failures += usize::from(written.is_err());
+            }
+            // Written, synchronised, renamed, its folder synchronised.
+            assert_eq!(failures, 4);
+        }
     }
 
     #[test]
