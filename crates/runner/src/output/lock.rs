@@ -82,7 +82,7 @@ impl Held {
 
     fn signed(path: &Path, mut lock: File) -> io::Result<Self> {
         let signed = lock.set_len(0).and_then(|()| write!(lock, "{}", std::process::id()));
-        if signed.is_err() && !is_filled(path) {
+        if signed.is_err() {
             let_go(path);
         }
         signed.map(|()| Self { path: path.to_owned(), _lock: lock })
@@ -110,10 +110,12 @@ pub(super) fn remove(path: &Path) {
     let_go(path);
 }
 
-/// Removes the lock, and the folder if nothing else is in it.
-fn let_go(path: &Path) {
-    let _ = fs::remove_file(path.join(LOCK));
-    let _ = fs::remove_dir(path);
+/// Removes a staging folder if nothing but the lock is in it: what a dead process left stays for the next start.
+pub(super) fn let_go(path: &Path) {
+    if !is_filled(path) {
+        let _ = fs::remove_file(path.join(LOCK));
+        let _ = fs::remove_dir(path);
+    }
 }
 
 /// Whether the folder was not there before. One that is there is cleared later, so that it must be the program's: it holds a lock, or

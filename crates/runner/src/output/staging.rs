@@ -7,7 +7,7 @@
 use super::OutputError;
 use super::disk::Disk;
 use super::finish::finish;
-use super::lock::{Held, Untaken, clear, remove};
+use super::lock::{Held, Untaken, clear, let_go, remove};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
@@ -189,11 +189,11 @@ fn hold(place: &Path) -> Result<Held, Unstaged> {
         Ok(held) if place.is_dir() => match is_near(held.path(), place) {
             Ok(true) => Ok(held),
             Ok(false) => {
-                remove(held.path());
+                let_go(held.path());
                 Ok(Held::take(&inside)?)
             }
             Err(error) => {
-                remove(held.path());
+                let_go(held.path());
                 Err(error.into())
             }
         },
