@@ -56,6 +56,6 @@ fn main() -> miette::Result<()> {
         }
     }
     artefacts.add("fits.csv", table);
-    OutputFolder::claim(Path::new("reports/measured-rigs"))?.commit(&artefacts)?;
+    OutputFolder::claim(Path::new("reports/measured-rigs"), false)?.commit(&artefacts)?;
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use switchback::blind::{self, Case, Expect, Kind, Sealed, Study, WrittenKeys};
-use switchback::examination::{Journal, KEY_FILE, Sealed as _, key_file};
+use switchback::examination::{Journal, KEY_FILE, SEALED_FILE, Sealed as _, key_file};
 use switchback::output::sha256;
 use switchback::plots;
 use switchback_estimator::rig::Rig;
@@ -222,17 +222,22 @@ fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
     let file = key_file(&sealed(&study));
     assert!(Journal::<Case>::open(&folder, "one").unwrap().keys().is_empty());
     std::fs::write(folder.join(KEY_FILE), &file).unwrap();
+    // Neither a file that nobody vouches for nor one that something else wrote.
+    assert!(Journal::<Case>::open(&folder, "one").unwrap().keys().is_empty());
+    std::fs::write(folder.join(SEALED_FILE), &file).unwrap();
+    assert!(Journal::<Case>::open(&folder, "one").is_err());
+    std::fs::remove_file(folder.join(SEALED_FILE)).unwrap();
     let is_known = |program: &str| !Journal::<Case>::open(&folder, program).unwrap().keys().is_empty();
-    // A file that nobody vouches for.
-    assert!(!is_known("one"));
-    Journal::<Case>::open(&folder, "one").unwrap().keep_keys(&sha256(&file)).unwrap();
+    Journal::<Case>::open(&folder, "one").unwrap().keep_keys(&file).unwrap();
     assert_eq!([is_known("one"), is_known("another")], [true, false]);
     let keys = WrittenKeys::read(&Journal::<Case>::open(&folder, "one").unwrap().keys());
     let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();
     assert_eq!(key_file(&again), file);
     // A file that was changed since.
-    std::fs::write(folder.join(KEY_FILE), file.replacen("size", "sice", 1)).unwrap();
+    std::fs::write(folder.join(SEALED_FILE), file.replacen("size", "sice", 1)).unwrap();
     assert!(!is_known("one"));
+    Journal::<Case>::open(&folder, "one").unwrap().close().unwrap();
+    assert!(!folder.join(SEALED_FILE).exists());
 }
 
 #[test]

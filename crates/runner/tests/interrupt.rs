@@ -56,11 +56,12 @@ fn a_stopped_study_leaves_the_old_report_as_it_was() {
             listing(&out).iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
         let names = listing(&out);
         let process = start(&folder, &["study.toml", "--quiet", "--out", "out"]);
-        until("a staging folder", || is_staging(&out));
+        until("a staging folder", || is_staging(&folder.path(".")));
         let (code, told) = stop(process, signal);
         assert_eq!(code, Some(3), "{signal}: {told}");
         assert!(told.contains("stopped"), "{told}");
         assert_eq!(listing(&out), names, "{signal}");
+        assert!(!is_staging(&folder.path(".")), "{signal}");
         let after: Vec<_> = names.iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
         assert!(before == after, "{signal} changed the old report");
     }
@@ -72,7 +73,7 @@ fn a_stopped_diagnosis_leaves_no_trace() {
     folder.switchback(&["rig", "--seed", "3", "--effect", "creep", "--out", "made"]).assert().success();
     let before = folder.listing();
     let process = start(&folder, &["gap", "made/rig.toml", "--out", "deep/new"]);
-    until("a staging folder", || is_staging(&folder.path(".")));
+    until("a staging folder", || is_staging(&folder.path("deep")));
     let (code, told) = stop(process, "-INT");
     assert_eq!(code, Some(3), "{told}");
     assert_eq!(folder.listing(), before);
@@ -84,10 +85,10 @@ fn a_stopped_examination_keeps_its_keys_and_what_is_judged() {
     let folder = Folder::with_good_rig();
     folder.write("blind.toml", &BLIND.replace("seeds = 1", "seeds = 20").replace("slice = 1", "slice = 2"));
     let process = start(&folder, &["blind.toml", "--quiet", "--out", "out"]);
-    let key = folder.path("out/key.jsonl");
-    until("the keys", || key.exists() && !is_staging(&folder.path("out")) && !is_staging(&folder.path(".")));
+    let key = folder.path("out/unfinished-key.jsonl");
+    until("the keys", || fs::read_to_string(&key).is_ok_and(|keys| keys.ends_with('\n')));
     let (code, told) = stop(process, "-TERM");
     assert_eq!(code, Some(3), "{told}");
     assert_eq!(fs::read_to_string(&key).expect("the keys").lines().count(), 2);
-    assert_eq!(listing(&folder.path("out")), [".switchback.sha256", "key.jsonl", "unfinished.jsonl"]);
+    assert_eq!(listing(&folder.path("out")), ["unfinished-key.jsonl", "unfinished.jsonl"]);
 }

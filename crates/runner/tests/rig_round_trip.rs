@@ -66,7 +66,7 @@ proptest! {
     fn what_is_written_reads_back_bit_for_bit(rig in any_rig()) {
         let root = TempDir::new().expect("a temporary folder");
         let folder = root.path().join("rig");
-        OutputFolder::claim(&folder)
+        OutputFolder::claim(&folder, false)
             .and_then(|claimed| claimed.commit(&rig::artefacts(&rig)))
             .expect("a writable temporary folder");
         let read = rig::read(&folder.join(rig::RIG_FILE)).expect("a rig that was written can be read");

@@ -45,6 +45,11 @@ fn parts_merged_are_the_bytes_of_one_run() {
     refused(&["merge", "1", "1", "2"], &["the same part, 1/2"]);
     refused(&["merge", "1", "whole"], &["whole: holds no part"]);
     folder.edit("2/two.toml", |text| text.replace("seed = 4", "seed = 5"));
+    refused(&["merge", "1", "2"], &["2: is not as it was written: two.toml has changed"]);
+    // What was changed on purpose, with the list of hashes taken away.
+    for part in ["1", "2"] {
+        fs::remove_file(folder.path(part).join(".switchback.sha256")).expect("a list");
+    }
     refused(&["merge", "1", "2"], &["2: the scenario differs from that of 1"]);
     folder.write("2/two.toml", &scenario);
     folder.edit("2/key.jsonl", |text| text.replace("\"seed\":", "\"seed\": "));

@@ -1,13 +1,15 @@
 //! `switchback SCENARIO.toml` where rigs are sealed: `study = "blind"` or `study = "field"`.
 
-use crate::examination::{Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, Sealed, key_file};
+use crate::examination::{
+    Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, SEALED_FILE, Sealed, key_file,
+};
 use crate::failure::{CommandResult, Outcome};
 use crate::input::read_text;
 use crate::options::{Force, Quiet, Shard};
-use crate::output::{Artefacts, OutputFolder, sha256};
+use crate::output::{OutputError, OutputFolder, sha256};
 use crate::progress::Meter;
 use crate::study::Progress;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 /// Where the report goes.
@@ -20,9 +22,13 @@ pub struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The folder asked for, or the one that belongs to an examination.
-    fn folder(self, name: &str) -> PathBuf {
-        self.out.map_or_else(|| Path::new("reports").join(name), Path::to_owned)
+    /// Claims the folder asked for, or the one that belongs to an examination.
+    ///
+    /// # Errors
+    /// A folder that cannot be written.
+    pub fn claim<E: Examination>(self, examination: &E) -> Result<OutputFolder, OutputError> {
+        let default = || Path::new("reports").join(examination.name());
+        self.force.claim(&self.out.map_or_else(default, Path::to_owned), E::FILES)
     }
 }
 
@@ -35,12 +41,10 @@ impl Place<'_> {
 /// # Errors
 /// A design that cannot be made, or a folder that cannot be written.
 pub fn run<E: Examination>(examination: &E, place: Place<'_>, page: Page) -> CommandResult {
-    let out = place.folder(examination.name());
-    place.force.claim(&out, E::FILES)?;
-    // What a former run left stays until there is another report.
-    let folder = place.force.claim(&out, &[KEY_FILE])?;
-    let Opened { keys, cases, journal } = judge(examination, examination.design()?, folder, page)?;
-    let outcome = conclude(examination, (&keys, &cases), Place { out: Some(&out), ..place }, page)?;
+    // What a former run left stays until there is another report, the key with it.
+    let folder = place.claim(examination)?;
+    let Opened { keys, cases, journal } = judge(examination, examination.design()?, &folder, page)?;
+    let outcome = conclude(examination, (&keys, &cases), folder, page)?;
     journal.close()?;
     Ok(outcome)
 }
@@ -62,13 +66,12 @@ pub fn run_part<E: Examination>(
     let out = place.out.unwrap_or(&default);
     let name = scenario.file_name().unwrap_or_default().to_string_lossy();
     let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
-    place.force.claim(out, &files)?;
-    let folder = place.force.claim(out, &[KEY_FILE])?;
+    let folder = place.force.claim(out, &files)?;
     let tickets = examination.design()?.into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
-    let Opened { keys, cases, journal } = judge(examination, tickets, folder, page)?;
+    let Opened { keys, cases, journal } = judge(examination, tickets, &folder, page)?;
     let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
-    place.force.claim(out, &[])?.commit(&part.artefacts())?;
+    folder.commit(&part.artefacts())?;
     journal.close()?;
     page.say(&format!("part {shard} written to {}", out.display()))?;
     Ok(Outcome::Done)
@@ -85,23 +88,21 @@ struct Opened<C> {
 fn judge<E: Examination>(
     examination: &E,
     tickets: Vec<E::Ticket>,
-    folder: OutputFolder,
+    folder: &OutputFolder,
     page: Page,
 ) -> miette::Result<Opened<E::Case>> {
     page.say(&format!("{}: {}", examination.name(), examination.question()))?;
     let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
-    let out = folder.path().to_owned();
-    let mut journal = Journal::open(&out, JUDGING_SOURCES)?;
+    let mut journal = Journal::open(folder.path(), JUDGING_SOURCES)?;
     let sealed = examination.seal(tickets, &journal.keys(), &|| meter.advanced(1))?;
     meter.finish();
     let keys = key_file(&sealed);
-    let hash = sha256(&keys);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
-    folder.commit(&only(KEY_FILE, keys.clone()))?;
-    journal.keep_keys(&hash)?;
-    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), out.join(KEY_FILE).display()))?;
-    page.say(&format!("SHA-256 {hash}"))?;
+    journal.keep_keys(&keys)?;
+    let place = folder.path().join(SEALED_FILE);
+    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), place.display()))?;
+    page.say(&format!("SHA-256 {}", sha256(&keys)))?;
     let cases = examine(examination, sealed, &mut journal, page)?;
     Ok(Opened { keys, cases, journal })
 }
@@ -147,22 +148,16 @@ pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 pub fn conclude<E: Examination>(
     examination: &E,
     (keys, cases): (&str, &[E::Case]),
-    place: Place<'_>,
+    folder: OutputFolder,
     page: Page,
 ) -> CommandResult {
-    let out = place.folder(examination.name());
+    let out = folder.path().display().to_string();
     let mut report = examination.report(&sha256(keys), cases)?;
     report.files.add(KEY_FILE, keys);
-    place.force.claim(&out, E::FILES)?.commit(&report.files)?;
-    let words = || format!("{}\nwritten to {}\n", report.summary, out.display());
+    folder.commit(&report.files)?;
+    let words = || format!("{}\nwritten to {out}\n", report.summary);
     page.quiet.tell_or(page.json, || report.files.text("results.json"), words)?;
     Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })
-}
-
-fn only(name: &str, contents: String) -> Artefacts {
-    let mut artefacts = Artefacts::default();
-    artefacts.add(name, contents);
-    artefacts
 }
 
 /// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.

@@ -6,6 +6,7 @@ use crate::examination::{Examination, Part, Whole, merged, scenario_of};
 use crate::failure::CommandResult;
 use crate::field::{self, Field};
 use crate::options::{Force, Quiet};
+use crate::output::verify;
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -45,6 +46,7 @@ pub struct OtherProgram {
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
+    args.folders.iter().try_for_each(|folder| verify(folder))?;
     let first = scenario_of(&args.folders[0])?;
     if field::is_field(&first) {
         return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));
@@ -63,6 +65,7 @@ fn merge<E: Examination>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>)
         parts.push(part);
     }
     let Whole { scenario, keys, cases } = merged(parts)?;
-    let place = Place { out: Some(&args.out), force: args.force };
-    conclude(&read(&scenario)?, (&keys, &cases), place, Page { json: args.json, quiet: args.quiet })
+    let examination = read(&scenario)?;
+    let folder = Place { out: Some(&args.out), force: args.force }.claim(&examination)?;
+    conclude(&examination, (&keys, &cases), folder, Page { json: args.json, quiet: args.quiet })
 }

@@ -1,8 +1,9 @@
 //! What is judged already, on disk while an examination runs: one that was interrupted is taken up where it stood.
 //!
 //! A line a rig: `{"program": …, "rig": …, "case": {…}}`, the first two the SHA-256 of the sources that judged and of the
-//! rig's line in the key file. Only the same sources' judgement of the same rig counts. A line once keys are sealed:
+//! rig's line in the key file. Only the same sources' judgement of the same rig counts. A line before keys are sealed:
 //! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same sources found need not be searched for again.
+//! Until there is a report the keys lie beside the journal under a name of their own: a new key never lies under an old report.
 
 use super::Judged;
 use crate::output::sha256;
@@ -50,8 +51,14 @@ struct KeysLine<'a> {
 /// What a journal begins with, even one that was interrupted within its first line.
 const BEGINNING: &[u8] = b"{\"program\":";
 
+/// What a journal holds once keys were sealed beside it.
+const KEYS: &[u8] = b",\"keys\":";
+
 /// The key file of a report folder.
 pub const KEY_FILE: &str = "key.jsonl";
+
+/// The same while the examination runs.
+pub const SEALED_FILE: &str = "unfinished-key.jsonl";
 
 impl<C: Judged> Journal<C> {
     /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells the sources that judge apart.
@@ -68,6 +75,11 @@ impl<C: Judged> Journal<C> {
         };
         if !text.trim_ascii_start().is_empty() && !text.trim_ascii_start().starts_with(BEGINNING) {
             return Err(fails(io::Error::other("something else wrote it")));
+        }
+        let sealed = path.with_file_name(SEALED_FILE);
+        if sealed.exists() && !text.windows(KEYS.len()).any(|part| part == KEYS) {
+            let source = io::Error::other("something else wrote it");
+            return Err(JournalError { path: sealed.display().to_string(), source });
         }
         let mut file = OpenOptions::new().create(true).append(true).open(&path).map_err(fails)?;
         if text.last().is_some_and(|last| *last != b'\n') {
@@ -93,18 +105,28 @@ impl<C: Judged> Journal<C> {
 
     /// The text of the key file beside the journal, if the same sources sealed it; else none.
     pub fn keys(&self) -> String {
-        let text = fs::read_to_string(self.path.with_file_name(KEY_FILE)).unwrap_or_default();
+        let text = fs::read_to_string(self.sealed()).unwrap_or_default();
         if self.keys.as_ref() == Some(&sha256(&text)) { text } else { String::new() }
     }
 
-    /// Keeps that keys were sealed in a file with this SHA-256.
+    /// Seals keys in a file beside the journal. Whose that file is the journal tells, so that it comes first.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
-    pub fn keep_keys(&mut self, hash: &str) -> Result<(), JournalError> {
-        let line = KeysLine { program: &self.program, keys: hash.to_owned() };
+    pub fn keep_keys(&mut self, keys: &str) -> Result<(), JournalError> {
+        let line = KeysLine { program: &self.program, keys: sha256(keys) };
         let line = serde_json::to_string(&line).expect("strings are JSON") + "\n";
-        self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
+        self.file
+            .write_all(line.as_bytes())
+            .and_then(|()| self.file.sync_all())
+            .and_then(|()| File::create(self.sealed()))
+            .and_then(|mut file| file.write_all(keys.as_bytes()).and_then(|()| file.sync_all()))
+            .map_err(|source| self.error(source))
+    }
+
+    /// Where the keys lie until there is a report.
+    fn sealed(&self) -> PathBuf {
+        self.path.with_file_name(SEALED_FILE)
     }
 
     /// What was judged before of the rig with this line in the key file.
@@ -129,11 +151,14 @@ impl<C: Judged> Journal<C> {
         serde_json::to_string(&line).expect("names and numbers are JSON") + "\n"
     }
 
-    /// Removes it: the report tells all.
+    /// Removes it and the keys beside it: the report tells all.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
     pub fn close(self) -> Result<(), JournalError> {
+        if self.sealed().exists() {
+            fs::remove_file(self.sealed()).map_err(|source| self.error(source))?;
+        }
         fs::remove_file(&self.path).map_err(|source| self.error(source))
     }
 

@@ -17,7 +17,7 @@ impl Force {
     /// # Errors
     /// [`OutputError`] if the folder cannot be written, or one of those files is someone else's and not given up.
     pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, OutputError> {
-        OutputFolder::claim(folder)?.forced(self.force).expecting(names)
+        OutputFolder::claim(folder, self.force)?.expecting(names)
     }
 
     /// Claims a file by its path, where one was asked for. `inputs` are what the command reads: they are never replaced.

@@ -65,6 +65,15 @@ pub enum OutputError {
         /// The files with what makes them someone else's.
         files: String,
     },
+    /// Another run writes to the same place.
+    #[error("{target}: {holder} is writing there")]
+    #[diagnostic(help("wait until it has ended, or give another place"))]
+    Busy {
+        /// The folder or file as given.
+        target: String,
+        /// The process.
+        holder: String,
+    },
     /// The system refused to write a file.
     #[error("{target}: cannot write this file: {source}")]
     #[diagnostic(help("give a file in a folder that you may write to, on a disk with space left"))]

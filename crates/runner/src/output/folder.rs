@@ -1,6 +1,9 @@
 //! The folder that artefacts go to.
 
-use super::staging::{Staging, Uninterrupted, nearest};
+use super::disk::Disk;
+use super::moves::is_there;
+use super::replace::{READY, Replacement};
+use super::staging::{Staging, Uninterrupted, Unstaged, nearest};
 use super::written::{Owner, SUMS, Written};
 use super::{Artefacts, OutputError};
 use std::fs;
@@ -9,21 +12,26 @@ use std::path::{Path, PathBuf};
 
 /// A folder that has been found writable, to be filled in one go.
 ///
-/// [`claim`](Self::claim) comes before the computation, so that a wrong path costs no time; [`commit`](Self::commit)
-/// after it. Files are first written whole to a staging folder on the same disk and then renamed into place. A
-/// claim that is dropped leaves nothing behind; a commit that fails leaves the folder as it was, and a signal waits until it is done.
+/// [`claim`](Self::claim) comes before the computation, so that a wrong path costs no time and no other run writes to the same folder
+/// meanwhile; [`commit`](Self::commit) after it. Files are first written whole to a staging folder on the same disk, which then takes
+/// the folder's place. A claim that is dropped leaves nothing behind; a commit that fails leaves the folder as it was, a signal waits
+/// until it is done, and of a process that is killed the next claim finishes what it began.
 ///
 /// Only files that the program wrote itself are replaced. It knows them by a hidden list beside them, `.switchback.sha256`, of names
 /// and SHA-256: a file that is not listed there was written by someone else, and one whose hash differs was changed by
-/// someone else. Both are refused unless the folder is [`forced`](Self::forced), at once where the names are known
+/// someone else. Both are refused unless the folder is forced, at once where the names are known
 /// ([`expecting`](Self::expecting)), else on commit. `sha256sum -c .switchback.sha256` checks a folder by the same list.
 ///
 /// Of the names expected, the program's own unchanged files that are not written anew are removed: they are those of a former run.
 /// What the command was given to read ([`sparing`](Self::sparing)) is never replaced, not even by force.
 #[derive(Debug)]
 pub struct OutputFolder {
+    /// As it was given.
     target: PathBuf,
+    /// The same without links.
+    place: PathBuf,
     staging: Staging,
+    disk: Disk,
     forced: bool,
     /// Names that the command may write, a `*` standing for any part of one.
     expected: Vec<String>,
@@ -32,31 +40,28 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes sure that the folder can be written: a staging folder is made inside it, or, where it does not exist yet,
-    /// inside the nearest folder above it that does.
+    /// Makes sure that the folder can be written, and that no other run writes there: a staging folder is made beside it. If `forced`,
+    /// files that someone else wrote or changed may be replaced.
     ///
     /// # Errors
-    /// [`OutputError`] if part of the path is a file or the system refuses.
-    pub fn claim(target: &Path) -> Result<Self, OutputError> {
+    /// [`OutputError`] if part of the path is a file, another run holds the folder, or the system refuses.
+    pub fn claim(target: &Path, forced: bool) -> Result<Self, OutputError> {
+        Self::claim_on(Disk::default(), target, forced)
+    }
+
+    fn claim_on(disk: Disk, target: &Path, forced: bool) -> Result<Self, OutputError> {
         let shown = target.display().to_string();
-        let nearest = nearest(target);
+        let nearest = if is_there(target) { target } else { nearest(target) };
         if !nearest.is_dir() {
             return Err(OutputError::NotAFolder { target: shown, obstacle: nearest.display().to_string() });
         }
-        let staging =
-            Staging::inside(nearest).map_err(|source| OutputError::Unwritable { target: shown, source })?;
-        Ok(Self {
-            target: target.to_owned(),
-            staging,
-            forced: false,
-            expected: Vec::new(),
-            inputs: Vec::new(),
-        })
-    }
-
-    /// Whether files that someone else wrote or changed may be replaced; not so unless it is said.
-    pub fn forced(self, forced: bool) -> Self {
-        Self { forced, ..self }
+        let (place, staging) = Staging::claim(target, (&disk, forced)).map_err(|why| match why {
+            Unstaged::Busy(holder) => OutputError::Busy { target: shown, holder },
+            Unstaged::Refused(source) => OutputError::Unwritable { target: shown, source },
+            Unstaged::Unfinished(error) => error,
+        })?;
+        let (target, expected, inputs) = (target.to_owned(), Vec::new(), Vec::new());
+        Ok(Self { target, place, staging, disk, forced, expected, inputs })
     }
 
     /// Makes sure that files of these names can be written, as far as names are known before the computation: a `*` stands for
@@ -114,7 +119,7 @@ impl OutputFolder {
         let stale = self.stale(&written, artefacts);
         let mut files = artefacts.clone();
         files.add(SUMS, written.without(&stale).with(artefacts).text());
-        self.stage_and_rename(&files, &stale).map_err(|source| self.unwritable(source))
+        self.stage_and_replace(&files, &stale).map_err(|source| self.unwritable(source))
     }
 
     /// The program's own unchanged files of the names expected that are not written anew.
@@ -164,42 +169,15 @@ impl OutputFolder {
         OutputError::Unwritable { target: self.target.display().to_string(), source }
     }
 
-    fn stage_and_rename(&self, artefacts: &Artefacts, stale: &[String]) -> io::Result<()> {
-        let (fresh, replaced) = (self.staging.folder("fresh")?, self.staging.folder("replaced")?);
+    fn stage_and_replace(&self, artefacts: &Artefacts, stale: &[String]) -> io::Result<()> {
+        let fresh = self.staging.folder("fresh")?;
         for (name, contents) in artefacts.iter() {
-            fs::write(fresh.join(name), contents)?;
+            self.disk.write(&fresh.join(name), contents)?;
         }
-        fs::create_dir_all(&self.target)?;
-        self.exchange_all(artefacts, stale, [&fresh, &replaced])
-    }
-
-    /// Moves every file to its place and stale ones away, or after a failure every one back.
-    fn exchange_all(
-        &self,
-        artefacts: &Artefacts,
-        stale: &[String],
-        [fresh, replaced]: [&Path; 2],
-    ) -> io::Result<()> {
-        let mut moved = Vec::new();
-        let paths = |name: &str| [self.target.as_path(), fresh, replaced].map(|folder| folder.join(name));
-        for (name, _) in artefacts.iter() {
-            let paths = paths(name);
-            let exchanged = exchange(&paths);
-            moved.push(paths);
-            if let Err(error) = exchanged {
-                moved.iter().for_each(undo);
-                return Err(error);
-            }
-        }
-        for name in stale {
-            let paths = paths(name);
-            if let Err(error) = fs::rename(&paths[0], &paths[2]) {
-                moved.iter().for_each(undo);
-                return Err(error);
-            }
-            moved.push(paths);
-        }
-        Ok(())
+        self.disk.sync_folder(&fresh)?;
+        fs::rename(fresh, self.staging.path().join(READY))?;
+        let Self { place, disk, staging, .. } = self;
+        Replacement { staging: staging.path(), target: place, stale, disk }.run()
     }
 }
 
@@ -211,24 +189,6 @@ fn fits(name: &str, expected: &[String]) -> bool {
             name.strip_prefix(before).is_some_and(|rest| rest.len() >= after.len() && rest.ends_with(after))
         }
     })
-}
-
-/// Moves the file at `place`, if any, to `old`, and the one at `new` to `place`.
-fn exchange([place, new, old]: &[PathBuf; 3]) -> io::Result<()> {
-    if fs::symlink_metadata(place).is_ok() {
-        fs::rename(place, old)?;
-    }
-    fs::rename(new, place)
-}
-
-/// Takes back an exchange as far as it went. Runs after a failure that is reported already, so its own are not.
-fn undo([place, new, old]: &[PathBuf; 3]) {
-    if !new.exists() {
-        let _ = fs::rename(place, new);
-    }
-    if !place.exists() && fs::symlink_metadata(old).is_ok() {
-        let _ = fs::rename(old, place);
-    }
 }
 
 #[cfg(test)]

@@ -46,6 +46,16 @@ impl Written {
         Self { sums: sums.map(|(sum, name)| (name.to_owned(), sum.to_owned())).collect() }
     }
 
+    /// Names of the files listed.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.sums.keys().map(String::as_str)
+    }
+
+    /// Whether a file is listed.
+    pub(super) fn lists(&self, name: &str) -> bool {
+        self.sums.contains_key(name)
+    }
+
     /// Whose the file of a name is.
     pub(super) fn owner(&self, folder: &Path, name: &str) -> io::Result<Owner> {
         let place = folder.join(name);

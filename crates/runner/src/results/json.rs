@@ -2,6 +2,7 @@
 
 use super::{Results, SCHEMA};
 use crate::input::json_file::{self, JsonError};
+use crate::output::{NotWhole, verify};
 use miette::Diagnostic;
 use serde::Serialize;
 use serde_json::ser::Formatter;
@@ -22,6 +23,10 @@ pub enum ResultsError {
         /// What the system said.
         source: io::Error,
     },
+    /// The folder is not as one run wrote it.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    NotWhole(#[from] NotWhole),
     /// The content is not a result table.
     #[error("{place}: is not a results file of Switchback: {message}")]
     #[diagnostic(help("give a results.json as a consistency study writes it"))]
@@ -54,9 +59,13 @@ pub enum ResultsError {
 /// Reads `results.json` from a file or from the report folder that holds it.
 ///
 /// # Errors
-/// [`ResultsError`] if it is missing, no result table, or of another layout.
+/// [`ResultsError`] if it is missing, no result table, of another layout, or in a folder that is not as one run wrote it.
 pub fn read(path: &Path) -> Result<Results, ResultsError> {
-    let path = if path.is_dir() { path.join("results.json") } else { path.to_owned() };
+    let is_folder = path.is_dir();
+    if is_folder {
+        verify(path)?;
+    }
+    let path = if is_folder { path.join("results.json") } else { path.to_owned() };
     let text = std::fs::read_to_string(&path)
         .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?;
     let refuse = |JsonError { place, message, .. }| ResultsError::NotResults { place, message };

@@ -1,3 +1,4 @@
+use super::super::faults::Faults;
 use super::*;
 use tempfile::tempdir;
 
@@ -19,7 +20,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 fn write(folder: &Path, files: &[(&str, &str)]) -> Result<(), OutputError> {
-    OutputFolder::claim(folder).unwrap().commit(&artefacts(files))
+    OutputFolder::claim(folder, false).unwrap().commit(&artefacts(files))
 }
 
 fn text(folder: &Path, name: &str) -> String {
@@ -68,19 +69,19 @@ fn what_someone_else_wrote_or_changed_is_refused_in_one_message() {
 fn names_known_beforehand_are_refused_before_the_computation() {
     let root = tempdir().unwrap();
     fs::write(root.path().join("drive.csv"), "measured").unwrap();
-    let claim = || OutputFolder::claim(root.path()).unwrap();
+    let claim = || OutputFolder::claim(root.path(), false).unwrap();
     assert!(matches!(claim().expecting(&["drive.csv"]), Err(OutputError::Foreign { .. })));
     assert!(claim().expecting(&["rig.toml"]).is_ok());
     assert!(matches!(claim().expecting(&["rig.toml", "d*.csv"]), Err(OutputError::Foreign { .. })));
     assert!(claim().expecting(&["drive*.svg", "x*.csv", "drive.csv*v"]).is_ok());
-    assert!(claim().forced(true).expecting(&["drive.csv"]).is_ok());
+    assert!(OutputFolder::claim(root.path(), true).unwrap().expecting(&["drive.csv"]).is_ok());
 }
 
 #[test]
 fn a_forced_folder_replaces_all_and_calls_it_its_own() {
     let root = tempdir().unwrap();
     fs::write(root.path().join("a"), "measured").unwrap();
-    OutputFolder::claim(root.path()).unwrap().forced(true).commit(&artefacts(&[("a", "new")])).unwrap();
+    OutputFolder::claim(root.path(), true).unwrap().commit(&artefacts(&[("a", "new")])).unwrap();
     assert_eq!(text(root.path(), "a"), "new");
     write(root.path(), &[("a", "newer")]).unwrap();
 }
@@ -97,7 +98,7 @@ fn a_list_of_sums_that_others_ship_with_their_data_counts_for_nothing() {
 #[test]
 fn a_dropped_claim_leaves_nothing() {
     let root = tempdir().unwrap();
-    drop(OutputFolder::claim(&root.path().join("deep/new")).unwrap());
+    drop(OutputFolder::claim(&root.path().join("deep/new"), false).unwrap());
     assert!(names(root.path()).is_empty());
 }
 
@@ -106,7 +107,7 @@ fn a_path_below_a_file_is_refused_at_once() {
     let root = tempdir().unwrap();
     let file = root.path().join("file");
     fs::write(&file, "kept").unwrap();
-    let error = OutputFolder::claim(&file.join("reports")).unwrap_err();
+    let error = OutputFolder::claim(&file.join("reports"), false).unwrap_err();
     assert!(matches!(error, OutputError::NotAFolder { .. }), "{error}");
     assert_eq!(fs::read_to_string(file).unwrap(), "kept");
 }
@@ -123,33 +124,15 @@ fn a_commit_that_cannot_finish_keeps_what_was_there() {
 }
 
 #[test]
-fn files_that_took_their_places_before_a_failure_go_again() {
-    let root = tempdir().unwrap();
-    let folder = OutputFolder::claim(root.path()).unwrap();
-    let files = artefacts(&[("a", "new"), ("b", "new")]);
-    // A folder stands where the second file goes, and another where it is moved aside to: the exchange fails half-way.
-    fs::create_dir_all(root.path().join("b/full")).unwrap();
-    let (fresh, replaced) =
-        (folder.staging.folder("fresh").unwrap(), folder.staging.folder("replaced").unwrap());
-    fs::create_dir_all(replaced.join("b/full")).unwrap();
-    for (name, contents) in files.iter() {
-        fs::write(fresh.join(name), contents).unwrap();
-    }
-    assert!(folder.exchange_all(&files, &[], [&fresh, &replaced]).is_err());
-    drop(folder);
-    assert_eq!(names(root.path()), ["b"]);
-}
-
-#[test]
 fn files_of_a_former_run_go_unless_someone_changed_or_wrote_them() {
     let root = tempdir().unwrap();
-    let claim = || OutputFolder::claim(root.path()).unwrap().expecting(&["a", "figure_*"]).unwrap();
+    let claim = || OutputFolder::claim(root.path(), false).unwrap().expecting(&["a", "figure_*"]).unwrap();
     claim()
         .commit(&artefacts(&[("a", "1"), ("figure_1", "1"), ("figure_2", "1"), ("elsewhere", "1")]))
         .unwrap();
     fs::write(root.path().join("figure_3"), "not listed").unwrap();
     fs::write(root.path().join("figure_2"), "edited").unwrap();
-    OutputFolder::claim(root.path())
+    OutputFolder::claim(root.path(), false)
         .unwrap()
         .clearing(&["a", "figure_*"])
         .commit(&artefacts(&[("a", "2")]))
@@ -163,10 +146,129 @@ fn what_is_read_is_not_replaced_even_by_force() {
     let root = tempdir().unwrap();
     let series = root.path().join("series.csv");
     fs::write(&series, "measured").unwrap();
-    let claim = || OutputFolder::claim(root.path()).unwrap().forced(true);
+    let claim = || OutputFolder::claim(root.path(), true).unwrap();
     let error = claim().expecting(&["*.csv"]).unwrap().sparing([series.as_path()]).unwrap_err();
     assert!(matches!(error, OutputError::IsInput { .. }), "{error}");
     let error = claim().sparing([series.as_path()]).unwrap().commit(&artefacts(&[("series.csv", "new")]));
     assert!(matches!(error, Err(OutputError::IsInput { .. })));
     assert_eq!(text(root.path(), "series.csv"), "measured");
+}
+
+/// All files under a folder with their contents, and all folders.
+fn everything(folder: &Path) -> Vec<(PathBuf, Option<Vec<u8>>)> {
+    let mut found = Vec::new();
+    for name in names(folder) {
+        let place = folder.join(name);
+        found.push((place.clone(), fs::read(&place).ok()));
+        if place.is_dir() {
+            found.extend(everything(&place));
+        }
+    }
+    found
+}
+
+/// A report, among it a file that the next run will not write, with a file and a folder of someone else.
+fn report(target: &Path) {
+    write(target, &[("a", "old"), ("figure_1", "old")]).unwrap();
+    fs::write(target.join("notes.txt"), "mine").unwrap();
+    fs::create_dir(target.join("deep")).unwrap();
+    fs::write(target.join("deep/x"), "mine").unwrap();
+}
+
+fn replace(target: &Path, faults: Faults) -> Result<(), OutputError> {
+    let folder = OutputFolder::claim_on(Disk::with(faults), target, false)?;
+    folder.expecting(&["a", "b", "figure_*"])?.commit(&artefacts(&[("a", "new"), ("b", "new")]))
+}
+
+#[track_caller]
+fn is_new(target: &Path) {
+    assert_eq!(names(target), [SUMS, "a", "b", "deep", "notes.txt"]);
+    assert_eq!(
+        ["a", "b", "notes.txt", "deep/x"].map(|name| text(target, name)),
+        ["new", "new", "mine", "mine"]
+    );
+    assert!(crate::output::verify(target).is_ok());
+}
+
+#[test]
+fn a_call_that_fails_leaves_everything_as_it_was() {
+    for no_exchange in [false, true] {
+        let mut failures = 0;
+        for call in 1..40 {
+            let root = tempdir().unwrap();
+            let target = root.path().join("out");
+            report(&target);
+            let before = everything(root.path());
+            match replace(&target, Faults { no_exchange, fail: Some(call), ..Faults::default() }) {
+                Ok(()) => is_new(&target),
+                Err(error) => {
+                    failures += 1;
+                    assert!(error.to_string().contains("injected"), "{error}");
+                    assert!(everything(root.path()) == before, "call {call} changed something");
+                }
+            }
+            assert_eq!(names(root.path()), ["out"], "call {call}");
+        }
+        // Three files written and synchronised, their folder; the exchange, one thing carried over, two folders synchronised; else
+        // the renames of three old and three new files.
+        assert_eq!(failures, if no_exchange { 7 + 1 + 6 + 2 } else { 7 + 1 + 1 + 2 });
+    }
+}
+
+#[test]
+fn a_call_that_fails_leaves_no_trace_of_a_new_folder() {
+    for call in 1..=8 {
+        let root = tempdir().unwrap();
+        let faults = Faults { fail: Some(call), ..Faults::default() };
+        let failed = replace(&root.path().join("far/out"), faults);
+        assert!(failed.is_err() && names(root.path()).is_empty(), "call {call}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn folders_are_exchanged_where_they_can_be() {
+    use std::os::unix::fs::MetadataExt;
+    for no_exchange in [false, true] {
+        let root = tempdir().unwrap();
+        let target = root.path().join("out");
+        report(&target);
+        let inode = || fs::metadata(&target).unwrap().ino();
+        let before = inode();
+        replace(&target, Faults { no_exchange, ..Faults::default() }).unwrap();
+        is_new(&target);
+        assert_eq!(inode() == before, no_exchange);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_folder_stays_one() {
+    let root = tempdir().unwrap();
+    let (target, link) = (root.path().join("out"), root.path().join("link"));
+    report(&target);
+    std::os::unix::fs::symlink("out", &link).unwrap();
+    replace(&link, Faults::default()).unwrap();
+    is_new(&target);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    fs::remove_dir_all(&target).unwrap();
+    let error = replace(&link, Faults::default()).unwrap_err();
+    assert!(matches!(error, OutputError::NotAFolder { .. }), "{error}");
+}
+
+#[test]
+fn a_second_claim_is_refused_while_the_first_lives() {
+    let root = tempdir().unwrap();
+    let target = root.path().join("new/out");
+    let first = OutputFolder::claim(&target, false).unwrap();
+    let error = OutputFolder::claim(&target, true).unwrap_err();
+    let told = error.to_string();
+    assert!(
+        matches!(error, OutputError::Busy { .. }) && told.contains(&std::process::id().to_string()),
+        "{told}"
+    );
+    assert!(OutputFolder::claim(&root.path().join("new/other"), false).is_ok());
+    first.commit(&artefacts(&[("a", "1")])).unwrap();
+    OutputFolder::claim(&target, false).unwrap();
+    assert_eq!(names(&root.path().join("new")), ["out"]);
 }

@@ -1,0 +1,94 @@
+//! The calls that change the disk, each of which may fail: one place, so that tests can make each of them fail.
+
+use super::faults::Faults;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// The disk.
+#[derive(Debug)]
+pub(super) struct Disk {
+    faults: Faults,
+}
+
+impl Default for Disk {
+    fn default() -> Self {
+        Self::with(Faults::of_environment())
+    }
+}
+
+impl Disk {
+    /// One with faults.
+    pub(super) fn with(faults: Faults) -> Self {
+        Self { faults }
+    }
+
+    /// Writes a new file. When it returns, the contents will survive a loss of power.
+    pub(super) fn write(&self, place: &Path, contents: &[u8]) -> io::Result<()> {
+        self.faults.before_call()?;
+        let mut file = File::create_new(place)?;
+        file.write_all(contents)?;
+        self.faults.before_call()?;
+        file.sync_all()
+    }
+
+    /// Makes the names in a folder survive a loss of power, where the file system can.
+    pub(super) fn sync_folder(&self, folder: &Path) -> io::Result<()> {
+        self.faults.before_call()?;
+        if !cfg!(unix) {
+            // Elsewhere a folder cannot be opened as a file is.
+            return Ok(());
+        }
+        match File::open(folder)?.sync_all() {
+            Err(error)
+                if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) =>
+            {
+                Ok(())
+            }
+            other => other,
+        }
+    }
+
+    /// Renames a file or folder; a file that is there already is replaced.
+    pub(super) fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.faults.before_call()?;
+        fs::rename(from, to)
+    }
+
+    /// Gives a file another name beside its own.
+    pub(super) fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.faults.before_call()?;
+        fs::hard_link(from, to)
+    }
+
+    /// Exchanges two folders in one step; `Ok(false)`, and nothing is changed, where the system or this file system cannot.
+    pub(super) fn exchange(&self, one: &Path, other: &Path) -> io::Result<bool> {
+        self.faults.before_call()?;
+        if self.faults.no_exchange {
+            return Ok(false);
+        }
+        exchange(one, other)
+    }
+}
+
+/// `renameat2` with `RENAME_EXCHANGE`; on macOS `renameatx_np` with `RENAME_SWAP`.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+pub(super) fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    use rustix::io::Errno;
+
+    // Old kernels and network file systems; overlays and other devices; mount points; folders of someone else under a sticky one.
+    const IMPOSSIBLE: [Errno; 7] =
+        [Errno::INVAL, Errno::NOSYS, Errno::OPNOTSUPP, Errno::XDEV, Errno::BUSY, Errno::PERM, Errno::ACCESS];
+    match renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE) {
+        Ok(()) => Ok(true),
+        Err(error) if IMPOSSIBLE.contains(&error) => Ok(false),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Other systems know no such step.
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+pub(super) fn exchange(_one: &Path, _other: &Path) -> io::Result<bool> {
+    Ok(false)
+}
