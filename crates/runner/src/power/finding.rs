@@ -1,6 +1,7 @@
 //! What the draws of an effect come to.
 
-use super::{Answer, Conclusion, Draw, Search};
+use super::staircase::is_certain;
+use super::{Answer, Conclusion, Draw, LARGEST, Search};
 use crate::examination::Reply;
 use std::collections::BTreeMap;
 use switchback_maker::PlantedFault;
@@ -14,6 +15,12 @@ pub struct Finding {
     pub draws: Vec<Draw>,
     /// What they say, whatever was reached.
     pub conclusion: Conclusion,
+    /// The probability that at the largest size that was reached less than nine in ten are found.
+    pub beyond_reached: f64,
+    /// The probability that the next fault of that size is found.
+    pub found_next: f64,
+    /// What share is found there at most, with a probability of 0.95.
+    pub found_at_most: f64,
     /// Diagnoses of records without any fault that tell it.
     pub without_fault: usize,
 }
@@ -51,20 +58,22 @@ impl Answers {
 
 impl Finding {
     pub(super) fn of(search: &Search, bare: &[Reply]) -> Self {
+        let (draws, staircase) = (search.draws.clone(), &search.staircase);
+        let reached = diagnosed(&draws).map(|(fault, _)| fault.size).fold(0.0, f64::max).min(LARGEST);
         Self {
             effect: search.effect,
-            draws: search.draws.clone(),
-            conclusion: search.staircase.conclusion(),
+            draws,
+            conclusion: staircase.conclusion(),
+            beyond_reached: staircase.beyond(reached),
+            found_next: staircase.predicted(reached),
+            found_at_most: staircase.found_at_most(reached),
             without_fault: bare.iter().filter(|reply| reply.said().contains(&search.effect)).count(),
         }
     }
 
     /// Every fault that was put in, with what was said.
     pub fn diagnosed(&self) -> impl Iterator<Item = (&PlantedFault, &Answer)> {
-        self.draws.iter().filter_map(|draw| match draw {
-            Draw::Diagnosed { fault, answer } => Some((fault, answer)),
-            Draw::Refused(_) => None,
-        })
+        diagnosed(&self.draws)
     }
 
     /// Largest size that was reached; 0 where nothing was put in.
@@ -82,7 +91,7 @@ impl Finding {
         match (self.conclusion.size, last_refusal) {
             (_, Some(reason)) if reached == 0.0 => Outcome::NotPlanted(reason),
             (Some(size), _) if size <= reached => Outcome::From(size),
-            _ if self.conclusion.is_beyond() => Outcome::NotUpTo(super::LARGEST.min(reached)),
+            _ if is_certain(self.beyond_reached) => Outcome::NotUpTo(LARGEST.min(reached)),
             _ => Outcome::Undecided,
         }
     }
@@ -117,4 +126,11 @@ impl Finding {
         let off = |fault: &PlantedFault| (fault.size / size).ln().abs();
         self.diagnosed().map(|(fault, _)| fault).min_by(|x, y| off(x).total_cmp(&off(y)))
     }
+}
+
+fn diagnosed(draws: &[Draw]) -> impl Iterator<Item = (&PlantedFault, &Answer)> {
+    draws.iter().filter_map(|draw| match draw {
+        Draw::Diagnosed { fault, answer } => Some((fault, answer)),
+        Draw::Refused(_) => None,
+    })
 }

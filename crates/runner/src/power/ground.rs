@@ -100,8 +100,8 @@ impl<'a> Ground<'a> {
     }
 
     /// Puts a fault of an effect in, of about the size asked for, and diagnoses the records.
-    pub fn draw(&self, effect: &'static str, size: f64, seed: u64) -> Draw {
-        let PlantedRig { rig, fault } = match self.planted(effect, size, seed) {
+    pub fn draw(&self, precision: Precision, (effect, size): (&'static str, f64), seed: u64) -> Draw {
+        let PlantedRig { rig, fault } = match self.planted(precision, (effect, size), seed) {
             Ok(planted) => planted,
             Err(reason) => return Draw::Refused(reason),
         };
@@ -120,12 +120,17 @@ impl<'a> Ground<'a> {
         Draw::Diagnosed { answer: Answer::of(&reply, effect), fault }
     }
 
-    fn planted(&self, effect: &'static str, size: f64, seed: u64) -> Result<PlantedRig, String> {
+    fn planted(
+        &self,
+        precision: Precision,
+        (effect, size): (&'static str, f64),
+        seed: u64,
+    ) -> Result<PlantedRig, String> {
         let told = |error: &dyn std::fmt::Display| error.to_string();
         let base = self.without_fault(scramble(seed, NOISE))?;
         let law = law(effect, scramble(seed, LAW));
         let ingredient = Ingredient::with_law(effect, law, size).map_err(|e| told(&e))?;
         let ground = self.planting.with_records(&base).map_err(|e| told(&e))?;
-        ground.plant_to(Precision::COARSE, &ingredient, scramble(seed, FAULT)).map_err(|e| told(&e))
+        ground.plant_to(precision, &ingredient, scramble(seed, FAULT)).map_err(|e| told(&e))
     }
 }

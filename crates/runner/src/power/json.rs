@@ -12,7 +12,7 @@ const SCHEMA: &str = "switchback/power/1";
 ///
 /// `power.effects` holds an entry an effect: `outcome` is `from` (nine in ten are found from `size` on), `not_up_to` (up to `size` they are not),
 /// `undecided` or `not_planted` (for the `reason`); `ci90` is the interval of the size at which nine in ten are found, null at an end beyond
-/// `largest_size`; `found_at_most` the share found at that, with a probability of 0.95. `found` counts, of the faults that were
+/// `largest_size`; `found_next` is the probability that the next fault of the largest size that was `reached` is found, `found_at_most` the share found there, with a probability of 0.95. `found` counts, of the faults that were
 /// diagnosed, those named and those in a class of at most three effects; `instead` is the commonest answer to the others; `without_fault` how many of
 /// the diagnoses without any fault tell the effect. `example` is the fault whose size is closest to `size`, in the field's units. `draws` are all, in order.
 pub fn json(power: &Power, ground: &Ground<'_>) -> String {
@@ -50,7 +50,8 @@ fn effect(finding: &Finding, units: &Units) -> Value {
     json!({
         "effect": finding.effect, "outcome": outcome, "size": size, "reason": reason,
         "ci90": finding.conclusion.interval.map(end),
-        "found_at_most": is_planted.then_some(finding.conclusion.most),
+        "found_next": is_planted.then_some(finding.found_next),
+        "found_at_most": is_planted.then_some(finding.found_at_most),
         "reached": is_planted.then(|| finding.reached()),
         "found": { "named": answers.named, "class": answers.in_class, "of": answers.of },
         "instead": finding.instead().map(|(answer, count)| json!({ "answer": answer, "count": count })),

@@ -39,3 +39,6 @@ pub use staircase::{Conclusion, LARGEST, SHARE, SIZES, Staircase};
 pub use study::{Power, measure};
 pub use table::csv;
 pub use words::words;
+
+#[cfg(test)]
+mod tests;

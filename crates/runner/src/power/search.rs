@@ -2,6 +2,7 @@
 
 use super::{Draw, Ground, Plan, Staircase};
 use crate::examination::scramble;
+use switchback_maker::Precision;
 
 /// An effect, its draws so far, and what they say.
 #[derive(Debug, Clone)]
@@ -27,11 +28,13 @@ impl Search {
     /// One draw more.
     pub fn step(&mut self, ground: &Ground<'_>) {
         let seed = scramble(self.seed, self.draws.len() as u64);
-        let draw = ground.draw(self.effect, self.staircase.next_size(), seed);
+        // The staircase takes the size that is reached, whatever was asked for.
+        let draw = ground.draw(Precision::COARSE, (self.effect, self.staircase.next_size()), seed);
         self.take(draw);
     }
 
-    fn take(&mut self, draw: Draw) {
+    /// Takes a draw in.
+    pub(super) fn take(&mut self, draw: Draw) {
         if let Draw::Diagnosed { fault, answer } = &draw {
             self.staircase.push(fault.size, answer.is_found());
         }

@@ -67,8 +67,6 @@ pub struct Staircase {
     nodes: Vec<Node>,
     /// One a node, of sum 1.
     weights: Vec<f64>,
-    /// The nodes by increasing `ψ` at the largest size.
-    by_most: Vec<usize>,
 }
 
 /// What the draws say.
@@ -80,20 +78,23 @@ pub struct Conclusion {
     pub interval: [f64; 2],
     /// Probability that even at [`LARGEST`] less than [`SHARE`] are found.
     pub beyond: f64,
-    /// What share is found at [`LARGEST`] at most, with a probability of 0.95.
-    pub most: f64,
 }
 
 impl Conclusion {
     /// Whether it is all but certain that the effect is not found nine times in ten up to the largest size.
     pub fn is_beyond(&self) -> bool {
-        self.beyond >= 1.0 - TAIL
+        is_certain(self.beyond)
     }
 
     /// Whether more draws would tell little more.
     pub fn is_settled(&self) -> bool {
         self.is_beyond() || self.size.is_some() && self.interval[1] <= NARROW * self.interval[0].max(SIZES[0])
     }
+}
+
+/// Whether a probability leaves no more than the tail of an interval.
+pub(super) fn is_certain(probability: f64) -> bool {
+    probability >= 1.0 - TAIL
 }
 
 impl Staircase {
@@ -109,9 +110,7 @@ impl Staircase {
         }
         prior.sort_by(|x, y| x.0.wanted.total_cmp(&y.0.wanted));
         let (nodes, weights): (Vec<Node>, Vec<f64>) = prior.into_iter().unzip();
-        let mut by_most: Vec<usize> = (0..nodes.len()).collect();
-        by_most.sort_by(|i, k| nodes[*i].at_largest().total_cmp(&nodes[*k].at_largest()));
-        Self { weights: normalised(weights), nodes, by_most }
+        Self { weights: normalised(weights), nodes }
     }
 
     /// Takes in that a fault of a size was found or not.
@@ -147,17 +146,28 @@ impl Staircase {
             .map(|k| SIZES[0] * (k as f64 / STATED_PER_OCTAVE as f64).exp2())
             .collect();
         let stated = sizes.partition_point(|size| self.predicted(*size) < SHARE);
-        let wanted = |share| match self.nodes[self.quantile(0..self.nodes.len(), share)].wanted {
+        let wanted = |share| match self.nodes[quantile(&self.weights, 0..self.nodes.len(), share)].wanted {
             size if size > LARGEST => f64::INFINITY,
             size => size,
         };
-        let most = self.quantile(self.by_most.iter().copied(), 1.0 - TAIL);
         Conclusion {
             size: sizes.get(stated).copied(),
             interval: [TAIL, 1.0 - TAIL].map(wanted),
-            beyond: self.mean(|node| f64::from(u8::from(node.wanted > LARGEST))),
-            most: self.nodes[most].at_largest(),
+            beyond: self.beyond(LARGEST),
         }
+    }
+
+    /// The probability that at a size less than [`SHARE`] are found.
+    pub fn beyond(&self, size: f64) -> f64 {
+        self.mean(|node| f64::from(u8::from(node.wanted > size)))
+    }
+
+    /// What share is found at a size at most, with a probability of 0.95.
+    pub fn found_at_most(&self, size: f64) -> f64 {
+        let shares: Vec<f64> = self.nodes.iter().map(|node| node.curve.found(size)).collect();
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by(|i, k| shares[*i].total_cmp(&shares[*k]));
+        shares[quantile(&self.weights, order, 1.0 - TAIL)]
     }
 
     /// The probability that the next fault of a size is found.
@@ -168,19 +178,6 @@ impl Staircase {
     fn mean(&self, of: impl Fn(&Node) -> f64) -> f64 {
         self.nodes.iter().zip(&self.weights).map(|(node, weight)| weight * of(node)).sum()
     }
-
-    /// The first of nodes in an order up to which a share of the weight lies.
-    fn quantile(&self, order: impl IntoIterator<Item = usize>, share: f64) -> usize {
-        let mut sum = 0.0;
-        let mut last = 0;
-        for node in order {
-            (sum, last) = (sum + self.weights[node], node);
-            if sum >= share {
-                break;
-            }
-        }
-        last
-    }
 }
 
 impl Node {
@@ -188,11 +185,6 @@ impl Node {
         let wanted = curve.size_for(SHARE).unwrap_or(f64::INFINITY);
         let class = SIZES.iter().filter(|size| **size < wanted).count();
         Self { curve, at: SIZES.map(|size| curve.found(size)), wanted, class }
-    }
-
-    /// `ψ` at [`LARGEST`].
-    fn at_largest(&self) -> f64 {
-        self.at[SIZES.len() - 1]
     }
 }
 
@@ -220,6 +212,18 @@ fn normalised(mut weights: Vec<f64>) -> Vec<f64> {
 fn weighted_entropy(joint: &[f64]) -> f64 {
     let mass: f64 = joint.iter().sum();
     joint.iter().filter(|p| **p > 0.0).map(|p| -p * (p / mass).ln()).sum()
+}
+
+/// The first of nodes in an order up to which a share of the weight lies.
+fn quantile(weights: &[f64], order: impl IntoIterator<Item = usize>, share: f64) -> usize {
+    let (mut sum, mut last) = (0.0, 0);
+    for node in order {
+        (sum, last) = (sum + weights[node], node);
+        if sum >= share {
+            break;
+        }
+    }
+    last
 }
 
 #[cfg(test)]

@@ -37,6 +37,7 @@ fn table(power: &Power) -> String {
         let [low, high] = finding.conclusion.interval;
         let interval = match outcome {
             Outcome::NotPlanted(_) => "–".to_owned(),
+            _ if low > LARGEST => end(low),
             _ => format!("[{}, {}]", end(low), end(high)),
         };
         let shares = CLASSES.map(|(_, low, high)| {
@@ -82,19 +83,15 @@ fn sentence(finding: &Finding, units: &Units) -> String {
             parts.extend(finding.closest_to(size).and_then(|fault| units.in_words(fault)));
         }
         Outcome::NotUpTo(size) => parts.push(format!(
-            "not found nine times in ten up to {} (at most {:.0} % of the largest)",
+            "not found nine times in ten up to {} (there at most {:.0} % of them)",
             digits(size, 2),
-            100.0 * finding.conclusion.most
+            100.0 * finding.found_at_most
         )),
-        Outcome::Undecided => {
-            let reached = finding.reached();
-            let hint = if reached < 0.5 * LARGEST {
-                format!("; no more than size {} could be put in or was tried", digits(reached, 2))
-            } else {
-                String::new()
-            };
-            parts.push(format!("too few draws to tell (`--draws` takes more){hint}"));
-        }
+        Outcome::Undecided => parts.push(format!(
+            "too few draws to tell (`--draws` takes more); at {}, the largest size reached, about {:.0} % are found",
+            digits(finding.reached(), 2),
+            100.0 * finding.found_next
+        )),
         Outcome::NotPlanted(reason) => return format!("cannot be planted: {reason}"),
     }
     parts.push(format!("named in {}, in a class in {} of {}", all.named, all.in_class, all.of));
