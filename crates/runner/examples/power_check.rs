@@ -17,7 +17,7 @@ use switchback_gap::Settings;
 use switchback_maker::{EFFECTS, Precision};
 
 /// Fresh faults have seeds of their own.
-const FRESH: u64 = 0x4652_4553_48;
+const FRESH: u64 = 0x0046_5245_5348;
 
 /// A fresh fault counts where its size is this close to the one stated.
 const CLOSE: f64 = 0.1;

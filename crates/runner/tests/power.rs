@@ -59,7 +59,7 @@ fn faults_are_put_in_and_counted() {
     assert!(told.contains("9 diagnoses at most; the first took"), "{told}");
     assert_eq!(
         listing(&folder.path("report")),
-        [".switchback.sha256", "power.csv", "power.json", "power.txt"]
+        [".switchback.sha256", "power.csv", "power.json", "power.svg", "power.txt"]
     );
     let written = fs::read_to_string(folder.path("report/power.json")).expect("it is there");
     assert_eq!(serde_json::from_str::<Value>(&written).expect("JSON"), page);

@@ -39,7 +39,7 @@ impl Base {
 
     /// The same of other records of the machine: identified anew as what was chosen here.
     pub(super) fn of_other(&self, rig: &Rig) -> Result<Self, PlantingError> {
-        let settings = self.settings.clone();
+        let settings = self.settings;
         Self::measured(rig, from_fit_records(rig, &settings)?, settings)
     }
 

@@ -4,6 +4,7 @@ use crate::diagnosis::GivenModel;
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Force, Quiet, Threads, whole};
 use crate::output::Artefacts;
+use crate::plots;
 use crate::power::{self, Ground, Plan, Power, PowerError};
 use crate::progress::Meter;
 use crate::rig::Loaded;
@@ -51,7 +52,7 @@ pub(super) struct Asked<'a> {
 }
 
 /// What the folder gets.
-const FILES: [&str; 3] = ["power.json", "power.csv", "power.txt"];
+const FILES: [&str; 4] = ["power.json", "power.csv", "power.txt", "power.svg"];
 
 /// Measures, prints, and writes the folder if one was asked for.
 ///
@@ -127,5 +128,6 @@ fn artefacts(power: &Power, ground: &Ground<'_>) -> Artefacts {
     artefacts.add("power.json", power::json(power, ground));
     artefacts.add("power.csv", power::csv(power));
     artefacts.add("power.txt", power::words(power, ground));
+    artefacts.add("power.svg", plots::power::figure(power, &ground.rig().name));
     artefacts
 }

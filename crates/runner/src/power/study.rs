@@ -28,7 +28,7 @@ const GUESS: f64 = 0.01;
 pub fn measure(
     ground: &Ground<'_>,
     plan: &Plan,
-    progress: &(impl Progress + Sync),
+    progress: &impl Progress,
     started: impl FnOnce(Duration),
 ) -> Result<Power, PowerError> {
     progress.planned(plan.diagnoses() as u64);
@@ -47,7 +47,7 @@ pub fn measure(
 fn without_fault(
     ground: &Ground<'_>,
     plan: &Plan,
-    progress: &(impl Progress + Sync),
+    progress: &impl Progress,
     started: impl FnOnce(Duration),
 ) -> Result<Vec<Reply>, PowerError> {
     let one = |number: usize| {
@@ -68,7 +68,7 @@ fn rounds(
     ground: &Ground<'_>,
     plan: &Plan,
     mut searches: Vec<Search>,
-    progress: &(impl Progress + Sync),
+    progress: &impl Progress,
 ) -> Vec<Search> {
     let mut left = plan.budget();
     loop {

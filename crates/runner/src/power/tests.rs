@@ -119,3 +119,22 @@ fn every_draw_has_a_seed_of_its_own() {
     assert_eq!(alone.seed_of("creep"), plan.seed_of("creep"));
     assert_eq!((plan.budget(), plan.diagnoses(), plan.most()), (6, 9, 12));
 }
+
+#[test]
+fn the_figure_shows_every_fault_and_depends_on_nothing_else() {
+    let found = finding((0..8).map(|k| drawn(1.0 + f64::from(k), Answer::Named)).collect());
+    let never = finding(vec![missed(20.0, "nothing"), missed(0.01, "nothing")]);
+    let none = finding(vec![refused()]);
+    let power = Power { plan: plan(8), bare: Vec::new(), findings: vec![found, never, none] };
+    let svg = crate::plots::power::figure(&power, "bench");
+    assert_eq!(svg, crate::plots::power::figure(&power, "bench"));
+    // A hollow disc is two circles; the legend has one disc of each kind.
+    assert_eq!(svg.matches("<circle").count(), 8 + 2 * 2 + 3);
+    assert_eq!(svg.matches("cannot be planted").count(), 1);
+    let number = |text: &str| text.split('"').next()?.parse::<f64>().ok();
+    let places: Vec<f64> = svg.split("cx=\"").skip(1).filter_map(number).collect();
+    let width =
+        svg.split("viewBox=\"0 0 ").nth(1).and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    let width = width.expect("a page of some width");
+    assert!(places.len() == 15 && places.iter().all(|x| (0.0..=width).contains(x)), "{places:?} of {width}");
+}
