@@ -10,7 +10,8 @@
 /// [0, 1) (how often one is found that is not there). `ψ` is the mean over laws and parameters of the fault and over draws of the noise; of
 /// several laws with thresholds of their own it is a mixture of such curves, to which one that is less steep comes close.
 ///
-/// Source: N. Prins and F. A. A. Kingdom, *Psychophysics*, 2nd ed., Academic Press 2016, equation 4.1 and section 4.3.
+/// Source: F. A. A. Kingdom and N. Prins, *Psychophysics: A Practical Introduction*, 2nd ed., Academic Press 2016, chapter 4; there `λ` is a share
+/// of all faults, here of those that are not guessed, so that both rates are free in [0, 1].
 ///
 /// ```
 /// # use switchback::power::Psychometric;

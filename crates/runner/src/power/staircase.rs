@@ -9,8 +9,8 @@
 //!
 //! with `sᵢ` the size that was reached, whatever size was asked for. What is asked for next is the size whose answer leaves the least
 //! expected entropy of *the figure that is wanted*, `s₉₀ = ψ⁻¹(0.9)` in classes of half an octave with "above 8, or never" as the last: the
-//! method of Watson and Pelli (QUEST, Perception & Psychophysics 33, 1983), with the entropy of Kontsevich and Tyler (Vision Research 39,
-//! 1999, eq. 5–8), of the parameter of interest alone as in Prins (Journal of Vision 13(7):3, 2013).
+//! method of Watson and Pelli (QUEST, Perception & Psychophysics 33:113, 1983), with the entropy of Kontsevich and Tyler (Vision Research 39:2729,
+//! 1999), of what is of interest alone as in Prins (Journal of Vision 13(7):3, 2013).
 //!
 //! **What is told.** The size stated is the smallest at which the next fault is found with a probability of 0.9,
 //!
@@ -22,9 +22,9 @@
 //! size stated are found, however few draws there were; few draws make it larger. Beside it stands the 90 % credible interval of `s₉₀`. Where no
 //! size up to the largest is found that often, `s₉₀` lies beyond it with a probability of 0.95, or the draws were too few to tell.
 //!
-//! **Prior.** `ln α` uniform from ¼ to 8 (from half the least size tried to the largest); `ln β` uniform from 2 to 10 (one in ten turns to nine in ten over a factor of
-//! 9, or of 1.6, in size); `λ` with weight ½ uniform on [0, 0.1], an effect that is found once it is large enough, and with weight ½ uniform on
-//! [0.1, 1], one that is never found nine times in ten: before the first draw both count as much. `γ` is known beforehand.
+//! **Prior.** `α` log-uniform from ¼, half the least size tried, to 8, the largest; `β` log-uniform from 2 to 10: from one in ten to nine in ten it
+//! takes a factor of 9, or of 1.6, in size. `λ` with weight ½ uniform on [0, 0.1], an effect that is found once it is large enough, and with weight ½
+//! uniform on [0.1, 1], one that is never found nine times in ten: before the first draw both count as much. `γ` is known beforehand.
 
 use super::Psychometric;
 
