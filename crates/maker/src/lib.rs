@@ -42,5 +42,5 @@ pub use key::{Key, TrueEffect, Truth};
 pub use law::{Dose, INTERVAL_WIDTHS, Law, Nature, Planting, Scene, Stage};
 pub use make::{Ingredient, MadeRig, MakeError, MakeRig};
 pub use plant::{Family, Plant, Shape, Table};
-pub use planting::{OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround};
+pub use planting::{OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround, Precision};
 pub use setting::Setting;

@@ -16,6 +16,7 @@ pub mod model;
 pub mod options;
 pub mod output;
 pub mod plots;
+pub mod power;
 pub mod progress;
 pub mod report;
 pub mod results;

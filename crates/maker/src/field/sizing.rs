@@ -2,7 +2,7 @@
 
 use crate::key::TrueEffect;
 use crate::make::{Ingredient, MakeError};
-use crate::planting::{Base, PlantingError, search};
+use crate::planting::{Base, Goal, PlantingError, Precision, search};
 use crate::simulate::Active;
 use crate::workshop::Workshop;
 
@@ -20,7 +20,9 @@ pub(crate) fn sized(
         // What counts noise sds has no limit of its own; slow poles make the same equation noise larger in the output.
         let larger = if law.counts_noise() { workshop.plant.noise_amplification().max(1.0) } else { 1.0 };
         let with = |magnitude: f64| Ok(workshop.rig(&[workshop.active(slot, law, magnitude)])?);
-        let found = search(&base, ingredient.size, larger * law.limit(), with).map_err(refused)?;
+        let limit = larger * law.limit();
+        let goal = Goal { size: ingredient.size, limit, precision: Precision::FINE };
+        let found = search(&base, goal, with).map_err(refused)?;
         let entry = ingredient.found(found.magnitude, found.size);
         Ok((workshop.active(slot, law, found.magnitude), entry))
     };

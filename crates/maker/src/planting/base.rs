@@ -34,6 +34,16 @@ impl Base {
             timing: Some(rule.timing),
             ..open
         };
+        Self::measured(rig, identified, settings)
+    }
+
+    /// The same of other records of the machine: identified anew as what was chosen here.
+    pub(super) fn of_other(&self, rig: &Rig) -> Result<Self, PlantingError> {
+        let settings = self.settings;
+        Self::measured(rig, from_fit_records(rig, &settings)?, settings)
+    }
+
+    fn measured(rig: &Rig, identified: Identified, settings: Settings) -> Result<Self, PlantingError> {
         let left: Vec<Vec<f64>> = judged(rig).map(|r| missed(&identified.model, &r.record)).collect();
         let residual = root_mean_square(left.iter().flatten().copied());
         let moves = judged(rig).map(|r| {

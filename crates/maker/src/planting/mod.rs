@@ -23,9 +23,11 @@ mod search;
 
 pub(crate) use self::base::Base;
 use self::carrier::Carrier;
-pub(crate) use self::search::{Trial, search};
+pub use self::search::Precision;
+pub(crate) use self::search::{Goal, Trial, search};
 use crate::law::{Nature, Planting, Stage};
 use crate::make::{Ingredient, MakeError};
+use std::sync::Arc;
 use switchback_estimator::estimators::free::{FreeError, Model};
 use switchback_estimator::hysteresis::HysteresisError;
 use switchback_estimator::record::RecordError;
@@ -73,6 +75,8 @@ pub struct PlantedFault {
     pub magnitude: f64,
     /// What magnitude 1 means.
     pub unit: &'static str,
+    /// What the magnitude is, where its unit does not say it.
+    pub quantity: Option<&'static str>,
     /// Size that was asked for.
     pub wanted: f64,
     /// What survives identification anew.
@@ -104,7 +108,7 @@ pub struct PlantedRig {
 pub struct PlantingGround<'a> {
     rig: &'a Rig,
     base: Base,
-    carrier: Carrier,
+    carrier: Arc<Carrier>,
 }
 
 impl<'a> PlantingGround<'a> {
@@ -115,7 +119,7 @@ impl<'a> PlantingGround<'a> {
     pub fn new(rig: &'a Rig) -> Result<Self, PlantingError> {
         let base = Base::new(rig)?;
         let carrier = Carrier::identified(rig, &base)?;
-        Ok(Self { rig, base, carrier })
+        Ok(Self { rig, base, carrier: Arc::new(carrier) })
     }
 
     /// The same with a model of one's own to carry what has to be carried.
@@ -123,7 +127,16 @@ impl<'a> PlantingGround<'a> {
     /// # Errors
     /// As [`Self::new`].
     pub fn carried_by(rig: &'a Rig, model: &Model) -> Result<Self, PlantingError> {
-        Ok(Self { rig, base: Base::new(rig)?, carrier: Carrier::of(rig, model)? })
+        Ok(Self { rig, base: Base::new(rig)?, carrier: Arc::new(Carrier::of(rig, model)?) })
+    }
+
+    /// The ground that other records of the same machine are, the same inputs with other noise: sizes are measured against a model identified
+    /// anew from these, of the order, delay and knots chosen before; the carrier stays.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_records<'b>(&self, rig: &'b Rig) -> Result<PlantingGround<'b>, PlantingError> {
+        Ok(PlantingGround { rig, base: self.base.of_other(rig)?, carrier: Arc::clone(&self.carrier) })
     }
 
     /// Plants a fault of a size; everything random about it is drawn from the seed.
@@ -131,9 +144,23 @@ impl<'a> PlantingGround<'a> {
     /// # Errors
     /// [`PlantingError::Record`] where the altered signals are not finite.
     pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
+        self.plant_to(Precision::FINE, ingredient, seed)
+    }
+
+    /// The same with the size met as closely as asked.
+    ///
+    /// # Errors
+    /// As [`Self::plant`].
+    pub fn plant_to(
+        &self,
+        precision: Precision,
+        ingredient: &Ingredient,
+        seed: u64,
+    ) -> Result<PlantedRig, PlantingError> {
         let law = ingredient.law;
         let with = |magnitude: f64| self.again(ingredient, magnitude, seed);
-        let Trial { magnitude, size, rig } = search(&self.base, ingredient.size, law.limit(), with)?;
+        let goal = Goal { size: ingredient.size, limit: law.limit(), precision };
+        let Trial { magnitude, size, rig } = search(&self.base, goal, with)?;
         let fault = PlantedFault {
             effect: law.effect(),
             law: law.name(),
@@ -142,6 +169,7 @@ impl<'a> PlantingGround<'a> {
             planting: law.planting(),
             magnitude,
             unit: law.unit(),
+            quantity: law.quantity(),
             wanted: ingredient.size,
             size,
             raw: self.base.raw(&rig),

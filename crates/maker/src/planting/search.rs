@@ -5,9 +5,32 @@ use super::base::Base;
 use crate::size::magnitude_for;
 use switchback_estimator::rig::Rig;
 
-/// Sizes are met to this share, in at most so many identifications.
-const TOLERANCE: f64 = 0.05;
-const ROUNDS: usize = 10;
+/// How closely a wanted size is met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Precision {
+    /// The size is met to this share.
+    tolerance: f64,
+    /// In at most so many identifications.
+    rounds: usize,
+}
+
+impl Precision {
+    /// To 5 %, in at most ten identifications: where sizes are compared.
+    pub const FINE: Self = Self { tolerance: 0.05, rounds: 10 };
+    /// To a factor of √2, in at most three: where the size that is reached is all that counts.
+    pub const COARSE: Self = Self { tolerance: 0.35, rounds: 3 };
+}
+
+/// What is searched for.
+pub(crate) struct Goal {
+    /// Size.
+    pub(crate) size: f64,
+    /// Largest magnitude.
+    pub(crate) limit: f64,
+    /// How closely.
+    pub(crate) precision: Precision,
+}
+
 /// Largest change of the magnitude, as a factor, from one identification to the next.
 const STRIDE: f64 = 4.0;
 
@@ -24,8 +47,7 @@ pub(crate) struct Trial {
 /// Those of `with`.
 pub(crate) fn search(
     base: &Base,
-    wanted_size: f64,
-    limit: f64,
+    Goal { size: wanted_size, limit, precision }: Goal,
     with: impl Fn(f64) -> Result<Rig, PlantingError>,
 ) -> Result<Trial, PlantingError> {
     // The raw size costs no identification: the search begins where that is as wanted.
@@ -39,10 +61,10 @@ pub(crate) fn search(
     let miss = |size: f64| (size / wanted_size).max(1e-9).ln().abs();
     let mut best = sized(tried)?;
     let mut last = best.size;
-    for _ in 1..ROUNDS {
+    for _ in 1..precision.rounds {
         let wanted = wanted_size / last.max(1e-9);
         let next = (tried * wanted.clamp(1.0 / STRIDE, STRIDE)).min(limit);
-        if (wanted - 1.0).abs() < TOLERANCE || next == tried {
+        if (wanted - 1.0).abs() < precision.tolerance || next == tried {
             break;
         }
         tried = next;

@@ -123,3 +123,35 @@ fn records_that_give_no_ground_are_refused() {
     // A line without noise leaves nothing that a size could be measured against.
     assert!(matches!(refusal(vec![of(v.iter().map(|v| 2.0 * v).collect())]), PlantingError::NoResidual));
 }
+
+#[test]
+fn other_records_of_the_machine_are_a_ground_of_their_own() {
+    let rig = plain().make().expect("a rig").rig;
+    let ground = PlantingGround::new(&rig).expect("a model");
+    // A louder sensor: the same fault is smaller against it.
+    let louder = |r: &RigRecord| {
+        let run = ground.identified().model.free_run(&r.record);
+        let y = r.record.y().iter().zip(&run.y).map(|(y, simulated)| simulated + 3.0 * (y - simulated));
+        let record = Record::new(r.record.v().to_vec(), y.collect()).expect("finite");
+        RigRecord { record, ..r.clone() }
+    };
+    let loud = Rig { records: rig.records.iter().map(louder).collect(), ..rig.clone() };
+    let other = ground.with_records(&loud).expect("a model");
+    let chosen = |ground: &PlantingGround<'_>| ground.identified().selection.structure;
+    assert_eq!(chosen(&other), chosen(&ground));
+    assert!((other.base.residual / ground.base.residual / 3.0 - 1.0).abs() < 0.1);
+    let ingredient = Ingredient::plain("backlash", 2.0).expect("an effect");
+    let [small, large] = [&ground, &other].map(|ground| ground.plant(&ingredient, 5).expect("records").fault);
+    assert!(large.magnitude > 1.5 * small.magnitude, "{} {}", large.magnitude, small.magnitude);
+}
+
+#[test]
+fn a_coarse_search_tells_the_size_that_it_reached() {
+    let rig = plain().make().expect("a rig").rig;
+    let ground = PlantingGround::new(&rig).expect("a model");
+    let ingredient = Ingredient::plain("creep", 2.0).expect("an effect");
+    let PlantedRig { rig: planted, fault } =
+        ground.plant_to(Precision::COARSE, &ingredient, 5).expect("records");
+    assert!((fault.size / 2.0).ln().abs() < 0.5, "{}", fault.size);
+    assert_eq!(ground.base.surviving(&planted), fault.size);
+}

@@ -1,6 +1,7 @@
 //! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
 use super::data_args::DataArgs;
+use super::power::{self, Asked, DataPlace, PowerArgs};
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::model;
@@ -8,6 +9,7 @@ use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
 use crate::plots;
 use crate::progress::Watch;
+use crate::rig::Loaded;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 use switchback_gap::{Effect, Settings};
@@ -46,6 +48,9 @@ pub struct Args {
     out: Option<PathBuf>,
 
     #[command(flatten)]
+    power: PowerArgs,
+
+    #[command(flatten)]
     threads: Threads,
 
     #[command(flatten)]
@@ -75,11 +80,13 @@ const FILES: [&str; 10] = [
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let loaded = args.data.load("gap", args.quiet)?;
+    if args.power.power {
+        return run_power(args, &loaded);
+    }
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let subject = Subject::choose(loaded.rig, args.model.as_deref())?;
     let watch = Watch::new(args.quiet);
-    let settings = Settings::default().without(&args.without).asking(&args.ask);
-    let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings, &watch))?;
+    let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings(args), &watch))?;
     watch.finish();
     let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
@@ -91,6 +98,22 @@ pub fn run(args: &Args) -> CommandResult {
     };
     args.quiet.tell_or(args.json, || diagnosis::json(&report), words)?;
     Ok(Outcome::Done)
+}
+
+fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
+    let asked = Asked {
+        model: args.model.as_deref(),
+        settings: settings(args),
+        out: args.out.as_ref(),
+        json: args.json,
+        options: (args.threads, args.quiet, args.force),
+    };
+    let inputs = args.data.inputs(loaded);
+    power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))
+}
+
+fn settings(args: &Args) -> Settings {
+    Settings::default().without(&args.without).asking(&args.ask)
 }
 
 fn effect() -> impl TypedValueParser<Value = Effect> {

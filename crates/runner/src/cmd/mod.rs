@@ -11,6 +11,7 @@ pub mod init;
 pub mod man;
 pub mod merge;
 pub mod plant;
+pub mod power;
 pub mod rig;
 pub mod simulate;
 pub mod study;

@@ -9,6 +9,7 @@ use switchback_estimator::estimators::{BorderPoint, Estimate};
 use switchback_estimator::linear::is_stable;
 
 /// What a file holds.
+#[derive(Debug)]
 pub(super) enum Given {
     /// A model file.
     File(Box<ModelFile>),

@@ -1,14 +1,12 @@
 //! Whose model meets the records.
 
-use super::model_file::{self, Given};
-use crate::identification::EstimatedSystem;
-use crate::model::{self, ModelError, ModelFile, System, UnitError};
+use super::GivenModel;
+use crate::model::{self, ModelError, UnitError};
 use miette::Diagnostic;
 use std::path::Path;
-use switchback_estimator::estimators::{Estimate, free};
-use switchback_estimator::hysteresis::Interval;
+use switchback_estimator::estimators::free;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
-use switchback_gap::{Model, NominalModel};
+use switchback_gap::Model;
 use thiserror::Error;
 
 /// Whose model is diagnosed.
@@ -129,7 +127,7 @@ impl Subject {
             (Some(file), other) => {
                 let notes = other
                     .map(|_| "the columns y_sim were left aside, since a model file was given".to_owned());
-                Self::given(rig, file, notes.into_iter().collect())
+                GivenModel::read(file)?.meet(rig, notes.into_iter().collect())
             }
             (None, Some(other)) => {
                 let other = other.name.clone();
@@ -143,72 +141,6 @@ impl Subject {
                 Ok(Self { rig, model: Model::Identify, source: Source::Identified, notes: Vec::new() })
             }
         }
-    }
-
-    fn given(rig: Rig, file: &Path, notes: Vec<String>) -> Result<Self, SubjectError> {
-        match model_file::read(file)? {
-            Given::Page(estimate) => Self::of_page(rig, file, estimate, notes),
-            Given::File(model) => Self::of_file(rig, file, &model, notes),
-        }
-    }
-
-    /// A model file. One without effects goes to the diagnosis as it is; any other is simulated here.
-    fn of_file(
-        rig: Rig,
-        file: &Path,
-        model: &ModelFile,
-        mut notes: Vec<String>,
-    ) -> Result<Self, SubjectError> {
-        model.header.check_units([&rig.input_label, &rig.output_label], (file, "rig"))?;
-        if !model.header.runs_at(rig.sample_time) {
-            let file = file.display().to_string();
-            let model = model.header.sample_time;
-            return Err(SubjectError::SampleTime { file, model, rig: rig.sample_time });
-        }
-        let plain = match &model.system {
-            System::Switched(model) => model.is_plain().then(|| model.system()),
-            System::Points(points) => return Self::of_page(rig, file, points.estimate(), notes),
-            System::Curves(curves) => curves.plain(),
-        };
-        if let Some(plain) = plain {
-            check_order(&rig, file, plain.a.len())?;
-            return Ok(Self { rig, model: Model::Given(plain), source: Source::Given, notes });
-        }
-        let rig = with_predictions(rig, |record| {
-            let (v, y) = (record.record.v(), record.record.y());
-            model.run(v, Some(y)).filter(|run| run.start < v.len()).map(|run| run.y)
-        });
-        if let Some(missing) = judged(&rig).find(|record| record.predicted.is_none()) {
-            return Err(SubjectError::NoRun {
-                file: file.display().to_string(),
-                record: missing.name.clone(),
-            });
-        }
-        notes.push("the model given is diagnosed by its free runs".to_owned());
-        Ok(Self { rig, model: Model::Predicted, source: Source::Given, notes })
-    }
-
-    /// The page of an identification, or a model of its kind.
-    fn of_page(rig: Rig, file: &Path, estimate: Estimate, notes: Vec<String>) -> Result<Self, SubjectError> {
-        check_order(&rig, file, estimate.a.len())?;
-        let interval = working_interval(&rig);
-        let system = EstimatedSystem::new(&estimate, interval).map_err(|reason| ModelError::Content {
-            place: file.display().to_string(),
-            message: reason.to_owned(),
-            remedy: "identify again from longer records, or with another order or method".to_owned(),
-        })?;
-        // The paper's structure goes to the diagnosis as it is; one with another delay is simulated here.
-        let (rig, model) = if estimate.delay == 0 {
-            let [descending, ascending] = system.borders().map(<[_]>::to_vec);
-            let model = NominalModel { a: estimate.a.clone(), b: estimate.b.clone(), descending, ascending };
-            (rig, Model::Given(model))
-        } else {
-            (
-                with_predictions(rig, |record| system.run(&record.record).map(|run| run.simulated)),
-                Model::Predicted,
-            )
-        };
-        Ok(Self { rig, model, source: Source::Given, notes })
     }
 }
 
@@ -226,30 +158,15 @@ pub fn met_by(rig: Rig, model: &free::Model) -> (Rig, Model) {
 }
 
 /// The records a gap is measured on: the hold-outs, or all where there is none.
-fn judged(rig: &Rig) -> impl Iterator<Item = &RigRecord> {
+pub(super) fn judged(rig: &Rig) -> impl Iterator<Item = &RigRecord> {
     let any = rig.holdout_records().next().is_some();
     rig.records.iter().filter(move |record| !any || record.usage == Usage::Holdout)
 }
 
-fn working_interval(rig: &Rig) -> Interval {
-    let v = rig.fit_records().flat_map(|record| record.record.v());
-    let (low, high) = v.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)));
-    let moved = Interval::new(low, high).expect("a rig that was read moves in its fit records");
-    rig.interval.unwrap_or(moved)
-}
-
 /// The rig with a model's free run as the prediction of every record that it can run on.
-fn with_predictions(mut rig: Rig, run: impl Fn(&RigRecord) -> Option<Vec<f64>>) -> Rig {
+pub(super) fn with_predictions(mut rig: Rig, run: impl Fn(&RigRecord) -> Option<Vec<f64>>) -> Rig {
     for record in &mut rig.records {
         record.predicted = run(record);
     }
     rig
-}
-
-/// Whether the model has the order that the rig declares.
-fn check_order(rig: &Rig, file: &Path, model: usize) -> Result<(), SubjectError> {
-    match rig.order.filter(|order| *order != model) {
-        Some(order) => Err(SubjectError::Order { file: file.display().to_string(), model, rig: order }),
-        None => Ok(()),
-    }
 }

@@ -139,7 +139,7 @@ fn next(report: &Report, file: &str) -> Option<String> {
 }
 
 /// Lines of at most [`WIDTH`] letters, all but the first begun with `indent`; blanks before the first word are kept.
-pub(super) fn wrapped(text: &str, indent: &str) -> String {
+pub(crate) fn wrapped(text: &str, indent: &str) -> String {
     let words = text.trim_start();
     let mut page = String::new();
     let mut line = text[..text.len() - words.len()].to_owned();

@@ -27,6 +27,15 @@ impl Reply {
         Self { status: "failed", effects, class, stage: None, probability: 0.0, top: ("failed", 0.0) }
     }
 
+    /// The effects that it points at.
+    pub fn said(&self) -> &[&'static str] {
+        match self.status {
+            "named" => &self.effects,
+            "class" | "ambiguous" => &self.class,
+            _ => &[],
+        }
+    }
+
     /// What a diagnosis said.
     pub fn of(d: &Diagnosis) -> Self {
         let named = if d.verdict.status == Status::Named { d.verdict.effects.as_slice() } else { &[] };

@@ -112,7 +112,7 @@ pub fn design(study: &Study, bases: &Bases) -> Vec<Ticket> {
 }
 
 /// Half of the seeds take the plain law, the rest the effect's others.
-fn law(effect: &str, seed: u64) -> usize {
+pub(crate) fn law(effect: &str, seed: u64) -> usize {
     let others = laws_of(effect).len() as u64 - 1;
     let drawn = scramble(seed, 1);
     if drawn.is_multiple_of(2) || others == 0 { 0 } else { 1 + (drawn / 2 % others) as usize }

@@ -5,7 +5,7 @@ use super::case::Case;
 use super::design::{Kind, Ticket, Wanted, design};
 use super::fault::{by_maker, left, mean_square, nominal, planted, told};
 use super::made;
-use super::resample::resampled;
+use super::resample::{resampled, runs_of};
 use super::scenario::Study;
 use super::seal::{Key, PutIn, Sealed, WrittenKeys};
 use super::{report, score};
@@ -127,7 +127,7 @@ impl<'a> Field<'a> {
             }
             (.., Kind::Resampled) => {
                 let nominal = known.nominal.as_ref().map_err(Clone::clone)?;
-                resampled(&base.rig, &nominal.model, ticket.seed).map_err(told)?
+                resampled(&base.rig, runs_of(&nominal.model), ticket.seed).map_err(told)?
             }
             _ => base.rig.clone(),
         };

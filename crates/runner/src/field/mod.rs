@@ -23,8 +23,11 @@ mod seal;
 
 pub use bases::{Base, BaseError, Bases};
 pub use case::{Answered, Case, Fault};
+pub(crate) use design::law;
 pub use design::{Kind, Ticket, design};
 pub use examination::{Examiner, Field};
+pub(crate) use resample::{resampled, runs_of};
 pub use scenario::{Expect, Study, is_field, read};
+pub(crate) use score::WIDEST_CLASS;
 pub use score::{AnswerRow, Asked, BaseVerdicts, Claims, Rating, Scores, Stratum, TARGETS, score};
 pub use seal::{How, Key, PutIn, Sealed};

@@ -7,12 +7,20 @@ use switchback_estimator::record::RecordError;
 use switchback_estimator::rig::{Rig, RigRecord};
 use switchback_estimator::statistics::MeanInterval;
 
-/// The rig with `y = ŷ + r*`: `ŷ` the model's free run, `r*` its residuals drawn anew in circular blocks (Politis and Romano 1992), whose
+/// The rig with `y = ŷ + r*`: `ŷ` the free run of a model, `r*` its residuals drawn anew in circular blocks (Politis and Romano 1992), whose
 /// length is that of [`MeanInterval::of_remembering`]. Noise stays what it is, and whatever hangs together for longer than a block is torn apart:
-/// nothing is left that a cause could explain. Samples before the free run stay.
-pub(super) fn resampled(rig: &Rig, model: &Model, seed: u64) -> Result<Rig, RecordError> {
+/// nothing is left that a cause could explain. Samples before the free run stay. `run` gives the free run and the first sample that it simulates;
+/// a record without one stays as it is.
+pub(crate) fn resampled(
+    rig: &Rig,
+    run: impl Fn(&Record) -> Option<(Vec<f64>, usize)>,
+    seed: u64,
+) -> Result<Rig, RecordError> {
     let with = |(number, record): (usize, &RigRecord)| {
-        let y = redrawn(&record.record, model, scramble(seed, number as u64));
+        let y = match run(&record.record) {
+            Some(run) => redrawn(record.record.y(), run, scramble(seed, number as u64)),
+            None => record.record.y().to_vec(),
+        };
         let record_anew = Record::new(record.record.v().to_vec(), y)?;
         Ok(RigRecord { record: record_anew, predicted: None, ..record.clone() })
     };
@@ -20,16 +28,23 @@ pub(super) fn resampled(rig: &Rig, model: &Model, seed: u64) -> Result<Rig, Reco
     Ok(Rig { records, ..rig.clone() })
 }
 
-fn redrawn(record: &Record, model: &Model, seed: u64) -> Vec<f64> {
-    let run = model.free_run(record);
-    let mut y = record.y().to_vec();
+/// The free run of an identified model, as [`resampled`] takes it.
+pub(crate) fn runs_of(model: &Model) -> impl Fn(&Record) -> Option<(Vec<f64>, usize)> {
+    |record| {
+        let run = model.free_run(record);
+        Some((run.y, run.start))
+    }
+}
+
+fn redrawn(measured: &[f64], (simulated, start): (Vec<f64>, usize), seed: u64) -> Vec<f64> {
+    let mut y = measured.to_vec();
     let left: Vec<f64> =
-        y[run.start..].iter().zip(&run.y[run.start..]).map(|(y, simulated)| y - simulated).collect();
+        y[start..].iter().zip(&simulated[start..]).map(|(y, simulated)| y - simulated).collect();
     let Some(interval) = MeanInterval::of_remembering(&[&left], 1) else { return y };
     for t in 0..left.len() {
         let (block, within) = (t / interval.block, t % interval.block);
-        let start = (scramble(seed, block as u64) % left.len() as u64) as usize;
-        y[run.start + t] = run.y[run.start + t] + left[(start + within) % left.len()];
+        let first = (scramble(seed, block as u64) % left.len() as u64) as usize;
+        y[start + t] = simulated[start + t] + left[(first + within) % left.len()];
     }
     y
 }
@@ -44,7 +59,7 @@ mod tests {
         let rig = MakeRig::new(7).make().expect("a rig").rig;
         let ground = PlantingGround::new(&rig).expect("a model");
         let model = &ground.identified().model;
-        let anew = resampled(&rig, model, 3).expect("records");
+        let anew = resampled(&rig, runs_of(model), 3).expect("records");
         for (record, before) in anew.records.iter().zip(&rig.records) {
             let run = model.free_run(&before.record);
             let left = |y: &[f64]| -> Vec<f64> {
@@ -56,7 +71,7 @@ mod tests {
             assert!(now != then && now.iter().all(known), "{}", record.name);
             assert_eq!(record.record.v(), before.record.v());
         }
-        assert_eq!(anew, resampled(&rig, model, 3).expect("records"));
-        assert_ne!(anew, resampled(&rig, model, 4).expect("records"));
+        assert_eq!(anew, resampled(&rig, runs_of(model), 3).expect("records"));
+        assert_ne!(anew, resampled(&rig, runs_of(model), 4).expect("records"));
     }
 }

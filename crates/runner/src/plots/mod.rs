@@ -16,6 +16,7 @@ pub mod legend;
 mod paired;
 pub mod palette;
 pub mod panel;
+pub mod power;
 mod selection;
 pub mod sheet;
 

@@ -7,6 +7,7 @@ mod rows;
 
 pub use calibration::{Claims, Stratum};
 pub use measure::TARGETS;
+pub(crate) use rating::WIDEST_CLASS;
 pub use rating::{Asked, BaseVerdicts, Rating};
 pub use rows::AnswerRow;
 

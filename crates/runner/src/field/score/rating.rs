@@ -20,7 +20,7 @@ pub enum Rating {
 }
 
 /// An answer of more effects than this is no class.
-const WIDEST_CLASS: usize = 3;
+pub(crate) const WIDEST_CLASS: usize = 3;
 
 /// What measured bases show by themselves, with their model given and without.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ impl<'c> BaseVerdicts<'c> {
     pub fn of(cases: &'c [Case]) -> Self {
         let bare = cases.iter().filter(|c| c.kind == Kind::Bare && c.is_measured);
         let verdicts = bare.flat_map(|c| {
-            c.answers.iter().map(|answer| ((c.base.as_str(), answer.with_model), said(answer)))
+            c.answers.iter().map(|answer| ((c.base.as_str(), answer.with_model), answer.reply.said()))
         });
         Self(verdicts.collect())
     }
@@ -46,15 +46,6 @@ impl<'c> BaseVerdicts<'c> {
             case.answers.iter().map(move |answer| Asked { case, answer, own: own(answer.with_model) })
         };
         cases.iter().flat_map(one).collect()
-    }
-}
-
-/// The effects that an answer points at.
-fn said(answer: &Answered) -> &[&'static str] {
-    match answer.reply.status {
-        "named" => &answer.reply.effects,
-        "class" | "ambiguous" => &answer.reply.class,
-        _ => &[],
     }
 }
 
@@ -73,7 +64,7 @@ impl<'c> Asked<'c> {
     /// What is named beyond what the base shows by itself.
     pub fn news(&self) -> Option<Vec<&'static str>> {
         let own = self.own?;
-        Some(said(self.answer).iter().copied().filter(|effect| !own.contains(effect)).collect())
+        Some(self.answer.reply.said().iter().copied().filter(|effect| !own.contains(effect)).collect())
     }
 
     /// The effect put in, where the library has it.
@@ -95,7 +86,7 @@ impl<'c> Asked<'c> {
             return Some(Rating::Silent);
         }
         let Some(truth) = self.truth() else { return Some(Rating::Wrong) };
-        let is_class = said(self.answer).len() <= WIDEST_CLASS;
+        let is_class = self.answer.reply.said().len() <= WIDEST_CLASS;
         let are_twins = news.iter().all(|effect| same_class(effect, truth));
         Some(match self.answer.reply.status {
             "named" if news == [truth] => Rating::Exact,
@@ -109,7 +100,7 @@ impl<'c> Asked<'c> {
     /// is named.
     pub fn claim(&self) -> Option<(f64, bool)> {
         let rating = self.rating()?;
-        let only_own = rating == Rating::Silent && !said(self.answer).is_empty();
+        let only_own = rating == Rating::Silent && !self.answer.reply.said().is_empty();
         if only_own || self.answer.reply.status == "failed" {
             return None;
         }
@@ -117,7 +108,9 @@ impl<'c> Asked<'c> {
             "none" | "refit" => self.case.fault.is_none(),
             "unexplained" => self.case.kind == Kind::Outside,
             "named" => rating == Rating::Exact,
-            "class" | "ambiguous" => self.truth().is_some_and(|truth| said(self.answer).contains(&truth)),
+            "class" | "ambiguous" => {
+                self.truth().is_some_and(|truth| self.answer.reply.said().contains(&truth))
+            }
             _ => false,
         };
         Some((self.answer.reply.probability, holds))

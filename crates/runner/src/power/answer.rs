@@ -1,0 +1,75 @@
+//! What a diagnosis says of a fault that was put in.
+
+use crate::examination::Reply;
+use crate::field::WIDEST_CLASS;
+
+/// The worth of an answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// The effect is named.
+    Named,
+    /// It stands in a class of at most three.
+    InClass,
+    /// Something else is said, in a few words.
+    Other(String),
+}
+
+impl Answer {
+    /// What a reply is worth to an effect.
+    pub fn of(reply: &Reply, effect: &str) -> Self {
+        let said = reply.said();
+        match reply.status {
+            "named" if said.contains(&effect) => Self::Named,
+            "class" | "ambiguous" if said.contains(&effect) && said.len() <= WIDEST_CLASS => Self::InClass,
+            _ => Self::Other(told(reply)),
+        }
+    }
+
+    /// Whether the fault is found.
+    pub fn is_found(&self) -> bool {
+        !matches!(self, Self::Other(_))
+    }
+}
+
+fn told(reply: &Reply) -> String {
+    match reply.status {
+        "none" => "nothing".to_owned(),
+        "refit" => "other parameters".to_owned(),
+        "unexplained" => "none of these".to_owned(),
+        "named" => reply.said().join(" with "),
+        "class" | "ambiguous" if reply.said().len() > WIDEST_CLASS => {
+            format!("one of {} effects", reply.said().len())
+        }
+        "class" | "ambiguous" => reply.said().join(" or "),
+        _ => "no diagnosis".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reply(status: &'static str, said: &[&'static str]) -> Reply {
+        let (effects, class) = if status == "named" { (said, &[][..]) } else { (&[][..], said) };
+        Reply { status, effects: effects.to_vec(), class: class.to_vec(), ..Reply::refused() }
+    }
+
+    #[test]
+    fn a_fault_is_found_by_name_or_in_a_narrow_class() {
+        let of = |status, said: &[&'static str]| Answer::of(&reply(status, said), "creep");
+        assert_eq!(of("named", &["creep"]), Answer::Named);
+        assert_eq!(of("named", &["creep", "backlash"]), Answer::Named);
+        assert_eq!(of("class", &["backlash", "creep", "stribeck"]), Answer::InClass);
+        assert_eq!(of("ambiguous", &["creep", "backlash"]), Answer::InClass);
+        let wide = of("class", &["backlash", "creep", "stribeck", "resonance"]);
+        assert_eq!(wide, Answer::Other("one of 4 effects".to_owned()));
+        assert_eq!(of("named", &["backlash"]), Answer::Other("backlash".to_owned()));
+        assert_eq!(of("class", &["backlash", "stribeck"]), Answer::Other("backlash or stribeck".to_owned()));
+        for (status, told) in
+            [("none", "nothing"), ("unexplained", "none of these"), ("failed", "no diagnosis")]
+        {
+            assert_eq!(of(status, &[]), Answer::Other(told.to_owned()));
+        }
+        assert!(Answer::Named.is_found() && Answer::InClass.is_found() && !wide.is_found());
+    }
+}
