@@ -3,6 +3,7 @@
 use crate::effect::{Effect, Stage};
 use crate::evidence::Compared;
 use crate::export::PortableModel;
+use crate::verdict::fitted::SecondOpinion;
 
 /// How far the verdict goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -357,6 +358,8 @@ pub struct Models {
 pub struct Diagnosis {
     /// The answer.
     pub verdict: Verdict,
+    /// What a verdict fitted to rigs with known causes says, where nobody designed the records and no order is declared.
+    pub second_opinion: Option<SecondOpinion>,
     /// How large the gap is and how far it closes.
     pub gap: Gap,
     /// Where the gap lies.

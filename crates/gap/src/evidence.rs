@@ -60,6 +60,18 @@ pub struct Compared {
     pub effects: Vec<EffectEvidence>,
 }
 
+impl Compared {
+    /// What is said of an effect, if it has a fit.
+    pub fn of(&self, effect: Effect) -> Option<&EffectEvidence> {
+        self.effects.iter().find(|says| says.effect == effect)
+    }
+
+    /// Whether an effect makes a held-out record worse, if it has a fit.
+    pub(crate) fn harms(&self, effect: Effect) -> Option<bool> {
+        self.of(effect).map(|says| says.harms)
+    }
+}
+
 /// [`EffectEvidence`] as it is written: effect, parameters, drop of the criterion, held-out score, gains (samples ahead, 0 for whole records;
 /// share, certainty), closure, harms, unstable.
 #[derive(Serialize, Deserialize)]

@@ -57,4 +57,5 @@ pub use evidence::{Compared, Comparison, EffectEvidence};
 pub use export::{PortableError, PortableModel, Simulated};
 pub use phase::Phase;
 pub use settings::{Model, NominalModel, Settings};
+pub use verdict::fitted;
 pub use workers::{Serial, Workers};

@@ -1,6 +1,7 @@
 //! What is diagnosed, and how.
 
 use crate::effect::Effect;
+use crate::verdict::fitted::Shares;
 
 /// Knobs of a diagnosis; the defaults are the calibrated ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +16,9 @@ pub struct Settings {
     pub max_effects: usize,
     /// A cause is named when its calibrated probability reaches this.
     pub name_at: f64,
+    /// How common causes are where the records were taken; that of the rigs which the fitted verdict knows, if not given. Counts for its
+    /// second opinion only.
+    pub prior: Option<Shares>,
     /// Seed of the block bootstrap.
     pub seed: u64,
     /// Resamples of the block bootstrap.
@@ -36,6 +40,11 @@ impl Settings {
         self
     }
 
+    /// Whether an effect is none of those to consider.
+    pub(crate) fn is_left_out(&self, effect: Effect) -> bool {
+        !self.effects.contains(&effect)
+    }
+
     /// Whether details of the borders are a candidate: elsewhere no knots may follow them.
     pub(crate) fn consider_details(&self) -> bool {
         self.effects.iter().any(|effect| effect.card().lies_in_the_grid)
@@ -50,6 +59,7 @@ impl Default for Settings {
             max_order: 4,
             max_effects: 2,
             name_at: 0.85,
+            prior: None,
             seed: 1,
             resamples: 400,
         }

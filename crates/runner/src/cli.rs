@@ -34,6 +34,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    Calibrate(cmd::calibrate::Args),
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
     Design(cmd::design::Args),
@@ -110,6 +111,7 @@ impl Cli {
     /// The report of an input that could not be used.
     pub fn run(self) -> CommandResult {
         match self.verb {
+            Some(Verb::Calibrate(args)) => cmd::calibrate::run(&args),
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
             Some(Verb::Completions(args)) => cmd::completions::run(&args),
             Some(Verb::Design(args)) => cmd::design::run(&args),

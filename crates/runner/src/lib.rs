@@ -1,6 +1,7 @@
 //! The `switchback` program: scenarios, rig files, Monte-Carlo execution, studies, plots and reports.
 
 pub mod blind;
+pub mod calibrate;
 pub mod cli;
 pub mod cmd;
 pub mod compare;

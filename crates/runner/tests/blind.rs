@@ -71,6 +71,7 @@ fn silent(status: Status) -> Diagnosis {
             refit: None,
             held_out_error_ratio: None,
         },
+        second_opinion: None,
         gap: Gap {
             before: nothing,
             after: nothing,

@@ -203,6 +203,11 @@ impl Plan {
         })
     }
 
+    /// Whether the nominal model was identified from records that nobody designed, its order unknown.
+    fn is_of_the_field(&self) -> bool {
+        self.owns_colour && !self.campaign.holds_nominal()
+    }
+
     /// Founds the diagnosis on another optimum of the nominal model.
     fn found_on(&mut self, nominal: Nominal) {
         if self.given.is_none() {

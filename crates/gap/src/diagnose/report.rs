@@ -100,6 +100,7 @@ impl Plan {
         Diagnosis {
             where_,
             verdict,
+            second_opinion: None,
             gap,
             candidates,
             probability_none: c.odds.none,

@@ -10,6 +10,7 @@ use crate::effect::Effect;
 use crate::evidence::{Compared, EffectEvidence};
 use crate::nominal::order::Chosen;
 use crate::phase::Phase;
+use crate::verdict::fitted::{FittedVerdict, SecondOpinion};
 use crate::workers::Workers;
 
 /// One way of comparing explanations, and what it concludes.
@@ -64,25 +65,46 @@ impl Ways {
     /// The diagnosis that is handed out.
     pub(super) fn report(self, workers: &impl Workers) -> Diagnosis {
         let candidates = self.candidates(workers);
+        let second_opinion = self.second_opinion();
         let evidence = std::iter::once(self.evidence).chain(self.others.into_iter().map(|(_, says)| says));
         let Way { plan, conclusion } = self.told;
-        plan.report(conclusion, candidates, evidence.collect())
+        Diagnosis { second_opinion, ..plan.report(conclusion, candidates, evidence.collect()) }
+    }
+
+    /// What a verdict that was fitted says of the same evidence, where the records are as the field has them: it was fitted to no others.
+    fn second_opinion(&self) -> Option<SecondOpinion> {
+        let settings = &self.told.plan.settings;
+        if !self.all().any(|(way, _)| way.plan.is_of_the_field()) {
+            return None;
+        }
+        let fitted = match settings.prior {
+            Some(prior) => &FittedVerdict::built_in().clone().with_shares(prior),
+            None => FittedVerdict::built_in(),
+        };
+        let evidence: Vec<Compared> = self.all().map(|(_, says)| says.clone()).collect();
+        let is_no_cause = |effect: Effect| effect.card().colours_noise || settings.is_left_out(effect);
+        Some(fitted.opinion(&evidence, is_no_cause, settings.name_at))
+    }
+
+    /// All ways with what they say, that of the verdict first.
+    fn all(&self) -> impl Iterator<Item = (&Way, &Compared)> {
+        std::iter::once((&self.told, &self.evidence)).chain(self.others.iter().map(|(way, says)| (way, says)))
     }
 
     /// The effects that have a probability, the likeliest first.
     fn candidates(&self, workers: &impl Workers) -> Vec<Candidate> {
         let Conclusion { singles, odds, verdict, .. } = &self.told.conclusion;
-        let weighed: Vec<(&Explanation, &f64)> = singles.iter().zip(&odds.effects).collect();
+        let campaign = &self.told.plan.campaign;
         let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
+        let weighed: Vec<(&Explanation, &f64)> = singles.iter().zip(&odds.effects).collect();
         let one = |(single, p): &(&Explanation, &f64)| {
             let effect = single.parts[0].effect;
-            let says = self.evidence.effects.iter().find(|says| says.effect == effect)?;
-            let plan = &self.told.plan;
+            let says = self.evidence.of(effect)?;
             let intervals = match is_told(effect) {
-                true => profiled(workers, &plan.campaign, single),
+                true => profiled(workers, campaign, single),
                 false => single.fit.intervals(),
             };
-            let parameters = parameters(&plan.campaign, (single, 0), &intervals);
+            let parameters = parameters(campaign, (single, 0), &intervals);
             Some(Candidate { parameters, ..candidate((single, **p), says) })
         };
         let mut candidates: Vec<Candidate> = workers.map(&weighed, one).into_iter().flatten().collect();

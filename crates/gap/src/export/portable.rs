@@ -8,7 +8,7 @@ use super::place::Known;
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
-use crate::records::campaign::{Criterion, WARM_UP};
+use crate::records::campaign::{Criterion, HIGHEST_ORDER};
 use crate::records::motion::ReversalRule;
 use crate::settings::NominalModel;
 
@@ -206,8 +206,8 @@ impl Wire {
             return Err(PortableError::Knots);
         }
         let order = self.linear.a.len();
-        if order == 0 || order > WARM_UP {
-            let expected = "from 1 to 12 coefficients";
+        if order == 0 || order > HIGHEST_ORDER {
+            let expected = "from 1 to 20 coefficients";
             return Err(PortableError::Range { part: "a", found: order as f64, expected });
         }
         equal("b", self.linear.b.len(), order + self.assembly.extra_b)?;

@@ -8,7 +8,7 @@ use switchback_estimator::rig::{Role, Usage};
 use super::band::variances;
 use super::lasting::{notes, power_of_waves, without_waves};
 use super::portable::{PortableModel, Wire};
-use crate::records::campaign::{Campaign, Track, WARM_UP, dimensionless, first_counted, led};
+use crate::records::campaign::{Campaign, Track, dimensionless, first_counted, led, warm_up};
 use crate::records::motion::{Play, motions};
 use crate::records::passes::Passes;
 use crate::simulation::simulate::{Begins, Prepared, sensed};
@@ -126,10 +126,11 @@ impl Wire {
     /// The input as the model sees it, on the place of a record of the campaign or after all of them.
     fn input<'a>(&self, v: &[f64], y: Option<&'a [f64]>, record: Option<usize>) -> Input<'a> {
         let s = self.scales;
-        let before = if y.is_some() { 0 } else { WARM_UP };
+        let warm_up = warm_up(self.linear.a.len());
+        let before = if y.is_some() { 0 } else { warm_up };
         let mut scaled = dimensionless(v, s.v_low, s.v_width);
         scaled.splice(0..0, vec![scaled[0]; before]);
-        let from = if y.is_some() { first_counted(&scaled) } else { before };
+        let from = if y.is_some() { first_counted(&scaled, warm_up) } else { before };
         let measured = y.map_or_else(|| vec![0.0; scaled.len()], |y| dimensionless(y, s.y_mean, s.y_scale));
         scaled = led(&scaled, self.lead);
         let placed = record.map(|number| &self.clock.records[number]);

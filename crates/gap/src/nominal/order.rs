@@ -111,7 +111,7 @@ impl Structure {
 
     /// The records as this structure sees them.
     pub(crate) fn applied(&self, campaign: &Campaign) -> Campaign {
-        campaign.with_branches_from(self.begins).led_by(self.lead)
+        campaign.with_branches_from(self.begins).led_by(self.lead).counted_for(self.order)
     }
 }
 

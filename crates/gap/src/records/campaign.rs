@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use switchback_estimator::rig::{Rig, Role, Usage};
 
 use crate::error::DiagnoseError;
+use crate::likelihood::whitener::LEAD;
 use crate::model::borders::Grid;
 use crate::records::motion::{Begins, Motion, Play, ReversalRule, motions};
 use crate::records::passes::Passes;
@@ -115,6 +116,14 @@ impl Criterion {
 /// reaches further back, so that all are scored on the same samples.
 pub(crate) const WARM_UP: usize = 12;
 
+/// Samples left out at the start of each record for a model of some order: whitened errors reach back beyond the order.
+pub(crate) fn warm_up(order: usize) -> usize {
+    WARM_UP.max(order + LEAD)
+}
+
+/// Highest order of a model.
+pub(crate) const HIGHEST_ORDER: usize = 20;
+
 /// Positions of the input closer than this are the same, in strokes; and readings, in standard deviations.
 const RESOLUTION: f64 = 1e-10;
 
@@ -154,7 +163,7 @@ impl Campaign {
                 name: r.name.clone(),
                 role: r.role,
                 usage: r.usage,
-                from: first_counted(&v),
+                from: first_counted(&v, WARM_UP),
                 v,
                 y,
                 clock,
@@ -238,6 +247,13 @@ impl Campaign {
         }
     }
 
+    /// The same, each record counted from where a model of some order has a past.
+    pub(crate) fn counted_for(mut self, order: usize) -> Self {
+        let more = warm_up(order) - WARM_UP;
+        self.tracks.iter_mut().for_each(|track| track.from = (track.from + more).min(track.v.len()));
+        self
+    }
+
     /// Whether any fit record is a designed experiment.
     pub(crate) fn is_designed(&self) -> bool {
         self.fit().any(Track::is_pulsed)
@@ -259,10 +275,10 @@ pub(crate) fn dimensionless(signal: &[f64], origin: f64, scale: f64) -> Vec<f64>
     signal.iter().map(|x| ((x - origin) / scale / RESOLUTION).round() * RESOLUTION).collect()
 }
 
-/// The first counted sample of an input.
-pub(crate) fn first_counted(v: &[f64]) -> usize {
+/// The first counted sample of an input, so many samples after it first moves.
+pub(crate) fn first_counted(v: &[f64], warm_up: usize) -> usize {
     let moves = v.windows(2).position(|w| w[0] != w[1]).map_or(v.len(), |t| t + 1);
-    (moves + WARM_UP).min(v.len())
+    (moves + warm_up).min(v.len())
 }
 
 /// An input so many samples sooner, or later where that is negative; before its beginning and after its end it rests.

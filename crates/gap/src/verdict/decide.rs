@@ -17,7 +17,7 @@ const WIDEST: usize = 3;
 /// that is no candidate, which costs one of the fourteen.
 const PROBABLE: f64 = 0.58;
 
-fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
+pub(crate) fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
     Verdict {
         status,
         effects: Vec::new(),

@@ -1,5 +1,7 @@
 //! From explanations to calibrated probabilities, and from these to a verdict.
 
+pub(crate) mod by_fit;
 pub(crate) mod decide;
+pub mod fitted;
 pub(crate) mod odds;
 pub(crate) mod simulators;

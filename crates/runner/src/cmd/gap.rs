@@ -5,13 +5,14 @@ use super::power::{self, Asked, DataPlace, PowerArgs};
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::model;
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Force, Quiet, Threads, prior};
 use crate::output::Artefacts;
 use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
+use switchback_gap::fitted::Shares;
 use switchback_gap::{Effect, Settings};
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
@@ -33,6 +34,11 @@ pub struct Args {
     /// than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     ask: Vec<Effect>,
+
+    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
+    #[arg(long, value_name = "SHARES", value_parser = prior)]
+    prior: Option<Shares>,
 
     /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
     #[arg(long)]
@@ -113,7 +119,7 @@ fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
 }
 
 fn settings(args: &Args) -> Settings {
-    Settings::default().without(&args.without).asking(&args.ask)
+    Settings { prior: args.prior, ..Settings::default().without(&args.without).asking(&args.ask) }
 }
 
 fn effect() -> impl TypedValueParser<Value = Effect> {

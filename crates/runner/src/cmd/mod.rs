@@ -1,5 +1,6 @@
 //! One file a verb: its arguments and what it does.
 
+pub mod calibrate;
 pub mod compare;
 pub mod completions;
 pub mod data_args;

@@ -3,6 +3,7 @@
 use super::{Report, Units, told};
 use crate::output::stamped;
 use serde::Serialize;
+use switchback_gap::fitted::{self, Shares};
 use switchback_gap::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Horizon, HorizonGain, Together,
 };
@@ -25,6 +26,7 @@ struct Page<'a> {
     next_experiment: Option<Next<'a>>,
     probability_none: f64,
     probability_unexplained: f64,
+    second_opinion: Option<SecondOpinion>,
     limitations: &'a [String],
     version: &'static str,
 }
@@ -40,6 +42,37 @@ struct Verdict {
     corrected_by: Option<&'static str>,
     refit: Option<Refit>,
     held_out_error_ratio: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct SecondOpinion {
+    examples: usize,
+    prior: Prior,
+    verdict: Verdict,
+    effects: Vec<Weighed>,
+    probability_none: f64,
+    probability_unexplained: f64,
+}
+
+#[derive(Serialize)]
+struct Weighed {
+    effect: &'static str,
+    probability: f64,
+    contributions: Vec<Contribution>,
+}
+
+#[derive(Serialize)]
+struct Prior {
+    effect: f64,
+    none: f64,
+    unexplained: f64,
+}
+
+#[derive(Serialize)]
+struct Contribution {
+    feature: &'static str,
+    value: f64,
+    adds: f64,
 }
 
 #[derive(Serialize)]
@@ -156,14 +189,16 @@ struct Next<'a> {
 /// the augmented model that is no cause of its own; `calibrated` tells whether the probability was calibrated for such records; `refit`
 /// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it;
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
-/// conditions than the fit records, which show nothing missing.
+/// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
+/// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
+/// designed: `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
     let page = Page {
         rig: &report.rig.name,
         model: report.source.name(),
-        verdict: verdict(diagnosis),
+        verdict: verdict(&diagnosis.verdict),
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
         candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
@@ -179,14 +214,33 @@ pub fn json(report: &Report) -> String {
         }),
         probability_none: diagnosis.probability_none,
         probability_unexplained: diagnosis.probability_unexplained,
+        second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
         limitations: &diagnosis.limitations,
         version: env!("CARGO_PKG_VERSION"),
     };
     stamped(SCHEMA, &page)
 }
 
-fn verdict(diagnosis: &Diagnosis) -> Verdict {
-    let verdict = &diagnosis.verdict;
+fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
+    let contribution =
+        |c: &fitted::Contribution| Contribution { feature: c.feature, value: c.value, adds: c.adds };
+    let weighed = |(effect, probability, contributions): &(Effect, f64, Vec<fitted::Contribution>)| Weighed {
+        effect: effect.name(),
+        probability: *probability,
+        contributions: contributions.iter().map(contribution).collect(),
+    };
+    let Shares { effect, none, none_of_these } = told.shares;
+    SecondOpinion {
+        examples: told.examples,
+        prior: Prior { effect, none, unexplained: none_of_these },
+        verdict: verdict(&told.verdict),
+        effects: told.effects.iter().map(weighed).collect(),
+        probability_none: told.none,
+        probability_unexplained: told.none_of_these,
+    }
+}
+
+fn verdict(verdict: &switchback_gap::Verdict) -> Verdict {
     Verdict {
         status: verdict.status.name(),
         effects: names(&verdict.effects),

@@ -2,12 +2,19 @@
 
 use super::Report;
 use super::number::{closed_percent, digits, whole_percent};
+use super::sentences::probability;
 use super::words::{LISTED, wrapped};
 use crate::output::columns;
+use switchback_gap::fitted::{SecondOpinion, Shares};
 use switchback_gap::{Candidate, Diagnosis, Horizon, HorizonGain};
 
 /// Standard errors from which a gain is beyond chance (95 %, one side).
 const CERTAIN: f64 = 1.645;
+
+/// Effects whose odds are compared.
+const COMPARED: usize = 3;
+/// What adds less to a logarithm of the odds is not shown.
+const LEAST: f64 = 0.05;
 
 /// A table of the gains and, where there is a first explanation, what tells it from the next.
 pub fn why(report: &Report) -> String {
@@ -19,7 +26,40 @@ pub fn why(report: &Report) -> String {
     let head = "why: share of the nominal model's mean square error on the fit records that each explanation saves, predicting so far ahead; \
                 in brackets the same in its standard errors, which come from the errors themselves";
     let sentences = [verdict(diagnosis).to_owned(), lead(first, listed.get(1)), reach(first)].concat();
-    format!("\n{}{}{}", wrapped(head, ""), columns(&table(listed)), wrapped(sentences.trim_end(), ""))
+    let second = diagnosis.second_opinion.as_ref().map_or_else(String::new, second);
+    format!("\n{}{}{}{second}", wrapped(head, ""), columns(&table(listed)), wrapped(sentences.trim_end(), ""))
+}
+
+/// What a verdict fitted to rigs with known causes says, and what each feature adds to the logarithm of the odds of the likeliest effects.
+fn second(opinion: &SecondOpinion) -> String {
+    let Shares { effect, none, none_of_these } = opinion.shares;
+    let head = format!(
+        "second opinion, of a model fitted to {} diagnoses of rigs whose cause is known ({} % had one of the effects, {} % nothing, {} % another \
+         cause{}): nothing is missing with probability {}, the cause is none of the candidates with {}. To the logarithm of the odds of the likeliest \
+         candidates add",
+        opinion.examples,
+        whole_percent(100.0 * effect),
+        whole_percent(100.0 * none),
+        whole_percent(100.0 * none_of_these),
+        if opinion.verdict.calibrated { "" } else { "; evidence like this was not among them" },
+        probability(opinion.none),
+        probability(opinion.none_of_these)
+    );
+    let shown = &opinion.effects[..opinion.effects.len().min(COMPARED)];
+    let Some((.., first)) = shown.first() else { return String::new() };
+    let row = |name: &str, cell: &dyn Fn(usize) -> String| {
+        let [one, two, three] = [0, 1, 2].map(|k| if k < shown.len() { cell(k) } else { String::new() });
+        [name.to_owned(), one, two, three]
+    };
+    let mut rows =
+        vec![row("that it", &|k| shown[k].0.to_string()), row("(probability)", &|k| probability(shown[k].1))];
+    for (at, feature) in first.iter().enumerate() {
+        let adds = |k: usize| shown[k].2[at].adds;
+        if (0..shown.len()).any(|k| adds(k).abs() >= LEAST) {
+            rows.push(row(feature.words, &|k| format!("{:+.1}", adds(k))));
+        }
+    }
+    format!("\n{}{}", wrapped(&head, ""), columns(&rows))
 }
 
 fn table(listed: &[Candidate]) -> Vec<[String; 6]> {

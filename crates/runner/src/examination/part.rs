@@ -160,13 +160,7 @@ impl<C: Judged> Part<C> {
         if sha256(&keys) != label.key_sha256 {
             return Err(changed(KEY_FILE));
         }
-        // Cases hold names, which live as long as the program: so does the text, which is read once.
-        let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
-        let cases: Vec<C> = text
-            .lines()
-            .map(serde_json::from_str)
-            .collect::<Result<_, _>>()
-            .map_err(|_| changed(CASES_FILE))?;
+        let cases: Vec<C> = read_cases(folder)?;
         let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id())).collect();
         let sealed: Vec<Option<usize>> = keys.lines().map(id_of).collect();
         if judged != sealed {
@@ -178,6 +172,16 @@ impl<C: Judged> Part<C> {
     /// SHA-256 of the sources that made and judged it.
     pub fn program(&self) -> &str {
         &self.label.program
+    }
+
+    /// What was judged, by its number in the design.
+    pub fn cases(&self) -> &[C] {
+        &self.cases
+    }
+
+    /// The scenario and which part of it.
+    pub fn title(&self) -> String {
+        format!("{} {}", self.label.scenario, self.label.shard)
     }
 
     fn name(&self) -> String {
@@ -194,6 +198,17 @@ impl<C: Judged> Part<C> {
         .into_iter()
         .find_map(|(differs, what)| differs.then_some(what))
     }
+}
+
+/// Reads what was judged: the cases of a part, or of a report that has them.
+///
+/// # Errors
+/// [`MergeError`] if there are none, or they are not as they were written.
+pub fn read_cases<C: Judged>(folder: &Path) -> Result<Vec<C>, MergeError> {
+    // Cases hold names, which live as long as the program: so does the text, which is read once.
+    let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
+    let cases = text.lines().map(serde_json::from_str).collect::<Result<_, _>>();
+    cases.map_err(|_| MergeError::Changed { folder: folder.display().to_string(), file: CASES_FILE })
 }
 
 /// Cases as lines of JSON, all that a report is made of.

@@ -1,7 +1,7 @@
 //! What a diagnosis said, and on what evidence, as plain data that lasts.
 
 use serde::{Deserialize, Serialize};
-use switchback_gap::{Compared, Diagnosis, Status, Together};
+use switchback_gap::{Compared, Diagnosis, Status, Together, Verdict};
 
 /// What a diagnosis said, in the words of its JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,16 +38,21 @@ impl Reply {
 
     /// What a diagnosis said.
     pub fn of(d: &Diagnosis) -> Self {
-        let named = if d.verdict.status == Status::Named { d.verdict.effects.as_slice() } else { &[] };
         let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
         let effects = d.candidates.iter().map(|c| (c.effect.name(), c.probability));
         let top = effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best });
+        Self::told(&d.verdict, top)
+    }
+
+    /// A verdict, with the likeliest explanation.
+    pub fn told(verdict: &Verdict, top: (&'static str, f64)) -> Self {
+        let named = if verdict.status == Status::Named { verdict.effects.as_slice() } else { &[] };
         Self {
-            status: d.verdict.status.name(),
+            status: verdict.status.name(),
             effects: named.iter().map(|e| e.name()).collect(),
-            class: d.verdict.class.iter().map(|e| e.name()).collect(),
-            stage: d.verdict.stage.map(|s| s.name()),
-            probability: d.verdict.probability,
+            class: verdict.class.iter().map(|e| e.name()).collect(),
+            stage: verdict.stage.map(|s| s.name()),
+            probability: verdict.probability,
             top,
         }
     }

@@ -2,6 +2,7 @@
 
 mod force;
 mod positive;
+mod prior;
 mod quiet;
 mod shard;
 mod threads;
@@ -9,6 +10,7 @@ mod whole;
 
 pub use force::Force;
 pub use positive::{number, positive};
+pub use prior::prior;
 pub use quiet::Quiet;
 pub use shard::Shard;
 pub use threads::Threads;

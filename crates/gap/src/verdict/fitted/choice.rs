@@ -59,7 +59,8 @@ pub(crate) fn probabilities(coefficients: &[f64], alternatives: &[Vec<f64>]) -> 
 }
 
 /// Mean of `−ln P` of what holds, nats a choice.
-pub(crate) fn log_loss(coefficients: &[f64], choices: &[Choice]) -> f64 {
+#[cfg(test)]
+fn log_loss(coefficients: &[f64], choices: &[Choice]) -> f64 {
     let mut unused = vec![0.0; coefficients.len()];
     let sum: f64 = choices.iter().map(|choice| choice.log_likelihood(coefficients, &mut unused)).sum();
     -sum / choices.len().max(1) as f64
@@ -84,7 +85,8 @@ pub(crate) fn fitted(choices: &[Choice], signs: &[Sign], ridge: f64) -> Vec<f64>
         let here = of(&ahead, &mut descent);
         let downhill = descent.clone();
         let next = loop {
-            let moved = ahead.iter().zip(&downhill).zip(signs).map(|((b, d), sign)| sign.allowed(b - step * d));
+            let moved =
+                ahead.iter().zip(&downhill).zip(signs).map(|((b, d), sign)| sign.allowed(b - step * d));
             let next: Vec<f64> = moved.collect();
             let change = next.iter().zip(&ahead).map(|(x, y)| x - y);
             let (mut along, mut square) = (0.0, 0.0);
@@ -143,10 +145,8 @@ mod tests {
 
     #[test]
     fn two_alternatives_without_features_but_a_constant_have_the_odds_of_their_counts() {
-        let one = |first: bool| Choice {
-            alternatives: vec![vec![1.0], vec![0.0]],
-            holds: vec![first, !first],
-        };
+        let one =
+            |first: bool| Choice { alternatives: vec![vec![1.0], vec![0.0]], holds: vec![first, !first] };
         let choices: Vec<Choice> = (0..40).map(|k| one(k % 4 != 0)).collect();
         let found = fitted(&choices, &[Sign::Any], 0.0);
         assert!((found[0] - 3_f64.ln()).abs() < 1e-6, "{found:?}");
@@ -174,9 +174,7 @@ mod tests {
         let signs = [Sign::NotNegative, Sign::NotNegative];
         let found = fitted(&choices, &signs, 1.0);
         assert!(found[0] > 0.3 && found[1] == 0.0, "{found:?}");
-        let cost = |b: &[f64]| {
-            300.0 * log_loss(b, &choices) + 0.5 * b.iter().map(|b| b * b).sum::<f64>()
-        };
+        let cost = |b: &[f64]| 300.0 * log_loss(b, &choices) + 0.5 * b.iter().map(|b| b * b).sum::<f64>();
         for neighbour in [[found[0] + 1e-3, 0.0], [found[0] - 1e-3, 0.0], [found[0], 1e-3]] {
             assert!(cost(&found) < cost(&neighbour));
         }

@@ -27,6 +27,8 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
     let large =
         |with_model: bool| asked.iter().filter(move |a| a.is_large() && a.answer.with_model == with_model);
     let answered = |a: &&Asked<'_>| a.rating().is_some_and(|rating| rating != Rating::Silent);
+    let named = |a: &&Asked<'_>| answered(a) && a.answer.reply.status == "named";
+    let in_a_class = |a: &&Asked<'_>| answered(a) && a.answer.reply.status != "named";
     let bare_made = asked.iter().filter(|a| a.case.kind == Kind::Bare && !a.case.is_measured);
     let of = |kind: Kind| asked.iter().filter(move |a| a.case.kind == kind);
     let wrong = [Rating::Wrong];
@@ -38,7 +40,7 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
         judged.filter_map(|a| a.answer.closure.as_ref())
     };
     let harms: Vec<bool> = asked.iter().filter_map(Asked::harms).collect();
-    let lines: [Line<Expect>; 14] = [
+    let lines: [Line<Expect>; 15] = [
         (
             "model_class",
             "model given: right class, size ≥ 2",
@@ -65,15 +67,21 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
         ),
         (
             "wrong",
-            "of all causes named, wrong ones",
+            "of causes named for certain, wrong ones",
             |e| e.wrong.map(Bound::AtMost),
-            told(share(asked.iter().filter(answered), &wrong)),
+            told(share(asked.iter().filter(named), &wrong)),
         ),
         (
             "wrong_planted",
             "the same, only where a fault of the library is",
             |_| None,
-            told(share(of(Kind::Planted).filter(answered), &wrong)),
+            told(share(of(Kind::Planted).filter(named), &wrong)),
+        ),
+        (
+            "wrong_class",
+            "of all classes told, those without the fault",
+            |_| None,
+            told(share(asked.iter().filter(in_a_class), &wrong)),
         ),
         (
             "false_alarm_made",

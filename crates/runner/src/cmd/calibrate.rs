@@ -1,0 +1,76 @@
+//! `switchback calibrate DIR… --out VERDICT.json`
+
+use crate::calibrate::calibrated;
+use crate::examination::{PART_FILE, Part, read_cases};
+use crate::failure::{CommandResult, Outcome};
+use crate::field::Case;
+use crate::options::{Force, Quiet};
+use miette::Diagnostic;
+use std::path::PathBuf;
+use switchback_gap::fitted::CalibrateError;
+use thiserror::Error;
+
+/// Fit the verdict on records that nobody designed to rigs whose cause is known.
+///
+/// What it reaches is told beside what rules reach: every rig is predicted from rigs with another base and another law.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Folders of field examinations, or of parts of them: `switchback SCENARIO.toml --shard K/N --out DIR`.
+    #[arg(value_name = "DIR", required = true)]
+    folders: Vec<PathBuf>,
+
+    /// Write the verdict into this file: coefficients, the range of what was met, and where it comes from.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// Rigs that no verdict can be fitted to.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{folders}: {source}")]
+#[diagnostic(help(
+    "add parts of a field examination with made rigs without fault, known faults and foreign ones"
+))]
+struct TooFew {
+    folders: String,
+    source: CalibrateError,
+}
+
+/// Reads what was judged, fits, tells, writes.
+///
+/// # Errors
+/// Folders without judged rigs, too few of these, or a file that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let out = args.force.claim_file(args.out.as_deref(), &[])?;
+    let (mut cases, mut studies) = (Vec::new(), Vec::new());
+    for folder in &args.folders {
+        let found: Vec<Case> = match folder.join(PART_FILE).is_file() {
+            true => {
+                let part = Part::read(folder)?;
+                studies.push(part.title());
+                part.cases().to_vec()
+            }
+            false => {
+                let name = folder.file_name().unwrap_or_default();
+                studies.push(name.to_string_lossy().into_owned());
+                read_cases(folder)?
+            }
+        };
+        cases.extend(found);
+    }
+    let calibrated = calibrated(&cases, ("switchback calibrate", &studies)).map_err(|source| TooFew {
+        folders: args.folders.iter().map(|f| f.display().to_string()).collect::<Vec<_>>().join(", "),
+        source,
+    })?;
+    if let Some(out) = out {
+        let text = serde_json::to_string_pretty(&calibrated.verdict).expect("names and numbers are JSON");
+        out.commit(text + "\n")?;
+    }
+    args.quiet.tell(&calibrated.summary())?;
+    Ok(Outcome::Done)
+}
