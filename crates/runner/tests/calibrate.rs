@@ -4,6 +4,7 @@ mod common;
 
 use common::Folder;
 use serde_json::Value;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
@@ -22,7 +23,9 @@ fn what_is_fitted_to_the_committed_examination_stays_the_same() {
     let folder = Folder::with_good_rig();
     let output = calibrated(&folder, &["--out", "verdict.json", "--quiet"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let found: Value = serde_json::from_str(&folder.read("verdict.json")).expect("JSON");
+    let found: Value =
+        serde_json::from_str(&fs::read_to_string(folder.path("verdict.json")).expect("a file"))
+            .expect("JSON");
     let kept: Value = serde_json::from_str(include_str!("calibrate/field-slice.json")).expect("JSON");
     assert_eq!(found["provenance"], kept["provenance"]);
     assert_eq!(found["shares"], kept["shares"]);

@@ -19,8 +19,8 @@ const LIKELY: f64 = 2.0 / 3.0;
 /// none          else nothing is likelier to be missing than a cause that is none of the candidates
 /// ```
 ///
-/// `points_at` is the stage of what is left where none of the candidates is told.
-pub(crate) fn verdict(weighed: &Weighed, (name_at, harms): (f64, bool), points_at: Option<Stage>) -> Verdict {
+/// `harms` tells that the first makes a held-out record worse.
+pub(crate) fn verdict(weighed: &Weighed, (name_at, harms): (f64, bool)) -> Verdict {
     let calibrated = |verdict: Verdict| Verdict { calibrated: weighed.is_met, ..verdict };
     let first = weighed.effects.first();
     if let Some((effect, p)) = first.filter(|(_, p)| *p >= name_at && weighed.is_met && !harms) {
