@@ -19,7 +19,7 @@
 
 use super::twins::same_class;
 use crate::examination::{ScenarioError, effects_listed, study_of};
-use crate::input::{TomlError, TomlFile};
+use crate::input::{TomlError, TomlFile, stream};
 use serde::Deserialize;
 use std::path::Path;
 use switchback_maker::Plan;
@@ -119,7 +119,7 @@ pub fn read(path: &Path) -> Result<Study, ScenarioError> {
     check(&file, &wire)?;
     let effects = effects(&file, &wire)?;
     Ok(Study {
-        name: path.file_stem().map_or_else(|| "blind".to_owned(), |s| s.to_string_lossy().into_owned()),
+        name: stream::stem(path).unwrap_or_else(|| "blind".to_owned()),
         question: wire.question,
         seed: wire.seed,
         systems: wire.systems.into_inner(),

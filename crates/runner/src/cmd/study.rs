@@ -5,7 +5,7 @@ use crate::blind::{self, Blind};
 use crate::examination::Examination;
 use crate::failure::{CommandResult, Outcome};
 use crate::field::{self, Field};
-use crate::input::FileKind;
+use crate::input::{FileKind, stream};
 use crate::options::{Force, Quiet, Shard, Threads};
 use crate::progress::Meter;
 use crate::results::to_json;
@@ -138,7 +138,7 @@ fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
 
 /// The command that makes the results again, without the place where this machine keeps the file.
 fn command(file: &Path, engine: Option<Engine>) -> String {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let name = stream::file_name(file);
     let engine = engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
     format!("switchback {name}{engine}")
 }

@@ -19,7 +19,7 @@
 //! ```
 
 use crate::examination::{ScenarioError, effects_listed, study_of};
-use crate::input::{TomlError, TomlFile};
+use crate::input::{TomlError, TomlFile, stream};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -123,11 +123,11 @@ pub fn read(path: &Path) -> Result<Study, ScenarioError> {
     check(&file, &wire)?;
     let effects = effects_listed(&file, wire.effects.as_deref())?;
     Ok(Study {
-        name: path.file_stem().map_or_else(|| "field".to_owned(), |s| s.to_string_lossy().into_owned()),
+        name: stream::stem(path).unwrap_or_else(|| "field".to_owned()),
         question: wire.question,
         seed: wire.seed,
         rigs: wire.rigs,
-        folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+        folder: stream::folder(path).to_owned(),
         effects,
         sizes: wire.sizes.into_inner(),
         seeds: wire.seeds,

@@ -5,6 +5,7 @@ mod decode;
 pub(crate) mod json_file;
 mod kinds;
 mod mat;
+pub(crate) mod stream;
 mod table;
 mod terms;
 mod text_file;

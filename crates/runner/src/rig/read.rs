@@ -6,7 +6,7 @@ use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
 use super::voice::{Voice, in_shell};
 use super::wire::{WireColumns, WireRecord, WireRig};
-use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest};
+use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest, stream};
 use std::ops::Range;
 use std::path::Path;
 use switchback_estimator::rig::{Rig, Usage};
@@ -203,7 +203,7 @@ fn planned(file: &TomlFile, record: &Spanned<WireRecord>) -> (PlannedRecord, Ran
         None => (String::new(), record.span()),
     };
     let record = PlannedRecord {
-        path: file.path().parent().unwrap_or(Path::new("")).join(&named),
+        path: stream::folder(file.path()).join(&named),
         named,
         columns: names(&wire.columns),
         role: wire.role.into(),
