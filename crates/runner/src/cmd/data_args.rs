@@ -2,6 +2,7 @@
 
 use crate::input::{FileKind, stream};
 use crate::options::{Quiet, positive};
+use crate::output::note;
 use crate::rig::{
     self, ColumnNames, HELD_OUT, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
     in_shell,
@@ -60,7 +61,7 @@ impl DataArgs {
             Source::Files => rig::load_plan(&self.plan(verb)?)?,
         };
         if !quiet.quiet {
-            eprint!("{}", loaded.told);
+            note(&loaded.told.to_string());
         }
         Ok(loaded)
     }

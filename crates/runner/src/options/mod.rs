@@ -6,6 +6,7 @@ mod quiet;
 mod shard;
 mod threads;
 mod whole;
+mod yes;
 
 pub use force::Force;
 pub use positive::{number, positive};
@@ -13,3 +14,4 @@ pub use quiet::Quiet;
 pub use shard::Shard;
 pub use threads::Threads;
 pub use whole::whole;
+pub use yes::{TooLong, Yes};

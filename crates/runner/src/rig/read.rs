@@ -91,6 +91,11 @@ fn placed_in(file: &TomlFile, plan: &Plan, spans: &[Range<usize>], located: Loca
     }
 }
 
+/// A label stands on one line.
+fn one_line(label: String) -> String {
+    label.replace(['\n', '\r'], " ")
+}
+
 /// What a rig file says, as far as it can be read.
 struct Draft {
     plan: Plan,
@@ -147,8 +152,8 @@ fn draft(file: &TomlFile) -> Draft {
         },
         order,
         interval,
-        input_label: wire.input,
-        output_label: wire.output,
+        input_label: wire.input.map(one_line),
+        output_label: wire.output.map(one_line),
         records,
         voice: Voice::Manifest,
     };
