@@ -198,3 +198,31 @@ fn control_characters_reach_neither_terminal_nor_picture() {
     refused(&folder, &["gap", "rig.toml"], &["rig.toml:1:8", "control character"]);
     refused_scenario(STUDY, ("\"spring\"", "\"two\\nlines\""), &["a.toml:10:8", "control character"]);
 }
+
+#[test]
+fn records_that_are_unlikely_are_told_with_place_and_remedy() {
+    let folder = Folder::with_good_rig();
+    let told = |folder: &Folder| {
+        let (code, told) = run(folder, &["init", "rig.toml"]);
+        (code, told)
+    };
+    let (code, plain) = told(&folder);
+    assert_eq!(code, Some(0), "{plain}");
+    assert!(!plain.contains("warning"), "{plain}");
+
+    fs::remove_file(folder.path("again.csv")).expect("it is there");
+    fs::copy(folder.path("descendant.csv"), folder.path("again.csv")).expect("a copy");
+    let (_, copied) = told(&folder);
+    assert!(copied.contains("warning: again.csv holds the same samples as descendant.csv"), "{copied}");
+
+    folder.edit("rig.toml", |text| text.replace("[-1.0, 1.0]", "[-0.001, 0.001]"));
+    let (_, outside) = told(&folder);
+    assert!(outside.contains("warning: descendant.csv:"), "{outside}");
+    assert!(outside.contains("far outside the declared interval [-0.001, 0.001]"), "{outside}");
+
+    let ramp = |k: usize| format!("{},{},{}\n", k as f64 / 100.0, k, (k * k) % 7);
+    folder.write("ramp.csv", &("t,v,y\n".to_owned() + &(0..300).map(ramp).collect::<String>()));
+    let (_, one_way) = run(&folder, &["init", "ramp.csv"]);
+    assert!(one_way.contains("`v` only rises in all that is fitted"), "{one_way}");
+    assert!(one_way.contains("fit to a record in which it falls too"), "{one_way}");
+}
