@@ -93,6 +93,18 @@ const LONG_LINE: usize = 160;
 /// … of which so many on either side of the place.
 const AROUND: usize = 60;
 
+/// Letters of a word that are told in full; a path may be long.
+const LONG_WORD: usize = 500;
+
+/// What is told of a message: its long words without their middle, and then all of it.
+fn told_of(message: &str) -> String {
+    let words = message.split_inclusive(' ');
+    let word = |word: &str| {
+        if word.chars().count() > LONG_WORD { shortened(word, 2 * AROUND) } else { word.to_owned() }
+    };
+    shortened(&words.map(word).collect::<String>(), LONG_MESSAGE)
+}
+
 /// A text without its middle where it is longer than `most` letters.
 fn shortened(text: &str, most: usize) -> String {
     let letters = text.chars().count();
@@ -105,14 +117,14 @@ fn shortened(text: &str, most: usize) -> String {
 
 /// One message with its place and remedy.
 fn told(diagnostic: &dyn Diagnostic) -> String {
-    let mut told = shortened(&diagnostic.to_string(), LONG_MESSAGE) + "\n";
+    let mut told = told_of(&diagnostic.to_string()) + "\n";
     if let (Some(code), Some(label)) =
         (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
     {
         told.push_str(&marked_line(code, label.inner()).unwrap_or_default());
     }
     if let Some(help) = diagnostic.help() {
-        let _ = writeln!(told, "help: {}", shortened(&help.to_string(), LONG_MESSAGE));
+        let _ = writeln!(told, "help: {}", told_of(&help.to_string()));
     }
     told
 }
@@ -184,5 +196,7 @@ mod tests {
     fn a_long_message_keeps_its_ends() {
         assert_eq!(shortened("abcdef", 6), "abcdef");
         assert_eq!(shortened("abcdefgh", 6), "abc…fgh");
+        let word = format!("`{}` is no number", "x".repeat(700));
+        assert_eq!(told_of(&word), format!("`{}…{}` is no number", "x".repeat(59), "x".repeat(58)));
     }
 }

@@ -22,6 +22,7 @@ fn refused(folder: &Folder, arguments: &[&str], told: &[&str]) {
     for words in told {
         assert!(message.contains(words), "`{words}` is not in:\n{message}");
     }
+    assert!(message.len() < 1500, "{} bytes", message.len());
     for words in ["usize", "i64", "u64", "i128", "struct", "invalid type", "Wire", "panicked"] {
         assert!(!message.contains(words), "`{words}` is in:\n{message}");
     }
@@ -145,10 +146,6 @@ fn a_line_of_70000_letters_is_not_told_whole() {
     folder.replace_line("rig.toml", 3, "order = 2");
     folder.replace_line("descendant.csv", 5, &format!("0.03,{},1", "x".repeat(70_000)));
     refused(&folder, &["gap", "rig.toml"], &["descendant.csv:5", "is not a number", "…"]);
-    for arguments in [["gap", "rig.toml"]] {
-        let (_, told) = run(&folder, &arguments);
-        assert!(told.len() < 5000, "{} bytes", told.len());
-    }
 }
 
 #[test]

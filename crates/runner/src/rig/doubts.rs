@@ -40,7 +40,7 @@ fn copies(records: &[(&PlannedRecord, &Measured)]) -> Vec<String> {
 fn far_outside(record: &PlannedRecord, measured: &Measured, interval: Interval) -> Option<String> {
     let (low, high) = (interval.low(), interval.high());
     let is_far = |v: &f64| *v < low - (high - low) || *v > high + (high - low);
-    let first = measured.v.iter().position(|v| is_far(v))?;
+    let first = measured.v.iter().position(is_far)?;
     let count = measured.v.iter().filter(|v| is_far(v)).count();
     let place = match measured.place(first) {
         Place::Line(line) => format!("{}:{line}", record.named),
