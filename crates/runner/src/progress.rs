@@ -5,6 +5,7 @@ mod watch;
 pub use watch::Watch;
 
 use crate::options::Quiet;
+use crate::output::note;
 use crate::study::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -58,7 +59,8 @@ impl Progress for Meter {
         self.bar.set_message(format!(", {cells} of {of} cells not precise enough yet"));
         if self.plain {
             let done = self.done.load(Ordering::Relaxed);
-            eprintln!("after {done} {} {cells} of {of} cells are not precise enough yet", self.what);
+            let what = self.what;
+            note(&format!("after {done} {what} {cells} of {of} cells are not precise enough yet\n"));
         }
     }
 
@@ -68,7 +70,7 @@ impl Progress for Meter {
         let planned = self.planned.load(Ordering::Relaxed).max(1);
         let tenth = |done: u64| LINES * done / planned;
         if self.plain && tenth(before + replicates) > tenth(before) {
-            eprintln!("{} of {planned} {}", before + replicates, self.what);
+            note(&format!("{} of {planned} {}\n", before + replicates, self.what));
         }
     }
 }

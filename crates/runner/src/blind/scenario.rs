@@ -18,8 +18,8 @@
 //! ```
 
 use super::twins::same_class;
-use crate::examination::{ScenarioError, effects_listed, study_of};
-use crate::input::{TomlError, TomlFile};
+use crate::examination::{ScenarioError, effects_listed, refuse_large_design, study_of};
+use crate::input::{TomlError, TomlFile, TwoNumbers, stream};
 use serde::Deserialize;
 use std::path::Path;
 use switchback_maker::Plan;
@@ -77,6 +77,7 @@ pub struct Expect {
     /// Least F1 of the cells flagged.
     pub where_f1: Option<f64>,
     /// Least and largest coverage of the 90 % closure intervals.
+    #[serde(default, deserialize_with = "TwoNumbers::optional")]
     pub coverage: Option<[f64; 2]>,
     /// Largest mean error of the closure at size ≥ 1.
     pub closure_error: Option<f64>,
@@ -95,9 +96,9 @@ struct WireStudy {
     systems: Spanned<usize>,
     sizes: Spanned<Vec<f64>>,
     effects: Option<Vec<Spanned<String>>>,
-    seeds: usize,
-    none: usize,
-    outside: usize,
+    seeds: Spanned<usize>,
+    none: Spanned<usize>,
+    outside: Spanned<usize>,
     pairs: Spanned<usize>,
     slice: Option<Spanned<usize>>,
     #[serde(default)]
@@ -118,16 +119,17 @@ pub fn read(path: &Path) -> Result<Study, ScenarioError> {
     let wire: WireStudy = file.parse()?;
     check(&file, &wire)?;
     let effects = effects(&file, &wire)?;
+    refuse_large(&file, &wire, effects.len())?;
     Ok(Study {
-        name: path.file_stem().map_or_else(|| "blind".to_owned(), |s| s.to_string_lossy().into_owned()),
+        name: stream::stem(path).unwrap_or_else(|| "blind".to_owned()),
         question: wire.question,
         seed: wire.seed,
         systems: wire.systems.into_inner(),
         sizes: wire.sizes.into_inner(),
         effects,
-        seeds: wire.seeds,
-        none: wire.none,
-        outside: wire.outside,
+        seeds: wire.seeds.into_inner(),
+        none: wire.none.into_inner(),
+        outside: wire.outside.into_inner(),
         pairs: wire.pairs.into_inner(),
         slice: wire.slice.map(Spanned::into_inner),
         plan: Plan::default(),
@@ -166,6 +168,17 @@ fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
     Ok(())
 }
 
+fn refuse_large(file: &TomlFile, wire: &WireStudy, effects: usize) -> Result<(), TomlError> {
+    let WireStudy { systems, seeds, none, outside, pairs, .. } = wire;
+    let counts =
+        [("seeds", seeds), ("systems", systems), ("none", none), ("outside", outside), ("pairs", pairs)];
+    refuse_large_design(file, &counts, || {
+        let of = |count: &Spanned<usize>| *count.get_ref() as u64;
+        let single = [of(seeds), of(systems), wire.sizes.get_ref().len() as u64, effects as u64];
+        single.into_iter().fold(1, u64::saturating_mul).saturating_add(of(none) + of(outside) + of(pairs))
+    })
+}
+
 /// The effects asked for, where pairs can be made of them if any are wanted.
 fn effects(file: &TomlFile, wire: &WireStudy) -> Result<Vec<&'static str>, TomlError> {
     let effects = effects_listed(file, wire.effects.as_deref())?;
@@ -202,5 +215,9 @@ mod tests {
         assert!(listing("[\"creep\", \"creep\"]").contains(":7:21: `creep` is listed twice"));
         assert!(listing("[\"creep\"]").contains("all are twins"));
         assert!(listing("[]").contains("all are twins"));
+        let large = |key: &str| refused((key, &format!("{key}00000000000000")));
+        assert!(large("none = 3").contains(":7:8: `none = 300000000000000` is beyond"));
+        assert!(large("pairs = 2").contains(":9:9: `pairs = 200000000000000` is beyond"));
+        assert!(refused(("seeds = 2", "seeds = 1000000")).contains(":6:9: effects, sizes and counts make"));
     }
 }

@@ -1,6 +1,8 @@
 //! The data a verb works on: files of measurements and how to read them, or one rig file.
 
+use crate::input::{FileKind, stream};
 use crate::options::{Quiet, positive};
+use crate::output::note;
 use crate::rig::{
     self, ColumnNames, HELD_OUT, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
     in_shell,
@@ -59,7 +61,7 @@ impl DataArgs {
             Source::Files => rig::load_plan(&self.plan(verb)?)?,
         };
         if !quiet.quiet {
-            eprint!("{}", loaded.told);
+            note(&loaded.told.to_string());
         }
         Ok(loaded)
     }
@@ -79,7 +81,9 @@ impl DataArgs {
         let is_rig_file = |path: &&PathBuf| {
             let is_ending =
                 |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
-            is_ending("toml") || is_ending("json") || path.is_dir()
+            // A stream's name says nothing.
+            let is_rig = || stream::is_stream(path) && FileKind::of(path) == Some(FileKind::Rig);
+            is_ending("toml") || is_ending("json") || path.is_dir() || is_rig()
         };
         match (self.data.iter().find(is_rig_file), &self.data[..]) {
             (None, _) => Ok(Source::Files),
@@ -132,7 +136,7 @@ impl DataArgs {
         if !problems.is_empty() {
             return Err(RigError::new(problems));
         }
-        let stem = self.data[0].file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let stem = stream::stem(&self.data[0]);
         Ok(Plan {
             name: stem.filter(|stem| !stem.trim().is_empty()).unwrap_or_else(|| "rig".to_owned()),
             columns: ColumnNames {

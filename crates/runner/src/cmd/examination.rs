@@ -4,7 +4,7 @@ use crate::examination::{
     Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, SEALED_FILE, Sealed, key_file,
 };
 use crate::failure::{CommandResult, Outcome};
-use crate::input::read_text;
+use crate::input::{read_text, stream};
 use crate::options::{Force, Quiet, Shard};
 use crate::output::{OutputError, OutputFolder, sha256};
 use crate::progress::Meter;
@@ -64,7 +64,7 @@ pub fn run_part<E: Examination>(
     let default =
         Path::new("reports").join(format!("{}-part-{}-of-{}", examination.name(), shard.number, shard.of));
     let out = place.out.unwrap_or(&default);
-    let name = scenario.file_name().unwrap_or_default().to_string_lossy();
+    let name = stream::copy_name(scenario);
     let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
     let folder = place.force.claim(out, &files)?;
     let tickets = examination.design()?.into_iter().enumerate();

@@ -5,7 +5,7 @@ use crate::identification::unit;
 use crate::input::{DataError, DataProblem};
 use crate::model::{self, ModelFile, Run};
 use crate::options::{Force, Quiet};
-use crate::output::print;
+use crate::output::{note, print};
 use crate::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
 use miette::Diagnostic;
 use serde::Serialize;
@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> CommandResult {
         None if args.json => print(&page.json())?,
         None => {
             if !args.quiet.quiet {
-                eprint!("{}", page.words());
+                note(&page.words());
             }
             print(&csv)?;
         }

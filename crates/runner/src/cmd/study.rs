@@ -5,8 +5,8 @@ use crate::blind::{self, Blind};
 use crate::examination::Examination;
 use crate::failure::{CommandResult, Outcome};
 use crate::field::{self, Field};
-use crate::input::FileKind;
-use crate::options::{Force, Quiet, Shard, Threads};
+use crate::input::{FileKind, stream};
+use crate::options::{Force, Quiet, Shard, Threads, Yes};
 use crate::progress::Meter;
 use crate::results::to_json;
 use crate::rig::in_shell;
@@ -43,6 +43,9 @@ pub struct Args {
 
     #[command(flatten)]
     threads: Threads,
+
+    #[command(flatten)]
+    yes: Yes,
 
     #[command(flatten)]
     quiet: Quiet,
@@ -83,6 +86,7 @@ pub fn run(args: &Args) -> CommandResult {
         Some(engine) => read.on(engine),
         None => read,
     };
+    args.yes.permit(study::least_seconds(&scenario), args.threads, args.quiet)?;
     let default = || Path::new("reports").join(scenario.name());
     let folder = args.force.claim(&args.out.clone().unwrap_or_else(default), &FILES)?;
     let meter = Meter::new(args.quiet);
@@ -98,6 +102,8 @@ pub fn run(args: &Args) -> CommandResult {
 
 /// Runs an examination, or the part of it that is asked for.
 fn examined<E: Examination>(args: &Args, file: &Path, examination: &E) -> CommandResult {
+    let rigs = examination.design()?.len().div_ceil(args.shard.map_or(1, |shard| shard.of));
+    args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.quiet)?;
     let page = Page { json: args.json, quiet: args.quiet };
     let place = Place { out: args.out.as_deref(), force: args.force };
     args.threads.install(|| match args.shard {
@@ -138,7 +144,7 @@ fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
 
 /// The command that makes the results again, without the place where this machine keeps the file.
 fn command(file: &Path, engine: Option<Engine>) -> String {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let name = stream::file_name(file);
     let engine = engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
     format!("switchback {name}{engine}")
 }

@@ -24,7 +24,7 @@ pub use measure::{Bound, Line, Measure, Reached, Share, bounded, measures_table}
 pub use part::{MergeError, PART_FILE, Part, Whole, case_lines, merged, read_cases, scenario_of};
 pub use random::{scramble, uniform};
 pub use reply::{ClosureCheck, Evidence, PairEvidence, Reply};
-pub use scenario::{ScenarioError, effects_listed, study_of};
+pub use scenario::{ScenarioError, effects_listed, refuse_large_design, refuse_more_than, study_of};
 pub use tables::{csv, share_field};
 
 use crate::output::Artefacts;
@@ -79,6 +79,9 @@ pub trait Examination: Sync {
     /// Rigs diagnosed before they are kept; bounds memory and what an interruption costs, changes no result. At the end of a batch threads
     /// wait for the last rig.
     const BATCH: usize;
+
+    /// Seconds of one thread that a rig takes, made and judged, in the mean.
+    const SECONDS: f64;
 
     /// The scenario's name: that of the report's folder.
     fn name(&self) -> &str;

@@ -5,7 +5,7 @@
 
 use super::Judged;
 use super::journal::KEY_FILE;
-use crate::input::{FileError, read_text};
+use crate::input::{FileError, read_text, stream};
 use crate::options::Shard;
 use crate::output::{Artefacts, sha256, stamped};
 use miette::Diagnostic;
@@ -131,7 +131,7 @@ impl<C: Judged> Part<C> {
         keys: String,
         cases: Vec<C>,
     ) -> Self {
-        let scenario = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let scenario = stream::copy_name(file);
         let label = Label { scenario, shard, program: program.to_owned(), key_sha256: sha256(&keys) };
         Self { folder: PathBuf::new(), label, scenario: text, keys, cases }
     }

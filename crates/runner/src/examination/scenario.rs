@@ -33,6 +33,46 @@ pub fn study_of(path: &Path) -> Option<String> {
     table.get("study").and_then(toml::Value::as_str).map(str::to_owned)
 }
 
+/// Most rigs of a design: a year of diagnoses on any machine, and more than memory holds once they are made.
+const MOST_RIGS: u64 = 1_000_000;
+
+/// Checks that a count of a scenario is within `most`.
+///
+/// # Errors
+/// A count beyond it, with its key.
+pub fn refuse_more_than(
+    file: &TomlFile,
+    most: u64,
+    (key, count): (&str, &Spanned<usize>),
+) -> Result<(), TomlError> {
+    let found = *count.get_ref();
+    if found as u64 <= most {
+        return Ok(());
+    }
+    let message = format!("`{key} = {found}` is beyond what can be run");
+    Err(file.error(count.span(), message, format!("give {most} or less")))
+}
+
+/// Checks that no key of a design, nor all of it, asks for more rigs than can be run. `rigs` counts those that keys give by being multiplied;
+/// it is called when each is known to be small.
+///
+/// # Errors
+/// Too many, with the key.
+pub fn refuse_large_design(
+    file: &TomlFile,
+    counts: &[(&str, &Spanned<usize>)],
+    rigs: impl FnOnce() -> u64,
+) -> Result<(), TomlError> {
+    counts.iter().try_for_each(|count| refuse_more_than(file, MOST_RIGS, *count))?;
+    let rigs = rigs();
+    if rigs <= MOST_RIGS {
+        return Ok(());
+    }
+    let message = format!("effects, sizes and counts make {rigs} rigs in all");
+    let span = counts.first().map_or(0..0, |(_, count)| count.span());
+    Err(file.error(span, message, format!("lower the counts, so that there are {MOST_RIGS} or less")))
+}
+
 /// The effects listed, by the names of the catalogue; all that can be made where no list is given.
 ///
 /// # Errors

@@ -4,6 +4,7 @@ use super::made;
 use super::scenario::Study;
 use crate::examination::scramble;
 use crate::options::Quiet;
+use crate::output::note;
 use crate::rig::{self, RIG_FILE};
 use miette::Diagnostic;
 use rayon::prelude::*;
@@ -76,10 +77,10 @@ impl Bases {
         let mut all = Vec::new();
         match study.rigs.as_deref().map(|rigs| (rigs, folder(study, rigs))) {
             Some((_, Some(folder))) => all = measured(&folder)?,
-            Some((rigs, None)) if !quiet.quiet => eprintln!(
-                "NO MEASURED BASES: the folder {} exists neither beside the scenario nor here; made bases only",
+            Some((rigs, None)) if !quiet.quiet => note(&format!(
+                "NO MEASURED BASES: the folder {} exists neither beside the scenario nor here; made bases only\n",
                 rigs.display()
-            ),
+            )),
             _ => {}
         }
         if all.is_empty() && study.made == 0 {

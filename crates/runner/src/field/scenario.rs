@@ -18,8 +18,8 @@
 //! exact = 0.6
 //! ```
 
-use crate::examination::{ScenarioError, effects_listed, study_of};
-use crate::input::{TomlError, TomlFile};
+use crate::examination::{ScenarioError, effects_listed, refuse_large_design, refuse_more_than, study_of};
+use crate::input::{TomlError, TomlFile, TwoNumbers, stream};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -82,6 +82,7 @@ pub struct Expect {
     /// Largest calibration error over what perfect calibration would show on as many rigs.
     pub calibration: Option<f64>,
     /// Least and largest coverage of the 90 % closure intervals.
+    #[serde(default, deserialize_with = "TwoNumbers::optional")]
     pub coverage: Option<[f64; 2]>,
 }
 
@@ -94,12 +95,11 @@ struct WireStudy {
     rigs: Option<PathBuf>,
     effects: Option<Vec<Spanned<String>>>,
     sizes: Spanned<Vec<f64>>,
-    seeds: usize,
+    seeds: Spanned<usize>,
     made: Spanned<usize>,
-    none: usize,
-    #[serde(default)]
-    resampled: usize,
-    outside: usize,
+    none: Spanned<usize>,
+    resampled: Option<Spanned<usize>>,
+    outside: Spanned<usize>,
     slice: Option<Spanned<usize>>,
     #[serde(default)]
     expect: Expect,
@@ -122,21 +122,41 @@ pub fn read(path: &Path) -> Result<Study, ScenarioError> {
     let wire: WireStudy = file.parse()?;
     check(&file, &wire)?;
     let effects = effects_listed(&file, wire.effects.as_deref())?;
+    refuse_large(&file, &wire, effects.len())?;
     Ok(Study {
-        name: path.file_stem().map_or_else(|| "field".to_owned(), |s| s.to_string_lossy().into_owned()),
+        name: stream::stem(path).unwrap_or_else(|| "field".to_owned()),
         question: wire.question,
         seed: wire.seed,
         rigs: wire.rigs,
-        folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+        folder: stream::folder(path).to_owned(),
         effects,
         sizes: wire.sizes.into_inner(),
-        seeds: wire.seeds,
+        seeds: wire.seeds.into_inner(),
         made: wire.made.into_inner(),
-        none: wire.none,
-        resampled: wire.resampled,
-        outside: wire.outside,
+        none: wire.none.into_inner(),
+        resampled: wire.resampled.map_or(0, Spanned::into_inner),
+        outside: wire.outside.into_inner(),
         slice: wire.slice.map(Spanned::into_inner),
         expect: wire.expect,
+    })
+}
+
+/// Most bases of a kind, all of which are made before anything else and held in memory.
+const MOST_BASES: u64 = 5000;
+
+fn refuse_large(file: &TomlFile, wire: &WireStudy, effects: usize) -> Result<(), TomlError> {
+    let WireStudy { seeds, made, none, resampled, outside, .. } = wire;
+    for count in [("made", made), ("none", none)] {
+        refuse_more_than(file, MOST_BASES, count)?;
+    }
+    let resampled = resampled.as_ref().map(|count| ("resampled", count));
+    let counts: Vec<_> = [("seeds", seeds), ("outside", outside)].into_iter().chain(resampled).collect();
+    refuse_large_design(file, &counts, || {
+        let of = |count: &Spanned<usize>| *count.get_ref() as u64;
+        // A measured base at least, where there may be some.
+        let bases = of(made) + u64::from(wire.rigs.is_some());
+        let planted = [of(seeds), bases, wire.sizes.get_ref().len() as u64, effects as u64];
+        planted.into_iter().fold(1, u64::saturating_mul).saturating_add(of(none) + of(outside))
     })
 }
 

@@ -20,7 +20,7 @@ pub(crate) fn read_decoded(path: &Path) -> Result<Decoded, FileError> {
 }
 
 /// Every byte means a letter in Windows-1252 (its printable part is Latin-1), so this cannot fail.
-fn decode(bytes: Vec<u8>) -> Decoded {
+pub(super) fn decode(bytes: Vec<u8>) -> Decoded {
     if let Some((encoding, mark)) = Encoding::for_bom(&bytes) {
         let (text, _) = encoding.decode_without_bom_handling(&bytes[mark..]);
         let told = (encoding != encoding_rs::UTF_8).then(|| encoding.name());

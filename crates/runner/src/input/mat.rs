@@ -1,11 +1,8 @@
 //! MATLAB files: v5 to v7 and, as HDF5, v7.3. Numeric vectors of equal length are columns, matrices are several.
 
-use super::table::{DataError, DataProblem, Table, TableError};
 #[cfg(feature = "matlab")]
-use super::{
-    table::{Column, Kind, Place},
-    text_file::read_bytes,
-};
+use super::table::{Column, Kind, Place};
+use super::table::{DataError, DataProblem, Table, TableError};
 use std::path::Path;
 
 /// A numeric array: its name, rows and columns, and the values column by column.
@@ -16,18 +13,25 @@ struct Array {
     values: Vec<f64>,
 }
 
+/// Whether a file is MATLAB's: by its ending, or its first bytes where it has none.
+pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
+    /// How a file in format v5 or v7.3 begins.
+    const TEXT: &[u8] = b"MATLAB ";
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat"))
+        || path.extension().is_none() && bytes.starts_with(TEXT)
+}
+
 #[cfg(not(feature = "matlab"))]
-pub(super) fn read(path: &Path) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
     Err(unreadable(path, "this program was built without the feature `matlab`".to_owned()))
 }
 
 /// Reads the numeric arrays of a MATLAB file.
 ///
 /// # Errors
-/// A file that cannot be read, or holds no two vectors of one length.
+/// Bytes that are no such file, or hold no two vectors of one length.
 #[cfg(feature = "matlab")]
-pub(super) fn read(path: &Path) -> Result<Table, TableError> {
-    let bytes = read_bytes(path).map_err(TableError::File)?;
+pub(super) fn read(path: &Path, bytes: Vec<u8>) -> Result<Table, TableError> {
     let is_hdf5 = hdf5_pure::is_hdf5_bytes(&bytes);
     let arrays = if is_hdf5 { hdf5(bytes) } else { matlab5(&bytes) };
     let arrays = arrays.map_err(|reason| unreadable(path, reason))?;

@@ -5,10 +5,12 @@ mod decode;
 pub(crate) mod json_file;
 mod kinds;
 mod mat;
+pub(crate) mod stream;
 mod table;
 mod terms;
 mod text_file;
 mod toml_file;
+mod two_numbers;
 
 pub(crate) use closest::closest;
 pub(crate) use kinds::FileKind;
@@ -16,3 +18,4 @@ pub(crate) use table::{Column, Kind, Table, TableError, unit};
 pub use table::{DataError, DataProblem, Place, Step};
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};
+pub use two_numbers::TwoNumbers;

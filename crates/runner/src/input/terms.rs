@@ -28,7 +28,7 @@ impl Terms {
         let kinds = ["invalid type: ", "invalid value: ", "invalid length "];
         let contrast = kinds.into_iter().find_map(|kind| {
             let (found, wanted) = message.strip_prefix(kind)?.split_once(", expected ")?;
-            let found = if kind.contains("length") { format!("{found} entries") } else { self.found(found) };
+            let found = if kind.contains("length") { entries(found) } else { self.found(found) };
             Some(format!("expected {}, found {found}", self.wanted(wanted)))
         });
         if let Some(told) = contrast {
@@ -52,6 +52,9 @@ impl Terms {
         if let Some(rest) = message.strip_prefix("unknown variant ") {
             return rest.replacen(", expected", " is not known here, expected", 1);
         }
+        if message == "wanted string or table" || message.starts_with("wanted exactly 1 element") {
+            return "expected one of the names known here, as text".to_owned();
+        }
         if message.starts_with("data did not match any variant") {
             return "the value is of no kind that can stand here".to_owned();
         }
@@ -60,6 +63,8 @@ impl Terms {
 
     /// What was found, as serde calls it.
     fn found(self, theirs: &str) -> String {
+        // A whole number that fits no type.
+        let theirs = theirs.trim_end_matches(" as i128").trim_end_matches(" as u128");
         let bare = ["integer ", "floating point ", "boolean ", "character ", "string "];
         if let Some(value) = bare.into_iter().find_map(|kind| theirs.strip_prefix(kind)) {
             return value.to_owned();
@@ -103,6 +108,10 @@ impl Terms {
     }
 }
 
+fn entries(count: &str) -> String {
+    if count == "1" { "1 entry".to_owned() } else { format!("{count} entries") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,7 +130,9 @@ mod tests {
                 "invalid type: sequence, expected struct variant BorderColumn::Bristle",
                 "expected an object, found a list",
             ),
-            ("invalid length 1, expected a tuple of size 2", "expected a list of 2 entries, found 1 entries"),
+            ("invalid length 1, expected a tuple of size 2", "expected a list of 2 entries, found 1 entry"),
+            ("invalid value: integer `99` as i128, expected i64", "expected a whole number, found `99`"),
+            ("wanted string or table", "expected one of the names known here, as text"),
             ("unknown variant `x`, expected `a` or `b`", "`x` is not known here, expected `a` or `b`"),
             ("unknown field `x`, there are no fields", "unknown field `x`, no field is known here"),
             ("missing field `a`", "there is no field `a`"),

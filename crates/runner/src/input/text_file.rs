@@ -1,5 +1,6 @@
 //! A whole file as text.
 
+use super::stream::{self, is_stream};
 use miette::Diagnostic;
 use std::io;
 use std::path::Path;
@@ -34,6 +35,26 @@ pub enum FileError {
         /// Line of the first byte that is no UTF-8, from 1.
         line: usize,
     },
+    /// Nothing came from a stream for long.
+    #[error("{path}: nothing came for {seconds} s")]
+    #[diagnostic(help(
+        "a pipe or terminal gives bytes only while something writes into it: start its writer first, or give a file"
+    ))]
+    Silent {
+        /// The path as given.
+        path: String,
+        /// How long that was.
+        seconds: u64,
+    },
+    /// A stream goes on for too long.
+    #[error("{path}: goes on beyond {gibibytes} GiB, the most that is read from a stream")]
+    #[diagnostic(help("give a file, or a stream that ends: a device as /dev/zero never does"))]
+    Endless {
+        /// The path as given.
+        path: String,
+        /// The limit.
+        gibibytes: usize,
+    },
     /// The system refused to read it.
     #[error("{path}: cannot be read: {source}")]
     #[diagnostic(help("check that the file may be read and that its disk is present"))]
@@ -64,14 +85,17 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     }
 }
 
-/// Reads a file's bytes.
+/// Reads the bytes of a file, or of a stream as far as it goes within bounds.
 ///
 /// # Errors
-/// [`FileError`] if there is no file, it is a folder, or cannot be read.
+/// [`FileError`] if there is no file, it is a folder, or cannot be read; a stream that is silent for 10 s or goes on beyond 1 GiB.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let shown = path.display().to_string();
     if path.is_dir() {
         return Err(FileError::Directory { help: instead_of_folder(path), path: shown });
+    }
+    if is_stream(path) {
+        return stream::read(path);
     }
     std::fs::read(path).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown.clone() },

@@ -2,6 +2,7 @@
 
 use crate::diagnosis::Report;
 use crate::identification::Identification;
+use crate::output::csv_cell;
 use std::fmt::Write;
 use switchback_estimator::rig::{Rig, RigRecord};
 
@@ -29,7 +30,7 @@ fn table(rig: &Rig, names: &[&str], runs: impl Fn(usize, &RigRecord) -> Vec<Opti
     let mut text = format!("record,use,t,v,y,{}\n", names.join(","));
     for (number, record) in rig.records.iter().enumerate() {
         let runs = runs(number, record);
-        let name = quoted(&record.name);
+        let name = quoted(&csv_cell(&record.name));
         for (t, (v, y)) in record.record.v().iter().zip(record.record.y()).enumerate() {
             let _ = write!(text, "{name},{},{},{v},{y}", record.usage.name(), stamp(t, rig.sample_time));
             for run in &runs {

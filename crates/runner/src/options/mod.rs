@@ -7,6 +7,7 @@ mod quiet;
 mod shard;
 mod threads;
 mod whole;
+mod yes;
 
 pub use force::Force;
 pub use positive::{number, positive};
@@ -15,3 +16,4 @@ pub use quiet::Quiet;
 pub use shard::Shard;
 pub use threads::Threads;
 pub use whole::whole;
+pub use yes::{TooLong, Yes};

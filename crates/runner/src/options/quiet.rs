@@ -1,6 +1,6 @@
 //! `--quiet`
 
-use crate::output::print;
+use crate::output::{print, visible};
 
 /// Whether anything but errors is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
@@ -16,7 +16,7 @@ impl Quiet {
     /// # Errors
     /// If stdout cannot be written.
     pub fn tell(self, words: &str) -> miette::Result<()> {
-        if self.quiet { Ok(()) } else { print(words) }
+        if self.quiet { Ok(()) } else { print(&visible(words)) }
     }
 
     /// Prints the JSON that was asked for, or else tells the words.
@@ -32,7 +32,7 @@ impl Quiet {
         match (is_json, self.quiet) {
             (true, _) => print(&json()),
             (false, true) => Ok(()),
-            (false, false) => print(&words()),
+            (false, false) => print(&visible(&words())),
         }
     }
 }

@@ -3,15 +3,24 @@
 use super::whole;
 use miette::IntoDiagnostic;
 
+/// More threads than any machine that this is run on has cores: each takes a stack and a list of work, and systems refuse tens of thousands.
+const MOST: u64 = 1024;
+
 /// How many threads work.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
 pub struct Threads {
     /// Worker threads [default: one a core]; results do not depend on it
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=MOST))]
     pub threads: Option<u16>,
 }
 
 impl Threads {
+    /// How many work at the same time: as many as are asked for, but no more than there are cores.
+    pub fn at_once(self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.map_or(cores, |threads| cores.min(threads.into()))
+    }
+
     /// Works on a thread pool of that size.
     ///
     /// # Errors

@@ -1,5 +1,7 @@
 //! The files of one command, still in memory.
 
+use super::visible;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Named contents, in the order of their names. A name is a file name, without folders.
@@ -9,14 +11,21 @@ pub struct Artefacts {
 }
 
 impl Artefacts {
-    /// Adds a file.
+    /// Adds a file. In pages and pictures control characters are shown instead of obeyed, see [`visible`].
     ///
     /// # Panics
     /// If the name holds a path separator or was added before: both are mistakes of the program, not of its user.
     pub fn add(&mut self, name: impl Into<String>, contents: impl Into<Vec<u8>>) {
         let name = name.into();
         assert!(!name.is_empty() && !name.contains(['/', '\\']), "`{name}` is no plain file name");
-        let displaced = self.files.insert(name.clone(), contents.into());
+        let contents = contents.into();
+        let shown =
+            if is_page(&name) { std::str::from_utf8(&contents).map(visible) } else { Ok(Cow::Borrowed("")) };
+        let contents = match shown {
+            Ok(Cow::Owned(shown)) => shown.into_bytes(),
+            _ => contents,
+        };
+        let displaced = self.files.insert(name.clone(), contents);
         assert!(displaced.is_none(), "two artefacts are called `{name}`");
     }
 
@@ -29,4 +38,9 @@ impl Artefacts {
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[u8])> {
         self.files.iter().map(|(name, contents)| (name.as_str(), contents.as_slice()))
     }
+}
+
+/// Whether a file is read by people, rather than by programs that want every character as it is.
+fn is_page(name: &str) -> bool {
+    [".svg", ".md", ".txt"].iter().any(|ending| name.ends_with(ending))
 }

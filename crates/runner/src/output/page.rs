@@ -1,5 +1,6 @@
 //! Pages on stdout.
 
+use super::visible;
 use std::io::Write;
 
 /// Prints a page. A reader that closed its end early (`| head`) has what it wanted.
@@ -13,4 +14,9 @@ pub fn print(page: &str) -> miette::Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Tells something on stderr, made [`visible`]. Where nobody listens any more, a terminal that was closed or a pipe, the work goes on all the same.
+pub fn note(words: &str) {
+    let _nobody_listens = std::io::stderr().write_all(visible(words).as_bytes());
 }

@@ -1,6 +1,7 @@
 //! `report.md`: the study on one page.
 
 use super::table;
+use crate::output::{markdown, markdown_code, markdown_text};
 use crate::plots::Figure;
 use crate::results::Results;
 use crate::scenario::Coupling;
@@ -8,11 +9,11 @@ use std::fmt::Write;
 
 /// The page: question, command, table, figures.
 pub(super) fn page(results: &Results, figures: &[Figure]) -> String {
-    let mut text = format!("# {}\n\n{}\n\n", results.name, results.question);
+    let mut text = format!("# {}\n\n{}\n\n", markdown(&results.name), markdown_text(&results.question));
     let _ = writeln!(
         text,
-        "Made by `{}` with Switchback {}, seed {}; {} engine, {}.\n\n```text\n{}```",
-        results.command,
+        "Made by {} with Switchback {}, seed {}; {} engine, {}.\n\n```text\n{}```",
+        markdown_code(&results.command),
         results.version,
         results.seed,
         results.engine.name(),

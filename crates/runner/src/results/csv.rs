@@ -1,6 +1,7 @@
 //! `table.csv`: the long format, one parameter of one cell a row.
 
 use super::{Cell, Measured, Paired, PairedParameter, Pairing, Parameter, Results, Series};
+use crate::output::csv_cell;
 
 /// What places a row.
 const PLACE: [&str; 10] =
@@ -69,8 +70,8 @@ fn row(cell: &Cell, parameter: &Parameter, pairing: Option<&Pairing>) -> Vec<Str
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     let series = &cell.series;
     let mut fields = vec![
-        series.case.clone(),
-        series.border.clone(),
+        csv_cell(&series.case),
+        csv_cell(&series.border),
         series.method.to_string(),
         series.points.to_string(),
         series.noise.to_string(),
@@ -87,7 +88,7 @@ fn row(cell: &Cell, parameter: &Parameter, pairing: Option<&Pairing>) -> Vec<Str
     }
     for (_, methods) in SUBJECTS {
         let found = pairing.and_then(|pairing| pairing.find(methods, cell, parameter));
-        let name = |over: &Series| if methods { over.method.to_string() } else { over.border.clone() };
+        let name = |over: &Series| if methods { over.method.to_string() } else { csv_cell(&over.border) };
         fields.push(found.map_or_else(String::new, |(over, _)| name(over)));
         for (_, get) in PAIRED {
             let figure = found.and_then(|(_, paired)| get(paired));

@@ -6,7 +6,7 @@ use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
 use super::told::{self, Told};
 use super::voice::Voice;
-use crate::input::{Column, DataError, DataProblem};
+use crate::input::{Column, DataError, DataProblem, stream};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
@@ -264,12 +264,15 @@ fn named(measured: &Measured) -> ColumnNames {
 }
 
 /// The file's name without its ending; where two records would share it, with the folders before it, and where even
-/// these are alike, with a number after it. Names become parts of file names, so they hold no separators.
+/// these are alike, with a number after it. Names become parts of file names, so they hold no separators nor control characters.
 fn record_names(records: &[PlannedRecord]) -> Vec<String> {
     let parts = |record: &PlannedRecord| -> Vec<String> {
+        if stream::is_stream(&record.path) {
+            return stream::stem(&record.path).into_iter().collect();
+        }
         let path = Path::new(&record.named).with_extension("");
         let named = path.components().filter(|part| matches!(part, Component::Normal(_)));
-        named.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
+        named.map(|part| part.as_os_str().to_string_lossy().replace(char::is_control, "_")).collect()
     };
     let stems: Vec<String> =
         records.iter().map(|record| parts(record).pop().unwrap_or_else(|| "record".to_owned())).collect();

@@ -22,6 +22,11 @@ pub(super) fn name(file: &TomlFile, wire: &WireRig, is_missing: bool) -> Result<
         Some(name) if name.get_ref().trim().is_empty() => {
             Err(file.error(name.span(), "`name` is empty", "give the rig a name"))
         }
+        Some(name) if name.get_ref().contains(char::is_control) => Err(file.error(
+            name.span(),
+            "`name` holds a control character",
+            "write it in letters, on one line",
+        )),
         None if is_missing => Err(missing(file, 0..0, "name")),
         _ => Ok(()),
     }

@@ -22,6 +22,7 @@ mod assemble;
 mod check;
 mod clock;
 mod cut;
+mod doubts;
 mod faults;
 mod guess;
 mod manifest;

@@ -6,7 +6,7 @@ use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
 use super::voice::{Voice, in_shell};
 use super::wire::{WireColumns, WireRecord, WireRig};
-use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest};
+use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest, stream};
 use std::ops::Range;
 use std::path::Path;
 use switchback_estimator::rig::{Rig, Usage};
@@ -91,6 +91,11 @@ fn placed_in(file: &TomlFile, plan: &Plan, spans: &[Range<usize>], located: Loca
     }
 }
 
+/// A label stands on one line.
+fn one_line(label: String) -> String {
+    label.replace(['\n', '\r'], " ")
+}
+
 /// What a rig file says, as far as it can be read.
 struct Draft {
     plan: Plan,
@@ -147,8 +152,8 @@ fn draft(file: &TomlFile) -> Draft {
         },
         order,
         interval,
-        input_label: wire.input,
-        output_label: wire.output,
+        input_label: wire.input.map(one_line),
+        output_label: wire.output.map(one_line),
         records,
         voice: Voice::Manifest,
     };
@@ -203,7 +208,7 @@ fn planned(file: &TomlFile, record: &Spanned<WireRecord>) -> (PlannedRecord, Ran
         None => (String::new(), record.span()),
     };
     let record = PlannedRecord {
-        path: file.path().parent().unwrap_or(Path::new("")).join(&named),
+        path: stream::folder(file.path()).join(&named),
         named,
         columns: names(&wire.columns),
         role: wire.role.into(),

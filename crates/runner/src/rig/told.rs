@@ -4,8 +4,8 @@ use super::assemble::Divided;
 use super::measured::{ClockSource, Measured};
 use super::plan::{HELD_OUT, Plan};
 use super::sampling::rounded;
-use super::spikes;
 use super::voice::Voice;
+use super::{doubts, spikes};
 use std::fmt::{self, Display};
 use switchback_estimator::rig::Usage;
 
@@ -18,7 +18,7 @@ pub struct Told {
     pub sample_time: Option<String>,
     /// What is held out.
     pub held_out: Option<String>,
-    /// Values that cannot have been measured.
+    /// Values that cannot have been measured, and records that are unlikely to be what they are declared.
     pub warnings: Vec<String>,
     /// How unusual files were read.
     pub notes: Vec<String>,
@@ -56,7 +56,11 @@ pub(super) fn tell(plan: &Plan, divided: &[Divided]) -> Told {
             std::iter::once(sample_time(divided)).chain(interruptions).collect::<Vec<_>>().join("; ")
         }),
         held_out: is_line.then(|| held_out(plan, divided)),
-        warnings: divided.iter().flat_map(|divided| spikes::warnings(&divided.measured)).collect(),
+        warnings: divided
+            .iter()
+            .flat_map(|divided| spikes::warnings(&divided.measured))
+            .chain(doubts::warnings(plan, divided))
+            .collect(),
         notes: notes(divided),
     }
 }

@@ -4,14 +4,14 @@ use super::border::{self, WireBorder};
 use super::error::Fault;
 use super::wire::WireScenario;
 use super::{Scenario, ScenarioError, convert};
-use crate::input::TomlFile;
+use crate::input::{TomlFile, stream};
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 /// Reads a scenario; its name is the file's stem.
 pub(super) fn scenario(file: &TomlFile) -> Result<Scenario, ScenarioError> {
-    let name = file.path().file_stem().unwrap_or(file.path().as_os_str()).to_string_lossy().into_owned();
+    let name = stream::stem(file.path()).unwrap_or_else(|| file.path().display().to_string());
     checked(name, file.text()).map_err(|fault| fault.locate(file))
 }
 

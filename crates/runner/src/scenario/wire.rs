@@ -1,5 +1,6 @@
 //! What the file says, as faithfully as TOML types allow; nothing is judged here.
 
+use crate::input::TwoNumbers;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -33,7 +34,7 @@ pub(super) struct WirePrecision {
 pub(super) struct WireSystem {
     pub(super) a: Spanned<Vec<f64>>,
     pub(super) b: Spanned<Vec<f64>>,
-    pub(super) interval: Spanned<(f64, f64)>,
+    pub(super) interval: Spanned<TwoNumbers>,
     pub(super) input: Option<String>,
     pub(super) output: Option<String>,
 }
@@ -55,7 +56,7 @@ pub(super) struct WireCase {
 pub(super) struct WireSystemOverride {
     pub(super) a: Option<Spanned<Vec<f64>>>,
     pub(super) b: Option<Spanned<Vec<f64>>>,
-    pub(super) interval: Option<Spanned<(f64, f64)>>,
+    pub(super) interval: Option<Spanned<TwoNumbers>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -93,7 +94,7 @@ pub(super) struct WireExpect {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireCoverage {
-    pub(super) mean: (f64, f64),
+    pub(super) mean: TwoNumbers,
     pub(super) least: f64,
 }
 

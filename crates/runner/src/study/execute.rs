@@ -137,6 +137,11 @@ pub(super) struct Outcome {
     pub(super) precise: Option<Vec<bool>>,
 }
 
+/// How many replicates a study takes in all, as far as that is known before the first.
+pub(super) fn forecast(replication: &Replication) -> usize {
+    Next::first(replication).forecast
+}
+
 /// Up to how many replicates the next round goes, and how many the study will take in all as far as is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Next {

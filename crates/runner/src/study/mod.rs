@@ -9,6 +9,7 @@
 
 mod bench;
 mod cell;
+mod cost;
 mod direct;
 mod execute;
 mod expectations;
@@ -40,6 +41,7 @@ use std::ops::Range;
 use thiserror::Error;
 use workload::Workload;
 
+pub use cost::least_seconds;
 pub use execute::Progress;
 pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
 

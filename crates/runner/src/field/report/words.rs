@@ -4,6 +4,7 @@ use crate::examination::measures_table;
 use crate::field::case::Case;
 use crate::field::scenario::Study;
 use crate::field::score::{AnswerRow, Scores};
+use crate::output::{markdown, markdown_text};
 use std::fmt::Write;
 
 /// The measures and what a reader must know of them.
@@ -18,7 +19,7 @@ pub(super) fn printed(cases: &[Case], scores: &Scores) -> String {
 
 /// The same with the tables, as Markdown.
 pub(super) fn page(study: &Study, cases: &[Case], scores: &Scores) -> String {
-    let mut text = format!("# {}\n\n{}\n\n", study.name, study.question);
+    let mut text = format!("# {}\n\n{}\n\n", markdown(&study.name), markdown_text(&study.question));
     let _ = writeln!(text, "```text\n{}```\n", measures_table(&scores.measures));
     for note in notes(cases, scores) {
         let _ = writeln!(text, "- {note}");
@@ -44,7 +45,8 @@ pub(super) fn page(study: &Study, cases: &[Case], scores: &Scores) -> String {
         let _ = writeln!(
             text,
             "| {} | {model} | {} | {error} | {perfect} | {excess} |",
-            stratum.of, claims.count
+            markdown(&stratum.of),
+            claims.count
         );
     }
     text
@@ -94,7 +96,7 @@ fn table(text: &mut String, of: &str, rows: &[AnswerRow]) {
         let percent = [row.exact, row.class, row.silent, row.wrong]
             .map(|share| share.value().map_or_else(|| "—".to_owned(), |x| format!("{:.0} %", 100.0 * x)));
         let [exact, class, silent, wrong] = percent;
-        let (of, model, answers) = (&row.of, model(row.with_model), row.asked);
+        let (of, model, answers) = (markdown(&row.of), model(row.with_model), row.asked);
         let _ = writeln!(text, "| {of} | {model} | {answers} | {exact} | {class} | {silent} | {wrong} |");
     }
 }

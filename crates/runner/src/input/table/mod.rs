@@ -13,8 +13,9 @@ pub(crate) mod unit;
 
 pub use error::{DataError, DataProblem, Place, Step};
 
-use super::decode::read_decoded;
-use super::text_file::FileError;
+use super::decode::decode;
+use super::mat;
+use super::text_file::{FileError, read_bytes};
 use dialect::Dialect;
 use head::Head;
 use lines::Delimiter;
@@ -105,10 +106,11 @@ impl Table {
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
     pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat")) {
-            return super::mat::read(path);
+        let bytes = read_bytes(path).map_err(TableError::File)?;
+        if mat::is_matlab(path, &bytes) {
+            return mat::read(path, bytes);
         }
-        let decoded = read_decoded(path).map_err(TableError::File)?;
+        let decoded = decode(bytes);
         let mut table =
             Self::parse(&path.display().to_string(), &decoded.text, least).map_err(TableError::Data)?;
         if let Some(encoding) = decoded.encoding {

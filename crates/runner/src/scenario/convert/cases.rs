@@ -1,7 +1,8 @@
 //! Cases: the base system with each case's changes.
 
-use super::check::{distinct, unknown};
+use super::check::{at_most, distinct, in_one_line, unknown};
 use super::expect::expect;
+use crate::input::TwoNumbers;
 use crate::scenario::border::WireBorder;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCase, WireScenario, WireSystem, WireSystemOverride};
@@ -19,6 +20,7 @@ pub(super) fn cases(
     swept: &[Method],
 ) -> Result<Vec<Case>, Fault> {
     distinct(wire.case.iter().map(|c| &c.name))?;
+    wire.case.iter().try_for_each(|c| in_one_line(&c.name))?;
     let base = &wire.system;
     if wire.case.is_empty() {
         let system = system(base, None)?;
@@ -87,7 +89,7 @@ fn hystereses(
     change: Option<&Spanned<WireSystemOverride>>,
 ) -> Result<Vec<Border>, Fault> {
     let wire = change.and_then(|c| c.get_ref().interval.as_ref()).unwrap_or(&base.get_ref().interval);
-    let (low, high) = *wire.get_ref();
+    let TwoNumbers([low, high]) = *wire.get_ref();
     let interval = Interval::new(low, high)
         .map_err(|e| Fault::new(wire.span(), e.to_string(), "write interval = [h_m, h_M] with h_m < h_M"))?;
     borders
@@ -141,10 +143,16 @@ fn coloured(
     Ok(Disturbance::Coloured { ar: ar_values, ma: ma_values })
 }
 
+/// Of a rig no more can be asked for either: beyond them coefficients drown in rounding errors.
+const MOST_LAGS: usize = 20;
+
+/// Longer than any transient.
+const MOST_SPACING: usize = 1_000_000;
+
 fn order(case: &WireCase, true_order: usize) -> Result<usize, Fault> {
     match &case.order {
         None => Ok(true_order),
-        Some(order) if *order.get_ref() >= 1 => Ok(*order.get_ref()),
+        Some(order) if *order.get_ref() >= 1 => at_most(order, MOST_LAGS, "coefficients"),
         Some(order) => Err(Fault::new(order.span(), "an order is at least 1", "write 1 or more")),
     }
 }
@@ -153,7 +161,7 @@ fn order(case: &WireCase, true_order: usize) -> Result<usize, Fault> {
 fn spacing(case: &WireCase, order: usize) -> Result<usize, Fault> {
     match &case.spacing {
         None => Ok(order.max(2)),
-        Some(spacing) if *spacing.get_ref() >= 1 => Ok(*spacing.get_ref()),
+        Some(spacing) if *spacing.get_ref() >= 1 => at_most(spacing, MOST_SPACING, "samples between pulses"),
         Some(spacing) => {
             Err(Fault::new(spacing.span(), "pulses cannot coincide", "write 1 or more; max(n, 2) is safe"))
         }

@@ -16,6 +16,30 @@ pub(super) fn positive(x: &Spanned<f64>) -> Result<f64, Fault> {
     }
 }
 
+/// A count within what can be run; `what` are counted.
+pub(super) fn at_most(count: &Spanned<usize>, limit: usize, what: &str) -> Result<usize, Fault> {
+    match *count.get_ref() {
+        found if found <= limit => Ok(found),
+        _ => Err(Fault::new(
+            count.span(),
+            format!("more than {limit} {what}"),
+            format!("write {limit} or less"),
+        )),
+    }
+}
+
+/// A name stands in tables and pictures, on one line.
+pub(super) fn in_one_line(name: &Spanned<String>) -> Result<(), Fault> {
+    if name.get_ref().contains(char::is_control) {
+        return Err(Fault::new(
+            name.span(),
+            "the name holds a control character",
+            "write it in letters, on one line",
+        ));
+    }
+    Ok(())
+}
+
 pub(super) fn non_empty<T>(list: &Spanned<Vec<T>>) -> Result<&[T], Fault> {
     match list.get_ref().as_slice() {
         [] => Err(Fault::new(list.span(), "the list is empty", "give at least one entry")),

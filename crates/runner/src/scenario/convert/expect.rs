@@ -1,6 +1,7 @@
 //! Methods, and what is expected of them.
 
 use super::check::{distinct, non_empty, unknown};
+use crate::input::TwoNumbers;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCoverage, WireExpect, WireSweep, WireWidth};
 use crate::scenario::{Check, Coverage, Expect, Method, Width};
@@ -40,19 +41,19 @@ pub(super) fn expect(wire: &WireExpect, swept: &[Method]) -> Result<Expect, Faul
 }
 
 fn coverage(wire: &Spanned<WireCoverage>) -> Result<Coverage, Fault> {
-    let WireCoverage { mean, least } = *wire.get_ref();
+    let WireCoverage { mean: TwoNumbers(mean), least } = *wire.get_ref();
     let is_share = |x: &f64| (0.0..=1.0).contains(x);
     let fault = |message: &'static str| {
         let remedy = "write shares, as in coverage = { mean = [0.9, 0.98], least = 0.85 }";
         Err(Fault::new(wire.span(), message, remedy))
     };
-    if ![mean.0, mean.1, least].iter().all(is_share) {
+    if ![mean[0], mean[1], least].iter().all(is_share) {
         return fault("coverage lies between 0 and 1");
     }
-    if mean.0 > mean.1 {
+    if mean[0] > mean[1] {
         return fault("the range of the mean coverage begins above its end");
     }
-    Ok(Coverage { mean, least })
+    Ok(Coverage { mean: mean.into(), least })
 }
 
 fn width(wire: &Spanned<WireWidth>) -> Result<Width, Fault> {

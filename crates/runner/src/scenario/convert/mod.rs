@@ -10,7 +10,7 @@ use super::error::Fault;
 use super::wire::{WirePrecision, WireScenario, WireSystem};
 use super::{Coupling, Engine, Labels, Replication, Scenario, Stopping};
 use cases::cases;
-use check::{positive, unknown};
+use check::{at_most, positive, unknown};
 use expect::{expect, methods};
 use sweep::{selected, sweep};
 use toml::Spanned;
@@ -44,8 +44,14 @@ pub(in crate::scenario) fn scenario(
     })
 }
 
+/// Their numbers are of 32 bits, and the error of no figure asks for so many.
+const MOST_REPLICATES: usize = 1_000_000_000;
+
 fn replication(wire: &WireScenario) -> Result<Replication, Fault> {
-    let replicates = *wire.replicates.get_ref();
+    let replicates = at_most(&wire.replicates, MOST_REPLICATES, "replicates")?;
+    if let Some(max) = &wire.max_replicates {
+        at_most(max, MOST_REPLICATES, "replicates")?;
+    }
     if replicates < 2 {
         let why = "a standard deviation needs at least two replicates";
         return Err(Fault::new(
@@ -103,9 +109,14 @@ fn engine(wire: Option<&Spanned<String>>) -> Result<Engine, Fault> {
     Engine::from_name(name.get_ref()).ok_or_else(|| unknown(name, "engine", &Engine::ALL.map(Engine::name)))
 }
 
+/// A label stands on one line.
+fn label(given: Option<&str>, default: &str) -> String {
+    given.unwrap_or(default).replace(['\n', '\r'], " ")
+}
+
 fn labels(system: &WireSystem) -> Labels {
     Labels {
-        input: system.input.clone().unwrap_or_else(|| "input v".to_owned()),
-        output: system.output.clone().unwrap_or_else(|| "output y".to_owned()),
+        input: label(system.input.as_deref(), "input v"),
+        output: label(system.output.as_deref(), "output y"),
     }
 }

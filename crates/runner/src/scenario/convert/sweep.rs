@@ -1,6 +1,6 @@
 //! The grid of a sweep.
 
-use super::check::{distinct, non_empty, positive, unknown};
+use super::check::{at_most, distinct, in_one_line, non_empty, positive, unknown};
 use crate::scenario::border::WireBorder;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::WireSweep;
@@ -9,6 +9,7 @@ use crate::scenario::{Case, Method, Sweep};
 /// The borders of the sweep, in its order; all of them where it does not choose.
 pub(super) fn selected(borders: Vec<WireBorder>, sweep: &WireSweep) -> Result<Vec<WireBorder>, Fault> {
     distinct(borders.iter().map(|b| &b.name))?;
+    borders.iter().try_for_each(|b| in_one_line(&b.name))?;
     let Some(chosen) = &sweep.borders else { return Ok(borders) };
     distinct(non_empty(chosen)?.iter())?;
     let mut rest = borders;
@@ -25,12 +26,18 @@ pub(super) fn selected(borders: Vec<WireBorder>, sweep: &WireSweep) -> Result<Ve
     Ok(taken)
 }
 
+/// An information matrix holds the square of their number, for every cell.
+const MOST_POINTS: usize = 1000;
+
+/// Days of any rig; where a record is simulated it takes a gigabyte a series.
+const MOST_SAMPLES: usize = 100_000_000;
+
 pub(super) fn sweep(wire: &WireSweep, methods: Vec<Method>, cases: &[Case]) -> Result<Sweep, Fault> {
     let points: Vec<usize> = non_empty(&wire.points)?
         .iter()
         .map(|m| match *m.get_ref() {
             0 => Err(Fault::new(m.span(), "an experiment visits at least one point", "write 1 or more")),
-            count => Ok(count),
+            _ => at_most(m, MOST_POINTS, "points"),
         })
         .collect::<Result<_, _>>()?;
     distinct(wire.points.get_ref().iter())?;
@@ -70,6 +77,7 @@ fn samples(wire: &WireSweep, points: &[usize], cases: &[Case]) -> Result<Vec<usi
     let longest = cases.iter().max_by_key(|c| c.period(most_points));
     let mut previous = 0;
     for n in non_empty(&wire.samples)? {
+        at_most(n, MOST_SAMPLES, "samples")?;
         if *n.get_ref() <= previous {
             let why = format!("does not exceed the entry before it, {previous}");
             return Err(Fault::new(n.span(), why, "list the record lengths in ascending order, each once"));

@@ -1,0 +1,225 @@
+//! Input that is hostile, or only wrong: told in the user's words, bounded, and never obeyed.
+
+mod common;
+
+use common::{BLIND, Folder, STUDY};
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+/// Runs: the exit code, and what is told.
+fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = folder.switchback(arguments).output().expect("it runs");
+    (output.status.code(), String::from_utf8(output.stderr).expect("UTF-8"))
+}
+
+#[track_caller]
+fn refused(folder: &Folder, arguments: &[&str], told: &[&str]) {
+    let (code, message) = run(folder, arguments);
+    println!("{message}");
+    assert_eq!(code, Some(2), "{message}");
+    assert!(message.starts_with("error: ") && message.contains("\nhelp: "), "{message}");
+    for words in told {
+        assert!(message.contains(words), "`{words}` is not in:\n{message}");
+    }
+    assert!(message.len() < 1500, "{} bytes", message.len());
+    for words in ["usize", "i64", "u64", "i128", "struct", "invalid type", "Wire", "panicked"] {
+        assert!(!message.contains(words), "`{words}` is in:\n{message}");
+    }
+    assert!(!folder.path("out").exists(), "nothing is written");
+}
+
+/// A scenario with one line changed is refused.
+#[track_caller]
+fn refused_scenario(scenario: &str, (line, with): (&str, &str), told: &[&str]) {
+    let folder = Folder::with_good_rig();
+    assert!(scenario.contains(line), "the scenario has no `{line}`");
+    folder.write("a.toml", &scenario.replace(line, with));
+    refused(&folder, &["a.toml", "--threads", "1", "--out", "out"], told);
+}
+
+#[test]
+fn sizes_beyond_sense_are_refused_with_the_limit() {
+    const MAX: &str = "9223372036854775807";
+    let study = |line: &str, with: &str, told: &[&str]| refused_scenario(STUDY, (line, with), told);
+    study("[3]", &format!("[{MAX}]"), &["a.toml:17:11", "points", "1000 or less"]);
+    study("1000]", &format!("{MAX}]"), &["a.toml:16:17", "samples", "100000000 or less"]);
+    study("= 40", &format!("= {MAX}"), &["a.toml:4:14", "replicates", "1000000000 or less"]);
+    let case = |key: &str| format!("[[case]]\nname = \"c\"\n{key} = {MAX}\n[sweep]");
+    study("[sweep]", &case("spacing"), &["spacing", "1000000 or less"]);
+    study("[sweep]", &case("order"), &["order", "20 or less"]);
+    let blind = |line: &str, key: &str| {
+        let with = format!("{key} = 1000000000000000");
+        refused_scenario(BLIND, (line, &with), &["a.toml:", key, "1000000 or less"]);
+    };
+    blind("none = 2", "none");
+    blind("pairs = 0", "pairs");
+    blind("seeds = 1", "seeds");
+    blind("outside = 0", "outside");
+    blind("systems = 1", "systems");
+    refused_scenario(BLIND, ("systems = 1", "systems = 1000000"), &["rigs in all", "1000000 or less"]);
+}
+
+const FIELD: &str = "study = \"field\"\nquestion = \"?\"\nseed = 1\nsizes = [2.0]\nseeds = 1\nmade = 1\nnone = 1\noutside = 0\n";
+
+#[test]
+fn a_field_examination_is_bounded_too() {
+    let field = |line: &str, told: &[&str]| {
+        let key = line.split(' ').next().unwrap_or_default();
+        refused_scenario(FIELD, (line, &format!("{key} = 1000000000000000")), told);
+    };
+    field("made = 1", &["a.toml:6:8", "made", "5000 or less"]);
+    field("none = 1", &["a.toml:7:8", "none", "5000 or less"]);
+    field("seeds = 1", &["a.toml:5:9", "seeds", "1000000 or less"]);
+    field("outside = 0", &["a.toml:8:11", "outside", "1000000 or less"]);
+}
+
+#[test]
+fn more_than_a_day_is_told_and_refused() {
+    let long = |scenario: &str, line, with, told| refused_scenario(scenario, (line, with), &[told, "--yes"]);
+    let years = STUDY.replace("1000]", "100000000]");
+    long(&years, "= 40", "= 1000000000", "this would take about 4 years on 1 thread");
+    // The error of a standard deviation needs 5e7 replicates: 1.4e-9 · 1e8 · 5e7 s.
+    let precise = "= 40\nmax_replicates = 1000000000\nprecision = { sd_relative_mcse = 1e-4 }";
+    long(&years, "= 40", precise, "this would take about 81 days on 1 thread");
+    let rigs = BLIND.replace("slice = 1", "slice = 50000");
+    long(&rigs, "none = 2", "none = 100000", "this would take about 3 days on 1 thread");
+    let field = FIELD.replace("outside = 0", "outside = 0\nslice = 20000");
+    long(&field, "seeds = 1", "seeds = 10000", "this would take about 3 days on 1 thread");
+}
+
+#[cfg(unix)]
+#[test]
+fn more_than_a_day_is_run_if_asked_for() {
+    let folder = Folder::with_good_rig();
+    folder.write("a.toml", &STUDY.replace("1000]", "10000000]").replace("= 40", "= 1000000000"));
+    let mut process = Command::new(env!("CARGO_BIN_EXE_switchback"))
+        .args(["a.toml", "--yes", "--threads", "1", "--out", "out"])
+        .current_dir(folder.path("."))
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let mut told = String::new();
+    let read = BufReader::new(process.stderr.take().expect("piped")).read_line(&mut told);
+    let sent = Command::new("kill").args(["-INT", &process.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    assert_eq!(process.wait().expect("it ends").code(), Some(3), "{told}");
+    read.expect("UTF-8");
+    assert_eq!(told, "this takes about 162 days on 1 thread\n");
+}
+
+#[test]
+fn messages_are_in_the_words_of_who_wrote_the_file() {
+    let study =
+        |line: &str, with: &str, told: &str| refused_scenario(STUDY, (line, with), &["a.toml:", told]);
+    let (whole, large) = ("expected a whole number, 0 or more", "99999999999999999999999");
+    study("= 40", &format!("= {large}"), &format!("{whole}, found `{large}`"));
+    study("= 40", "= \"x\"", whole);
+    study("[3]", "3", "expected a list, found `3`");
+    study(
+        "interval = [-1.0, 1.0]",
+        "interval = [-1.0, 0.0, 1.0]",
+        "expected two numbers, [low, high], found 3 entries",
+    );
+    study("interval = [-1.0, 1.0]", "interval = 1.0", "expected a list, found `1.0`");
+    let folder = Folder::with_good_rig();
+    folder.replace_line("rig.toml", 8, "role = 4");
+    refused(
+        &folder,
+        &["gap", "rig.toml"],
+        &["rig.toml:8:8", "expected one of the names known here, as text"],
+    );
+    folder.replace_line("rig.toml", 8, "role = \"free\"");
+    folder.replace_line("rig.toml", 3, &format!("order = {large}"));
+    refused(
+        &folder,
+        &["gap", "rig.toml"],
+        &["rig.toml:3:9", &format!("expected a whole number, found `{large}`")],
+    );
+}
+
+#[test]
+fn a_line_of_70000_letters_is_not_told_whole() {
+    let folder = Folder::with_good_rig();
+    folder.replace_line("rig.toml", 3, &format!("order = \"{}\"", "x".repeat(70_000)));
+    refused(&folder, &["gap", "rig.toml"], &["rig.toml:3:9", "…"]);
+    folder.replace_line("rig.toml", 3, "order = 2");
+    folder.replace_line("descendant.csv", 5, &format!("0.03,{},1", "x".repeat(70_000)));
+    refused(&folder, &["gap", "rig.toml"], &["descendant.csv:5", "is not a number", "…"]);
+}
+
+#[test]
+fn names_are_neither_markup_nor_formulas() {
+    let folder = Folder::with_good_rig();
+    let named = STUDY
+        .replace("name = \"spring\"", "name = \"=1+<script>|`x`\"")
+        .replace("question = \"Is it", "question = \"<script>\\u001B[2J Is it");
+    folder.write("a`b.toml", &named);
+    let output = folder.switchback(&["a`b.toml", "--out", "out"]).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b));
+    let read = |name: &str| fs::read_to_string(folder.path("out").join(name)).expect("a report");
+    let page = read("report.md");
+    // Within the fenced table a name is text already.
+    let outside: String = page.split("```").step_by(2).collect();
+    assert!(!outside.contains("<script>") && !page.contains('\u{1b}'), "{page}");
+    assert!(
+        page.starts_with("# a\\`b\n") && page.contains("Made by `` switchback a`b.toml `` with"),
+        "{page}"
+    );
+    assert!(read("table.csv").contains(",'=1+<script>|`x`,"));
+    assert!(!read("table.csv").contains(",=1+"));
+}
+
+#[test]
+fn control_characters_reach_neither_terminal_nor_picture() {
+    let folder = Folder::with_good_rig();
+    let labels = "order = 2\ninput = \"tra\\u001B[31mvel\\u0000 [mm]\"\noutput = \"for\\nce <&> [N]\"";
+    folder.replace_line("rig.toml", 3, labels);
+    let output = folder.switchback(&["identify", "rig.toml", "--out", "out"]).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for told in [output.stdout, output.stderr] {
+        assert!(!told.contains(&0x1b) && !told.contains(&0), "{}", String::from_utf8_lossy(&told));
+    }
+    let pictures = common::listing(&folder.path("out")).into_iter().filter(|name| name.ends_with(".svg"));
+    let mut labelled = 0;
+    for name in pictures {
+        let svg = fs::read_to_string(folder.path("out").join(&name)).expect("a picture");
+        assert!(svg.chars().all(|c| !c.is_control() || c == '\n' || c == '\t'), "{name}");
+        assert!(!svg.contains("<&>"), "{name}");
+        labelled += usize::from(svg.contains("tra␛[31mvel␀"));
+    }
+    assert!(labelled > 0, "no picture has the label");
+    folder.replace_line("rig.toml", 1, "name = \"a\\u001Bb\"");
+    fs::remove_dir_all(folder.path("out")).expect("it is there");
+    refused(&folder, &["gap", "rig.toml"], &["rig.toml:1:8", "control character"]);
+    refused_scenario(STUDY, ("\"spring\"", "\"two\\nlines\""), &["a.toml:10:8", "control character"]);
+}
+
+#[test]
+fn records_that_are_unlikely_are_told_with_place_and_remedy() {
+    let folder = Folder::with_good_rig();
+    let told = |folder: &Folder| {
+        let (code, told) = run(folder, &["init", "rig.toml"]);
+        (code, told)
+    };
+    let (code, plain) = told(&folder);
+    assert_eq!(code, Some(0), "{plain}");
+    assert!(!plain.contains("warning"), "{plain}");
+
+    fs::remove_file(folder.path("again.csv")).expect("it is there");
+    fs::copy(folder.path("descendant.csv"), folder.path("again.csv")).expect("a copy");
+    let (_, copied) = told(&folder);
+    assert!(copied.contains("warning: again.csv holds the same samples as descendant.csv"), "{copied}");
+
+    folder.edit("rig.toml", |text| text.replace("[-1.0, 1.0]", "[-0.001, 0.001]"));
+    let (_, outside) = told(&folder);
+    assert!(outside.contains("warning: descendant.csv:"), "{outside}");
+    assert!(outside.contains("far outside the declared interval [-0.001, 0.001]"), "{outside}");
+
+    let ramp = |k: usize| format!("{},{},{}\n", k as f64 / 100.0, k, (k * k) % 7);
+    folder.write("ramp.csv", &("t,v,y\n".to_owned() + &(0..300).map(ramp).collect::<String>()));
+    let (_, one_way) = run(&folder, &["init", "ramp.csv"]);
+    assert!(one_way.contains("`v` only rises in all that is fitted"), "{one_way}");
+    assert!(one_way.contains("fit to a record in which it falls too"), "{one_way}");
+}
