@@ -223,3 +223,32 @@ fn records_that_are_unlikely_are_told_with_place_and_remedy() {
     assert!(one_way.contains("`v` only rises in all that is fitted"), "{one_way}");
     assert!(one_way.contains("fit to a record in which it falls too"), "{one_way}");
 }
+
+#[test]
+fn a_diagnosis_takes_orders_up_to_the_highest() {
+    let folder = Folder::with_good_rig();
+    let noise = |t: usize| ((t as f64 * 12.9898).sin() * 43_758.545_3).fract() - 0.5;
+    let record = |phase: f64| {
+        let (mut text, mut y, mut before) = ("v,y\n".to_owned(), 0.0, 0.0);
+        for t in 0..600 {
+            let v = (0.17 * t as f64 + phase).sin() + 0.6 * (0.031 * t as f64).cos();
+            y = 0.6 * y + 0.4 * (v + 0.3 * (v - before).signum()) + 0.02 * noise(t);
+            before = v;
+            text += &format!("{v},{y}\n");
+        }
+        text
+    };
+    folder.write("a.csv", &record(0.0));
+    folder.write("b.csv", &record(1.0));
+    for order in [12, 20] {
+        let rig = format!(
+            "name = \"high\"\nsample_time = 1.0\norder = {order}\n\
+             [[record]]\nfile = \"a.csv\"\nrole = \"free\"\nuse = \"fit\"\n\
+             [[record]]\nfile = \"b.csv\"\nrole = \"free\"\nuse = \"holdout\"\n"
+        );
+        folder.write("high.toml", &rig);
+        let without: Vec<&str> = ["--without", "border_wear", "--without", "border_resolution"].to_vec();
+        let (code, message) = run(&folder, &[&["gap", "high.toml", "--quiet"], &without[..]].concat());
+        assert_eq!(code, Some(0), "order {order}: {message}");
+    }
+}

@@ -41,7 +41,7 @@ fn any_rig() -> impl Strategy<Value = Rig> {
     );
     let sample_time = prop_oneof![Just(0.01), Just(1.0 / 3.0), Just(86_400.0), 1e-9..1e3f64];
     (
-        "[^\\s]\\PC{0,20}",
+        "[^\\s\\pC]\\PC{0,20}",
         sample_time,
         prop::option::of(1usize..=20),
         interval,

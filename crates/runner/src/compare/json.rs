@@ -19,6 +19,7 @@ pub fn json(comparison: &Comparison, baseline: &Results, new: &Results) -> Strin
         "beyond_chance": comparison.beyond_chance().into_iter().map(difference).collect::<Vec<_>>(),
         "only_baseline": comparison.only_baseline,
         "only_new": comparison.only_new,
+        "known": comparison.known,
     });
     format!("{page:#}\n")
 }

@@ -8,10 +8,12 @@ use statrs::distribution::{ContinuousCDF, Normal};
 pub struct Comparison {
     /// Every measure found in both, in the order of the baseline.
     pub differences: Vec<Difference>,
-    /// Cells and parameters of the baseline that the new table lacks.
+    /// Cells, parameters and measures of the baseline that the new table lacks.
     pub only_baseline: Vec<String>,
-    /// Cells and parameters of the new table that the baseline lacks.
+    /// Cells, parameters and measures of the new table that the baseline lacks.
     pub only_new: Vec<String>,
+    /// What no noise changes and is not the same: the truth, what theory and bound say, where a border point lies.
+    pub known: Vec<String>,
     /// Largest |z| that chance explains among so many differences.
     pub threshold: f64,
 }
@@ -51,23 +53,16 @@ const LEVEL: f64 = 0.01;
 /// at least 99 % if nothing changed and both tables have independent noise. Differences of one cell are correlated, and so are cells that share their noise; the threshold
 /// then errs towards calling a change chance.
 pub fn compare(baseline: &Results, new: &Results) -> Comparison {
-    let mut differences = Vec::new();
-    let mut only_baseline = Vec::new();
+    let (mut differences, mut known) = (Vec::new(), Vec::new());
     for cell in &baseline.cells {
-        let Some(twin) = find(new, cell) else {
-            only_baseline.push(name(cell));
-            continue;
-        };
-        for parameter in &cell.parameters {
-            match twin.parameters.iter().find(|p| p.name == parameter.name) {
-                Some(other) => differences.extend(pair(cell, parameter, other)),
-                None => only_baseline.push(format!("{}: {}", name(cell), parameter.name)),
-            }
+        for (parameter, other) in twins(cell, new) {
+            differences.extend(pair(cell, parameter, other));
+            known.extend(changed(cell, parameter, other));
         }
     }
-    let only_new = lacking(new, baseline);
+    let (only_baseline, only_new) = (lacking(baseline, new), lacking(new, baseline));
     let threshold = sidak(differences.len());
-    Comparison { differences, only_baseline, only_new, threshold }
+    Comparison { differences, only_baseline, only_new, known, threshold }
 }
 
 impl Comparison {
@@ -79,16 +74,21 @@ impl Comparison {
         beyond
     }
 
-    /// Whether the tables hold the same cells and no difference is beyond chance.
+    /// Whether the tables hold the same measures, at least one, of the same truth, and no difference is beyond chance.
     pub fn agrees(&self) -> bool {
-        self.only_baseline.is_empty() && self.only_new.is_empty() && self.beyond_chance().is_empty()
+        self.holds_the_same() && self.beyond_chance().is_empty()
     }
 
-    /// Whether every measure is the same to the last digit.
+    /// Whether, besides, every measure is the same to the last digit.
     pub fn identical(&self) -> bool {
-        self.differences.iter().all(|d| d.baseline == d.new)
+        self.holds_the_same() && self.differences.iter().all(|d| d.baseline == d.new)
+    }
+
+    fn holds_the_same(&self) -> bool {
+        !self.differences.is_empty()
             && self.only_baseline.is_empty()
             && self.only_new.is_empty()
+            && self.known.is_empty()
     }
 }
 
@@ -100,21 +100,54 @@ fn name(cell: &Cell) -> String {
     format!("{}, N = {}", cell.series, cell.samples)
 }
 
-/// Cells and parameters of one table that the other lacks.
+/// The parameters of a cell that another table has as well, with those of that one.
+fn twins<'r>(cell: &'r Cell, other: &'r Results) -> impl Iterator<Item = (&'r Parameter, &'r Parameter)> {
+    let twin = find(other, cell);
+    let of = move |p: &'r Parameter| Some((p, twin?.parameters.iter().find(|q| q.name == p.name)?));
+    cell.parameters.iter().filter_map(of)
+}
+
+/// Cells, parameters and measures of one table that the other lacks.
 fn lacking(one: &Results, other: &Results) -> Vec<String> {
     let mut names = Vec::new();
     for cell in &one.cells {
-        match find(other, cell) {
-            None => names.push(name(cell)),
-            Some(twin) => names.extend(
-                cell.parameters
-                    .iter()
-                    .filter(|p| twin.parameters.iter().all(|q| q.name != p.name))
-                    .map(|p| format!("{}: {}", name(cell), p.name)),
-            ),
+        let Some(twin) = find(other, cell) else {
+            names.push(name(cell));
+            continue;
+        };
+        let has = |p: &&Parameter| twin.parameters.iter().any(|q| q.name == p.name);
+        let missing = cell.parameters.iter().filter(|p| !has(p));
+        names.extend(missing.map(|p| format!("{}: {}", name(cell), p.name)));
+        for (p, q) in twins(cell, other) {
+            let lost = MEASURES.iter().filter(|(_, get)| get(p).is_some() && get(q).is_none());
+            names.extend(lost.map(|(measure, _)| format!("{}: {measure} of {}", name(cell), p.name)));
         }
     }
     names
+}
+
+type Known = fn(&Parameter) -> Option<f64>;
+
+const KNOWN: [(&str, Known); 4] = [
+    ("truth", |p| Some(p.truth)),
+    ("position", |p| p.v),
+    ("standard deviation by theory", |p| p.theory_sd),
+    ("bound of the standard deviation", |p| p.bound_sd),
+];
+
+/// What is known of a parameter without any noise and is not the same.
+fn changed(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<String> {
+    let differs = |(what, get): (&str, Known)| {
+        let told = |x: Option<f64>| x.map_or_else(|| "none".to_owned(), |x| x.to_string());
+        let (one, other) = (get(baseline), get(new));
+        let is_same = match (one, other) {
+            (Some(one), Some(other)) => is_rounding(one, other),
+            (one, other) => one == other,
+        };
+        let (place, name) = (name(cell), &baseline.name);
+        (!is_same).then(|| format!("{place}: {what} of {name}, {} → {}", told(one), told(other)))
+    };
+    KNOWN.into_iter().filter_map(differs).collect()
 }
 
 type Getter = fn(&Parameter) -> Option<Measured>;
@@ -151,11 +184,14 @@ fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
 const ROUNDING: f64 = 1e-8;
 
 fn distance(baseline: Measured, new: Measured) -> f64 {
-    let difference = new.value() - baseline.value();
-    if difference.abs() <= ROUNDING * baseline.value().abs().max(new.value().abs()) {
+    if is_rounding(baseline.value(), new.value()) {
         return 0.0;
     }
-    difference / baseline.mcse().hypot(new.mcse())
+    (new.value() - baseline.value()) / baseline.mcse().hypot(new.mcse())
+}
+
+fn is_rounding(one: f64, other: f64) -> bool {
+    (other - one).abs() <= ROUNDING * one.abs().max(other.abs())
 }
 
 /// Šidák's threshold for `count` differences; infinite for none.
@@ -205,6 +241,41 @@ mod tests {
         assert_eq!((comparison.only_baseline.len(), comparison.only_new.len()), (2, 0));
         let reverse = compare(&new, &baseline);
         assert_eq!((reverse.only_baseline.len(), reverse.only_new.len()), (0, 2));
+    }
+
+    #[test]
+    fn measures_that_are_gone_are_missed() {
+        let baseline = synthetic::results();
+        let mut new = baseline.clone();
+        new.cells[2].parameters[0].coverage = None;
+        let comparison = compare(&baseline, &new);
+        assert_eq!((comparison.only_baseline.len(), comparison.only_new.len()), (1, 0));
+        assert!(comparison.only_baseline[0].ends_with(": coverage of a1"), "{:?}", comparison.only_baseline);
+        assert!(!comparison.agrees() && !comparison.identical());
+        // Where both lost everything nothing was compared.
+        for p in new.cells.iter_mut().flat_map(|cell| &mut cell.parameters) {
+            (p.bias, p.bias_controlled, p.sd, p.sd_controlled) = (None, None, None, None);
+            (p.mse, p.coverage, p.model_sd) = (None, None, None);
+        }
+        let comparison = compare(&new, &new);
+        assert!(!comparison.agrees() && !comparison.identical());
+    }
+
+    #[test]
+    fn another_truth_is_another_study() {
+        let baseline = synthetic::results();
+        let shifted = |change: fn(&mut Parameter)| {
+            let mut new = baseline.clone();
+            change(&mut new.cells[1].parameters[0]);
+            let comparison = compare(&baseline, &new);
+            assert!(!comparison.agrees() && !comparison.identical());
+            comparison.known
+        };
+        let known = shifted(|p| p.truth += 5.0);
+        assert_eq!(known.len(), 1);
+        assert!(known[0].contains(": truth of a1, "), "{known:?}");
+        assert_eq!(shifted(|p| p.theory_sd = p.theory_sd.map(|sd| 1.1 * sd)).len(), 1);
+        assert_eq!(shifted(|p| p.bound_sd = None).len(), 1);
     }
 
     #[test]

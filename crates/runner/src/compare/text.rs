@@ -20,6 +20,7 @@ pub fn summary(comparison: &Comparison, baseline: &Results, new: &Results) -> St
     listed(&mut lines, "beyond chance", &beyond.iter().map(|d| told(d)).collect::<Vec<_>>());
     listed(&mut lines, "only in the baseline", &comparison.only_baseline);
     listed(&mut lines, "only in the new results", &comparison.only_new);
+    listed(&mut lines, "figures that no noise changes differ", &comparison.known);
     lines.push(verdict(comparison).to_owned());
     lines.join("\n") + "\n"
 }
@@ -60,10 +61,12 @@ fn verdict(comparison: &Comparison) -> &'static str {
         "The two are identical."
     } else if comparison.differences.is_empty() {
         "The two have no measure in common."
+    } else if !comparison.known.is_empty() {
+        "The two are of different studies: what no noise changes differs."
     } else if comparison.agrees() {
         "The two agree within their Monte-Carlo errors."
     } else if comparison.beyond_chance().is_empty() {
-        "What both hold agrees within Monte-Carlo errors, but they do not hold the same cells."
+        "What both hold agrees within Monte-Carlo errors, but they do not hold the same measures."
     } else {
         "The two differ beyond chance."
     }
@@ -87,5 +90,10 @@ mod tests {
         let told = summary(&compare(&baseline, &new), &baseline, &new);
         assert!(told.contains("1 beyond chance:\n  z = +21.2  bias of a1"), "{told}");
         assert!(told.ends_with("The two differ beyond chance.\n"), "{told}");
+
+        new.cells[0].parameters[0].truth += 5.0;
+        let told = summary(&compare(&baseline, &new), &baseline, &new);
+        assert!(told.contains("1 figures that no noise changes differ:\n"), "{told}");
+        assert!(told.ends_with("what no noise changes differs.\n"), "{told}");
     }
 }
