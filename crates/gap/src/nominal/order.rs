@@ -151,6 +151,7 @@ pub(crate) fn structure(
 ) -> Result<Choice, DiagnoseError> {
     match declared {
         Some(n) => {
+            let campaign = campaign.counted_for(n);
             let fit = identify(&campaign, n.max(1))?;
             let structure = Structure::of_order(n);
             Ok(Choice::One(Chosen { campaign, fit, structure, told: None }))
