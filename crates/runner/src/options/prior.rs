@@ -23,7 +23,8 @@ pub fn prior(text: &str) -> Result<Shares, String> {
     };
     let (none, none_of_these) = (share("none")?, share("unexplained")?);
     let effect = 1.0 - none - none_of_these;
-    if effect > 0.0 && text.split(',').count() == 2 {
+    // Shares that sum to one leave nothing but rounding.
+    if effect > 1e-9 && text.split(',').count() == 2 {
         Ok(Shares { effect, none, none_of_these })
     } else {
         Err(help())
