@@ -56,7 +56,10 @@ fn folders_that_hold_no_judged_rigs_are_refused() {
     let output = folder.switchback(&["calibrate", "."]).output().expect("it runs");
     assert_eq!(output.status.code(), Some(2));
     let words = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(words.contains("cases.jsonl"), "{words}");
+    assert!(words.contains("holds no judged rigs of a field examination"), "{words}");
+    let twice = calibrated(&folder, &[&report().display().to_string()]);
+    assert_eq!(twice.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&twice.stderr).contains("`field-slice` is among the folders already"));
     // Nothing is written over.
     let kept = folder.switchback(&["calibrate", ".", "--out", "rig.toml"]).output().expect("it runs");
     assert_eq!(kept.status.code(), Some(2));

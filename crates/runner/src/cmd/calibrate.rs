@@ -1,12 +1,12 @@
 //! `switchback calibrate DIR… --out VERDICT.json`
 
 use crate::calibrate::calibrated;
-use crate::examination::{PART_FILE, Part, read_cases};
+use crate::examination::{PART_FILE, Part, read_cases, scenario_of};
 use crate::failure::{CommandResult, Outcome};
-use crate::field::Case;
+use crate::field::{self, Case};
 use crate::options::{Force, Quiet};
 use miette::Diagnostic;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use switchback_gap::fitted::CalibrateError;
 use thiserror::Error;
 
@@ -41,6 +41,38 @@ struct TooFew {
     source: CalibrateError,
 }
 
+/// Folders that no examples can be taken from.
+#[derive(Debug, Error, Diagnostic)]
+enum FolderError {
+    /// It holds something else.
+    #[error("{0}: holds no judged rigs of a field examination")]
+    #[diagnostic(help(
+        "give folders that `switchback scenarios/calibrate-field.toml --shard K/N --out DIR` has written to its end"
+    ))]
+    NoField(String),
+    /// The same rigs would count twice.
+    #[error("{0}: `{1}` is among the folders already")]
+    #[diagnostic(help("give every part once"))]
+    Twice(String, String),
+}
+
+/// The rigs of a folder, and which part of what they are.
+fn judged(folder: &Path) -> miette::Result<(String, Vec<Case>)> {
+    let no_field = || FolderError::NoField(folder.display().to_string());
+    if folder.join(PART_FILE).is_file() {
+        if !field::is_field(&scenario_of(folder)?) {
+            return Err(no_field().into());
+        }
+        let part: Part<Case> = Part::read(folder)?;
+        return Ok((part.title(), part.cases().to_vec()));
+    }
+    if !folder.join("cases.jsonl").is_file() {
+        return Err(no_field().into());
+    }
+    let name = folder.file_name().unwrap_or_default();
+    Ok((name.to_string_lossy().into_owned(), read_cases(folder)?))
+}
+
 /// Reads what was judged, fits, tells, writes.
 ///
 /// # Errors
@@ -49,18 +81,11 @@ pub fn run(args: &Args) -> CommandResult {
     let out = args.force.claim_file(args.out.as_deref(), &[])?;
     let (mut cases, mut studies) = (Vec::new(), Vec::new());
     for folder in &args.folders {
-        let found: Vec<Case> = match folder.join(PART_FILE).is_file() {
-            true => {
-                let part = Part::read(folder)?;
-                studies.push(part.title());
-                part.cases().to_vec()
-            }
-            false => {
-                let name = folder.file_name().unwrap_or_default();
-                studies.push(name.to_string_lossy().into_owned());
-                read_cases(folder)?
-            }
-        };
+        let (study, found) = judged(folder)?;
+        if studies.contains(&study) {
+            return Err(FolderError::Twice(folder.display().to_string(), study).into());
+        }
+        studies.push(study);
         cases.extend(found);
     }
     let calibrated = calibrated(&cases, ("switchback calibrate", &studies)).map_err(|source| TooFew {

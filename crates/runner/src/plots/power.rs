@@ -67,7 +67,10 @@ fn row(canvas: &Canvas<'_>, frames: &Frames, index: usize, finding: &Finding) {
         return;
     }
     let [low, high] = finding.conclusion.interval.map(|size| place(frames, size));
-    canvas.fill((low, middle - 8.0), (high.max(low + 1.0), middle + 8.0), tint(OKABE_ITO[0], 0.3));
+    // One that begins beyond the sizes asked for has no place here.
+    if finding.conclusion.interval[0].is_finite() {
+        canvas.fill((low, middle - 8.0), (high.max(low + 1.0), middle + 8.0), tint(OKABE_ITO[0], 0.3));
+    }
     if let Outcome::From(size) = outcome {
         let x = place(frames, size);
         canvas.line(&[(x, middle - 11.0), (x, middle + 11.0)], Pen::new(INK, 3.0));

@@ -71,11 +71,6 @@ impl OutOfFold {
         let effects = self.0.effects.iter().map(|(effect, p)| (effect.name(), *p));
         effects.chain(rest).fold(("none", 0.0), |best, x| if x.1 > best.1 { x } else { best })
     }
-
-    /// The effects with their probability, the likeliest first.
-    pub fn effects(&self) -> &[(Effect, f64)] {
-        &self.0.effects
-    }
 }
 
 /// Examples that no verdict can be fitted to.
@@ -124,7 +119,8 @@ pub fn calibrate(
         log_loss_of_shares: rounded(by_shares),
         log_loss_of_rules: rounded(by_rules),
     };
-    let out_of_fold = alternatives.iter().zip(predicted).map(|(a, p)| out_of_fold(a, p)).collect();
+    let out_of_fold =
+        alternatives.iter().zip(predicted).map(|(a, p)| OutOfFold(Weighed::new(a, p))).collect();
     Ok((verdict(&coefficients, &alternatives, shares, provenance), out_of_fold))
 }
 
@@ -233,14 +229,6 @@ impl Folds {
     }
 }
 
-fn out_of_fold(alternatives: &Alternatives, p: &[f64]) -> OutOfFold {
-    let count = alternatives.effects.len();
-    let mut effects: Vec<(Effect, f64)> =
-        alternatives.effects.iter().copied().zip(p.iter().copied()).collect();
-    effects.sort_by(|x, y| y.1.total_cmp(&x.1));
-    OutOfFold(Weighed { effects, none: p[count], none_of_these: p[count + 1], is_met: true })
-}
-
 /// To six digits, as the file has it.
 fn rounded(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
@@ -301,7 +289,7 @@ mod tests {
         let from = &verdict.provenance;
         assert!(from.log_loss < 0.7 * from.log_loss_of_shares, "{from:?}");
         assert!((from.log_loss_of_rules + 0.2_f64.ln()).abs() < 1e-5);
-        let is_right = |(e, p): &(&Example, &OutOfFold)| e.holds.effects.first() == Some(&p.effects()[0].0);
+        let is_right = |(e, p): &(&Example, &OutOfFold)| e.holds.effects.first() == Some(&p.0.effects[0].0);
         let faults = || examples.iter().zip(&predicted).filter(|(e, _)| !e.holds.effects.is_empty());
         assert!(faults().filter(is_right).count() * 10 > 7 * faults().count());
         assert_eq!(verdict.shares, Shares { effect: 0.666_667, none: 0.166_667, none_of_these: 0.166_667 });
@@ -363,9 +351,10 @@ mod tests {
         let renamed = text.replacen("\"settling\"", "\"setling\"", 1);
         assert!(serde_json::from_str::<FittedVerdict>(&renamed).is_err());
         let evidence = &examples[0].evidence;
-        let before = verdict.weigh(evidence, |_| false);
+        let alternatives = |evidence: &[Compared]| Alternatives::of(evidence, |_| false);
+        let before = verdict.weigh(&alternatives(evidence));
         let rare = Shares { effect: 0.1, none: 0.8, none_of_these: 0.1 };
-        let after = verdict.clone().with_shares(rare).weigh(evidence, |_| false);
+        let after = verdict.clone().with_shares(rare).weigh(&alternatives(evidence));
         let odds = |w: &Weighed| w.effects[0].1 / w.none;
         let factor = (rare.effect / verdict.shares.effect) / (rare.none / verdict.shares.none);
         assert!((odds(&after) / odds(&before) / factor - 1.0).abs() < 1e-9);
@@ -373,6 +362,6 @@ mod tests {
         let mut strange = examples[0].evidence.clone();
         strange[0].left_by_best = 1e9;
         strange[0].effects.iter_mut().for_each(|e| e.delta_bic = 1e9);
-        assert!(!verdict.weigh(&strange, |_| false).is_met);
+        assert!(!verdict.weigh(&alternatives(&strange)).is_met);
     }
 }

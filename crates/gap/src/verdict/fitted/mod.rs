@@ -158,6 +158,17 @@ pub(crate) struct Weighed {
     pub(crate) is_met: bool,
 }
 
+impl Weighed {
+    /// From the probabilities of the effects, of nothing and of none of these, as if evidence like this was met.
+    fn new(alternatives: &Alternatives, p: &[f64]) -> Self {
+        let (of_effects, rest) = p.split_at(alternatives.effects.len());
+        let mut effects: Vec<(Effect, f64)> =
+            alternatives.effects.iter().copied().zip(of_effects.iter().copied()).collect();
+        effects.sort_by(|x, y| y.1.total_cmp(&x.1));
+        Self { effects, none: rest[0], none_of_these: rest[1], is_met: true }
+    }
+}
+
 /// Whether the likeliest effect makes a held-out record worse in every way of comparing.
 fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
     let first = weighed.effects.first();
@@ -192,18 +203,13 @@ impl FittedVerdict {
         values
     }
 
-    /// Weighs what was compared; `excluded` effects are none.
-    pub(crate) fn weigh(&self, evidence: &[Compared], excluded: impl Fn(Effect) -> bool) -> Weighed {
-        let alternatives = Alternatives::of(evidence, excluded);
-        let mut p = probabilities(&self.coefficients(), &alternatives.rows());
-        let none_of_these = p.pop().unwrap_or_default();
-        let none = p.pop().unwrap_or_default();
-        let mut effects: Vec<(Effect, f64)> = alternatives.effects.iter().copied().zip(p).collect();
-        effects.sort_by(|x, y| y.1.total_cmp(&x.1));
+    /// Weighs the alternatives of a diagnosis.
+    fn weigh(&self, alternatives: &Alternatives) -> Weighed {
+        let weighed = Weighed::new(alternatives, &probabilities(&self.coefficients(), &alternatives.rows()));
         let holds = |list: &[Coefficient], x: &[f64]| list.iter().zip(x).all(|(c, x)| c.holds(*x));
-        let first = effects.first().and_then(|(effect, _)| alternatives.features(*effect));
+        let first = weighed.effects.first().and_then(|(effect, _)| alternatives.features(*effect));
         let is_met = first.is_none_or(|x| holds(&self.effect, x)) && holds(&self.none, alternatives.of_all());
-        Weighed { effects, none, none_of_these, is_met }
+        Weighed { is_met, ..weighed }
     }
 
     /// What it says of what was compared; `excluded` effects are none, and one is named from a probability on.
@@ -213,8 +219,8 @@ impl FittedVerdict {
         excluded: impl Fn(Effect) -> bool,
         name_at: f64,
     ) -> SecondOpinion {
-        let weighed = self.weigh(evidence, &excluded);
         let alternatives = Alternatives::of(evidence, excluded);
+        let weighed = self.weigh(&alternatives);
         let with_features = |&(effect, p): &(Effect, f64)| {
             let contributions = alternatives.features(effect).map(|features| self.contributions(features));
             (effect, p, contributions.unwrap_or_default())
