@@ -1,12 +1,13 @@
-//! Tells the program which sources make, diagnose and judge the rigs of an examination: what they judged counts, whatever else of the
-//! program is built anew.
+//! Tells the program which sources make, diagnose and judge the rigs of an examination, and which run the replicates of a study: what they
+//! left counts, whatever else of the program is built anew.
 
 use sha2::{Digest, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs};
 
-/// The sources, and the versions of the libraries.
+/// The sources that judge, and the versions of the libraries.
 const JUDGES: [&str; 7] = [
     "../estimator/src",
     "../gap/src",
@@ -17,21 +18,46 @@ const JUDGES: [&str; 7] = [
     "../../Cargo.lock",
 ];
 
+/// The sources that run replicates.
+const STUDIES: [&str; 4] = ["../estimator/src", "src/scenario", "src/study", "../../Cargo.lock"];
+
 fn main() -> io::Result<()> {
+    tell("JUDGING_SOURCES", &hash(&JUDGES)?);
+    tell("STUDY_SOURCES", &hash(&STUDIES)?);
+    tell("LOCK", &hash(&["../../Cargo.lock"])?);
+    tell("TARGET", &env::var("TARGET").unwrap_or_default());
+    tell("COMMIT", &commit());
+    Ok(())
+}
+
+fn tell(name: &str, value: &str) {
+    println!("cargo::rustc-env={name}={value}");
+}
+
+/// The commit that was checked out when this was built last, with `-dirty` where files were changed since; nothing where there is none.
+///
+/// A new commit alone is no reason to build anew: the hashes tell the sources apart.
+fn commit() -> String {
+    let told =
+        Command::new("git").args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]).output();
+    let told = told.ok().filter(|told| told.status.success());
+    told.map(|told| String::from_utf8_lossy(&told.stdout).trim().to_owned()).unwrap_or_default()
+}
+
+/// One hash of all files below some paths.
+fn hash(paths: &[&str]) -> io::Result<String> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let mut digest = Sha256::new();
-    for judge in JUDGES {
-        println!("cargo::rerun-if-changed={judge}");
-        for file in files(&here.join(judge))? {
+    for path in paths {
+        println!("cargo::rerun-if-changed={path}");
+        for file in files(&here.join(path))? {
             let text = fs::read(&file)?;
             let name = file.strip_prefix(&here).unwrap_or(&file).to_string_lossy().replace('\\', "/");
             digest.update(format!("{name} {}\n", text.len()));
             digest.update(text);
         }
     }
-    let hash: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    println!("cargo::rustc-env=JUDGING_SOURCES={hash}");
-    Ok(())
+    Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// The files below a path, or the file that it is, in one order.

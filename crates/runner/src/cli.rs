@@ -44,6 +44,8 @@ enum Verb {
     Man(cmd::man::Args),
     Merge(cmd::merge::Args),
     Plant(cmd::plant::Args),
+    Replay(cmd::replay::Args),
+    Rerun(cmd::rerun::Args),
     Rig(cmd::rig::Args),
     Simulate(cmd::simulate::Args),
 }
@@ -121,6 +123,8 @@ impl Cli {
             Some(Verb::Man(args)) => cmd::man::run(&args),
             Some(Verb::Merge(args)) => cmd::merge::run(&args),
             Some(Verb::Plant(args)) => cmd::plant::run(&args),
+            Some(Verb::Replay(args)) => cmd::replay::run(&args),
+            Some(Verb::Rerun(args)) => cmd::rerun::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),

@@ -14,19 +14,22 @@ pub enum Outcome {
     Done,
     /// What was expected did not come out, or what was compared differs; exit code 1.
     Unmet,
+    /// Part of it is done and kept, and the rest is to be asked for; exit code 3.
+    Stopped,
 }
 
 /// Exit code of a process that a signal stopped: what was finished is kept.
-pub const STOPPED: i32 = 3;
+pub const STOPPED: u8 = 3;
 
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
 pub type CommandResult = Result<Outcome, miette::Report>;
 
-/// Tells a failure on stderr and turns the result into the process's exit code: 0, 1 or 2.
+/// Tells a failure on stderr and turns the result into the process's exit code: 0, 1, 2 or 3.
 pub fn exit_code(result: CommandResult) -> ExitCode {
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Unmet) => ExitCode::from(1),
+        Ok(Outcome::Stopped) => ExitCode::from(STOPPED),
         Err(report) => {
             let diagnostic: &dyn Diagnostic = report.as_ref();
             let told =

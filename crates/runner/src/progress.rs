@@ -43,6 +43,14 @@ impl Meter {
         Self { bar, plain: !quiet && !terminal, what, planned: AtomicU64::new(0), done: AtomicU64::new(0) }
     }
 
+    /// So many units are to be done, of which a former run did some.
+    pub fn begin(&self, planned: usize, done: usize) {
+        self.planned(planned as u64);
+        self.bar.set_position(done as u64);
+        self.bar.reset_eta();
+        self.done.store(done as u64, Ordering::Relaxed);
+    }
+
     /// Takes the bar off the screen.
     pub fn finish(&self) {
         self.bar.finish_and_clear();

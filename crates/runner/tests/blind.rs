@@ -1,7 +1,8 @@
 //! The blind study, with examiners that are easy to foresee in place of the diagnosis.
 
+use rayon::prelude::*;
 use std::collections::BTreeMap;
-use switchback::blind::{self, Case, Expect, Kind, Sealed, Study, WrittenKeys};
+use switchback::blind::{self, Case, Examiner, Expect, Kind, Sealed, Study, WrittenKeys};
 use switchback::examination::{Journal, KEY_FILE, SEALED_FILE, Sealed as _, key_file};
 use switchback::output::sha256;
 use switchback::plots;
@@ -103,13 +104,17 @@ fn quiet(_: &Rig, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
     Ok(silent(Status::None))
 }
 
+fn examined(sealed: &[Sealed], examiner: Examiner<'_>) -> Vec<Case> {
+    sealed.par_iter().map(|rig| blind::examine(rig, examiner).unwrap()).collect()
+}
+
 fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
         let study = study();
         let sealed = sealed(&study);
         let key = key_file(&sealed);
-        let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
+        let cases = examined(&sealed, &quiet);
         let scores = blind::score(&cases, &study.expect);
         let files = blind::artefacts(&study, &sha256(&key), &cases, &scores);
         let tables = files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec()));
@@ -163,7 +168,7 @@ fn an_examiner_sees_what_a_users_folder_holds_and_never_the_withheld_effect() {
         assert!(settings.effects.len() >= all - 1);
         Ok(silent(if settings.effects.len() < all { Status::Unexplained } else { Status::None }))
     };
-    let cases = blind::examine(&sealed, &watched, &|| ()).unwrap();
+    let cases = examined(&sealed, &watched);
     let unexplained = cases.iter().filter(|c| c.reply.status == "unexplained").count();
     assert_eq!(unexplained, 3);
     assert!(cases.iter().filter(|c| c.reply.status == "unexplained").all(|c| c.kind == Kind::Outside));
@@ -175,12 +180,12 @@ fn a_refused_rig_counts_as_failed() {
     study.slice = Some(3);
     let sealed = sealed(&study);
     let refuse = |_: &Rig, _: &Settings| Err(DiagnoseError::ConstantInput);
-    let cases = blind::examine(&sealed, &refuse, &|| ()).unwrap();
+    let cases = examined(&sealed, &refuse);
     assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
 }
 
 fn keep(journal: &mut Journal<Case>, rigs: &[Sealed], cases: &[Case]) {
-    journal.keep(rigs.iter().map(|rig| rig.key_line()).zip(cases)).unwrap();
+    rigs.iter().zip(cases).for_each(|(rig, case)| journal.keep(&rig.key_line(), case).unwrap());
 }
 
 #[test]
@@ -189,7 +194,7 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     let mut study = study();
     study.slice = Some(4);
     let sealed = sealed(&study);
-    let cases = blind::examine(&sealed, &quiet, &|| ()).unwrap();
+    let cases = examined(&sealed, &quiet);
     let mut journal = Journal::<Case>::open(folder.path(), "one").unwrap();
     assert!(sealed.iter().all(|rig| journal.recall(&rig.key_line()).is_none()));
     keep(&mut journal, &sealed[..2], &cases[..2]);

@@ -3,6 +3,7 @@
 mod common;
 
 use common::Folder;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -50,7 +51,7 @@ fn judged(field: &Field<'_>, shard: Shard) -> (String, Vec<Case>) {
     let tickets = field.design().expect("a design").into_iter().enumerate();
     let tickets = tickets.filter(|(k, _)| shard.holds(*k)).map(|(_, ticket)| ticket).collect();
     let sealed = field.seal(tickets, "", &|| ()).expect("rigs");
-    let mut cases = field.judge(&sealed, &|| ()).expect("cases");
+    let mut cases: Vec<Case> = sealed.par_iter().map(|rig| field.judge(rig).expect("a case")).collect();
     cases.sort_by_key(|case| case.id);
     (key_file(&sealed), cases)
 }

@@ -60,7 +60,10 @@ fn a_stopped_study_leaves_the_old_report_as_it_was() {
         let (code, told) = stop(process, signal);
         assert_eq!(code, Some(3), "{signal}: {told}");
         assert!(told.contains("stopped"), "{told}");
-        assert_eq!(listing(&out), names, "{signal}");
+        // What the replicates so far left behind, and what they amount to, lie beside it.
+        let mut now = listing(&out);
+        now.retain(|name| name != "partial" && name != "unfinished.sums");
+        assert_eq!(now, names, "{signal}");
         assert!(!is_staging(&folder.path(".")), "{signal}");
         let after: Vec<_> = names.iter().map(|name| fs::read(out.join(name)).expect("a file")).collect();
         assert!(before == after, "{signal} changed the old report");
@@ -79,16 +82,35 @@ fn a_stopped_diagnosis_leaves_no_trace() {
     assert_eq!(folder.listing(), before);
 }
 
-/// From there it can go on; that it does is tested where the journal is.
 #[test]
-fn a_stopped_examination_keeps_its_keys_and_what_is_judged() {
+fn a_stopped_examination_keeps_its_keys_and_every_rig_that_is_judged() {
     let folder = Folder::with_good_rig();
-    folder.write("blind.toml", &BLIND.replace("seeds = 1", "seeds = 20").replace("slice = 1", "slice = 2"));
-    let process = start(&folder, &["blind.toml", "--quiet", "--out", "out"]);
-    let key = folder.path("out/unfinished-key.jsonl");
-    until("the keys", || fs::read_to_string(&key).is_ok_and(|keys| keys.ends_with('\n')));
+    let blind = |slice: &str| BLIND.replace("seeds = 1", "seeds = 20").replace("slice = 1", slice);
+    folder.write("blind.toml", &blind("slice = 4"));
+    let arguments = ["blind.toml", "--quiet", "--out", "out"];
+    let process = start(&folder, &arguments);
+    let journal = folder.path("out/unfinished.jsonl");
+    let judged = || fs::read_to_string(&journal).map_or(0, |text| text.matches("\"case\":").count());
+    until("the first rig", || judged() > 0);
     let (code, told) = stop(process, "-TERM");
     assert_eq!(code, Some(3), "{told}");
-    assert_eq!(fs::read_to_string(&key).expect("the keys").lines().count(), 2);
-    assert_eq!(listing(&folder.path("out")), ["unfinished-key.jsonl", "unfinished.jsonl"]);
+    let keys = fs::read_to_string(folder.path("out/unfinished-key.jsonl")).expect("the keys");
+    assert_eq!(keys.lines().count(), 4);
+    let kept = judged();
+    assert!((1..4).contains(&kept), "{kept} rigs are kept");
+    assert_eq!(listing(&folder.path("out")), ["partial", "unfinished-key.jsonl", "unfinished.jsonl"]);
+    let partial = fs::read_to_string(folder.path("out/partial/results.json")).expect("partial results");
+    let partial: serde_json::Value = serde_json::from_str(&partial).expect("JSON");
+    assert_eq!(partial["partial"]["of"], 4);
+    let summary = fs::read_to_string(folder.path("out/partial/summary.txt")).expect("a summary");
+    assert!(summary.starts_with("PARTIAL: the examination was stopped after "), "{summary}");
+    // The same command goes on, and the report is that of an undisturbed run.
+    folder.switchback(&arguments).assert().success();
+    folder.switchback(&["blind.toml", "--quiet", "--out", "whole"]).assert().success();
+    let report = |out: &str| {
+        let names = listing(&folder.path(out));
+        let names = names.into_iter().filter(|name| name != "provenance.json" && !name.contains("beside"));
+        names.map(|name| (fs::read(folder.path(out).join(&name)).expect("a file"), name)).collect::<Vec<_>>()
+    };
+    assert!(report("out") == report("whole"));
 }

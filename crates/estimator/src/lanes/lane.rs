@@ -74,14 +74,6 @@ impl Lane {
         result
     }
 
-    /// The sum over the replicates, in halves: one order, whatever the processor.
-    #[inline(always)]
-    pub(crate) fn total(self) -> f64 {
-        let [a, b, c, d, e, f, g, h] = self.0;
-        let [a, b, c, d] = [a + e, b + f, c + g, d + h];
-        (a + c) + (b + d)
-    }
-
     /// Each where `chosen`, else `other`.
     #[inline(always)]
     pub(crate) fn where_or(self, chosen: &[bool; LANES], other: Self) -> Self {

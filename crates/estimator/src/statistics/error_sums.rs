@@ -77,20 +77,25 @@ impl ErrorSums {
         }
     }
 
-    /// Adds `count` replicates, given what their [terms](TERMS) add up to.
-    #[inline(always)]
-    pub(super) fn add(&mut self, count: f64, totals: [f64; TERMS]) {
-        for k in 0..4 {
-            self.error[k] += totals[k];
+    /// Sums of so many replicates, of which the first-order part of so many is known, given what their [terms](TERMS) add up to.
+    pub(super) fn from_totals(count: f64, controlled: f64, totals: [f64; TERMS]) -> Self {
+        let [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2] = totals;
+        Self {
+            count,
+            error: [e1, e2, e3, e4],
+            variance: [v1, v2],
+            covered,
+            controlled,
+            remainder: [r1, r2],
+            square_remainder: [s1, s2],
         }
-        for k in 0..2 {
-            self.variance[k] += totals[4 + k];
-            self.remainder[k] += totals[7 + k];
-            self.square_remainder[k] += totals[9 + k];
-        }
-        self.covered += totals[6];
-        self.count += count;
-        self.controlled += count;
+    }
+
+    /// What [`from_totals`](Self::from_totals) takes.
+    pub(super) fn totals(&self) -> (f64, f64, [f64; TERMS]) {
+        let Self { error: [e1, e2, e3, e4], variance: [v1, v2], covered, .. } = *self;
+        let ([r1, r2], [s1, s2]) = (self.remainder, self.square_remainder);
+        (self.count, self.controlled, [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2])
     }
 
     /// Adds the sums of other replicates.
@@ -103,6 +108,11 @@ impl ErrorSums {
         add(&mut self.variance, &other.variance);
         add(&mut self.remainder, &other.remainder);
         add(&mut self.square_remainder, &other.square_remainder);
+    }
+
+    /// Error and reported standard error of the one replicate that was added; `None` if there is none, or more.
+    pub fn single(&self) -> Option<(f64, f64)> {
+        (self.count == 1.0).then(|| (self.error[0], self.variance[0].sqrt()))
     }
 
     /// Replicates so far.

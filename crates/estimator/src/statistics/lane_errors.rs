@@ -2,7 +2,6 @@
 
 use super::error_sums::{ErrorSums, normal_quantile_975};
 use crate::lanes::{LANES, Lane, Work, keep_apart, widest};
-use std::ops::Range;
 
 /// What eight replicates tell of every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
 #[derive(Debug, Clone, Copy)]
@@ -21,68 +20,93 @@ pub struct LaneErrors<'a> {
 /// square and its square.
 pub(super) const TERMS: usize = 11;
 
-/// The running sums of a cell's parameters, lane by lane, on their way to [`ErrorSums`].
+/// Sums over the replicates of eight sections, a lane each, of every parameter of a cell.
+///
+/// Each lane's replicates are added one after the other: sums that are kept and taken up later have the bits of sums in one go.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LaneSums {
     /// Replicates so far.
-    count: usize,
+    count: Lane,
+    /// … of which the first-order part is known.
+    controlled: Lane,
     terms: Vec<[Lane; TERMS]>,
 }
 
 impl LaneSums {
     /// Nothing yet, of so many parameters.
     pub fn new(parameters: usize) -> Self {
-        Self { count: 0, terms: vec![[Lane::ZERO; TERMS]; parameters] }
+        Self { terms: vec![[Lane::ZERO; TERMS]; parameters], ..Self::default() }
     }
 
-    /// Makes room for so many parameters, in the memory at hand. What was not drained from those there were before is lost.
-    pub fn reset(&mut self, parameters: usize) {
-        if self.count > 0 {
-            *self = Self::default();
-        }
-        self.terms.resize(parameters, [Lane::ZERO; TERMS]);
+    /// How many parameters there are.
+    pub fn parameters(&self) -> usize {
+        self.terms.len()
     }
 
-    /// Adds the replicates in some of the lanes, given the true values.
-    pub fn add(&mut self, truth: &[f64], errors: LaneErrors<'_>, lanes: Range<usize>) {
-        self.count += lanes.len();
-        let chosen: [bool; LANES] = std::array::from_fn(|l| lanes.contains(&l));
-        widest(Add { truth, errors: &[errors], sums: &mut self.terms, chosen: Some(&chosen) });
+    /// Adds the replicates in the chosen lanes, given the true values.
+    pub fn add(&mut self, truth: &[f64], errors: LaneErrors<'_>, chosen: &[bool; LANES]) {
+        self.count_chosen(chosen);
+        widest(Add { truth, errors: &[errors], sums: &mut self.terms, chosen: Some(chosen) });
     }
 
     /// Adds the replicates in all lanes, one [`LaneErrors`] after the other: the same to the bit as [`Self::add`] for each, in less time.
     pub fn add_all(&mut self, truth: &[f64], errors: &[LaneErrors<'_>]) {
-        self.count += errors.len() * LANES;
+        errors.iter().for_each(|_| self.count_chosen(&[true; LANES]));
         widest(Add { truth, errors, sums: &mut self.terms, chosen: None });
     }
 
-    /// Hands everything over to the sums of each parameter, and begins anew.
-    pub fn drain_into(&mut self, sums: &mut [ErrorSums]) {
-        if self.count > 0 {
-            widest(Drain { count: self.count as f64, running: &mut self.terms, sums });
-            self.count = 0;
+    fn count_chosen(&mut self, chosen: &[bool; LANES]) {
+        let more = Lane(chosen.map(f64::from));
+        self.count += more;
+        self.controlled += more;
+    }
+
+    /// The sums in a lane, one a parameter.
+    pub fn lane(&self, lane: usize) -> Vec<ErrorSums> {
+        let (count, controlled) = (self.count.0[lane], self.controlled.0[lane]);
+        let of = |terms: &[Lane; TERMS]| ErrorSums::from_totals(count, controlled, terms.map(|t| t.0[lane]));
+        self.terms.iter().map(of).collect()
+    }
+
+    /// Puts other sums into a lane: what [`lane`](Self::lane) gave, with more replicates added to every parameter.
+    pub fn set_lane(&mut self, lane: usize, sums: &[ErrorSums]) {
+        for (terms, sums) in self.terms.iter_mut().zip(sums) {
+            let (count, controlled, totals) = sums.totals();
+            (self.count.0[lane], self.controlled.0[lane]) = (count, controlled);
+            terms.iter_mut().zip(totals).for_each(|(term, total)| term.0[lane] = total);
         }
     }
-}
 
-/// [`LaneSums::drain_into`] on its way.
-struct Drain<'a> {
-    count: f64,
-    running: &'a mut [[Lane; TERMS]],
-    sums: &'a mut [ErrorSums],
-}
-
-impl Work for Drain<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for (terms, sums) in self.running.iter_mut().zip(self.sums) {
-            let mut totals = [0.0; TERMS];
-            for k in 0..TERMS {
-                totals[k] = terms[k].total();
-            }
-            sums.add(self.count, totals);
-            *terms = [Lane::ZERO; TERMS];
+    /// Adds the sums of other replicates, lane by lane.
+    pub fn merge(&mut self, other: &Self) {
+        self.count += other.count;
+        self.controlled += other.controlled;
+        for (into, from) in self.terms.iter_mut().zip(&other.terms) {
+            into.iter_mut().zip(from).for_each(|(into, from)| *into += *from);
         }
+    }
+
+    /// All that is in it, as numbers: [`from_numbers`](Self::from_numbers) reads them.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let lanes = [&self.count, &self.controlled].into_iter().chain(self.terms.iter().flatten());
+        lanes.flat_map(|lane| lane.0)
+    }
+
+    /// What [`numbers`](Self::numbers) gave, of so many parameters; `None` where there are too few.
+    pub fn from_numbers(parameters: usize, numbers: &mut impl Iterator<Item = f64>) -> Option<Self> {
+        let mut lane = || {
+            let mut lane = Lane::ZERO;
+            for number in &mut lane.0 {
+                *number = numbers.next()?;
+            }
+            Some(lane)
+        };
+        let (count, controlled) = (lane()?, lane()?);
+        let mut terms = vec![[Lane::ZERO; TERMS]; parameters];
+        for term in terms.iter_mut().flatten() {
+            *term = lane()?;
+        }
+        Some(Self { count, controlled, terms })
     }
 }
 
@@ -163,37 +187,37 @@ mod tests {
         fn lanes_add_what_their_replicates_add_one_by_one(
             values in prop::array::uniform8(-1.0..1.0_f64), variances in prop::array::uniform8(0.0..0.5_f64), first in prop::array::uniform8(-1.0..1.0_f64),
             second in prop::array::uniform8(-0.1..0.1_f64),
-            start in 0..LANES, count in 0..=LANES,
+            chosen in prop::array::uniform8(any::<bool>()),
         ) {
-            let lanes = start..LANES.min(start + count);
-            let left_out = |x: [f64; LANES]| Lane(std::array::from_fn(|l| if lanes.contains(&l) { x[l] } else { f64::NAN }));
+            let left_out = |x: [f64; LANES]| Lane(std::array::from_fn(|l| if chosen[l] { x[l] } else { f64::NAN }));
             let errors = LaneErrors {
                 values: &[left_out(values)],
                 variances: &[left_out(variances)],
                 first_order: &[left_out(first)],
                 second_order: &[left_out(second)],
             };
-            let (mut fast, mut running) = ([ErrorSums::default()], LaneSums::new(1));
-            running.add(&[0.3], errors, lanes.clone());
-            running.add(&[0.3], errors, lanes.clone());
-            running.drain_into(&mut fast);
-            running.drain_into(&mut fast);
-            let mut slow = ErrorSums::default();
-            for l in lanes.clone().chain(lanes) {
-                slow.push(ReplicateError {
-                    error: values[l] - 0.3,
-                    se: variances[l].sqrt(),
-                    first_order: Some(first[l]),
-                    second_order: second[l],
-                });
-            }
+            let mut fast = LaneSums::new(1);
+            fast.add(&[0.3], errors, &chosen);
+            fast.add(&[0.3], errors, &chosen);
             let all = |sums: &ErrorSums| sums.performance(Some(0.1)).map(|p| {
                 let controlled = [p.bias_controlled, p.sd_controlled].map(|x| x.map_or(0.0, |x| x.value + x.mcse));
                 [p.bias.value, p.bias.mcse, p.mse.value, p.mse.mcse, p.coverage.value, p.model_sd.value, p.model_sd.mcse, controlled[0], controlled[1]]
             });
-            prop_assert_eq!(fast[0].count(), slow.count());
-            for (fast, slow) in all(&fast[0]).iter().flatten().zip(all(&slow).iter().flatten()) {
-                prop_assert!((fast - slow).abs() < 1e-7, "{} against {}", fast, slow);
+            for l in 0..LANES {
+                let mut slow = ErrorSums::default();
+                for _ in 0..if chosen[l] { 2 } else { 0 } {
+                    slow.push(ReplicateError {
+                        error: values[l] - 0.3,
+                        se: variances[l].sqrt(),
+                        first_order: Some(first[l]),
+                        second_order: second[l],
+                    });
+                }
+                let fast = fast.lane(l);
+                prop_assert_eq!(fast[0].count(), slow.count());
+                for (fast, slow) in all(&fast[0]).iter().flatten().zip(all(&slow).iter().flatten()) {
+                    prop_assert!((fast - slow).abs() < 1e-7, "{} against {}", fast, slow);
+                }
             }
         }
 
@@ -206,15 +230,23 @@ mod tests {
                 .chunks_exact(8)
                 .map(|x| LaneErrors { values: &x[..2], variances: &x[2..4], first_order: &x[4..6], second_order: &x[6..] })
                 .collect();
-            let (mut together, mut apart) = (LaneSums::new(2), LaneSums::default());
-            apart.reset(2);
+            let (mut together, mut apart) = (LaneSums::new(2), LaneSums::new(2));
             together.add_all(&truth, &errors);
-            errors.iter().for_each(|errors| apart.add(&truth, *errors, 0..LANES));
+            errors.iter().for_each(|errors| apart.add(&truth, *errors, &[true; LANES]));
             prop_assert_eq!(&together, &apart);
-            let mut drained = [ErrorSums::default(); 2];
-            together.drain_into(&mut drained);
-            prop_assert_eq!(drained.map(|sums| sums.count()), [3 * LANES; 2]);
-            prop_assert_eq!(together, LaneSums::new(2));
+            let written: Vec<f64> = together.numbers().collect();
+            let read = LaneSums::from_numbers(2, &mut written.iter().copied());
+            prop_assert_eq!(read.as_ref(), Some(&together));
+            prop_assert!(LaneSums::from_numbers(2, &mut written[1..].iter().copied()).is_none());
+            let mut moved = LaneSums::new(2);
+            (0..LANES).for_each(|l| moved.set_lane(l, &together.lane(l)));
+            prop_assert_eq!(&moved, &together);
+            // Empty sums change nothing, on either side.
+            moved.merge(&LaneSums::new(2));
+            prop_assert_eq!(&moved, &together);
+            let mut empty = LaneSums::new(2);
+            empty.merge(&together);
+            prop_assert_eq!(&empty, &together);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{Case, Examiner, Sealed, Study, Ticket, WrittenKeys};
 use super::{artefacts, design, examine, score, seal, summary};
 use crate::examination::{Done, Examination, KEY_FILE, Measure, Report};
 use crate::plots;
+use crate::provenance::PROVENANCE_FILE;
 use miette::Diagnostic;
 use switchback_gap::{Model, diagnose};
 use switchback_maker::MakeError;
@@ -26,6 +27,7 @@ impl Examination for Blind {
 
     const FILES: &'static [&'static str] = &[
         KEY_FILE,
+        PROVENANCE_FILE,
         "results.json",
         "summary.txt",
         "answers.csv",
@@ -37,8 +39,6 @@ impl Examination for Blind {
         "baselines.*",
         "where.csv",
     ];
-
-    const BATCH: usize = 64;
 
     /// 5,600 rigs take two to ten hours on two threads; the mean is nearer to their lower end.
     const SECONDS: f64 = 5.0;
@@ -59,9 +59,9 @@ impl Examination for Blind {
         Ok(seal(tickets, &WrittenKeys::read(before), done).map_err(StudyError)?)
     }
 
-    fn judge(&self, batch: &[Sealed], done: Done<'_>) -> miette::Result<Vec<Case>> {
+    fn judge(&self, rig: &Sealed) -> miette::Result<Case> {
         let examiner: Examiner<'_> = &|rig, settings| diagnose(rig, Model::Identify, settings);
-        Ok(examine(batch, examiner, done).map_err(StudyError)?)
+        Ok(examine(rig, examiner).map_err(StudyError)?)
     }
 
     fn report(&self, key_sha256: &str, cases: &[Case]) -> miette::Result<Report> {

@@ -1,27 +1,37 @@
 //! `switchback SCENARIO.toml` where rigs are sealed: `study = "blind"` or `study = "field"`.
 
+use super::partial;
 use crate::examination::{
-    Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, SEALED_FILE, Sealed, key_file,
+    Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, Partial, Report, SEALED_FILE, Sealed, key_file,
 };
 use crate::failure::{CommandResult, Outcome};
 use crate::input::{read_text, stream};
-use crate::options::{Force, Quiet, Shard};
+use crate::interrupt::{self, Heeding};
+use crate::options::{Force, Quiet, Shard, Threads};
 use crate::output::{OutputError, OutputFolder, sha256};
 use crate::progress::Meter;
+use crate::provenance::{PROVENANCE_FILE, Provenance};
 use crate::study::Progress;
+use rayon::prelude::*;
 use std::path::Path;
-use std::time::Instant;
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
 
-/// Where the report goes.
+/// Where the report goes, and how it is made and told.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<'a> {
+pub struct Order<'a> {
     /// The folder asked for.
     pub out: Option<&'a Path>,
     /// Whether files of others may be replaced there.
     pub force: Force,
+    /// Worker threads.
+    pub threads: Threads,
+    /// What is printed.
+    pub page: Page,
 }
 
-impl Place<'_> {
+impl Order<'_> {
     /// Claims the folder asked for, or the one that belongs to an examination.
     ///
     /// # Errors
@@ -35,17 +45,36 @@ impl Place<'_> {
 /// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report, prints the summary.
 ///
 /// Interrupted, it is taken up where it stood by starting it again: what is judged is kept in the folder until the report is written.
-///
-/// Runs on the rayon pool that it is called from. Only the printed time depends on it.
+/// Only the printed time depends on the threads.
 ///
 /// # Errors
 /// A design that cannot be made, or a folder that cannot be written.
-pub fn run<E: Examination>(examination: &E, place: Place<'_>, page: Page) -> CommandResult {
+pub fn run<E: Examination>(examination: &E, order: Order<'_>) -> CommandResult {
+    let Order { threads, page, .. } = order;
+    let provenance = Provenance::begin(threads);
     // What a former run left stays until there is another report, the key with it.
-    let folder = place.claim(examination)?;
-    let Opened { keys, cases, journal } = judge(examination, examination.design()?, &folder, page)?;
-    let outcome = conclude(examination, (&keys, &cases), folder, page)?;
+    let folder = order.claim(examination)?;
+    let place = folder.path().to_owned();
+    let Begun { mut journal, sealed } =
+        seal(examination, threads.install(|| examination.design())??, &place, order)?;
+    let keys = key_file(&sealed);
+    let of = sealed.len();
+    let partial = |cases: &[E::Case]| {
+        let partial = Partial { rigs: cases.len(), of };
+        let report = threads.install(|| examination.report(&sha256(&keys), cases))??.of_part(partial);
+        order.force.claim(&partial::place(&place), E::FILES)?.commit(&report.files)?;
+        tell(&report, &partial::place(&place), page)
+    };
+    let Some(cases) = examine(examination, sealed, (&mut journal, &partial), order)? else {
+        return Ok(Outcome::Stopped);
+    };
+    let outcome = threads.install(|| {
+        let mut report = examination.report(&sha256(&keys), &cases)?;
+        report.files.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
+        conclude(report, &keys, folder, page)
+    })??;
     journal.close()?;
+    partial::forget(&place, E::FILES, order.force);
     Ok(outcome)
 }
 
@@ -57,63 +86,81 @@ pub fn run<E: Examination>(examination: &E, place: Place<'_>, page: Page) -> Com
 pub fn run_part<E: Examination>(
     examination: &E,
     (scenario, shard): (&Path, Shard),
-    place: Place<'_>,
-    page: Page,
+    order: Order<'_>,
 ) -> CommandResult {
+    let provenance = Provenance::begin(order.threads);
     let text = read_text(scenario)?;
     let default =
         Path::new("reports").join(format!("{}-part-{}-of-{}", examination.name(), shard.number, shard.of));
-    let out = place.out.unwrap_or(&default);
+    let out = order.out.unwrap_or(&default);
     let name = stream::copy_name(scenario);
-    let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name];
-    let folder = place.force.claim(out, &files)?;
-    let tickets = examination.design()?.into_iter().enumerate();
+    let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name, PROVENANCE_FILE];
+    let folder = order.force.claim(out, &files)?;
+    let tickets = order.threads.install(|| examination.design())??.into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
-    let Opened { keys, cases, journal } = judge(examination, tickets, &folder, page)?;
+    let Begun { mut journal, sealed } = seal(examination, tickets, folder.path(), order)?;
+    let keys = key_file(&sealed);
+    let of = sealed.len();
+    let told = |cases: &[E::Case]| {
+        order.page.say(&format!("stopped: {} of {of} rigs of part {shard} are judged and kept", cases.len()))
+    };
+    let Some(cases) = examine(examination, sealed, (&mut journal, &told), order)? else {
+        return Ok(Outcome::Stopped);
+    };
     let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
-    folder.commit(&part.artefacts())?;
+    let mut artefacts = part.artefacts();
+    artefacts.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
+    folder.commit(&artefacts)?;
     journal.close()?;
-    page.say(&format!("part {shard} written to {}", out.display()))?;
+    order.page.say(&format!("part {shard} written to {}", out.display()))?;
     Ok(Outcome::Done)
 }
 
-/// Rigs that were judged, with their key file.
-struct Opened<C> {
-    keys: String,
-    cases: Vec<C>,
-    journal: Journal<C>,
+/// An examination whose rigs are made.
+struct Begun<E: Examination> {
+    journal: Journal<E::Case>,
+    sealed: Vec<E::Sealed>,
 }
 
-/// Makes and seals the rigs, writes the key, diagnoses and opens.
-fn judge<E: Examination>(
+/// Makes and seals the rigs, and writes the key.
+fn seal<E: Examination>(
     examination: &E,
     tickets: Vec<E::Ticket>,
-    folder: &OutputFolder,
-    page: Page,
-) -> miette::Result<Opened<E::Case>> {
+    folder: &Path,
+    order: Order<'_>,
+) -> miette::Result<Begun<E>> {
+    let Order { threads, page, .. } = order;
     page.say(&format!("{}: {}", examination.name(), examination.question()))?;
     let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
-    let mut journal = Journal::open(folder.path(), JUDGING_SOURCES)?;
-    let sealed = examination.seal(tickets, &journal.keys(), &|| meter.advanced(1))?;
+    let mut journal = Journal::open(folder, JUDGING_SOURCES)?;
+    let before = journal.keys();
+    let sealed = threads.install(|| examination.seal(tickets, &before, &|| meter.advanced(1)))??;
     meter.finish();
     let keys = key_file(&sealed);
     // On disk before the first diagnosis: whoever doubts the report can hash it.
     journal.keep_keys(&keys)?;
-    let place = folder.path().join(SEALED_FILE);
+    let place = folder.join(SEALED_FILE);
     page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), place.display()))?;
     page.say(&format!("SHA-256 {}", sha256(&keys)))?;
-    let cases = examine(examination, sealed, &mut journal, page)?;
-    Ok(Opened { keys, cases, journal })
+    Ok(Begun { journal, sealed })
 }
 
-/// Judges what the journal does not know, batch after batch. Cases come by their number in the design.
+/// Told of what is judged where an examination is stopped.
+type Stopped<'a, C> = &'a dyn Fn(&[C]) -> miette::Result<()>;
+
+/// How often it is asked whether someone wished the examination to stop.
+const MOMENT: Duration = Duration::from_millis(100);
+
+/// Judges what the journal does not know, in parallel, and keeps each rig as soon as it is judged. Cases come by their number in the design;
+/// `None` if someone wished it to stop, after `stopped` has been told.
 fn examine<E: Examination>(
     examination: &E,
     sealed: Vec<E::Sealed>,
-    journal: &mut Journal<E::Case>,
-    page: Page,
-) -> miette::Result<Vec<E::Case>> {
+    (journal, stopped): (&mut Journal<E::Case>, Stopped<'_, E::Case>),
+    order: Order<'_>,
+) -> miette::Result<Option<Vec<E::Case>>> {
+    let Order { threads, page, .. } = order;
     let (mut cases, mut new) = (Vec::new(), Vec::new());
     for rig in sealed {
         match journal.recall(&rig.key_line()) {
@@ -127,37 +174,63 @@ fn examine<E: Examination>(
     let meter = Meter::counting("rigs diagnosed", page.quiet);
     meter.planned(new.len() as u64);
     let start = Instant::now();
-    for batch in new.chunks(E::BATCH) {
-        let judged = examination.judge(batch, &|| meter.advanced(1))?;
-        journal.keep(batch.iter().map(Sealed::key_line).zip(&judged))?;
-        cases.extend(judged);
-    }
+    let _heeding = Heeding::new();
+    let (tell, told) = mpsc::channel();
+    let judge = |tell: &mut mpsc::Sender<_>, rig: &E::Sealed| {
+        let judged = examination.judge(rig).map(|case| (rig.key_line(), case));
+        // Nobody listens any more once the examination is stopped, or something has failed.
+        tell.send(judged).map_err(|_| ())
+    };
+    let is_done = thread::scope(|scope| -> miette::Result<bool> {
+        // One rig may take as long as twenty others: each is a task of its own.
+        let judging = || new.par_iter().with_max_len(1).try_for_each_with(tell, judge);
+        scope.spawn(|| threads.install(judging));
+        let told = told;
+        loop {
+            match told.recv_timeout(MOMENT) {
+                Ok(judged) => {
+                    let (key_line, case) = judged?;
+                    journal.keep(&key_line, &case)?;
+                    meter.advanced(1);
+                    cases.push(case);
+                }
+                Err(mpsc::RecvTimeoutError::Timeout) => {}
+                Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(true),
+            }
+            if interrupt::is_wished() {
+                cases.sort_by_key(Judged::id);
+                if !cases.is_empty() {
+                    stopped(&cases)?;
+                }
+                page.say("run the same command again to go on")?;
+                return Ok(false);
+            }
+        }
+    })?;
     meter.finish();
     page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
     cases.sort_by_key(Judged::id);
-    Ok(cases)
+    Ok(is_done.then_some(cases))
 }
 
 /// The SHA-256 of the sources that make, diagnose and judge: the program may be built anew meanwhile, or elsewhere.
 pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 
-/// Scores, writes the report, prints the summary.
+/// Writes the report with its keys, prints the summary.
 ///
 /// # Errors
-/// A folder that cannot be written, or a figure that cannot be drawn.
-pub fn conclude<E: Examination>(
-    examination: &E,
-    (keys, cases): (&str, &[E::Case]),
-    folder: OutputFolder,
-    page: Page,
-) -> CommandResult {
-    let out = folder.path().display().to_string();
-    let mut report = examination.report(&sha256(keys), cases)?;
+/// A folder that cannot be written.
+pub fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page) -> CommandResult {
+    let out = folder.path().to_owned();
     report.files.add(KEY_FILE, keys);
     folder.commit(&report.files)?;
-    let words = || format!("{}\nwritten to {out}\n", report.summary);
-    page.quiet.tell_or(page.json, || report.files.text("results.json"), words)?;
+    tell(&report, &out, page)?;
     Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })
+}
+
+fn tell(report: &Report, out: &Path, page: Page) -> miette::Result<()> {
+    let words = || format!("{}\nwritten to {}\n", report.summary, out.display());
+    page.quiet.tell_or(page.json, || report.files.text("results.json"), words)
 }
 
 /// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.

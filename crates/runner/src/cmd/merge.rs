@@ -1,17 +1,19 @@
 //! `switchback merge DIR… --out DIR`
 
-use super::examination::{JUDGING_SOURCES, Page, Place, conclude};
+use super::consistency::{self, Order};
+use super::examination::{self, JUDGING_SOURCES, Page, conclude};
 use crate::blind::{self, Blind};
 use crate::examination::{Examination, Part, Whole, merged, scenario_of};
 use crate::failure::CommandResult;
 use crate::field::{self, Field};
-use crate::options::{Force, Quiet};
-use crate::output::verify;
+use crate::options::{Force, Quiet, Threads};
+use crate::output::{sha256, verify};
+use crate::provenance::{PROVENANCE_FILE, Provenance};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Make one report of all parts of an examination, the bytes of one run.
+/// Make one report of all parts of a study or an examination, the bytes of one run.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Folders that `switchback SCENARIO.toml --shard K/N --out DIR` has written.
@@ -51,11 +53,27 @@ pub fn run(args: &Args) -> CommandResult {
     if field::is_field(&first) {
         return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));
     }
-    merge(args, |scenario| Ok(Blind(blind::read(scenario)?)))
+    if blind::is_blind(&first) {
+        return merge(args, |scenario| Ok(Blind(blind::read(scenario)?)));
+    }
+    let order = Order {
+        file: &first,
+        command: "",
+        out: Some(&args.out),
+        shard: None,
+        from: None,
+        threads: Threads::default(),
+        json: args.json,
+        quiet: args.quiet,
+        force: args.force,
+    };
+    consistency::merge(&args.folders, order)
 }
 
 /// The same once the kind of examination is known; `read` makes it from its scenario.
 fn merge<E: Examination>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>) -> CommandResult {
+    let threads = Threads::default();
+    let provenance = Provenance::begin(threads);
     let mut parts: Vec<Part<E::Case>> = Vec::new();
     for folder in &args.folders {
         let part = Part::read(folder)?;
@@ -64,8 +82,13 @@ fn merge<E: Examination>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>)
         }
         parts.push(part);
     }
+    let shards = parts.iter().map(|part| part.shard().to_string()).collect();
     let Whole { scenario, keys, cases } = merged(parts)?;
     let examination = read(&scenario)?;
-    let folder = Place { out: Some(&args.out), force: args.force }.claim(&examination)?;
-    conclude(&examination, (&keys, &cases), folder, Page { json: args.json, quiet: args.quiet })
+    let page = Page { json: args.json, quiet: args.quiet };
+    let folder =
+        examination::Order { out: Some(&args.out), force: args.force, threads, page }.claim(&examination)?;
+    let mut report = examination.report(&sha256(&keys), &cases)?;
+    report.files.add_beside(PROVENANCE_FILE, provenance.end(shards).text());
+    conclude(report, &keys, folder, page)
 }

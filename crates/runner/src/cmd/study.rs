@@ -1,19 +1,18 @@
 //! `switchback SCENARIO.toml`
 
-use super::examination::{Page, Place, run_part};
+use super::consistency::{self, Order};
+use super::examination::{self, Page, run_part};
 use crate::blind::{self, Blind};
 use crate::examination::Examination;
-use crate::failure::{CommandResult, Outcome};
+use crate::failure::CommandResult;
 use crate::field::{self, Field};
 use crate::input::{FileKind, stream};
 use crate::options::{Force, Quiet, Shard, Threads, Yes};
-use crate::progress::Meter;
-use crate::results::to_json;
 use crate::rig::in_shell;
 use crate::scenario::{Engine, Scenario};
-use crate::{report, study};
+use crate::study;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use miette::{Diagnostic, IntoDiagnostic, miette};
+use miette::{Diagnostic, miette};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -33,9 +32,13 @@ pub struct Args {
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
     engine: Option<Engine>,
 
-    /// Run one of N equal parts of an examination, counted from 1; `switchback merge` makes the report of all of them
+    /// Run one of N equal parts, counted from 1; `switchback merge` makes the report of all of them
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+
+    /// Run the part of the next round of a study that asks for a precision: what `switchback merge` wrote of the rounds before
+    #[arg(long, value_name = "DIR", requires = "shard")]
+    from: Option<PathBuf>,
 
     /// Print results.json instead of words.
     #[arg(long)]
@@ -54,10 +57,6 @@ pub struct Args {
     force: Force,
 }
 
-/// What the folder gets.
-const FILES: [&str; 7] =
-    ["results.json", "table.csv", "report.md", "bias-*.svg", "sd-*.svg", "borders-*.svg", "paired-*.svg"];
-
 /// Reads, claims the folder, runs, writes, prints.
 ///
 /// # Errors
@@ -68,36 +67,34 @@ pub fn run(args: &Args) -> CommandResult {
     };
     refuse_other_kinds(file)?;
     if blind::is_blind(file) {
-        refuse_engine(args, "a blind study")?;
+        refuse_engine_and_rounds(args, "a blind study")?;
         return examined(args, file, &Blind(blind::read(file)?));
     }
     if field::is_field(file) {
-        refuse_engine(args, "a field examination")?;
+        refuse_engine_and_rounds(args, "a field examination")?;
         let study = field::read(file)?;
         let bases = field::Bases::load(&study, args.quiet)?;
         return examined(args, file, &Field::new(study, &bases));
-    }
-    if args.shard.is_some() {
-        let path = file.display();
-        return Err(miette!("{path} is a consistency study, of which no part runs alone; leave out --shard"));
     }
     let read = Scenario::read(file)?;
     let scenario = match args.engine {
         Some(engine) => read.on(engine),
         None => read,
     };
-    args.yes.permit(study::least_seconds(&scenario), args.threads, args.quiet)?;
-    let default = || Path::new("reports").join(scenario.name());
-    let folder = args.force.claim(&args.out.clone().unwrap_or_else(default), &FILES)?;
-    let meter = Meter::new(args.quiet);
-    let results = args.threads.install(|| study::run(&scenario, command(file, args.engine), &meter))?;
-    meter.finish();
-    let results = results.into_diagnostic()?;
-    let place = folder.path().display().to_string();
-    folder.commit(&args.threads.install(|| report::artefacts(&results))?)?;
-    let words = || format!("{}\nwritten to {place}\n", report::table(&results).trim_end());
-    args.quiet.tell_or(args.json, || to_json(&results), words)?;
-    Ok(if results.as_expected() { Outcome::Done } else { Outcome::Unmet })
+    let parts = args.shard.map_or(1.0, |shard| shard.of as f64);
+    args.yes.permit(study::least_seconds(&scenario) / parts, args.threads, args.quiet)?;
+    let order = Order {
+        file,
+        command: &command(file, args.engine),
+        out: args.out.as_deref(),
+        shard: args.shard,
+        from: args.from.as_deref(),
+        threads: args.threads,
+        json: args.json,
+        quiet: args.quiet,
+        force: args.force,
+    };
+    consistency::run(&scenario, order)
 }
 
 /// Runs an examination, or the part of it that is asked for.
@@ -105,17 +102,23 @@ fn examined<E: Examination>(args: &Args, file: &Path, examination: &E) -> Comman
     let rigs = examination.design()?.len().div_ceil(args.shard.map_or(1, |shard| shard.of));
     args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.quiet)?;
     let page = Page { json: args.json, quiet: args.quiet };
-    let place = Place { out: args.out.as_deref(), force: args.force };
-    args.threads.install(|| match args.shard {
-        Some(shard) => run_part(examination, (file, shard), place, page),
-        None => super::examination::run(examination, place, page),
-    })?
+    let order =
+        examination::Order { out: args.out.as_deref(), force: args.force, threads: args.threads, page };
+    match args.shard {
+        Some(shard) => run_part(examination, (file, shard), order),
+        None => examination::run(examination, order),
+    }
 }
 
-/// Only the engines of a consistency study can be chosen.
-fn refuse_engine(args: &Args, kind: &str) -> miette::Result<()> {
-    let Some(path) = args.scenario.as_ref().filter(|_| args.engine.is_some()) else { return Ok(()) };
-    Err(miette!("{} is {kind}, which has no engines; leave out --engine", path.display()))
+/// Only a consistency study has engines and rounds.
+fn refuse_engine_and_rounds(args: &Args, kind: &str) -> miette::Result<()> {
+    let given = [(args.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
+    match (&args.scenario, given.into_iter().find(|(is_given, ..)| *is_given)) {
+        (Some(path), Some((_, what, option))) => {
+            Err(miette!("{} is {kind}, which has no {what}; leave out {option}", path.display()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A file of another kind was given.

@@ -134,21 +134,14 @@ impl<C: Judged> Journal<C> {
         self.known.get(&sha256(key_line))
     }
 
-    /// Keeps judged rigs, each with its line in the key file.
+    /// Keeps a judged rig with its line in the key file.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
-    pub fn keep<'c>(&mut self, judged: impl IntoIterator<Item = (String, &'c C)>) -> Result<(), JournalError>
-    where
-        C: 'c,
-    {
-        let lines: String = judged.into_iter().map(|(key_line, case)| self.line(&key_line, case)).collect();
-        self.file.write_all(lines.as_bytes()).map_err(|source| self.error(source))
-    }
-
-    fn line(&self, key_line: &str, case: &C) -> String {
+    pub fn keep(&mut self, key_line: &str, case: &C) -> Result<(), JournalError> {
         let line = Line { program: &self.program, rig: sha256(key_line), case: case.clone() };
-        serde_json::to_string(&line).expect("names and numbers are JSON") + "\n"
+        let line = serde_json::to_string(&line).expect("names and numbers are JSON") + "\n";
+        self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
     }
 
     /// Removes it and the keys beside it: the report tells all.

@@ -29,6 +29,7 @@ pub use tables::{csv, share_field};
 
 use crate::output::Artefacts;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Hears of each piece of work that is done.
 pub type Done<'a> = &'a (dyn Fn() + Sync);
@@ -45,7 +46,7 @@ pub trait Sealed: Send + Sync {
 /// A rig after its key was opened: all that a report is made of.
 ///
 /// Read back only from a text that is never let go: its names may be slices of it.
-pub trait Judged: Clone + Send + Serialize + Deserialize<'static> {
+pub trait Judged: Clone + Send + Sync + Serialize + Deserialize<'static> {
     /// Its number in the full design.
     fn id(&self) -> usize;
 
@@ -64,6 +65,46 @@ pub struct Report {
     pub is_as_expected: bool,
 }
 
+/// Not all rigs of an examination.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Partial {
+    /// Rigs that were judged.
+    pub rigs: usize,
+    /// … of so many.
+    pub of: usize,
+}
+
+impl fmt::Display for Partial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PARTIAL: the examination was stopped after {} of {} rigs.", self.rigs, self.of)
+    }
+}
+
+impl Report {
+    /// The same report where not all rigs are judged: each of its texts says so, and so does results.json.
+    #[must_use]
+    pub fn of_part(self, partial: Partial) -> Self {
+        let mut files = Artefacts::default();
+        for (name, contents) in self.files.iter() {
+            match name.rsplit_once('.') {
+                Some((_, "json")) => files.add(name, with_partial(contents, partial)),
+                Some((_, "txt" | "md")) => {
+                    files.add(name, format!("{partial}\n\n{}", String::from_utf8_lossy(contents)));
+                }
+                _ => files.add(name, contents),
+            }
+        }
+        Self { files, summary: format!("{partial}\n\n{}", self.summary), ..self }
+    }
+}
+
+/// A JSON object with the field `partial`.
+fn with_partial(object: &[u8], partial: Partial) -> String {
+    let mut value: serde_json::Value = serde_json::from_slice(object).expect("the program wrote it");
+    value["partial"] = serde_json::to_value(partial).expect("numbers are JSON");
+    format!("{value:#}\n")
+}
+
 /// One kind of examination, ready to run. Nothing that it gives depends on the number of threads.
 pub trait Examination: Sync {
     /// A rig to be made.
@@ -75,10 +116,6 @@ pub trait Examination: Sync {
 
     /// The files of a report.
     const FILES: &'static [&'static str];
-
-    /// Rigs diagnosed before they are kept; bounds memory and what an interruption costs, changes no result. At the end of a batch threads
-    /// wait for the last rig.
-    const BATCH: usize;
 
     /// Seconds of one thread that a rig takes, made and judged, in the mean.
     const SECONDS: f64;
@@ -106,11 +143,11 @@ pub trait Examination: Sync {
         done: Done<'_>,
     ) -> miette::Result<Vec<Self::Sealed>>;
 
-    /// Diagnoses rigs in parallel, and opens their keys when all of them are diagnosed; in the order of `batch`.
+    /// Diagnoses a rig, then opens its key.
     ///
     /// # Errors
     /// A rig that cannot be made again.
-    fn judge(&self, batch: &[Self::Sealed], done: Done<'_>) -> miette::Result<Vec<Self::Case>>;
+    fn judge(&self, rig: &Self::Sealed) -> miette::Result<Self::Case>;
 
     /// Scores the cases.
     ///

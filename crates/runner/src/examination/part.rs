@@ -8,7 +8,9 @@ use super::journal::KEY_FILE;
 use crate::input::{FileError, read_text, stream};
 use crate::options::Shard;
 use crate::output::{Artefacts, sha256, stamped};
+use crate::study::Unusable;
 use miette::Diagnostic;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -68,7 +70,7 @@ pub enum MergeError {
     #[diagnostic(transparent)]
     File(#[from] FileError),
     /// The folder holds something else.
-    #[error("{folder}: holds no part of an examination")]
+    #[error("{folder}: holds no part of a study or an examination")]
     #[diagnostic(help(
         "give folders that `switchback SCENARIO.toml --shard K/N --out DIR` has written to its end"
     ))]
@@ -108,6 +110,46 @@ pub enum MergeError {
         first: String,
         /// Which part.
         shard: Shard,
+    },
+    /// What the replicates left behind cannot be read.
+    #[error("{folder}: {file} {why}", file = crate::kept::KEPT_FILE)]
+    #[diagnostic(help(
+        "merge parts of one scenario and one round, with the version of the program and on the platform that ran them; or run this part again"
+    ))]
+    Unusable {
+        /// The folder.
+        folder: String,
+        /// What is wrong.
+        why: Unusable,
+    },
+    /// One part was given where all of a round are wanted.
+    #[error(
+        "{folder}: is part {shard} alone, and not what `switchback merge` writes of all parts of a round"
+    )]
+    #[diagnostic(help("merge the parts of the round first"))]
+    OnePart {
+        /// The folder.
+        folder: String,
+        /// Which part.
+        shard: Shard,
+    },
+    /// Two folders hold the rounds before.
+    #[error("{folder} and {first} both hold the rounds before")]
+    #[diagnostic(help("give one of them, and the parts that were run from it"))]
+    TwoWholes {
+        /// One folder.
+        folder: String,
+        /// The other.
+        first: String,
+    },
+    /// Replicates are missing, or there twice.
+    #[error("replicates {start} to {end} are missing, or there twice")]
+    #[diagnostic(help("merge all parts of one round, with what was merged of the rounds before"))]
+    Gap {
+        /// Where the next should begin.
+        start: usize,
+        /// Where it does.
+        end: usize,
     },
     /// Parts are missing.
     #[error("of {scenario} these parts are missing: {missing}")]
@@ -179,6 +221,11 @@ impl<C: Judged> Part<C> {
         &self.cases
     }
 
+    /// Which part it is.
+    pub fn shard(&self) -> Shard {
+        self.label.shard
+    }
+
     /// The scenario and which part of it.
     pub fn title(&self) -> String {
         format!("{} {}", self.label.scenario, self.label.shard)
@@ -226,22 +273,32 @@ fn id_of(line: &str) -> Option<usize> {
     value["id"].as_u64().map(|id| id as usize)
 }
 
-/// The scenario's file of a part's folder: it tells which kind of examination the part is of.
+/// The scenario's file of a part's folder: it tells which kind of study or examination the part is of.
 ///
 /// # Errors
 /// [`MergeError`] if the folder holds no part.
 pub fn scenario_of(folder: &Path) -> Result<PathBuf, MergeError> {
-    Ok(folder.join(label(folder)?.scenario))
+    #[derive(Deserialize)]
+    struct Named {
+        scenario: String,
+    }
+    let Named { scenario } = written(folder)?;
+    Ok(folder.join(scenario))
+}
+
+/// What a folder says that it is, as far as it is asked for.
+fn written<T: DeserializeOwned>(folder: &Path) -> Result<T, MergeError> {
+    let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
+    if !folder.join(PART_FILE).is_file() {
+        return Err(no_part());
+    }
+    serde_json::from_str(&read_text(&folder.join(PART_FILE))?).map_err(|_| no_part())
 }
 
 /// What a folder says that it is.
 fn label(folder: &Path) -> Result<Label, MergeError> {
     let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
-    if !folder.join(PART_FILE).is_file() {
-        return Err(no_part());
-    }
-    let written: WrittenLabel =
-        serde_json::from_str(&read_text(&folder.join(PART_FILE))?).map_err(|_| no_part())?;
+    let written: WrittenLabel = written(folder)?;
     if written.schema == SCHEMA { Ok(written.label) } else { Err(no_part()) }
 }
 

@@ -11,6 +11,7 @@ use super::seal::{Key, PutIn, Sealed, WrittenKeys};
 use super::{report, score};
 use crate::diagnosis::met_by;
 use crate::examination::{Done, Examination, KEY_FILE, Report};
+use crate::provenance::PROVENANCE_FILE;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 use switchback_estimator::estimators::free::Identified;
@@ -189,6 +190,7 @@ impl Examination for Field<'_> {
 
     const FILES: &'static [&'static str] = &[
         KEY_FILE,
+        PROVENANCE_FILE,
         "results.json",
         "summary.md",
         "answers.csv",
@@ -197,8 +199,6 @@ impl Examination for Field<'_> {
         "confusion.*",
         "calibration.*",
     ];
-
-    const BATCH: usize = 8;
 
     /// Two diagnoses of records that nobody designed: 397 processor seconds for the 13 rigs of `scenarios/field-slice.toml`.
     const SECONDS: f64 = 30.0;
@@ -232,13 +232,8 @@ impl Examination for Field<'_> {
         Ok(sealed.collect())
     }
 
-    fn judge(&self, batch: &[Sealed], done: Done<'_>) -> miette::Result<Vec<Case>> {
-        let judged = batch.par_iter().with_max_len(1).map(|one| {
-            let case = self.judged(one);
-            done();
-            case
-        });
-        Ok(judged.collect())
+    fn judge(&self, rig: &Sealed) -> miette::Result<Case> {
+        Ok(self.judged(rig))
     }
 
     fn report(&self, key_sha256: &str, cases: &[Case]) -> miette::Result<Report> {

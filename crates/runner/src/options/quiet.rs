@@ -1,6 +1,6 @@
 //! `--quiet`
 
-use crate::output::{print, visible};
+use crate::output::{note, print, visible};
 
 /// Whether anything but errors is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
@@ -17,6 +17,13 @@ impl Quiet {
     /// If stdout cannot be written.
     pub fn tell(self, words: &str) -> miette::Result<()> {
         if self.quiet { Ok(()) } else { print(&visible(words)) }
+    }
+
+    /// Tells on the standard error how the work goes, or keeps silent.
+    pub fn note(self, words: &str) {
+        if !self.quiet {
+            note(words);
+        }
     }
 
     /// Prints the JSON that was asked for, or else tells the words.

@@ -2,12 +2,14 @@
 
 use super::visible;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Named contents, in the order of their names. A name is a file name, without folders.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Artefacts {
     files: BTreeMap<String, Vec<u8>>,
+    /// Names of those that tell of the run, rather than what came out.
+    beside: BTreeSet<String>,
 }
 
 impl Artefacts {
@@ -27,6 +29,20 @@ impl Artefacts {
         };
         let displaced = self.files.insert(name.clone(), contents);
         assert!(displaced.is_none(), "two artefacts are called `{name}`");
+    }
+
+    /// Adds a file that tells of the run rather than what came out: it may differ between two runs with equal results, and may be removed.
+    ///
+    /// # Panics
+    /// As [`add`](Self::add).
+    pub fn add_beside(&mut self, name: &str, contents: impl Into<Vec<u8>>) {
+        self.add(name, contents);
+        self.beside.insert(name.to_owned());
+    }
+
+    /// Whether a file was [added beside](Self::add_beside) the results.
+    pub(super) fn is_beside(&self, name: &str) -> bool {
+        self.beside.contains(name)
     }
 
     /// A file's text, empty where there is no such file.

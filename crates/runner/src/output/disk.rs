@@ -1,19 +1,19 @@
 //! The calls that change the disk, each of which may fail: one place, so that tests can make each of them fail.
 
-use super::faults::Faults;
+use super::faults::{Faults, VARIABLE, WHILE_RUNNING};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
 /// The disk.
 #[derive(Debug)]
-pub(super) struct Disk {
+pub struct Disk {
     faults: Faults,
 }
 
 impl Default for Disk {
     fn default() -> Self {
-        Self::with(Faults::of_environment())
+        Self::with(Faults::of(VARIABLE))
     }
 }
 
@@ -21,6 +21,32 @@ impl Disk {
     /// One with faults.
     pub(super) fn with(faults: Faults) -> Self {
         Self { faults }
+    }
+
+    /// For what is kept while a command runs: its faults are others than those of its report.
+    pub fn while_running() -> Self {
+        Self::with(Faults::of(WHILE_RUNNING))
+    }
+
+    /// Whether what is kept from time to time is kept at every opportunity.
+    pub fn is_eager(&self) -> bool {
+        self.faults.eager
+    }
+
+    /// Writes a file in place of another, which is there until the new one is whole.
+    ///
+    /// # Errors
+    /// If the system refuses; the other is still there.
+    pub fn replace(&self, place: &Path, contents: &[u8]) -> io::Result<()> {
+        let mut name = place.as_os_str().to_owned();
+        name.push(".new");
+        let new = Path::new(&name);
+        let _of_a_killed_run = fs::remove_file(new);
+        let written = self.write(new, contents).and_then(|()| self.rename(new, place));
+        if written.is_err() {
+            let _ = fs::remove_file(new);
+        }
+        written
     }
 
     /// Writes a new file. When it returns, the contents will survive a loss of power.

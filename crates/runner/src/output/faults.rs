@@ -5,13 +5,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// The variable that injects them into a whole process, as in `no-exchange pause=3 fail=7`. Builds without debug assertions do not read it.
-const VARIABLE: &str = "SWITCHBACK_FAULTS";
+pub(super) const VARIABLE: &str = "SWITCHBACK_FAULTS";
+
+/// The same for what a study keeps while it runs, as in `eager fail=7`.
+pub(super) const WHILE_RUNNING: &str = "SWITCHBACK_FAULTS_WHILE_RUNNING";
 
 /// What goes wrong, and when: calls that change the disk are counted from 1.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     /// Folders cannot be exchanged, as on network file systems.
     pub(super) no_exchange: bool,
+    /// What is otherwise kept from time to time is kept at every opportunity.
+    pub(super) eager: bool,
     /// The call that fails.
     pub(super) fail: Option<usize>,
     /// The call before which the process says `paused` and waits to be killed.
@@ -21,18 +26,24 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Those that the environment asks for.
-    pub(super) fn of_environment() -> Self {
+    /// Those that a variable of the environment asks for.
+    pub(super) fn of(variable: &str) -> Self {
         if !cfg!(debug_assertions) {
             return Self::default();
         }
-        let asked = std::env::var(VARIABLE).unwrap_or_default();
+        let asked = std::env::var(variable).unwrap_or_default();
         let number = |key: &str| {
             let value = asked.split(' ').find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
             value.and_then(|value| value.parse().ok())
         };
-        let no_exchange = asked.split(' ').any(|word| word == "no-exchange");
-        Self { no_exchange, fail: number("fail"), pause: number("pause"), calls: AtomicUsize::new(0) }
+        let says = |what: &str| asked.split(' ').any(|word| word == what);
+        Self {
+            no_exchange: says("no-exchange"),
+            eager: says("eager"),
+            fail: number("fail"),
+            pause: number("pause"),
+            calls: AtomicUsize::new(0),
+        }
     }
 
     /// Comes before each call.

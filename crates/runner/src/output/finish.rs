@@ -4,7 +4,7 @@ use super::OutputError;
 use super::disk::Disk;
 use super::moves::{Moves, is_there};
 use super::replace::{INCOMING, READY, carry_over, names};
-use super::written::{Owner, SUMS, Written};
+use super::written::{Owner, SUMS, Written, is_list};
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn bring_in(incoming: &Path, target: &Path, disk: &Disk) -> io::Result<()> {
     for name in names(incoming)?.iter().filter(|name| *name != SUMS) {
         disk.rename(&incoming.join(name), &target.join(name))?;
     }
-    for name in old.names().filter(|name| !new.lists(name)) {
+    for name in old.names().chain(old.beside()).filter(|name| !new.lists(name)) {
         let place = target.join(name);
         if is_there(&place) && old.owner(target, name)? == Owner::Program {
             fs::remove_file(place)?;
@@ -62,7 +62,7 @@ fn refuse_changes(incoming: &Path, target: &Path, forced: bool) -> Result<(), Ou
     let mut changed = Vec::new();
     for name in names(incoming).map_err(unwritable)? {
         let name = name.to_string_lossy().into_owned();
-        if name != SUMS && old.owner(target, &name).map_err(unwritable)? != Owner::Program {
+        if !is_list(&name) && old.owner(target, &name).map_err(unwritable)? != Owner::Program {
             changed.push(name);
         }
     }

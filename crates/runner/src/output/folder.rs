@@ -4,7 +4,7 @@ use super::disk::Disk;
 use super::moves::is_there;
 use super::replace::{READY, Replacement};
 use super::staging::{Staging, Uninterrupted, Unstaged, nearest};
-use super::written::{Owner, SUMS, Written};
+use super::written::{Owner, Written};
 use super::{Artefacts, OutputError};
 use std::fs;
 use std::io;
@@ -118,7 +118,9 @@ impl OutputFolder {
         let written = self.refuse_what_is_not_ours(artefacts.iter().map(|(name, _)| name))?;
         let stale = self.stale(&written, artefacts);
         let mut files = artefacts.clone();
-        files.add(SUMS, written.without(&stale).with(artefacts).text());
+        for (name, list) in written.without(&stale).with(artefacts).files() {
+            files.add(name, list);
+        }
         self.stage_and_replace(&files, &stale).map_err(|source| self.unwritable(source))
     }
 

@@ -34,6 +34,7 @@ mod written;
 
 pub use artefacts::Artefacts;
 pub use columns::columns;
+pub use disk::Disk;
 pub use error::OutputError;
 pub use folder::OutputFolder;
 pub use foreign::{csv_cell, markdown, markdown_code, markdown_text};

@@ -21,7 +21,8 @@ pub fn table(results: &Results) -> String {
         }
         lines.push(cells(row));
     }
-    let mut text = align(&lines);
+    let mut text = results.partial.map_or_else(String::new, |partial| format!("{partial}\n"));
+    text.push_str(&align(&lines));
     text.push_str(LEGEND);
     text.push_str(&slopes(results));
     text.push_str(&paired::lines(results));
@@ -153,8 +154,21 @@ fn precision(results: &Results) -> String {
 fn failures(results: &Results) -> String {
     let failed: Vec<_> = results.cells.iter().filter(|c| c.failures.count > 0).collect();
     let Some(worst) = failed.iter().max_by_key(|c| c.failures.count) else { return String::new() };
+    let mut methods: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for cell in &results.cells {
+        let (count, of) = methods.entry(cell.series.method.name()).or_default();
+        *count += cell.failures.count;
+        *of += cell.replicates;
+    }
+    let methods = methods.iter().filter(|(_, (count, _))| *count > 0);
+    let methods: Vec<String> = methods.map(|(name, (count, of))| format!("{name} {count} of {of}")).collect();
+    let number = results.cells.iter().position(|cell| cell == *worst).unwrap_or_default();
+    let example = worst.failures.replicates.first().map_or_else(String::new, |replicate| {
+        format!(" Look into one: switchback replay RESULTS {number}:{replicate}")
+    });
     format!(
-        "Replicates failed in {} of {} cells, at most {} of {} ({}, N = {}): {}. Their indices are in results.json.\n",
+        "Replicates without an estimate: {}; in {} of {} cells, at most {} of {} ({}, N = {}): {}.{example}\n",
+        methods.join(", "),
         failed.len(),
         results.cells.len(),
         worst.failures.count,

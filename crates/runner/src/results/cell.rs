@@ -32,6 +32,9 @@ pub struct Failures {
     pub replicates: Vec<usize>,
     /// What the first of them said.
     pub reason: Option<String>,
+    /// What each of those said whose indices are kept; empty where all said the same.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reasons: Vec<String>,
 }
 
 /// The performance of one parameter's estimate over the replicates.

@@ -25,8 +25,9 @@ pub use pooled::{root_mean_square, root_mean_square_exact};
 pub use series::{Group, Series};
 pub use summary::{Expectation, Fitted, Summary, Verdict};
 
-use crate::scenario::{Coupling, Engine, Labels};
+use crate::scenario::{Coupling, Engine, Labels, Scenario, ScenarioError};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Version of the layout of `results.json`; a reader refuses any other.
 pub const SCHEMA: u32 = 1;
@@ -49,6 +50,9 @@ pub struct Results {
     pub version: String,
     /// The command that makes this file again.
     pub command: String,
+    /// How far a study came that was stopped; `None` where it has all its replicates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<Partial>,
     /// How the replicates were computed.
     pub engine: Engine,
     /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
@@ -73,7 +77,32 @@ pub struct Results {
     pub cells: Vec<Cell>,
 }
 
+/// Not all of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Partial {
+    /// Replicates that were run.
+    pub replicates: usize,
+    /// … of so many, as far as was known.
+    pub of: usize,
+}
+
+impl fmt::Display for Partial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PARTIAL: the study was stopped after {} of {} replicates.", self.replicates, self.of)
+    }
+}
+
 impl Results {
+    /// The scenario again. It is called by the name of the results, as in `leafspring.toml`.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] if the results hold none that this version can read.
+    pub fn to_scenario(&self) -> Result<Scenario, ScenarioError> {
+        let text = toml::to_string(&self.scenario).unwrap_or_default();
+        Ok(Scenario::parse(&format!("{}.toml", self.name), &text)?.on(self.engine))
+    }
+
     /// Whether everything the scenario expects came out.
     pub fn as_expected(&self) -> bool {
         self.expectations.iter().all(|e| e.held)

@@ -25,6 +25,7 @@ pub(crate) fn results() -> Results {
         seed: 1,
         version: "0.1.0".to_owned(),
         command: "switchback scenarios/synthetic.toml".to_owned(),
+        partial: None,
         engine: Engine::Superposed,
         coupling: Coupling::Shared,
         slope_samples: vec![1_000, 3_000, 10_000, 30_000, 100_000],
@@ -106,6 +107,7 @@ fn cell(series: &Series, samples: usize) -> Cell {
             count: 2,
             replicates: vec![17, 203],
             reason: Some("the normal matrix is singular".to_owned()),
+            reasons: Vec::new(),
         },
         _ => Failures::default(),
     };

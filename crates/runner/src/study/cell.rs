@@ -30,8 +30,7 @@ pub(super) struct ParameterName {
 #[derive(Debug)]
 pub(super) struct ActiveCells<'a> {
     pub(super) active: &'a [bool],
-    /// One a section.
-    pub(super) sums: &'a mut [Vec<CellSums>],
+    pub(super) sums: &'a mut [CellSums],
 }
 
 impl ParameterName {

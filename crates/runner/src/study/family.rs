@@ -7,7 +7,6 @@ use super::memory::{LANES_AT_ONCE, Memory};
 use super::noise::LaneNoise;
 use super::setting::Setting;
 use std::cmp::Reverse;
-use switchback_estimator::statistics::LaneSums;
 
 /// The cells of one border, m and N, with their sums.
 pub(super) struct Family<'a> {
@@ -42,7 +41,7 @@ impl<'a> Family<'a> {
                     let contenders = setting.methods.iter().zip(own).zip(&active[..methods]);
                     let cells: Vec<Cell<'a>> = contenders
                         .filter(|(_, active)| **active)
-                        .map(|((contender, sums), _)| Cell::new(contender, sums))
+                        .map(|((contender, sums), _)| Cell { contender, sums })
                         .collect();
                     if !cells.is_empty() {
                         family.levels.push(NoiseLevel { setting, cells });
@@ -57,24 +56,17 @@ impl<'a> Family<'a> {
         families
     }
 
-    /// Estimates every active cell from the noise of some replicates of a round, in order.
+    /// Estimates every active cell from the noise of some replicates, in order.
     pub(super) fn run(self, noise: &[LaneNoise], memory: &mut Memory) {
         let Self { place, levels } = self;
         let Memory { crosses, few } = memory;
         place.cross(noise, crosses);
         few.shape(&place.plan.superpositions);
         for NoiseLevel { setting, mut cells } in levels {
-            few.sums.resize_with(cells.len(), LaneSums::default);
-            for (sums, cell) in few.sums.iter_mut().zip(&cells) {
-                sums.reset(cell.contender.parameters.len());
-            }
             for (noise, crosses) in noise.chunks(LANES_AT_ONCE).zip(crosses.chunks(LANES_AT_ONCE)) {
                 place.superpose(setting, (noise, crosses), few);
-                for (k, cell) in cells.iter_mut().enumerate() {
-                    place.estimate(cell, noise, few, k);
-                }
+                cells.iter_mut().for_each(|cell| place.estimate(cell, noise, few));
             }
-            cells.iter_mut().zip(&mut few.sums).for_each(|(cell, running)| cell.settle(running));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What the curves over N amount to: slopes, plateaus and a verdict, with jackknifed errors.
 
 use super::cell::CellSpec;
+use super::sections::SECTIONS;
 use super::views::{CellViews, Figures, Jackknifed, View, mean, quantile};
 use crate::results::{Group, Summary, Verdict};
 use rayon::prelude::*;
@@ -159,7 +160,8 @@ impl Curve<'_> {
 
     fn verdict(&self, sd_slope: Option<Jackknifed>, plateau: Option<&Plateau>) -> (Verdict, String) {
         let (Some(slope), Some(plateau)) = (sd_slope, plateau) else {
-            return (Verdict::Undecided, "needs two numbers of samples and 20 replicates or more".to_owned());
+            let needs = format!("needs two numbers of samples and {SECTIONS} replicates or more");
+            return (Verdict::Undecided, needs);
         };
         let name = &self.spec.parameters[plateau.parameter].name;
         let stays = plateau.jackknifed.value / plateau.sd;

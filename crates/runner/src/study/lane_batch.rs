@@ -4,40 +4,18 @@ use super::bench::Bench;
 use super::family_plan::FamilyPlan;
 use super::memory::{Few, LANES_AT_ONCE};
 use super::noise::LaneNoise;
-use super::sections::CellSums;
+use super::sections::{CellSums, SectionSums, section};
 use super::setting::{Contender, Setting};
 use std::array;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneSample, LaneStep};
 use switchback_estimator::estimators::pulse::{PulseData, StepMean};
 use switchback_estimator::simulation::{LaneCross, LaneGroupedNoise};
-use switchback_estimator::statistics::{LaneErrors, LaneSums};
+use switchback_estimator::statistics::LaneErrors;
 
 /// One method at one noise level.
 pub(super) struct Cell<'a> {
     pub(super) contender: &'a Contender,
-    sums: &'a mut [CellSums],
-    /// The section of the replicates that are not in the sums yet.
-    section: usize,
-}
-
-impl<'a> Cell<'a> {
-    pub(super) fn new(contender: &'a Contender, sums: &'a mut [CellSums]) -> Self {
-        Self { contender, sums, section: 0 }
-    }
-
-    /// Puts the running sums where they belong.
-    pub(super) fn settle(&mut self, running: &mut LaneSums) {
-        running.drain_into(&mut self.sums[self.section].parameters);
-    }
-
-    /// The sums of a section; the running ones belong there from now on.
-    fn enter(&mut self, section: usize, running: &mut LaneSums) -> &mut CellSums {
-        if section != self.section {
-            self.settle(running);
-            self.section = section;
-        }
-        &mut self.sums[section]
-    }
+    pub(super) sums: &'a mut CellSums,
 }
 
 /// Where a family stands.
@@ -84,16 +62,10 @@ impl Place<'_> {
         }
     }
 
-    /// Adds one method's errors to the sums of a cell, the `cell_index`-th of its level.
-    pub(super) fn estimate(
-        &self,
-        cell: &mut Cell<'_>,
-        noise: &[LaneNoise],
-        few: &mut Few,
-        cell_index: usize,
-    ) {
-        let Few { statistics, steps, fits, terms, sums } = few;
-        let (contender, running) = (cell.contender, &mut sums[cell_index]);
+    /// Adds one method's errors to the sums of a cell.
+    pub(super) fn estimate(&self, cell: &mut Cell<'_>, noise: &[LaneNoise], few: &mut Few) {
+        let Few { statistics, steps, fits, terms } = few;
+        let Cell { contender, sums } = cell;
         let experiments = contender.kind.experiments();
         let (first, last) = (experiments[0], experiments[experiments.len() - 1]);
         let parts = statistics.each_ref().map(|both| both.each_ref());
@@ -110,27 +82,25 @@ impl Place<'_> {
             first_order: &terms[i].first,
             second_order: &terms[i].second,
         });
-        let section = noise[0].section();
-        let plain =
-            |(noise, fit): (&LaneNoise, &LaneFit)| noise.section() == section && fit.sound == [true; LANES];
-        match section {
-            Some(section) if noise.iter().zip(&*fits).all(plain) => {
-                cell.enter(section, running).replicates += noise.len() * LANES;
-                running.add_all(&contender.truth, &errors[..noise.len()]);
-            }
-            _ => {
-                for (i, noise) in noise.iter().enumerate() {
-                    let alone = |l: usize, sums: &mut CellSums| {
-                        let steps = steps[i].map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
-                        self.estimate_alone(
-                            &self.bench.replicate(&statistics[i], l),
-                            steps,
-                            (contender, noise.first + l as u32),
-                            sums,
-                        );
-                    };
-                    add(cell, (&noise.sections, &fits[i].sound), (errors[i], running), alone);
-                }
+        sums.runs.replicates += noise.iter().map(LaneNoise::replicates).sum::<usize>();
+        let plain = |(noise, fit): (&LaneNoise, &LaneFit)| noise.is_whole() && fit.sound == [true; LANES];
+        if noise.len() == LANES_AT_ONCE && noise.iter().zip(&*fits).all(plain) {
+            // Every other eight belongs to the same sections.
+            let [a, b, c, d] = errors;
+            sums.of_eight(noise[0].first).add_all(&contender.truth, &[a, c]);
+            sums.of_eight(noise[1].first).add_all(&contender.truth, &[b, d]);
+            return;
+        }
+        for (i, noise) in noise.iter().enumerate() {
+            let solved = array::from_fn(|l| noise.chosen[l] && fits[i].sound[l]);
+            sums.of_eight(noise.first).add(&contender.truth, errors[i], &solved);
+            for l in (0..LANES).filter(|&l| noise.chosen[l] && !fits[i].sound[l]) {
+                let steps = steps[i].map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
+                let data = self.bench.replicate(&statistics[i], l);
+                let replicate = noise.first + l as u32;
+                let mut alone = sums.section(section(replicate as usize));
+                self.estimate_alone(&data, steps, (contender, replicate), &mut alone);
+                sums.put_section(section(replicate as usize), &alone);
             }
         }
     }
@@ -141,41 +111,14 @@ impl Place<'_> {
         data: &[PulseData; 2],
         steps: [StepMean; 2],
         (contender, replicate): (&Contender, u32),
-        sums: &mut CellSums,
+        sums: &mut SectionSums,
     ) {
         contender.kind.with_input(data, steps, |method| match method.fit() {
             Ok(fit) => {
                 let errors = fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
                 sums.push(errors, &contender.terms(self.plan.checkpoint, &method));
             }
-            Err(error) => sums.fail(replicate, error.to_string()),
+            Err(error) => sums.runs.fail(replicate, error.to_string()),
         });
-    }
-}
-
-/// Adds the errors of eight replicates that may belong to several sections; those without estimates go to `alone`.
-fn add(
-    cell: &mut Cell<'_>,
-    (sections, sound): (&[usize], &[bool; LANES]),
-    (errors, running): (LaneErrors<'_>, &mut LaneSums),
-    alone: impl Fn(usize, &mut CellSums),
-) {
-    let truth = &cell.contender.truth;
-    // Replicates that follow each other in a section are added in one go.
-    let mut next = 0;
-    for run in sections.chunk_by(|s, t| s == t) {
-        let sums = cell.enter(run[0], running);
-        sums.replicates += run.len();
-        let end = next + run.len();
-        while next < end {
-            let solved = (next..end).take_while(|l| sound[*l]).count();
-            if solved > 0 {
-                running.add(truth, errors, next..next + solved);
-                next += solved;
-            } else {
-                alone(next, sums);
-                next += 1;
-            }
-        }
     }
 }

@@ -2,7 +2,6 @@
 
 use switchback_estimator::estimators::pulse::lanes::{LaneFit, LaneStatistics, LaneStep, LaneTerms};
 use switchback_estimator::simulation::{LaneCross, LaneSuperposition};
-use switchback_estimator::statistics::LaneSums;
 
 /// Groups of eight replicates that a cell takes in before the next: so many statistics, and one cell's sums, stay in the cache.
 pub(super) const LANES_AT_ONCE: usize = 4;
@@ -22,8 +21,6 @@ pub(super) struct Few {
     pub(super) steps: [[LaneStep; 2]; LANES_AT_ONCE],
     pub(super) fits: [LaneFit; LANES_AT_ONCE],
     pub(super) terms: [LaneTerms; LANES_AT_ONCE],
-    /// Running sums of the level's cells.
-    pub(super) sums: Vec<LaneSums>,
 }
 
 impl Few {

@@ -7,6 +7,7 @@
 //! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
 //! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
 
+mod batches;
 mod bench;
 mod cell;
 mod cost;
@@ -25,25 +26,35 @@ mod noise_group;
 mod paired;
 mod pulse_kind;
 mod replay;
-mod round;
 mod sections;
 mod setting;
+mod single;
+mod standing;
 mod tabulate;
+mod tally;
 mod views;
 mod workload;
 
-use crate::results::{BorderCurve, Results, SCHEMA};
+use crate::options::Shard;
+use crate::output::sha256;
+use crate::platform::platform;
+use crate::results::{BorderCurve, Partial, Results, SCHEMA};
 use crate::scenario::{Coupling, Engine, Scenario};
 use cell::CellSpec;
 use direct::DirectGroup;
-use execute::Outcome;
-use std::ops::Range;
+use execute::Work;
+use free::FreeNoiseGroup;
+use noise_group::NoiseGroup;
+use standing::Rule;
+use std::ops::{ControlFlow, Range};
 use thiserror::Error;
 use workload::Workload;
 
 pub use cost::least_seconds;
 pub use execute::Progress;
 pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
+pub use single::{Estimated, Single, SingleRecord};
+pub use standing::{Keeper, Origin, Snapshot, Standing, Unusable};
 
 /// Why a study cannot be run.
 #[derive(Debug, Error)]
@@ -91,61 +102,172 @@ pub enum StudyError {
     },
 }
 
-/// Runs a scenario to its result table. `command` is what the results name as the command that makes them again.
+/// A scenario with everything laid out that its replicates share.
+#[derive(Debug)]
+pub struct Study<'s> {
+    scenario: &'s Scenario,
+    pulses: Vec<NoiseGroup>,
+    free: Vec<FreeNoiseGroup>,
+    specs: Vec<CellSpec>,
+    rule: Rule,
+}
+
+/// Whether all replicates that were asked for have been run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[must_use]
+pub enum Ended {
+    /// They have.
+    Finished,
+    /// The [`Keeper`] wished the study to stop: what was run of the batch under way is lost.
+    Stopped,
+}
+
+impl<'s> Study<'s> {
+    /// Lays a scenario out.
+    ///
+    /// # Errors
+    /// [`StudyError`] if a method or an experiment does not exist for some cell.
+    pub fn plan(scenario: &'s Scenario) -> Result<Self, StudyError> {
+        let (pulses, free) = (noise_group::plan(scenario)?, free::plan(scenario)?);
+        let of_pulses = pulses.iter().flat_map(|w| w.specs(scenario));
+        let specs = of_pulses.chain(free.iter().flat_map(|w| w.specs())).collect();
+        Ok(Self { scenario, pulses, free, specs, rule: Rule::of(scenario) })
+    }
+
+    /// Before the first replicate.
+    pub fn begin(&self) -> Standing {
+        Standing::new(self.rule, &self.specs)
+    }
+
+    /// What the replicates are of: the scenario, but for their number where no precision is asked for; these sources, on this platform.
+    pub fn origin(&self) -> Origin {
+        let Self { scenario, .. } = self;
+        let replication = scenario.replication();
+        let rule = replication.stopping.map(|stopping| (replication.replicates, stopping));
+        let what = (scenario.cases(), scenario.sweep(), scenario.coupling(), scenario.engine(), rule);
+        Origin {
+            scenario: sha256(format!("{} {what:?}", scenario.seed())),
+            part: String::new(),
+            program: env!("STUDY_SOURCES").to_owned(),
+            platform: platform(),
+        }
+    }
+
+    /// How many replicates are run in all, as far as is known when the first round is under way.
+    pub fn forecast(&self) -> usize {
+        self.rule.forecast()
+    }
+
+    /// Goes on to the next round; false where there is enough. All replicates of the round under way have been run.
+    pub fn next_round(&self, standing: &mut Standing, progress: &dyn Progress) -> bool {
+        match standing.look(self.rule, progress) {
+            Some(next) => standing.round = next,
+            None => return false,
+        }
+        true
+    }
+
+    /// Runs replicates until the scenario has enough of them.
+    pub fn run(&self, standing: &mut Standing, progress: &dyn Progress, keeper: &mut dyn Keeper) -> Ended {
+        loop {
+            if self.run_part(standing, None, (progress, &mut *keeper)) == Ended::Stopped {
+                return Ended::Stopped;
+            }
+            if !self.next_round(standing, progress) {
+                return Ended::Finished;
+            }
+        }
+    }
+
+    /// Runs what is left of the round under way, or of one of equal parts of it.
+    pub fn run_part(
+        &self,
+        standing: &mut Standing,
+        shard: Option<Shard>,
+        watch: (&dyn Progress, &mut dyn Keeper),
+    ) -> Ended {
+        match self.with_work(|work| standing.finish_round(work, shard, watch)) {
+            ControlFlow::Continue(()) => Ended::Finished,
+            ControlFlow::Break(()) => Ended::Stopped,
+        }
+    }
+
+    /// Lends what runs replicates.
+    fn with_work<T>(&self, run: impl FnOnce(Work<'_>) -> T) -> T {
+        let scenario = self.scenario;
+        let direct: Vec<DirectGroup<'_>> =
+            self.pulses.iter().map(|group| DirectGroup::new(group, scenario)).collect();
+        let pulses: Vec<&dyn Workload> = match scenario.engine() {
+            Engine::Superposed => self.pulses.iter().map(|w| w as &dyn Workload).collect(),
+            Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
+        };
+        let workloads: Vec<&dyn Workload> =
+            pulses.into_iter().chain(self.free.iter().map(|w| w as &dyn Workload)).collect();
+        run(Work { seed: scenario.seed(), workloads: &workloads })
+    }
+
+    /// What the replicates so far amount to. `command` is what the results name as the command that makes them again.
+    pub fn results(&self, standing: &Standing, command: String) -> Results {
+        let Self { scenario, specs, .. } = self;
+        let totals = standing.tally.totals();
+        let precise = standing.precise(self.rule);
+        let cells = tabulate::cells(specs, &totals, precise.as_deref());
+        let views = views::of_cells(specs, &totals);
+        let summaries = judge::summaries(specs, &views, scenario.sweep().slope_from);
+        let paired = (scenario.coupling() == Coupling::Shared)
+            .then(|| paired::pairing(specs, &views, &self.cells_of_worlds()));
+        let expectations = expectations::check(scenario, &summaries, &cells);
+        let of = standing.target();
+        let partial = standing.missing().map(|_| Partial { replicates: standing.replicates(), of });
+        Results {
+            schema: SCHEMA,
+            study: "consistency".to_owned(),
+            name: scenario.name().to_owned(),
+            question: scenario.question().to_owned(),
+            seed: scenario.seed(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command,
+            partial,
+            engine: scenario.engine(),
+            coupling: scenario.coupling(),
+            slope_samples: scenario.sweep().slope_samples().to_vec(),
+            labels: scenario.labels().clone(),
+            scenario: scenario.source().clone(),
+            curves: curves(scenario),
+            expectations,
+            summaries,
+            paired,
+            cells,
+        }
+    }
+
+    /// Where the cells of each workload stand among all cells.
+    fn cells_of_worlds(&self) -> Vec<Range<usize>> {
+        let counts = self.pulses.iter().map(|group| group.cells().count());
+        let counts = counts.chain(self.free.iter().map(Workload::cells));
+        let mut first = 0;
+        counts
+            .map(|count| {
+                let cells = first..first + count;
+                first = cells.end;
+                cells
+            })
+            .collect()
+    }
+}
+
+/// Runs a scenario to its result table, keeping nothing meanwhile. `command` is what the results name as the command that makes them again.
 ///
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
-    let pulses = noise_group::plan(scenario)?;
-    let free = free::plan(scenario)?;
-    let specs: Vec<CellSpec> =
-        pulses.iter().flat_map(|w| w.specs(scenario)).chain(free.iter().flat_map(|w| w.specs())).collect();
-    let direct: Vec<DirectGroup<'_>> = pulses.iter().map(|group| DirectGroup::new(group, scenario)).collect();
-    let pulses: Vec<&dyn Workload> = match scenario.engine() {
-        Engine::Superposed => pulses.iter().map(|w| w as &dyn Workload).collect(),
-        Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
-    };
-    let workloads: Vec<&dyn Workload> =
-        pulses.into_iter().chain(free.iter().map(|w| w as &dyn Workload)).collect();
-    let Outcome { sections, precise } = execute::run(scenario, &workloads, &specs, progress);
-    let cells = tabulate::cells(&specs, &sections, precise.as_deref());
-    let views = views::of_cells(&specs, &sections);
-    let summaries = judge::summaries(&specs, &views, scenario.sweep().slope_from);
-    let paired = (scenario.coupling() == Coupling::Shared)
-        .then(|| paired::pairing(&specs, &views, &cells_of_worlds(&workloads)));
-    let expectations = expectations::check(scenario, &summaries, &cells);
-    Ok(Results {
-        schema: SCHEMA,
-        study: "consistency".to_owned(),
-        name: scenario.name().to_owned(),
-        question: scenario.question().to_owned(),
-        seed: scenario.seed(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        command,
-        engine: scenario.engine(),
-        coupling: scenario.coupling(),
-        slope_samples: scenario.sweep().slope_samples().to_vec(),
-        labels: scenario.labels().clone(),
-        scenario: scenario.source().clone(),
-        curves: curves(scenario),
-        expectations,
-        summaries,
-        paired,
-        cells,
-    })
-}
-
-/// Where the cells of each workload stand among all cells.
-fn cells_of_worlds(workloads: &[&dyn Workload]) -> Vec<Range<usize>> {
-    let mut first = 0;
-    workloads
-        .iter()
-        .map(|workload| {
-            let cells = first..first + workload.cells();
-            first = cells.end;
-            cells
-        })
-        .collect()
+    let study = Study::plan(scenario)?;
+    let mut standing = study.begin();
+    progress.planned(study.rule.forecast() as u64);
+    match study.run(&mut standing, progress, &mut ()) {
+        Ended::Finished => Ok(study.results(&standing, command)),
+        Ended::Stopped => unreachable!("nobody stops it"),
+    }
 }
 
 fn curves(scenario: &Scenario) -> Vec<BorderCurve> {

@@ -1,6 +1,5 @@
 //! The noise of replicates that cells share: one by one, and eight at once.
 
-use super::round::Round;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::{LANES, Lane};
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePass, NoisePlan, NoiseRecord, Width};
@@ -91,33 +90,33 @@ fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
 pub(super) struct LaneNoise {
     /// The first of them.
     pub(super) first: u32,
-    /// Their sections; the lanes after them hold no replicate.
-    pub(super) sections: Vec<usize>,
+    /// Which of them are to be run.
+    pub(super) chosen: [bool; LANES],
     pub(super) pulses: [Vec<Vec<LaneGroupedNoise>>; 2],
     pub(super) steps: [Vec<Lane>; 2],
 }
 
 impl LaneNoise {
-    /// The section of all, if they are eight of one section.
-    pub(super) fn section(&self) -> Option<usize> {
-        let (first, last) = (self.sections.first()?, self.sections.last()?);
-        (self.sections.len() == LANES && first == last).then_some(*first)
+    /// How many are to be run.
+    pub(super) fn replicates(&self) -> usize {
+        self.chosen.into_iter().filter(|chosen| *chosen).count()
+    }
+
+    /// Whether all are.
+    pub(super) fn is_whole(&self) -> bool {
+        self.chosen == [true; LANES]
     }
 }
 
-/// Draws the noise of a run of replicates into `noise`, an entry eight of them.
-pub(super) fn draw_lanes(
-    source: &NoiseSource,
-    round: &Round,
-    replicates: Range<u32>,
-    noise: &mut [LaneNoise],
-) {
-    let seed = round.seed;
-    let start = replicates.start;
-    for (first, noise) in replicates.clone().step_by(LANES).zip(&mut *noise) {
-        let sections = (first..replicates.end).take(LANES).map(|r| round.section(r as usize)).collect();
-        *noise = LaneNoise { first, sections, ..LaneNoise::default() };
+/// Draws the noise of a run of replicates into `noise`, an entry eight of them, the first of which is a multiple of eight.
+pub(super) fn draw_lanes(source: &NoiseSource, seed: u64, replicates: Range<u32>, noise: &mut [LaneNoise]) {
+    let eights = eights(&replicates);
+    let start = eights.start;
+    for (first, noise) in eights.step_by(LANES).zip(&mut *noise) {
+        let chosen = std::array::from_fn(|l| replicates.contains(&(first + l as u32)));
+        *noise = LaneNoise { first, chosen, ..LaneNoise::default() };
     }
+    let replicates = start..replicates.end;
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
     let plan = &source.pulses;
     let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a group's noise plan is valid");
@@ -148,6 +147,11 @@ pub(super) fn draw_lanes(
             into.iter_mut().zip(means).for_each(|(into, mean)| into.0[lane] = *mean);
         });
     }
+}
+
+/// The replicates from the first of their eight on.
+pub(super) fn eights(replicates: &Range<u32>) -> Range<u32> {
+    replicates.start / LANES as u32 * LANES as u32..replicates.end
 }
 
 /// Sorts moments, by number of samples and then period, into the groups of their designs.

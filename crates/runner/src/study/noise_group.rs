@@ -5,9 +5,8 @@ use super::bench::NoiseFilter;
 use super::cell::{ActiveCells, CellSpec};
 use super::family::Family;
 use super::family_plan::FamilyPlan;
-use super::noise::{LaneNoise, NoiseSource, STREAMS, draw_lanes};
+use super::noise::{LaneNoise, NoiseSource, STREAMS, draw_lanes, eights};
 use super::pulse_kind::PulseKind;
-use super::round::{BATCH, Round};
 use super::setting::{self, Contender, Setting};
 use super::workload::{Chunk, Task, Workload};
 use crate::scenario::{Case, Coupling, Scenario};
@@ -15,6 +14,9 @@ use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::LANES;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
+
+/// Replicates of one noise pass: a whole number of lanes at every width.
+const PASS: usize = 16;
 
 /// Everything that one pass over the noise of one replicate serves.
 #[derive(Debug, Clone)]
@@ -118,21 +120,22 @@ impl Workload for NoiseGroup {
         NoiseGroup::cells(self).count()
     }
 
-    /// A batch a task.
+    /// A few replicates a task.
     fn draw<'a>(
         &'a self,
-        round: &'a Round,
-        chunk: Range<usize>,
+        seed: u64,
+        replicates: Range<usize>,
         noise: &'a mut Vec<LaneNoise>,
     ) -> Vec<Task<'a>> {
-        let end = chunk.end as u32;
-        noise.resize_with(chunk.len().div_ceil(LANES), LaneNoise::default);
-        let batches = (chunk.start as u32..end).step_by(BATCH).zip(noise.chunks_mut(BATCH / LANES));
+        let Range { start, end } = replicates.start as u32..replicates.end as u32;
+        let eights = eights(&(start..end));
+        noise.resize_with(eights.len().div_ceil(LANES), LaneNoise::default);
+        let passes = eights.step_by(PASS).zip(noise.chunks_mut(PASS / LANES));
         let draw = |(first, noise): (u32, &'a mut [LaneNoise])| -> Task<'a> {
-            let batch = first..end.min(first + BATCH as u32);
-            Box::new(move |_| draw_lanes(&self.noise, round, batch, noise))
+            let pass = first.max(start)..end.min(first + PASS as u32);
+            Box::new(move |_| draw_lanes(&self.noise, seed, pass, noise))
         };
-        batches.map(draw).collect()
+        passes.map(draw).collect()
     }
 
     /// A family a task: each takes in its replicates in order, so that the order in which errors are added up does not depend on threads.

@@ -1,29 +1,42 @@
 //! From sums to the result table.
 
 use super::cell::CellSpec;
-use super::sections::Sections;
+use super::sections::{CellSums, Runs};
 use crate::results::{Cell, Failures, Measured, Parameter};
 use rayon::prelude::*;
 use switchback_estimator::statistics::{self, ErrorSums};
 
 /// One entry a cell, in their order.
-pub(super) fn cells(specs: &[CellSpec], sections: &Sections, precise: Option<&[bool]>) -> Vec<Cell> {
+pub(super) fn cells(specs: &[CellSpec], totals: &[CellSums], precise: Option<&[bool]>) -> Vec<Cell> {
     specs
         .par_iter()
         .enumerate()
         .map(|(index, spec)| {
-            let sums = sections.cell(index, None);
-            let parameters = sums.parameters.iter().enumerate().map(|(k, sums)| parameter(spec, k, sums));
+            let sums = totals[index].parameters(None);
+            let runs = &totals[index].runs;
+            let parameters = sums.iter().enumerate().map(|(k, sums)| parameter(spec, k, sums));
             Cell {
                 series: spec.series.clone(),
                 samples: spec.samples,
                 parameters: parameters.collect(),
-                replicates: sums.replicates,
+                replicates: runs.replicates,
                 precise: precise.map(|precise| precise[index]),
-                failures: Failures { count: sums.failed, replicates: sums.failures, reason: sums.reason },
+                failures: failures(runs),
             }
         })
         .collect()
+}
+
+fn failures(runs: &Runs) -> Failures {
+    let reasons = runs.failures.iter().map(|failure| failure.reason.clone());
+    let reason = reasons.clone().next();
+    let all_the_same = reasons.clone().all(|other| Some(&other) == reason.as_ref());
+    Failures {
+        count: runs.failed,
+        replicates: runs.failures.iter().map(|failure| failure.replicate).collect(),
+        reasons: if all_the_same { Vec::new() } else { reasons.collect() },
+        reason,
+    }
 }
 
 fn parameter(spec: &CellSpec, k: usize, sums: &ErrorSums) -> Parameter {

@@ -4,7 +4,7 @@
 //! two methods' variances) leaves the same noise out of all of them at once, so its error knows how they go together.
 
 use super::cell::CellSpec;
-use super::sections::{SECTIONS, Sections};
+use super::sections::{CellSums, SECTIONS};
 use crate::results::{Fitted, Measured};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -34,21 +34,25 @@ pub(super) struct CellViews {
 }
 
 /// One entry a cell.
-pub(super) fn of_cells(specs: &[CellSpec], sections: &Sections) -> Vec<CellViews> {
-    specs.par_iter().enumerate().map(|(cell, spec)| CellViews::new(spec, sections, cell)).collect()
+pub(super) fn of_cells(specs: &[CellSpec], totals: &[CellSums]) -> Vec<CellViews> {
+    specs.par_iter().zip(totals).map(|(spec, total)| CellViews::new(spec, total)).collect()
 }
 
 impl CellViews {
-    fn new(spec: &CellSpec, sections: &Sections, cell: usize) -> Self {
+    fn new(spec: &CellSpec, total: &CellSums) -> Self {
         let figures = |view: View| {
-            let sums = sections.cell(cell, view);
+            let sums = total.parameters(view);
             let of = |(k, sums): (usize, &ErrorSums)| {
                 let known = spec.theory.as_ref().map(|sd| sd[k] * sd[k]);
                 sums.performance(known).map(Figures::from)
             };
-            sums.parameters.iter().enumerate().map(of).collect::<Vec<_>>()
+            sums.iter().enumerate().map(of).collect::<Vec<_>>()
         };
-        Self { whole: figures(None), without: (0..SECTIONS).map(|section| figures(Some(section))).collect() }
+        let whole = figures(None);
+        // A section without a replicate tells nothing of the spread.
+        let enough = total.runs.replicates >= SECTIONS;
+        let without = |section| if enough { figures(Some(section)) } else { vec![None; whole.len()] };
+        Self { without: (0..SECTIONS).map(without).collect(), whole }
     }
 
     /// Parameter `k` in a view.

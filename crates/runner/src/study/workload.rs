@@ -3,8 +3,7 @@
 use super::cell::ActiveCells;
 use super::memory::Memory;
 use super::noise::LaneNoise;
-use super::round::Round;
-use super::sections::CellSums;
+use super::sections::{CellSums, SECTIONS, SectionSums, section};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -19,26 +18,25 @@ pub(super) trait Workload: Sync {
     /// How many cells there are.
     fn cells(&self) -> usize;
 
-    /// Draws the noise of the replicates `chunk` of a round, whatever `noise` held before; none where a replicate draws its own when the cells
-    /// take it in.
+    /// Draws the noise of some replicates, whatever `noise` held before; none where a replicate draws its own when the cells take it in.
     fn draw<'a>(
         &'a self,
-        _round: &'a Round,
-        _chunk: Range<usize>,
+        _seed: u64,
+        _replicates: Range<usize>,
         noise: &'a mut Vec<LaneNoise>,
     ) -> Vec<Task<'a>> {
         noise.clear();
         Vec::new()
     }
 
-    /// Runs the replicates `chunk` of a round, whose noise has been drawn, in every active cell and adds what came out to their sums.
+    /// Runs the replicates of a chunk, whose noise has been drawn, in every active cell and adds what came out to their sums.
     fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>>;
 }
 
-/// Some replicates of a round with their noise.
+/// Some replicates of a batch with their noise.
 #[derive(Debug, Clone)]
 pub(super) struct Chunk<'a> {
-    pub(super) round: &'a Round,
+    pub(super) seed: u64,
     pub(super) range: Range<usize>,
     pub(super) noise: &'a [LaneNoise],
 }
@@ -48,34 +46,28 @@ pub(super) struct Chunk<'a> {
 pub(super) fn one_by_one<'a>(
     chunk: Chunk<'a>,
     cells: ActiveCells<'a>,
-    replicate: impl Fn(u64, u32, &[bool], &mut [CellSums]) + Send + Sync + 'a,
+    replicate: impl Fn(u64, u32, &[bool], &mut [SectionSums]) + Send + Sync + 'a,
 ) -> Vec<Task<'a>> {
     let ActiveCells { active, sums } = cells;
-    let seed = chunk.round.seed;
-    vec![Box::new(move |_| by_sections(&chunk, sums, |r, sums| replicate(seed, r, active, sums)))]
+    let seed = chunk.seed;
+    vec![Box::new(move |_| by_sections(&chunk.range, sums, |r, sums| replicate(seed, r, active, sums)))]
 }
 
-/// Runs the replicates of a chunk one by one in parallel: each section's part is summed on its own, and the parts are added in order.
+/// Runs replicates one by one, the sections in parallel: each adds its own in order.
 fn by_sections(
-    chunk: &Chunk<'_>,
-    cells: &mut [Vec<CellSums>],
-    replicate: impl Fn(u32, &mut [CellSums]) + Sync,
+    range: &Range<usize>,
+    cells: &mut [CellSums],
+    replicate: impl Fn(u32, &mut [SectionSums]) + Sync,
 ) {
-    let round = chunk.round;
-    let replicates: Vec<usize> = chunk.range.clone().collect();
-    let parts: Vec<&[usize]> = replicates.chunk_by(|r, s| round.section(*r) == round.section(*s)).collect();
-    let empty: Vec<CellSums> =
-        cells.iter().map(|sections| CellSums::new(sections[0].parameters.len())).collect();
-    let sums: Vec<Vec<CellSums>> = parts
-        .par_iter()
-        .map(|part| {
-            let mut sums = empty.clone();
-            part.iter().for_each(|&r| replicate(r as u32, &mut sums));
+    let sums: Vec<Vec<SectionSums>> = (0..SECTIONS)
+        .into_par_iter()
+        .map(|own| {
+            let mut sums: Vec<SectionSums> = cells.iter().map(|cell| cell.section(own)).collect();
+            range.clone().filter(|r| section(*r) == own).for_each(|r| replicate(r as u32, &mut sums));
             sums
         })
         .collect();
-    for (part, sums) in parts.iter().zip(&sums) {
-        let section = round.section(part[0]);
-        cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell[section].merge(sums));
+    for (section, sums) in sums.iter().enumerate() {
+        cells.iter_mut().zip(sums).for_each(|(cell, sums)| cell.put_section(section, sums));
     }
 }

@@ -9,13 +9,16 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// Files of a folder by name; none where it is not there.
+/// Files of a folder by name, without those that tell of the run and not of what came out; none where it is not there.
 pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// Files that tell of the run and not of what came out.
+pub const BESIDE: [&str; 3] = ["provenance.json", "replicates.sums", ".switchback.beside.sha256"];
 
 pub fn files(folder: &Path) -> Files {
     let names = if folder.exists() { listing(folder) } else { Vec::new() };
     let read = |name: String| (name.clone(), fs::read(folder.join(name)).expect("a file"));
-    names.into_iter().map(read).collect()
+    names.into_iter().filter(|name| !BESIDE.contains(&name.as_str())).map(read).collect()
 }
 
 /// Runs to the end: the exit code, and what is told.

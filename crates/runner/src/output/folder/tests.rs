@@ -1,4 +1,5 @@
 use super::super::faults::Faults;
+use super::super::written::SUMS;
 use super::*;
 use tempfile::tempdir;
 

@@ -13,7 +13,7 @@ pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
 use super::cell::ActiveCells;
 use super::noise_group::NoiseGroup;
-use super::sections::CellSums;
+use super::sections::SectionSums;
 use super::setting::{Contender, Setting};
 use super::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Scenario};
@@ -31,7 +31,7 @@ impl<'a> DirectGroup<'a> {
         Self { group, scenario }
     }
 
-    fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
+    fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [SectionSums]) {
         let noise = OpenNoise::draw(self.group, seed, replicate);
         let mut cells = active.iter().zip(sums);
         for setting in &self.group.settings {
@@ -96,12 +96,12 @@ impl Simulated {
         steps: [StepMean; 2],
         (checkpoint, samples): (usize, usize),
         replicate: u32,
-        sums: &mut CellSums,
+        sums: &mut SectionSums,
     ) {
-        sums.replicates += 1;
+        sums.runs.replicates += 1;
         let estimates = match fit::fit(contender.kind, self.order, &self.experiments, steps, samples) {
             Ok(estimates) => estimates,
-            Err(error) => return sums.fail(replicate, error.to_string()),
+            Err(error) => return sums.runs.fail(replicate, error.to_string()),
         };
         let data = [0, 1].map(|k| self.statistics(k, samples));
         let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));

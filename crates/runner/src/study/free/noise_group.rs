@@ -7,7 +7,7 @@ use crate::scenario::{Case, Engine, Knots, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{ActiveCells, CellSpec};
-use crate::study::sections::CellSums;
+use crate::study::sections::SectionSums;
 use crate::study::workload::{Chunk, Task, Workload, one_by_one};
 use nalgebra::DMatrix;
 use std::cell::RefCell;
@@ -29,8 +29,9 @@ pub(super) struct Design {
 pub(in crate::study) struct FreeNoiseGroup {
     stream: u32,
     noise: NoisePlan,
-    /// Samples of the drive.
-    length: usize,
+    case: Case,
+    /// `v(t)`.
+    drive: Vec<f64>,
     checkpoints: usize,
     responses: Vec<Response>,
     grids: Vec<GridOnDrive>,
@@ -98,12 +99,13 @@ impl FreeNoiseGroup {
         Ok(Self {
             stream,
             noise,
-            length: v.len(),
             checkpoints: sweep.samples.len(),
             responses,
             grids,
             settings,
             simulator: (engine == Engine::Direct).then(|| Simulator::new(case, &v)),
+            case: case.clone(),
+            drive: v,
         })
     }
 
@@ -112,9 +114,8 @@ impl FreeNoiseGroup {
         self.settings.iter().flat_map(|setting| setting.specs.iter().cloned())
     }
 
-    fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [CellSums]) {
-        let noise = samples(&self.noise, StreamId { seed, experiment: self.stream, replicate }, self.length)
-            .expect("a group's noise plan is valid");
+    fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [SectionSums]) {
+        let noise = self.draw(seed, replicate);
         let shared = self.simulator.is_none().then(|| Noise::new(self, &noise));
         let cells = active.chunks(self.checkpoints).zip(sums.chunks_mut(self.checkpoints));
         for (setting, (active, sums)) in self.settings.iter().zip(cells) {
@@ -139,16 +140,32 @@ impl FreeNoiseGroup {
         }
     }
 
+    /// The record of one replicate in a cell of the group: `v(t)` and `y(t)`.
+    pub(in crate::study) fn record(&self, cell: usize, seed: u64, replicate: u32) -> (Vec<f64>, Vec<f64>) {
+        let setting = &self.settings[cell / self.checkpoints];
+        let simulator = Simulator::new(&self.case, &self.drive);
+        let mut y = simulator.output(setting.response, setting.sigma, &self.draw(seed, replicate));
+        // The first rows are lags of those that count.
+        let rows = setting.specs[cell % self.checkpoints].samples + self.case.order;
+        y.truncate(rows);
+        (self.drive[..y.len()].to_vec(), y)
+    }
+
+    fn draw(&self, seed: u64, replicate: u32) -> NoiseSamples {
+        samples(&self.noise, StreamId { seed, experiment: self.stream, replicate }, self.drive.len())
+            .expect("a group's noise plan is valid")
+    }
+
     fn estimate(
         &self,
         (setting, checkpoint): (&Setting, usize),
         moments: impl Fn(usize) -> Moments,
         replicate: u32,
-        sums: &mut CellSums,
+        sums: &mut SectionSums,
     ) {
         let on = &self.grids[setting.grid];
         let regressions = on.regressions.all();
-        sums.replicates += 1;
+        sums.runs.replicates += 1;
         let (estimate, first_order) = match (&setting.ways[checkpoint], &on.regressions) {
             (Way::Given(limit), _) => {
                 let moments = moments(0);
@@ -170,8 +187,8 @@ impl FreeNoiseGroup {
                     });
                 }
             }
-            Ok(_) => sums.fail(replicate, "the record leaves a parameter open".to_owned()),
-            Err(error) => sums.fail(replicate, error.to_string()),
+            Ok(_) => sums.runs.fail(replicate, "the record leaves a parameter open".to_owned()),
+            Err(error) => sums.runs.fail(replicate, error.to_string()),
         }
     }
 }

@@ -1,0 +1,103 @@
+//! `switchback merge` where the parts are of a consistency study.
+
+use super::part::Part;
+use super::{FILES, Order, write};
+use crate::examination::MergeError;
+use crate::failure::{CommandResult, Outcome};
+use crate::kept::Kept;
+use crate::options::{Shard, Threads};
+use crate::progress::Meter;
+use crate::provenance::{PROVENANCE_FILE, Provenance};
+use crate::study::{Standing, Study};
+use miette::IntoDiagnostic;
+use std::path::{Path, PathBuf};
+
+/// Adds parts up in the order of one run; where a precision is asked for and not reached, tells what to run next.
+///
+/// # Errors
+/// Folders that make no whole, or one that cannot be written.
+pub fn merge(folders: &[PathBuf], order: Order<'_>) -> CommandResult {
+    let provenance = Provenance::begin(Threads::default());
+    let mut parts: Vec<Part> = folders.iter().map(|folder| Part::read(folder)).collect::<Result<_, _>>()?;
+    parts.sort_by_key(|part| part.label.shard);
+    let first = &parts[0];
+    let scenario = first.scenario()?;
+    let study = order.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
+    let mut standing = added_up(&parts, &study)?;
+    let meter = Meter::new(order.quiet);
+    let is_whole = !study.next_round(&mut standing, &meter);
+    let kept = Kept::new(order.out.unwrap_or(Path::new("")), study.origin());
+    let out = order.out.unwrap_or(Path::new("."));
+    let shards: Vec<String> = parts.iter().filter_map(|part| Some(part.label.shard?.to_string())).collect();
+    let provenance = provenance.end(shards);
+    let order = Order { command: &first.label.command, ..order };
+    if is_whole {
+        let folder = order.force.claim(out, &FILES)?;
+        let results = order.threads.install(|| study.results(&standing, order.command.to_owned()))?;
+        return write(&results, (&scenario, &standing, &kept, &provenance), folder, order);
+    }
+    let merged = first.of_all(kept.bytes(&standing));
+    let folder = order.force.claim(out, &merged.files())?;
+    let mut artefacts = merged.artefacts();
+    artefacts.add_beside(PROVENANCE_FILE, provenance.text());
+    folder.commit(&artefacts)?;
+    order.quiet.note(&next(&standing, &first.label.scenario, out));
+    Ok(Outcome::Stopped)
+}
+
+/// What to run to go on.
+fn next(standing: &Standing, scenario: &str, out: &Path) -> String {
+    format!(
+        "{} replicates, and not precise enough yet; written to {out}.\n\
+         Run those up to {} in parts: switchback {scenario} --shard K/N --from {out} --out DIR\n\
+         then merge the parts with {out}.\n",
+        standing.replicates(),
+        standing.target(),
+        out = out.display(),
+    )
+}
+
+/// The parts of a round, and the rounds before it if they are given.
+fn added_up(parts: &[Part], study: &Study<'_>) -> Result<Standing, MergeError> {
+    let name = |part: &Part| part.folder.display().to_string();
+    let (before, parts) = parts.split_at(parts.partition_point(|part| part.label.shard.is_none()));
+    if let [one, other, ..] = before {
+        return Err(MergeError::TwoWholes { folder: name(other), first: name(one) });
+    }
+    let mut standing = match before.first() {
+        Some(whole) => whole.standing(study)?,
+        None => study.begin(),
+    };
+    let round = standing.clone();
+    for pair in parts.windows(2) {
+        let (one, other) = (&pair[0], &pair[1]);
+        if one.label.shard == other.label.shard {
+            let shard = one.label.shard.unwrap_or(Shard { number: 1, of: 1 });
+            return Err(MergeError::Twice { folder: name(other), first: name(one), shard });
+        }
+        let differs = [
+            ((&one.label.scenario, &one.text) != (&other.label.scenario, &other.text), "the scenario"),
+            (one.label.engine != other.label.engine, "the engine"),
+            (one.label.shard.map(|s| s.of) != other.label.shard.map(|s| s.of), "the number of parts"),
+        ];
+        if let Some((_, what)) = differs.into_iter().find(|(differs, _)| *differs) {
+            return Err(MergeError::Strange { folder: name(other), what, first: name(one) });
+        }
+    }
+    if let Some(of) = parts.first().and_then(|part| part.label.shard).map(|shard| shard.of) {
+        let is_missing = |shard: &Shard| parts.iter().all(|part| part.label.shard != Some(*shard));
+        let missing: Vec<Shard> = (1..=of).map(|number| Shard { number, of }).filter(is_missing).collect();
+        if let Some(&first) = missing.first() {
+            let all: Vec<String> = missing.iter().map(Shard::to_string).collect();
+            let scenario = parts[0].label.scenario.clone();
+            return Err(MergeError::Missing { scenario, missing: all.join(", "), first });
+        }
+    }
+    for part in parts {
+        standing.add(part.standing_in(&round, study)?);
+    }
+    match standing.missing() {
+        None => Ok(standing),
+        Some(gap) => Err(MergeError::Gap { start: gap.start, end: gap.end }),
+    }
+}

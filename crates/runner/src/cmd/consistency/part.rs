@@ -1,0 +1,111 @@
+//! A part of a study on disk: which part of which scenario, the scenario as it was, and what its replicates left behind.
+
+use super::Order;
+use crate::examination::{MergeError, PART_FILE};
+use crate::input::{FileError, read_text, stream};
+use crate::kept::KEPT_FILE;
+use crate::options::Shard;
+use crate::output::{Artefacts, stamped};
+use crate::provenance::PROVENANCE_FILE;
+use crate::scenario::{Engine, Scenario, ScenarioError};
+use crate::study::{Standing, Study};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+const SCHEMA: &str = "switchback/part/1";
+
+/// What tells which part it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Label {
+    /// The scenario's file name.
+    pub(super) scenario: String,
+    /// The command that makes the results again.
+    pub(super) command: String,
+    /// The engine that runs it.
+    pub(super) engine: Engine,
+    /// Which part; none for the rounds before, put together.
+    pub(super) shard: Option<Shard>,
+}
+
+#[derive(Deserialize)]
+struct WrittenLabel {
+    schema: String,
+    #[serde(flatten)]
+    label: Label,
+}
+
+/// A part of a study.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) folder: PathBuf,
+    pub(super) label: Label,
+    /// The scenario's text.
+    pub(super) text: String,
+    sums: Vec<u8>,
+}
+
+impl Part {
+    /// A part that is to be run.
+    pub(super) fn new(order: Order<'_>, engine: Engine, shard: Option<Shard>) -> Result<Self, FileError> {
+        let (scenario, command) = (stream::copy_name(order.file), order.command.to_owned());
+        let label = Label { scenario, command, engine, shard };
+        Ok(Self { folder: PathBuf::new(), label, text: read_text(order.file)?, sums: Vec::new() })
+    }
+
+    /// The same label and scenario, without a shard: for what all parts of a round make.
+    pub(super) fn of_all(&self, sums: Vec<u8>) -> Self {
+        Self { label: Label { shard: None, ..self.label.clone() }, sums, ..self.clone() }
+    }
+
+    /// The scenario as it is run.
+    pub(super) fn scenario(&self) -> Result<Scenario, ScenarioError> {
+        let file = self.folder.join(&self.label.scenario);
+        Ok(Scenario::parse(&file.display().to_string(), &self.text)?.on(self.label.engine))
+    }
+
+    /// The same with what its replicates left behind.
+    pub(super) fn with(self, sums: Vec<u8>) -> Self {
+        Self { sums, ..self }
+    }
+
+    /// Names of the files of its folder.
+    pub(super) fn files(&self) -> [&str; 4] {
+        [PART_FILE, &self.label.scenario, KEPT_FILE, PROVENANCE_FILE]
+    }
+
+    pub(super) fn artefacts(&self) -> Artefacts {
+        let mut artefacts = Artefacts::default();
+        artefacts.add(PART_FILE, stamped(SCHEMA, &self.label));
+        artefacts.add(self.label.scenario.as_str(), self.text.as_str());
+        artefacts.add(KEPT_FILE, self.sums.as_slice());
+        artefacts
+    }
+
+    /// Reads the folder of a part.
+    pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
+        let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
+        let written = read_text(&folder.join(PART_FILE)).map_err(|_| no_part())?;
+        let written: WrittenLabel = serde_json::from_str(&written).map_err(|_| no_part())?;
+        if written.schema != SCHEMA {
+            return Err(no_part());
+        }
+        let text = read_text(&folder.join(&written.label.scenario))?;
+        let sums = std::fs::read(folder.join(KEPT_FILE)).map_err(|_| no_part())?;
+        Ok(Self { folder: folder.to_owned(), label: written.label, text, sums })
+    }
+
+    /// Its replicates, as a part of the round that `round` stands at.
+    pub(super) fn standing_in(&self, round: &Standing, study: &Study<'_>) -> Result<Standing, MergeError> {
+        let origin = study.origin().of_part(self.label.shard, round);
+        let strange = |why| MergeError::Unusable { folder: self.folder.display().to_string(), why };
+        round.emptied().read(&self.sums, &origin).map_err(strange)
+    }
+
+    /// How far the study had come that a folder without a shard holds.
+    pub(super) fn standing(&self, study: &Study<'_>) -> Result<Standing, MergeError> {
+        if let Some(shard) = self.label.shard {
+            return Err(MergeError::OnePart { folder: self.folder.display().to_string(), shard });
+        }
+        self.standing_in(&study.begin(), study)
+    }
+}
