@@ -14,7 +14,9 @@ impl Plan {
     /// `N` samples that have `1 − k/N` of it left (H. Akaike, "Fitting autoregressive models for prediction", Ann. Inst. Stat. Math. 21,
     /// 1969).
     pub(super) fn held_out_errors_beyond_chance(&self, fit: &Fit) -> Option<f64> {
-        if self.given.is_some() || self.resolves_no_gap(fit) {
+        // A held-out record too short to be judged says nothing of a machine either.
+        let holds_out = self.judged.iter().all(|&number| !self.campaign.tracks[number].is_fit());
+        if self.given.is_some() || !holds_out || self.resolves_no_gap(fit) {
             return None;
         }
         let share = fit.parameters / fit.samples.max(1) as f64;
