@@ -30,6 +30,24 @@ pub enum DiagnoseError {
     /// The output never moves.
     #[error("the output y is constant in every fit record; check the sensor or the column")]
     ConstantOutput,
+    /// A value that no sensor of the fit records can have read.
+    #[error(
+        "record {record:?} has {signal} = {value:e} at sample {index}, {times:.0e} times the central range of {signal} in the fit records \
+         from their median, which no sensor resolves beside them; correct its unit or empty the cells where the sensor failed, or leave \
+         the record out"
+    )]
+    Implausible {
+        /// The record's name.
+        record: String,
+        /// `v` or `y`.
+        signal: &'static str,
+        /// Position of the sample, from 0.
+        index: usize,
+        /// The offending value.
+        value: f64,
+        /// Its distance from the median of the fit records, in central ranges of these.
+        times: f64,
+    },
     /// `y_sim` was asked for, but a record has none or one of another length.
     #[error(
         "record {record:?} has {found} values of y_sim for {expected} samples; supply one a sample or diagnose the identified model"

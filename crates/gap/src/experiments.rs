@@ -36,7 +36,7 @@ pub(crate) fn propose(
             name: kind.name().into(),
             role: Role::Free,
             usage: Usage::Holdout,
-            y: vec![0.0; v.len()],
+            y: vec![0.0; v.len()].into(),
             clock: campaign.total,
             before: campaign.tracks.len(),
             travelled: campaign.travel,
@@ -44,7 +44,7 @@ pub(crate) fn propose(
             from: WARM_UP.min(v.len()),
             moves: motions(&v, Play::default(), campaign.rule).into(),
             standing: false,
-            v,
+            v: v.into(),
         };
         let runs: Vec<Vec<f64>> =
             rivals.iter().map(|r| free_run(campaign, &r.fit, campaign.tracks.len(), &track)).collect();

@@ -62,7 +62,7 @@ pub(crate) fn noise_free(
         let beside: f64 = d.iter().zip(part.columns.row(t)).map(|(d, psi)| d * psi).sum();
         y.push(new + beside - old);
     }
-    campaign.tracks[0].y = y;
+    campaign.tracks[0].y = y.into();
     campaign
 }
 

@@ -252,3 +252,116 @@ fn a_diagnosis_takes_orders_up_to_the_highest() {
         assert_eq!(code, Some(0), "order {order}: {message}");
     }
 }
+
+/// A record of a loop before one pole, `v,y` a line; `change` alters a sample by its number.
+fn loop_record(samples: usize, phase: f64, change: impl Fn(usize, f64, f64) -> (f64, f64)) -> String {
+    let noise = |t: usize| ((t as f64 * 12.9898 + phase).sin() * 43_758.545_3).fract() - 0.5;
+    let (mut text, mut y, mut u, mut before) = ("v,y\n".to_owned(), 0.0, 0.0, 0.0);
+    for t in 0..samples {
+        let v = (0.17 * t as f64 + phase).sin() + 0.6 * (0.031 * t as f64).cos();
+        y = 0.6 * y + 0.4 * u + 0.02 * noise(t);
+        u = v + 0.3 * (v - before).signum();
+        before = v;
+        let (v, y) = change(t, v, y);
+        text += &format!("{v},{y}\n");
+    }
+    text
+}
+
+const LOOP: &str = "name = \"loop\"\nsample_time = 1.0\norder = 1\n\
+    [[record]]\nfile = \"a.csv\"\nrole = \"free\"\nuse = \"fit\"\n\
+    [[record]]\nfile = \"b.csv\"\nrole = \"free\"\nuse = \"holdout\"\n";
+
+#[test]
+fn what_no_sensor_of_the_fit_records_can_have_read_tells_no_cause() {
+    let folder = Folder::with_good_rig();
+    folder.write("loop.toml", LOOP);
+    folder.write("a.csv", &loop_record(600, 0.0, |_, v, y| (v, y)));
+    for (record, signal) in [
+        (loop_record(600, 1.0, |_, v, y| (v, 1e160 * y)), "y = "),
+        (loop_record(600, 1.0, |t, v, y| (v, if t == 300 { 1e300 } else { y })), "y = 1e300 at sample 300"),
+        (loop_record(600, 1.0, |t, v, y| (if t == 300 { -1e12 } else { v }, y)), "v = -1e12 at sample 300"),
+    ] {
+        folder.write("b.csv", &record);
+        refused(&folder, &["gap", "loop.toml", "--quiet"], &["record \"b\"", signal, "correct its unit"]);
+    }
+    // The same in a fit record.
+    folder.write("b.csv", &loop_record(600, 1.0, |_, v, y| (v, y)));
+    folder.write("a.csv", &loop_record(600, 0.0, |t, v, y| (v, if t == 300 { -1e200 } else { y })));
+    refused(&folder, &["gap", "loop.toml", "--quiet"], &["record \"a\"", "y = -1e200 at sample 300"]);
+}
+
+#[test]
+fn an_outlier_of_the_input_is_told_with_the_verdict() {
+    let folder = Folder::with_good_rig();
+    folder.write("loop.toml", LOOP);
+    folder.write("a.csv", &loop_record(600, 0.0, |t, v, y| (if t == 300 { -9999.0 } else { v }, y)));
+    folder.write("b.csv", &loop_record(600, 1.0, |_, v, y| (v, y)));
+    let effects: Vec<&str> =
+        ["border_wear", "border_resolution"].iter().flat_map(|e| ["--without", e]).collect();
+    let arguments = [&["gap", "loop.toml", "--quiet", "--out", "out"], &effects[..]].concat();
+    let (code, message) = run(&folder, &arguments);
+    assert_eq!(code, Some(0), "{message}");
+    let told = fs::read_to_string(folder.path("out/gap.json")).expect("a report");
+    assert!(told.contains("a.csv:302: `v` is -9999"), "{told}");
+}
+
+#[test]
+fn a_sensor_that_stands_still_is_told_with_rows_and_remedy() {
+    let folder = Folder::with_good_rig();
+    folder.write("loop.toml", LOOP);
+    let good = loop_record(600, 0.0, |_, v, y| (v, y));
+    let told = |fit: &str, held_out: &str| {
+        folder.write("a.csv", fit);
+        folder.write("b.csv", held_out);
+        let (code, told) = run(&folder, &["init", "loop.toml"]);
+        assert_eq!(code, Some(0), "{told}");
+        told
+    };
+    assert!(
+        !told(&good, &loop_record(600, 1.0, |_, v, y| (v, y))).contains("warning"),
+        "nothing stands still"
+    );
+    let stuck = |text: &str, signal: &str, from: usize, to: usize| {
+        let words = format!("b.csv: `{signal}` stands still at 0.25 from line {from} to line {to}");
+        assert!(text.contains(&words) && text.contains("check its sensor"), "{text}");
+    };
+    stuck(&told(&good, &loop_record(600, 1.0, |_, v, _| (v, 0.25))), "y", 2, 601);
+    stuck(&told(&good, &loop_record(600, 1.0, |_, _, y| (0.25, y))), "v", 2, 601);
+    let while_stuck = |t: usize| (200..400).contains(&t);
+    let y = loop_record(600, 1.0, |t, v, y| (v, if while_stuck(t) { 0.25 } else { y }));
+    stuck(&told(&good, &y), "y", 202, 401);
+    let v = loop_record(600, 1.0, |t, v, y| (if while_stuck(t) { 0.25 } else { v }, y));
+    stuck(&told(&good, &v), "v", 202, 401);
+}
+
+#[test]
+fn short_records_and_records_without_noise_are_consistent_with_a_model_that_lacks_nothing() {
+    let folder = Folder::with_good_rig();
+    folder.write("loop.toml", LOOP);
+    let exact = |samples: usize, phase: f64| {
+        let (mut text, mut y, mut u) = ("v,y\n".to_owned(), 0.0, 0.0);
+        let mut before: f64 = 0.0;
+        for t in 0..samples {
+            let v = (0.17 * t as f64 + phase).sin() + 0.6 * (0.031 * t as f64).cos();
+            y = 0.6 * y + 0.4 * u;
+            u = v + 0.3 * (v - before).signum();
+            before = v;
+            text += &format!("{v},{y}\n");
+        }
+        text
+    };
+    for (fit, held_out) in [
+        (loop_record(110, 0.0, |_, v, y| (v, y)), loop_record(100, 1.0, |_, v, y| (v, y))),
+        (exact(600, 0.0), exact(400, 1.0)),
+    ] {
+        folder.write("a.csv", &fit);
+        folder.write("b.csv", &held_out);
+        let output = folder.switchback(&["gap", "loop.toml", "--quiet", "--json"]).output().expect("it runs");
+        let told = String::from_utf8(output.stdout).expect("text");
+        assert!(told.contains("\"status\": \"none\""), "{told}");
+        let output = folder.switchback(&["gap", "loop.toml"]).output().expect("it runs");
+        let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
+        assert!(told.contains("the records are consistent with it"), "{told}");
+    }
+}

@@ -42,8 +42,8 @@ pub struct Estimate {
     pub descending: Vec<BorderPoint>,
     /// Points of the ascending border, by increasing `v`; empty where the method does not see it.
     pub ascending: Vec<BorderPoint>,
-    /// Smallest eigenvalue of the information matrix, per sample, in squared output units or input units as the
-    /// method's regressors have them: the excitation the record really gave.
+    /// Smallest eigenvalue of the information matrix, per sample: the excitation the record really gave. Of designed experiments in squared output
+    /// units or input units as the regressors have them; of any record on an output between −1 and 1.
     pub excitation: f64,
     /// Samples that entered the regression.
     pub samples: usize,

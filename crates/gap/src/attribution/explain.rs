@@ -2,9 +2,11 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::effect::Effect;
 use crate::effects::{Apply, Naming, Search, Sound, Variant, details};
+use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, Ground, NonlinearParameter, fit};
 use crate::model::assembly::Assembly;
 use crate::records::campaign::Campaign;
@@ -151,6 +153,12 @@ impl Explanation {
         })
     }
 
+    /// The same explanation for keeping, as [`Fit::set_aside`] has it.
+    #[must_use]
+    pub(crate) fn set_aside(self, held: &Arc<Design>) -> Self {
+        Self { fit: self.fit.set_aside(held), ..self }
+    }
+
     /// The same explanation, less likely.
     pub(crate) fn set_back(mut self, by: f64) -> Self {
         self.set_back += by;
@@ -183,7 +191,7 @@ impl Explanation {
         linear.f.truncate(self.fit.grid.len());
         linear.d.clear();
         let start = linear.padded(self.fit.grid.len(), &assembled(parts, &values));
-        let ground = Ground { campaign, grid: &self.fit.grid, known: Some(&self.fit.design) };
+        let ground = Ground { campaign, grid: &self.fit.grid, known: Some(self.fit.near()) };
         fit(ground, &|values| assembled(parts, values), nonlinear, &start, ALONE)
     }
 }

@@ -40,7 +40,8 @@ impl<W: Workers> Attribution<'_, W> {
         let found: Vec<Explanation> = found.into_iter().flatten().filter(|s| self.considers(s)).collect();
         let most = found.iter().chain(singles).map(|s| self.gain(Some(s))).fold(0.0, f64::max);
         let rivals = found.into_iter().filter(|s| self.gain(Some(s)) > RIVAL * most).collect::<Vec<_>>();
-        self.workers.map(&rivals, |single| self.placed_anew(single.clone()))
+        let placed = |single: &Explanation| self.placed_anew(single.clone());
+        self.workers.map(&rivals, |single| placed(single).set_aside(self.detailed.fit.near()))
     }
 
     /// The effects considered that may leave nothing of what the dynamics are identified from: friction that rises or falls fast, a loop
@@ -76,7 +77,7 @@ impl<W: Workers> Attribution<'_, W> {
             let rival = *rank < replaced && self.gain(Some(single)) > SIGNIFICANT.max(RIVAL * most);
             match (is_grid, rival) {
                 (true, _) => single.clone(),
-                (false, true) => self.placed_anew(single.clone()),
+                (false, true) => self.placed_anew(single.clone()).set_aside(self.detailed.fit.near()),
                 (false, false) if self.has_details() => single.clone().set_back(SIGNIFICANT),
                 (false, false) => single.clone(),
             }

@@ -7,6 +7,8 @@
 //! `X` holds the known model's derivatives, computed once for all laws; the chord to the innovations at a start `θₛ` stands
 //! for the law's nonlinear parameters (where it is nothing, their derivatives do), `Z` for the linear parameters that the law adds.
 
+use std::sync::Arc;
+
 use crate::attribution::explain::Explanation;
 use crate::likelihood::design::{Design, Linear};
 use crate::likelihood::engine::{Build, NonlinearParameter};
@@ -21,6 +23,8 @@ use crate::records::campaign::Campaign;
 pub(crate) struct Known<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) explanation: &'a Explanation,
+    /// The fit records under it.
+    pub(crate) design: Arc<Design>,
     /// On the fit records, before weighting.
     pub(crate) innovations: Vec<Vec<f64>>,
     weights: Weights,
@@ -31,19 +35,19 @@ pub(crate) struct Known<'a> {
 impl<'a> Known<'a> {
     pub(crate) fn new(campaign: &'a Campaign, explanation: &'a Explanation) -> Self {
         let fit = &explanation.fit;
-        let (design, noise) = (&fit.design, &fit.assembly.noise);
+        let (design, noise) = (fit.design(), &fit.assembly.noise);
         let whitener = design.whitener(noise, &fit.linear.a);
         let innovations = design.innovations(&fit.linear, &whitener);
-        let weights = weigh(design, noise, &fit.linear, &innovations);
-        let jacobian = Jacobian::new(design, &fit.linear, &whitener, &weights);
+        let weights = weigh(&design, noise, &fit.linear, &innovations);
+        let jacobian = Jacobian::new(&design, &fit.linear, &whitener, &weights);
         let weighted = weights.applied(&innovations);
-        Self { campaign, explanation, innovations, weights, weighted, jacobian }
+        Self { campaign, explanation, design, innovations, weights, weighted, jacobian }
     }
 
     /// The test itself; nothing where the known parameters are not determined.
     pub(crate) fn test(&self) -> Option<ScoreTest<'_>> {
         let fit = &self.explanation.fit;
-        let variance = fit.variance / fit.design.criterion.share();
+        let variance = fit.variance / self.campaign.criterion.share();
         Some(ScoreTest { known: self, gains: Gains::new(&self.jacobian, &self.weighted, variance)? })
     }
 }
@@ -79,7 +83,7 @@ impl ScoreTest<'_> {
         let all: Vec<f64> = fit.nonlinear.iter().chain(nonlinear).map(|o| o.value).collect();
         let assembly = build(&all);
         let p = fit.linear.padded(fit.grid.len(), &assembly);
-        let there = self.moved(&assembly, &p, &fit.design);
+        let there = self.moved(&assembly, &p, &self.known.design);
         let mut columns = Vec::new();
         let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
         if nonlinear.is_empty() || energy(&chord) > NOTHING * fit.variance {
@@ -125,7 +129,9 @@ impl ScoreTest<'_> {
     fn refitted(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Option<f64> {
         let fit = &self.known.explanation.fit;
         let same_filter = assembly.parts().filter == fit.assembly.parts().filter;
-        if same_filter && assembly.noise.ar == fit.assembly.noise.ar || fit.design.criterion.simulates() {
+        if same_filter && assembly.noise.ar == fit.assembly.noise.ar
+            || self.known.campaign.criterion.simulates()
+        {
             return None;
         }
         let whitener = there.design.whitener(&assembly.noise, &p.a);
@@ -145,7 +151,7 @@ impl ScoreTest<'_> {
         let design = Design::like(Some(like), self.known.campaign, &fit.grid, assembly);
         let whitener = design.whitener(&assembly.noise, &p.a);
         let mut innovations = design.innovations(p, &whitener);
-        let slope = design.log_slope() - fit.design.log_slope();
+        let slope = design.log_slope() - self.known.design.log_slope();
         if slope != 0.0 {
             let factor = (-slope / design.samples() as f64).exp();
             innovations.iter_mut().flatten().for_each(|w| *w *= factor);

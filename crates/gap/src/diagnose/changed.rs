@@ -80,7 +80,7 @@ fn standing_in(
     let predictions: Vec<Vec<f64>> = predicted(rig, records).into_iter().collect::<Option<_>>()?;
     let mut simulated = records.clone();
     for (track, predicted) in simulated.tracks.iter_mut().zip(&predictions) {
-        track.y.clone_from(predicted);
+        track.y = predicted.clone().into();
     }
     let chosen = best_simulator(workers, &simulated, most)?;
     let (mut differs, mut missed) = (Vec::new(), Vec::new());

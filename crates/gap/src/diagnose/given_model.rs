@@ -5,7 +5,7 @@ use switchback_estimator::rig::{Rig, RigRecord};
 use crate::error::DiagnoseError;
 use crate::likelihood::engine::Fit;
 use crate::localise::Residuals;
-use crate::records::campaign::{Campaign, Track};
+use crate::records::campaign::{Campaign, Track, dimensionless};
 use crate::settings::Model;
 use crate::simulation::simulate::free_run;
 
@@ -64,7 +64,7 @@ impl GivenModel {
 
 /// The `y_sim` of every record that has one for each of its samples, dimensionless.
 pub(super) fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>> {
-    let scaled = |y: &Vec<f64>| y.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect();
+    let scaled = |y: &Vec<f64>| dimensionless(y, campaign.y_mean, campaign.y_scale);
     let whole = |r: &RigRecord| {
         r.predicted
             .as_ref()
@@ -91,7 +91,7 @@ fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<V
             if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
                 return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
             }
-            Ok(found.iter().map(|y| (y - campaign.y_mean) / campaign.y_scale).collect())
+            Ok(dimensionless(found, campaign.y_mean, campaign.y_scale))
         })
         .collect()
 }

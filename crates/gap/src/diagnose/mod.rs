@@ -3,6 +3,7 @@
 mod changed;
 mod compared;
 mod evidence;
+mod exact;
 mod given_model;
 mod harm;
 mod held_out;
@@ -234,6 +235,9 @@ impl Plan {
 
     /// Ranks the candidates and draws the conclusions.
     fn attribute(&mut self, workers: &impl Workers) -> Conclusion {
+        if let Some(nothing) = self.nothing_to_explain() {
+            return nothing;
+        }
         let mut evidence = self.gather(workers);
         if let Some(better) = self.on_the_grid_of(&evidence.best) {
             self.found_on(better);

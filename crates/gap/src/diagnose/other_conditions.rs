@@ -1,10 +1,14 @@
 //! Whether the held-out records were taken under other conditions than the fit records.
 
 use switchback_estimator::rig::Usage;
+use switchback_estimator::statistics::MeanInterval;
 
 use super::Plan;
 use crate::likelihood::engine::Fit;
 use crate::residuals::score::innovations;
+
+/// Half-width of a 95 % interval in standard errors of a normal estimate.
+const Z95: f64 = 1.959_963_984_540_054;
 
 impl Plan {
     /// How many times as large, in root mean square, the errors of a model are on the held-out records as on those it was fitted to, where
@@ -14,7 +18,9 @@ impl Plan {
     /// `N` samples that have `1 − k/N` of it left (H. Akaike, "Fitting autoregressive models for prediction", Ann. Inst. Stat. Math. 21,
     /// 1969).
     pub(super) fn held_out_errors_beyond_chance(&self, fit: &Fit) -> Option<f64> {
-        if self.given.is_some() || self.resolves_no_gap(fit) {
+        // A held-out record too short to be judged says nothing of a machine either.
+        let holds_out = self.judged.iter().all(|&number| !self.campaign.tracks[number].is_fit());
+        if self.given.is_some() || !holds_out || self.resolves_no_gap(fit) {
             return None;
         }
         let share = fit.parameters / fit.samples.max(1) as f64;
@@ -22,7 +28,12 @@ impl Plan {
         let errors = innovations(&self.campaign, fit, |track| track.usage == Usage::Holdout);
         let ratios: Vec<Vec<f64>> =
             errors.iter().map(|errors| errors.iter().map(|w| w * w / expected).collect()).collect();
-        self.mean(&ratios, fit).filter(|ratio| ratio.low > 1.0).map(|ratio| ratio.mean.sqrt())
+        // What is expected is a variance of so many samples itself: its relative error is √(2/(N − k)).
+        let freedom = (fit.samples as f64 - fit.parameters).max(1.0);
+        let of_expected = Z95 * (2.0 / freedom).sqrt();
+        let least =
+            |ratio: &MeanInterval| ratio.mean - (ratio.mean - ratio.low).hypot(of_expected * ratio.mean);
+        self.mean(&ratios, fit).filter(|ratio| least(ratio) > 1.0).map(|ratio| ratio.mean.sqrt())
     }
 }
 

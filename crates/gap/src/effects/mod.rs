@@ -91,7 +91,7 @@ pub(crate) use border_resolution::details;
 
 /// Whether a pole of `A` dies away in no record: it follows a drift, and a lag has taken its place.
 fn outlasts_the_records(fit: &Fit) -> bool {
-    let longest = fit.design.tracks.iter().map(|track| track.x.len()).max().unwrap_or(0) as f64;
+    let longest = fit.longest_record() as f64;
     fit.linear.poles().into_iter().any(|pole| pole.norm() > (-1.0 / longest.max(1.0)).exp())
 }
 

@@ -37,7 +37,7 @@ fn named(rises: bool, coefficient: f64) -> Effect {
 /// The sign of the loop: positive where the ascending border lies above, in the mean. None where `u` falls along the stroke all the same, from
 /// the start of the descending border to the end of the ascending one, or the other way round: such a loop lags, and no friction makes it.
 fn orientation(fit: &Fit) -> Option<f64> {
-    let added = mean_added(&fit.design, fit.grid.len());
+    let added = mean_added(&fit.design(), fit.grid.len());
     let coefficients = &fit.linear.f[fit.grid.len()..];
     // What columns beside the tables add along the branch, in the mean over the samples in which the input moves.
     let beside: f64 = added.iter().zip(coefficients).map(|(added, c)| added * c).sum();

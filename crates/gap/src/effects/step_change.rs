@@ -123,7 +123,7 @@ fn starts(
     let fit = scene.fit;
     let mut assembly = fit.assembly.clone();
     apply(&mut assembly, Slow { bends: vec![(0.0, PROBE)], ..Slow::on(Clock::Samples) });
-    let design = Design::like(Some(&fit.design), scene.campaign, &fit.grid, &assembly);
+    let design = Design::like(Some(fit.near()), scene.campaign, &fit.grid, &assembly);
     let probed = design.innovations(&fit.linear, &design.whitener(&assembly.noise, &fit.linear.a));
     let (mut errors, mut slopes, mut clocks) = (Vec::new(), Vec::new(), Vec::new());
     let mut firsts_of_records = Vec::new();

@@ -25,7 +25,7 @@ impl Exporter {
     /// An explanation with the covariance of all that it estimates.
     pub(crate) fn fitted(&self, campaign: &Campaign, explanation: &Explanation) -> PortableModel {
         let fit = &explanation.fit;
-        let ground = Ground { campaign, grid: &fit.grid, known: Some(&fit.design) };
+        let ground = Ground { campaign, grid: &fit.grid, known: Some(fit.near()) };
         let known = uncertainty(ground, &|values| assembled(&explanation.parts, values), fit);
         self.model(campaign, fit, known)
     }

@@ -9,7 +9,6 @@ use crate::likelihood::engine::{Fit, Ground, fit};
 use crate::model::assembly::*;
 use crate::model::borders::Grid;
 use crate::model::forwards::Forwards;
-use crate::model::linear::Linear;
 use crate::model::sensor::{Bumps, Knee, SensorCurve};
 use crate::records::campaign::Campaign;
 use crate::records::motion::Play;
@@ -254,7 +253,8 @@ fn elsewhere_slow_changes_stand_at_their_end_and_it_is_said() {
     let there = run(&[4.0; 10]);
     assert!(there.notes[0].contains("at the end of the campaign"), "{:?}", there.notes);
     // The oracle: the model without the trend, and the trend's last value through the gain at rest.
-    let still = Fit { linear: Linear { d: vec![0.0], ..fit.linear.clone() }, ..fit.clone() };
+    let mut still = fit.clone();
+    still.linear.d = vec![0.0];
     let plain = Exporter::new(&rig).given(&campaign, &still).simulate(&[4.0; 10], None);
     let at_rest = 1.0 + fit.linear.a.iter().sum::<f64>();
     let expected = 1e-3 * (2.0 * campaign.total as f64 - 1.0) / at_rest * campaign.y_scale;

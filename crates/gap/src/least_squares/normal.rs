@@ -100,6 +100,22 @@ impl Normal {
         out
     }
 
+    /// The equations of the first parameters alone.
+    pub(crate) fn leading(&self, count: usize) -> Self {
+        let mut out = Self::new(count);
+        for i in 0..count {
+            out.gradient[i] = self.gradient[i];
+            (i..count).for_each(|j| out.set(i, j, self.entry(i, j)));
+        }
+        out
+    }
+
+    /// What the solution takes from the sum of squares, `gᵀM⁻¹g`; nothing where there is none.
+    pub(crate) fn gain(&self) -> f64 {
+        let Some(factor) = self.factor(1e-9) else { return 0.0 };
+        factor.solve(&self.gradient).iter().zip(&self.gradient).map(|(x, g)| x * g).sum()
+    }
+
     /// Entry of the symmetric matrix.
     pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
         self.matrix[i.min(j) * self.size + i.max(j)]

@@ -19,6 +19,7 @@ use crate::model::sensor::SensorCurve;
 use crate::records::campaign::{Campaign, Criterion, Track, WARM_UP};
 use crate::records::motion::{Motion, motions};
 use crate::records::passes::Passes;
+use crate::records::signal::Signal;
 
 pub(crate) use crate::likelihood::jacobian::filtered_rows;
 use crate::likelihood::whitener::add_lagged;
@@ -33,7 +34,7 @@ pub(crate) struct DesignTrack {
     pub(crate) rows: Arc<Rows>,
     pub(crate) columns: Arc<EquationColumns>,
     /// The output with the sensor's characteristic undone.
-    pub(crate) x: Arc<[f64]>,
+    pub(crate) x: Signal,
     /// `ln dx/dy`, summed over the counted samples.
     pub(crate) log_slope: f64,
     /// First counted sample.
@@ -77,6 +78,16 @@ pub(crate) struct Design {
 }
 
 impl Design {
+    /// A design of no records: what is [like](Self::like) it is built from the beginning.
+    pub(crate) fn of_nothing(campaign: &Campaign) -> Self {
+        Self::new(campaign, &Grid { knots: [Vec::new(), Vec::new()] }, &Assembly::default(), |_| false)
+    }
+
+    /// Whether it is the design of a grid and an assembly.
+    pub(super) fn serves(&self, grid: &Grid, assembly: &Assembly) -> bool {
+        !self.tracks.is_empty() && self.grid == *grid && self.assembly.same_design(assembly)
+    }
+
     /// Builds the design of the tracks that `chosen` picks.
     pub(crate) fn new(
         campaign: &Campaign,
@@ -133,7 +144,7 @@ impl Design {
                     known.filter(|(_, common)| part(common)).map(|(design, _)| &design.tracks[k])
                 };
                 let (x, log_slope) = match same(|c| c.output) {
-                    Some(t) => (Arc::clone(&t.x), t.log_slope),
+                    Some(t) => (t.x.clone(), t.log_slope),
                     None => undo_sensor(track, curve),
                 };
                 let moves = match same(|c| c.moves) {
@@ -307,9 +318,9 @@ impl Design {
 const _: () = assert!(LEAD < WARM_UP);
 
 /// `x` of one track and its summed log slope.
-fn undo_sensor(track: &Track, curve: &SensorCurve) -> (Arc<[f64]>, f64) {
+fn undo_sensor(track: &Track, curve: &SensorCurve) -> (Signal, f64) {
     if curve.is_straight() {
-        return (track.y.as_slice().into(), 0.0);
+        return (track.y.clone(), 0.0);
     }
     let mut log_slope = 0.0;
     let x = track

@@ -63,14 +63,83 @@ pub(crate) struct Fit {
     pub(crate) samples: usize,
     /// Effective number of parameters.
     pub(crate) parameters: f64,
-    /// The fit records under it.
-    pub(crate) design: Arc<Design>,
+    /// The records fitted.
+    campaign: Campaign,
+    /// Their design, or one that has much in common with it.
+    near: Arc<Design>,
 }
 
 /// Half-width of a 90 % interval in standard errors of a normal estimate.
 const Z90: f64 = 1.644_853_626_951_472_6;
 
+/// Parameters in place, before the records are theirs.
+pub(crate) struct Found {
+    pub(crate) assembly: Assembly,
+    pub(crate) linear: Linear,
+    pub(crate) nonlinear: Vec<NonlinearParameter>,
+    /// Standard errors of the nonlinear parameters.
+    pub(crate) nonlinear_se: Vec<f64>,
+    pub(crate) deviance: f64,
+    pub(crate) variance: f64,
+    pub(crate) power: f64,
+    pub(crate) samples: usize,
+    pub(crate) parameters: f64,
+}
+
 impl Fit {
+    /// What was found on a design of the fit records.
+    pub(crate) fn of(campaign: &Campaign, design: Design, found: Found) -> Self {
+        let Found {
+            assembly,
+            linear,
+            nonlinear,
+            nonlinear_se,
+            deviance,
+            variance,
+            power,
+            samples,
+            parameters,
+        } = found;
+        Self {
+            assembly,
+            grid: design.grid.clone(),
+            linear,
+            nonlinear,
+            nonlinear_se,
+            deviance,
+            variance,
+            power,
+            samples,
+            parameters,
+            campaign: campaign.clone(),
+            near: Arc::new(design),
+        }
+    }
+
+    /// The fit records under it; built anew where they were [set aside](Self::set_aside).
+    pub(crate) fn design(&self) -> Arc<Design> {
+        match self.near.serves(&self.grid, &self.assembly) {
+            true => Arc::clone(&self.near),
+            false => Design::like(Some(&self.near), &self.campaign, &self.grid, &self.assembly).into(),
+        }
+    }
+
+    /// Samples of the longest record fitted.
+    pub(crate) fn longest_record(&self) -> usize {
+        self.campaign.fit().map(|track| track.v.len()).max().unwrap_or(0)
+    }
+
+    /// A design that has much in common with that of the fit, for what is built from it.
+    pub(crate) fn near(&self) -> &Arc<Design> {
+        &self.near
+    }
+
+    /// The same fit for keeping: its design, which holds hundreds of bytes a sample, is given up for one that is held anyway.
+    #[must_use]
+    pub(crate) fn set_aside(self, held: &Arc<Design>) -> Self {
+        Self { near: Arc::clone(held), ..self }
+    }
+
     /// 90 % intervals of the nonlinear parameters; NaN where the likelihood gives no standard error.
     pub(crate) fn intervals(&self) -> Vec<[f64; 2]> {
         let interval = |(o, se): (&NonlinearParameter, &f64)| [o.value - Z90 * se, o.value + Z90 * se];
@@ -260,9 +329,8 @@ pub(crate) fn fit(
     if let Some(mixture) = state.weights.mixture {
         assembly.noise.mixture = Some(mixture);
     }
-    Some(Fit {
+    let found = Found {
         assembly,
-        grid: design.grid.clone(),
         linear: p,
         nonlinear,
         nonlinear_se,
@@ -271,8 +339,8 @@ pub(crate) fn fit(
         power,
         samples,
         parameters,
-        design: Arc::new(design),
-    })
+    };
+    Some(Fit::of(ground.campaign, design, found))
 }
 
 /// Numerical derivatives of the weighted innovations with respect to the nonlinear parameters, one column each.

@@ -76,9 +76,7 @@ impl<'a> Gains<'a> {
                 small.set(i, j, if i == j { s.max(1e-9 * corner) } else { s });
             }
         }
-        let Some(factor) = small.factor(1e-9) else { return 0.0 };
-        let x = factor.solve(&small.gradient);
-        x.iter().zip(&small.gradient).map(|(x, g)| x * g).sum::<f64>() / self.variance
+        small.gain() / self.variance
     }
 
     /// Sums of a column of zeros.
@@ -101,11 +99,86 @@ impl<'a> Gains<'a> {
     }
 }
 
+/// Columns that are all known before they are tested: sums over the samples tell their gains, and no row of derivatives is kept.
+pub(crate) struct Tested {
+    /// Schur complement of the columns in their sums with the present parameters' derivatives.
+    schur: Normal,
+    corners: Vec<f64>,
+    variance: f64,
+}
+
+impl Tested {
+    /// From the [sums](crate::likelihood::jacobian::normal_equations) of `known` derivatives with the columns behind them, all weighted.
+    pub(crate) fn of(sums: &Normal, known: usize, variance: f64) -> Option<Self> {
+        let count = sums.size - known;
+        let model = sums.leading(known);
+        let factor = model.factor(1e-8)?;
+        let left = factor.solve(&model.gradient);
+        let cross = |j: usize| (0..known).map(|i| sums.entry(i, known + j)).collect::<Vec<f64>>();
+        let crosses: Vec<Vec<f64>> = (0..count).map(cross).collect();
+        let solved: Vec<Vec<f64>> = crosses.iter().map(|cross| factor.solve(cross)).collect();
+        let mut schur = Normal::new(count);
+        for i in 0..count {
+            schur.gradient[i] = sums.gradient[known + i] - dot(&crosses[i], &left);
+            for j in i..count {
+                schur.set(i, j, sums.entry(known + i, known + j) - dot(&crosses[i], &solved[j]));
+            }
+        }
+        let corners = (0..count).map(|j| sums.entry(known + j, known + j)).collect();
+        Some(Self { schur, corners, variance })
+    }
+
+    /// As [`Gains::of`].
+    pub(crate) fn gain(&self, columns: &[usize]) -> f64 {
+        let mut small = Normal::new(columns.len());
+        for (i, &c) in columns.iter().enumerate() {
+            small.gradient[i] = self.schur.gradient[c];
+            for (j, &d) in columns.iter().enumerate().skip(i) {
+                let s = self.schur.entry(c, d);
+                small.set(i, j, if i == j { s.max(1e-9 * self.corners[c]) } else { s });
+            }
+        }
+        small.gain() / self.variance
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::likelihood::engine::{Ground, fit};
+    use crate::likelihood::jacobian::normal_equations;
+    use crate::likelihood::weights::Weights;
+    use crate::model::assembly::Assembly;
+    use crate::testing::{small_campaign, small_model, white};
+
+    /// The oracle: columns tested one by one, with all derivatives kept.
+    #[test]
+    fn sums_alone_tell_what_columns_gain() {
+        let (campaign, grid) = small_campaign();
+        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
+        let mut assembly = Assembly::default();
+        for ma in [Vec::new(), vec![0.4]] {
+            assembly.noise.ma = ma;
+            let fit = fit(ground, &|_| assembly.clone(), &[], &small_model(&grid), 4).expect("a fit");
+            let (design, weights) = (fit.design(), Weights::default());
+            let whitener = design.whitener(&assembly.noise, &fit.linear.a);
+            let w = design.innovations(&fit.linear, &whitener).concat();
+            let mut noise = white();
+            let columns: Vec<Vec<f64>> = (0..3).map(|_| w.iter().map(|_| noise()).collect()).collect();
+            let jacobian = Jacobian::new(&design, &fit.linear, &whitener, &weights);
+            let gains = Gains::new(&jacobian, &w, fit.variance).expect("determined");
+            let scored: Vec<Scored> = columns.iter().map(|column| gains.score(column.clone())).collect();
+            let sums = normal_equations(&design, &fit.linear, &whitener, &weights, (&w, &columns));
+            let tested = Tested::of(&sums, fit.linear.len(), fit.variance).expect("determined");
+            for chosen in [vec![0], vec![1, 2], vec![0, 1, 2]] {
+                let expected = gains.of(&chosen.iter().map(|&j| &scored[j]).collect::<Vec<_>>());
+                let found = tested.gain(&chosen);
+                assert!((found - expected).abs() < 1e-6 * expected, "{found} {expected}");
+            }
+        }
+    }
 
     proptest! {
         #[test]

@@ -70,7 +70,7 @@ mod tests {
         let track = campaign.fit().next().expect("a track");
         let of = |width: f64, v: &[f64]| {
             let assembly = Assembly { play: Play { width, taper: 0.0 }, ..Assembly::default() };
-            masked(&Track { v: v.to_vec(), ..track.clone() }, &assembly, campaign.rule).out
+            masked(&Track { v: v.to_vec().into(), ..track.clone() }, &assembly, campaign.rule).out
         };
         // Slowly down from the middle: a play of a tenth is crossed at sample 51.
         let count = track.v.len();

@@ -20,7 +20,7 @@ pub(crate) struct Uncertainty {
 ///
 /// The direction along which `b` and `f` trade their scale is held: no output depends on it.
 pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> Option<Uncertainty> {
-    let (design, p) = (&fit.design, &fit.linear);
+    let (design, p) = (&*fit.design(), &fit.linear);
     let state = evaluate(design, fit.assembly.clone(), p)?;
     let extra = derivatives(&ground, build, &fit.nonlinear, design, &state, p);
     let w = state.weights.applied(&state.innovations);

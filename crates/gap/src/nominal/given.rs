@@ -4,10 +4,10 @@ use switchback_estimator::linear::is_stable;
 
 use crate::error::DiagnoseError;
 use crate::likelihood::design::{Design, Linear, Whitener};
-use crate::likelihood::engine::Fit;
+use crate::likelihood::engine::{Fit, Found};
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
-use crate::records::campaign::Campaign;
+use crate::records::campaign::{Campaign, dimensionless};
 use crate::settings::NominalModel;
 
 /// Checks a given model and scales it: `u' = u/s − A(1)·μ/(B(1)·s)` keeps `A y = B u` for `y' = (y − μ)/s`.
@@ -35,10 +35,11 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
         return bad("A is unstable");
     }
     let level = (1.0 + model.a.iter().sum::<f64>()) * campaign.y_mean / dc;
+    let places = |border: &[(f64, f64)]| border.iter().map(|p| p.0).collect::<Vec<f64>>();
     let knots = [&model.descending, &model.ascending]
-        .map(|b| b.iter().map(|p| (p.0 - campaign.v_low) / campaign.v_width).collect::<Vec<f64>>());
-    let f =
-        model.descending.iter().chain(&model.ascending).map(|p| (p.1 - level) / campaign.y_scale).collect();
+        .map(|border| dimensionless(&places(border), campaign.v_low, campaign.v_width));
+    let values: Vec<f64> = model.descending.iter().chain(&model.ascending).map(|p| p.1).collect();
+    let f = dimensionless(&values, level, campaign.y_scale);
     let grid = Grid { knots };
     let linear = Linear { a: model.a.clone(), b: model.b.clone(), f, d: Vec::new() };
     let assembly = Assembly::default();
@@ -46,9 +47,8 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
     let w = design.innovations(&linear, &Whitener::default());
     let samples = design.samples();
     let variance = w.iter().flatten().map(|w| w * w).sum::<f64>() / samples.max(1) as f64;
-    Ok(Fit {
+    let found = Found {
         assembly,
-        grid,
         linear,
         nonlinear: Vec::new(),
         nonlinear_se: Vec::new(),
@@ -57,6 +57,6 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
         power: variance,
         samples,
         parameters: 0.0,
-        design: design.into(),
-    })
+    };
+    Ok(Fit::of(campaign, design, found))
 }

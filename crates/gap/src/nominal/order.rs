@@ -3,6 +3,7 @@
 use switchback_estimator::rig::Rig;
 
 use crate::error::DiagnoseError;
+use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, Ground, fit};
 use crate::likelihood::weights::weigh;
 use crate::model::assembly::Assembly;
@@ -268,7 +269,7 @@ impl Simulator {
 /// Share of the innovations' variance that their past does not foretell, each weighed as it was for the fit: what is hit by an
 /// outlier tells nothing about the colour of the rest.
 fn white_share(fit: &Fit) -> f64 {
-    let (design, noise) = (&fit.design, &fit.assembly.noise);
+    let (design, noise) = (&fit.design(), &fit.assembly.noise);
     let raw = design.innovations(&fit.linear, &design.whitener(noise, &fit.linear.a));
     let weights = weigh(design, noise, &fit.linear, &raw);
     let weighed = weights.by_track(&raw);
@@ -317,6 +318,9 @@ fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseE
     }
     let ground = Ground { campaign: &simulates, grid: &grid, known: None };
     let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
+    // There are many structures: none is held.
+    let nothing = Design::of_nothing(&simulates).into();
+    let simulator = simulator.map(|fit| fit.set_aside(&nothing));
     let error = if settles(&one_step.linear.a) { simulation_error(led, &one_step) } else { f64::INFINITY };
     Ok(Tried { structure, one_step: error, simulator })
 }

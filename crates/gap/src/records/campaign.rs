@@ -11,6 +11,8 @@ use crate::likelihood::whitener::LEAD;
 use crate::model::borders::Grid;
 use crate::records::motion::{Begins, Motion, Play, ReversalRule, motions};
 use crate::records::passes::Passes;
+use crate::records::scale::{Scale, check_plausible};
+use crate::records::signal::Signal;
 
 /// One record in dimensionless form.
 #[derive(Debug, Clone)]
@@ -19,9 +21,9 @@ pub(crate) struct Track {
     pub(crate) role: Role,
     pub(crate) usage: Usage,
     /// Input, 0 at the lower end of the working interval and 1 at the upper.
-    pub(crate) v: Vec<f64>,
+    pub(crate) v: Signal,
     /// Output, zero mean and unit standard deviation over the fit records.
-    pub(crate) y: Vec<f64>,
+    pub(crate) y: Signal,
     /// Sample of the campaign at which the record starts, counting the records in the order of the file.
     pub(crate) clock: usize,
     /// Records of the campaign before this one.
@@ -46,8 +48,7 @@ impl Track {
     /// The track whose positions act a share of a sample late.
     pub(crate) fn late(&self, share: f64, rule: ReversalRule) -> Self {
         let before = self.v.iter().take(1).chain(&self.v);
-        let v: Vec<f64> =
-            self.v.iter().zip(before).map(|(now, before)| now + share * (before - now)).collect();
+        let v: Signal = self.v.iter().zip(before).map(|(now, before)| now + share * (before - now)).collect();
         Self { moves: motions(&v, Play::default(), rule).into(), v, ..self.clone() }
     }
 
@@ -131,33 +132,19 @@ impl Campaign {
     /// Scales the records of a rig.
     ///
     /// # Errors
-    /// [`DiagnoseError`] if nothing is marked for fitting, or input or output never move.
+    /// [`DiagnoseError`] if nothing is marked for fitting, input or output never move, or a value is none that their sensors can have read.
     pub(crate) fn new(rig: &Rig) -> Result<Self, DiagnoseError> {
         if rig.fit_records().next().is_none() {
             return Err(DiagnoseError::NoFitRecord);
         }
-        let (low, high) = range(rig.fit_records().flat_map(|r| r.record.v()));
-        if high <= low {
-            return Err(DiagnoseError::ConstantInput);
-        }
-        let (v_low, v_width) = match rig.interval {
-            Some(interval) => (interval.low(), interval.width()),
-            None => (low, high - low),
-        };
-        let count = rig.fit_records().map(|r| r.record.len()).sum::<usize>() as f64;
-        let y_mean = rig.fit_records().flat_map(|r| r.record.y()).sum::<f64>() / count;
-        let spread =
-            rig.fit_records().flat_map(|r| r.record.y()).map(|y| (y - y_mean).powi(2)).sum::<f64>() / count;
-        let (least, most) = range(rig.fit_records().flat_map(|r| r.record.y()));
-        if most <= least {
-            return Err(DiagnoseError::ConstantOutput);
-        }
-        let y_scale = spread.sqrt();
+        let Scale { origin: v_low, size: v_width } = Scale::of_input(rig)?;
+        let Scale { origin: y_mean, size: y_scale } = Scale::of_output(rig)?;
+        check_plausible(rig)?;
         let mut tracks = Vec::with_capacity(rig.records.len());
         let mut clock = 0;
         for r in &rig.records {
-            let v = dimensionless(r.record.v(), v_low, v_width);
-            let y = dimensionless(r.record.y(), y_mean, y_scale);
+            let v = Signal::from(dimensionless(r.record.v(), v_low, v_width));
+            let y = Signal::from(dimensionless(r.record.y(), y_mean, y_scale));
             let period = period_of(&v);
             tracks.push(Track {
                 name: r.name.clone(),
@@ -207,7 +194,7 @@ impl Campaign {
         let mut sooner = self.clone();
         sooner.lead += lead;
         for track in &mut sooner.tracks {
-            track.v = led(&track.v, lead);
+            track.v = led(&track.v, lead).into();
             track.moves = motions(&track.v, Play::default(), self.rule).into();
         }
         sooner
@@ -285,10 +272,6 @@ pub(crate) fn first_counted(v: &[f64], warm_up: usize) -> usize {
 pub(crate) fn led(v: &[f64], lead: isize) -> Vec<f64> {
     let last = v.len() - 1;
     (0..=last).map(|t| v[t.saturating_add_signed(lead).min(last)]).collect()
-}
-
-fn range<'a>(values: impl Iterator<Item = &'a f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)))
 }
 
 /// The period of a signal that repeats exactly at least three times after a start-up, at most a third of its length.

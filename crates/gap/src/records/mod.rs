@@ -4,3 +4,5 @@ pub(crate) mod campaign;
 pub(crate) mod motion;
 pub(crate) mod passes;
 pub(crate) mod repeats;
+mod scale;
+pub(crate) mod signal;

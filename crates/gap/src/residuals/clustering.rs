@@ -8,7 +8,7 @@
 //! z = (visits that saw one − Σ e)/√(Σ e·(1 − e))
 //! ```
 
-use crate::likelihood::design::DesignTrack;
+use crate::likelihood::design::{Design, DesignTrack};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
 use crate::records::campaign::{Campaign, Track};
@@ -62,7 +62,11 @@ struct Seen {
 
 /// Whether many of the outliers of a fitted mixture come back where the input does; never without a mixture.
 pub(crate) fn come_where_the_input_is(campaign: &Campaign, fit: &Fit) -> bool {
-    let Some(outliers) = outliers(fit) else { return false };
+    if fit.assembly.noise.mixture.is_none() {
+        return false;
+    }
+    let design = fit.design();
+    let Some(outliers) = outliers(&design, fit) else { return false };
     let seen = |cell: fn(&Motion, f64) -> usize| {
         let of_track = |((known, track), outliers): ((&DesignTrack, &Track), &Vec<bool>)| {
             // What is counted first answers the input one sample before.
@@ -70,7 +74,7 @@ pub(crate) fn come_where_the_input_is(campaign: &Campaign, fit: &Fit) -> bool {
             let cells = before.map(|t| cell(&known.moves[t], track.v[t])).collect();
             Seen { cells, outliers: outliers.clone() }
         };
-        fit.design.tracks.iter().zip(campaign.fit()).zip(&outliers).map(of_track).collect::<Vec<Seen>>()
+        design.tracks.iter().zip(campaign.fit()).zip(&outliers).map(of_track).collect::<Vec<Seen>>()
     };
     are_bound(&seen(at_place)) || are_bound(&seen(after_reversal)) || are_bound(&seen(travelled))
 }
@@ -92,8 +96,8 @@ fn travelled(m: &Motion, _: f64) -> usize {
 }
 
 /// The counted samples that belong rather to the wide part of the mixture.
-fn outliers(fit: &Fit) -> Option<Vec<Vec<bool>>> {
-    let (design, noise) = (&fit.design, &fit.assembly.noise);
+fn outliers(design: &Design, fit: &Fit) -> Option<Vec<Vec<bool>>> {
+    let noise = &fit.assembly.noise;
     let (_, ratio) = noise.mixture?;
     let innovations = design.innovations(&fit.linear, &design.whitener(noise, &fit.linear.a));
     let scale = weigh(design, noise, &fit.linear, &innovations).scale?;

@@ -11,9 +11,12 @@
 //! variance rests on a likelihood, which would hold the model for true: both models may be wrong (Q. H. Vuong, Econometrica 57, 1989; F. X.
 //! Diebold and R. S. Mariano, J. Business & Economic Statistics 13, 1995).
 
+use std::sync::Arc;
+
 use switchback_estimator::statistics::MeanInterval;
 
 use crate::diagnosis::{Horizon, HorizonGain};
+use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::likelihood::whitener::LEAD;
 use crate::residuals::spectrum::{autoregression, independent_share, mean_square};
@@ -37,9 +40,9 @@ impl Reference {
     pub(crate) fn of(fit: &Fit) -> Self {
         let settling = fit.linear.settling();
         let halfway = (settling as f64).sqrt().round() as usize;
-        let longest = fit.design.tracks.iter().map(|t| t.x.len() - t.from).max().unwrap_or_default();
-        let between = [halfway, settling].into_iter().filter(|h| (2..longest).contains(h));
         let errors = Errors::of(fit);
+        let longest = errors.design.tracks.iter().map(|t| t.x.len() - t.from).max().unwrap_or_default();
+        let between = [halfway, settling].into_iter().filter(|h| (2..longest).contains(h));
         let all = [Horizon::Step].into_iter().chain(between.map(Horizon::Samples)).chain([Horizon::FreeRun]);
         Self { horizons: all.map(|horizon| (horizon, errors.at(horizon))).collect(), memory: settling }
     }
@@ -93,12 +96,14 @@ struct Errors<'a> {
     equation: Vec<Vec<f64>>,
     /// Samples of each before the first counted one.
     lead: Vec<usize>,
+    design: Arc<Design>,
 }
 
 impl<'a> Errors<'a> {
     fn of(fit: &'a Fit) -> Self {
-        let lead = fit.design.tracks.iter().map(|t| t.from.min(LEAD)).collect();
-        Self { fit, equation: fit.design.all_errors(&fit.linear), lead }
+        let design = fit.design();
+        let lead = design.tracks.iter().map(|t| t.from.min(LEAD)).collect();
+        Self { fit, equation: design.all_errors(&fit.linear), lead, design }
     }
 
     /// The prediction errors of the readings at a horizon.
@@ -111,7 +116,7 @@ impl<'a> Errors<'a> {
         let assembly = &self.fit.assembly;
         if !assembly.curve.is_straight() || assembly.saturation.is_some() {
             let read = |x: f64| sensed(assembly, x);
-            for (errors, track) in errors.iter_mut().zip(&self.fit.design.tracks) {
+            for (errors, track) in errors.iter_mut().zip(&self.design.tracks) {
                 let measured = &track.x[track.from..];
                 errors.iter_mut().zip(measured).for_each(|(e, x)| *e = read(*x) - read(x - *e));
             }
@@ -188,8 +193,9 @@ mod tests {
         let errors = Errors::of(&fit);
         for h in [1, 7, usize::MAX] {
             let found = errors.at(Horizon::Samples(h)).errors;
-            for (track, found) in fit.design.tracks.iter().zip(found) {
-                let u = fit.design.input(track, f);
+            let design = fit.design();
+            for (track, found) in design.tracks.iter().zip(found) {
+                let u = design.input(track, f);
                 let mut run = track.x.to_vec();
                 for t in track.from..track.x.len() {
                     let begun = track.from + (t - track.from) / h * h;

@@ -3,8 +3,8 @@
 use crate::effect::Stage;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
-use crate::likelihood::gains::{Gains, Scored};
-use crate::likelihood::jacobian::Jacobian;
+use crate::likelihood::gains::Tested;
+use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::mixture;
 use crate::model::assembly::convolve;
 use crate::records::campaign::Campaign;
@@ -112,7 +112,7 @@ impl Omnibus {
 
 /// Runs the tests on the fit records.
 pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
-    let design = Design::like(Some(&fit.design), campaign, &fit.grid, &fit.assembly);
+    let design = Design::like(Some(fit.near()), campaign, &fit.grid, &fit.assembly);
     let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
     let innovations = design.innovations(&fit.linear, &whitener);
     let weights = crate::likelihood::weights::weigh(&design, &fit.assembly.noise, &fit.linear, &innovations);
@@ -187,15 +187,15 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             extra[j].push(column);
         }
     }
-    let jacobian = Jacobian::new(&design, &fit.linear, &whitener, &weights);
     let weighted = weights.applied(&innovations);
-    let gains = Gains::new(&jacobian, &weighted, fit.variance / share)?;
-    let all: Vec<Scored> = extra.iter().map(|column| gains.score(weights.applied(column))).collect();
+    // Each column is given up for the weighted one.
+    let extra: Vec<Vec<f64>> = extra.into_iter().map(|column| weights.applied(&column)).collect();
+    let sums = normal_equations(&design, &fit.linear, &whitener, &weights, (&weighted, &extra));
+    let tested = Tested::of(&sums, fit.linear.len(), fit.variance / share)?;
     let mut groups: Vec<(Group, f64, usize)> = Vec::new();
     for group in [Group::Lags, Group::Motion, Group::Reversal, Group::Time, Group::Level] {
-        let members: Vec<&Scored> =
-            names.iter().zip(&all).filter(|(name, _)| **name == group).map(|(_, c)| c).collect();
-        groups.push((group, gains.of(&members), members.len()));
+        let members: Vec<usize> = (0..names.len()).filter(|&j| names[j] == group).collect();
+        groups.push((group, tested.gain(&members), members.len()));
     }
     let scaled = weights.by_track(&innovations);
     // Samples without weight say nothing.
@@ -217,7 +217,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
     let unrounded = (1.0 - rounding / SUSPECT).clamp(0.0, 1.0);
     Some(Omnibus {
         groups,
-        regressors: (gains.of(&all.iter().collect::<Vec<_>>()), all.len()),
+        regressors: (tested.gain(&(0..names.len()).collect::<Vec<_>>()), names.len()),
         ljung_box,
         scatter,
         bursts: white * size.bursts,

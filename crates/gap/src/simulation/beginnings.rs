@@ -235,7 +235,7 @@ pub(crate) fn begins_as_a_filter(fit: &Fit, pole: f64, share: f64) -> bool {
         EquationColumn::Decay { radius, frequency: 0.0, sine: false, .. } => radius == pole,
         _ => false,
     };
-    fit.design.tracks.iter().all(|track| {
+    fit.design().tracks.iter().all(|track| {
         let counted = (track.x.len() - track.from) as f64;
         let energy = (1.0 - pole.powf(2.0 * counted)) / (1.0 - pole * pole);
         let remains = pole.powi(track.from as i32);
@@ -315,7 +315,7 @@ mod tests {
         let mut held_out = campaign.tracks[0].clone();
         held_out.usage = switchback_estimator::rig::Usage::Holdout;
         let half = held_out.v.len() / 2;
-        held_out.v.truncate(half);
+        held_out.v = held_out.v[..half].to_vec().into();
         campaign.tracks.push(held_out);
         let line = |track, sine| EquationColumn::Line { frequency: 0.3, track, sine };
         let local = |track, piece, pieces| EquationColumn::Local { track, piece, pieces };

@@ -21,6 +21,11 @@ pub(crate) struct Odds {
 }
 
 impl Odds {
+    /// Those where nothing is found.
+    pub(crate) fn of_nothing() -> Self {
+        Self { effects: Vec::new(), none: calibration::SILENCE, unexplained: 1.0 - calibration::SILENCE }
+    }
+
     /// The same where the colour of noise belongs to the model: where nothing but that is found nothing is missing. `effects` are those
     /// that the probabilities are of.
     pub(crate) fn with_colour_in_the_model(mut self, effects: impl Iterator<Item = Effect>) -> Self {

@@ -90,7 +90,7 @@ pub fn run(args: &Args) -> CommandResult {
         return run_power(args, &loaded);
     }
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
-    let subject = Subject::choose(loaded.rig, args.model.as_deref())?;
+    let subject = Subject::choose(loaded.rig, args.model.as_deref())?.noting(loaded.told.warnings);
     let watch = Watch::new(args.quiet);
     let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings(args), &watch))?;
     watch.finish();

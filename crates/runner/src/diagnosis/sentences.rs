@@ -2,7 +2,7 @@
 
 use super::number::{digits, whole_percent, with_interval};
 use super::{Report, Source, Units, place, told};
-use switchback_gap::{Diagnosis, Effect, FittedParameter, Status, Verdict};
+use switchback_gap::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
 
 /// Least gain of the prediction, nats per sample, that is worth a sentence.
 const WORTH_TELLING: f64 = 1e-4;
@@ -34,6 +34,14 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     sentences
 }
 
+/// Share of the output's variance below which a gap is none: a thousandth of its spread, which a converter of ten bits rounds away.
+const NOTHING: f64 = 1e-6;
+
+/// Whether the model misses nothing worth a cause.
+fn is_exact(gap: &Gap) -> bool {
+    gap.before.estimate.abs() <= NOTHING && gap.before.ci90[1] <= NOTHING
+}
+
 /// How large the gap is.
 fn size(report: &Report) -> String {
     let gap = &report.diagnosis.gap;
@@ -45,6 +53,9 @@ fn size(report: &Report) -> String {
     let percent = |x: f64| digits(100.0 * x, 2);
     let [low, high] = gap.before.ci90;
     let held_out = judged(report);
+    if is_exact(gap) {
+        return format!("On {held_out} {model} misses less than a thousandth of the output's spread.");
+    }
     if gap.before.ci90[0] <= 0.0 {
         if high <= 0.0 {
             return format!(
@@ -113,7 +124,20 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             format!("No gap can be resolved: {missed}.")
         }
         Status::Refit => refit(diagnosis),
-        Status::None => format!("Nothing significant is missing from the model, probability {p}."),
+        Status::None => {
+            // Of a model that was identified here the errors on held-out records were tested.
+            let is_tested = diagnosis.gap.identified_anew.is_none() && !is_exact(&diagnosis.gap);
+            let by_chance = match diagnosis.gap.before.ci90[0] > 0.0 && is_tested {
+                true => format!(
+                    ": beyond the noise it misses what chance and the error of a fit to {} samples make",
+                    diagnosis.samples
+                ),
+                false => String::new(),
+            };
+            format!(
+                "Nothing significant is missing from the model, probability {p}; the records are consistent with it{by_chance}."
+            )
+        }
         Status::Named if verdict.effects.len() > 1 => {
             let each: Vec<_> =
                 verdict.effects.iter().map(|effect| described(*effect, diagnosis, units)).collect();

@@ -144,6 +144,15 @@ impl Subject {
     }
 }
 
+impl Subject {
+    /// The same, with more that the reader of the report must know.
+    #[must_use]
+    pub fn noting(mut self, notes: Vec<String>) -> Self {
+        self.notes.extend(notes);
+        self
+    }
+}
+
 /// A rig with the model of an identification, as `gap --model` has both: given as it is where it has the paper's structure, else by its
 /// free runs.
 pub fn met_by(rig: Rig, model: &free::Model) -> (Rig, Model) {

@@ -1,7 +1,7 @@
 //! Which of the files of this program one is, to tell those who gave another.
 
-use super::decode::read_decoded;
 use super::table::Table;
+use super::text_pieces::read_decoded;
 use serde_json::Value;
 use std::path::Path;
 
@@ -26,7 +26,7 @@ impl FileKind {
         if is_ending("mat") {
             return path.is_file().then_some(Self::Data);
         }
-        let text = read_decoded(path).ok()?.text;
+        let text = read_decoded(path).ok()?;
         if let Ok(value) = serde_json::from_str::<Value>(&text) {
             return of_json(&value).map(Self::Json);
         }
@@ -37,7 +37,7 @@ impl FileKind {
                 page.contains_key("record").then_some(Self::Rig)
             };
         }
-        let is_table = || Table::parse("", &text, 2).is_ok_and(|table| table.places.len() > 1);
+        let is_table = || Table::parse(&text, 2).is_ok_and(|table| table.places.len() > 1);
         (!is_ending("toml") && is_table()).then_some(Self::Data)
     }
 }

@@ -1,7 +1,6 @@
 //! Reading what users write: measurements in any dialect, text files, and TOML whose errors point into the file.
 
 mod closest;
-mod decode;
 pub(crate) mod json_file;
 mod kinds;
 mod mat;
@@ -9,6 +8,7 @@ pub(crate) mod stream;
 mod table;
 mod terms;
 mod text_file;
+mod text_pieces;
 mod toml_file;
 mod two_numbers;
 

@@ -2,7 +2,8 @@
 
 use super::stream::{self, is_stream};
 use miette::Diagnostic;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
@@ -90,16 +91,29 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, or cannot be read; a stream that is silent for 10 s or goes on beyond 1 GiB.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    if is_stream(path) {
+        return stream::read(path);
+    }
+    let mut file = open(path)?;
+    let mut bytes = Vec::new();
+    match file.read_to_end(&mut bytes) {
+        Ok(_) => Ok(bytes),
+        Err(source) => Err(FileError::Unreadable { path: path.display().to_string(), source }),
+    }
+}
+
+/// Opens a file that is no stream.
+///
+/// # Errors
+/// [`FileError`] if there is no file, it is a folder, or cannot be opened.
+pub(super) fn open(path: &Path) -> Result<File, FileError> {
     let shown = path.display().to_string();
     if path.is_dir() {
         return Err(FileError::Directory { help: instead_of_folder(path), path: shown });
     }
-    if is_stream(path) {
-        return stream::read(path);
-    }
-    std::fs::read(path).map_err(|source| match source.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown.clone() },
-        _ => FileError::Unreadable { path: shown.clone(), source },
+    File::open(path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::Missing { path: shown },
+        _ => FileError::Unreadable { path: shown, source },
     })
 }
 

@@ -3,6 +3,7 @@
 use super::assemble::Divided;
 use super::measured::Measured;
 use super::plan::{Plan, PlannedRecord};
+use super::standing;
 use crate::input::Place;
 use switchback_estimator::hysteresis::Interval;
 use switchback_estimator::rig::Usage;
@@ -16,7 +17,8 @@ pub(super) fn warnings(plan: &Plan, divided: &[Divided]) -> Vec<String> {
         records().filter_map(move |(record, measured)| far_outside(record, measured, interval))
     });
     let all: Vec<(&PlannedRecord, &Measured)> = records().collect();
-    copies(&all).into_iter().chain(outside).chain(one_way(&fitted)).collect()
+    let still = records().flat_map(|(record, measured)| standing::warnings(record, measured));
+    copies(&all).into_iter().chain(still).chain(outside).chain(one_way(&fitted)).collect()
 }
 
 /// Samples under two names, by a link or a copy, of which one is fitted and the other held out.

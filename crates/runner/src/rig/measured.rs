@@ -72,21 +72,22 @@ impl Measured {
             }
         };
         let signals = Signals { table: &table, selection: &selection, request };
-        problems
-            .extend(signals.faults().into_iter().map(|(row, problem)| at(Some(table.places[row]), problem)));
+        problems.extend(
+            signals.faults().into_iter().map(|(row, problem)| at(Some(table.places.get(row)), problem)),
+        );
         if !problems.is_empty() {
             return Err(problems);
         }
         let rows = signals.complete_rows();
         let even = signals.sampled(&rows).map_err(|(sample, problem)| {
-            vec![at(sample.map(|sample| table.places[rows[sample]]), problem)]
+            vec![at(sample.map(|sample| table.places.get(rows[sample])), problem)]
         })?;
         Ok(even.measured(table, selection))
     }
 
     /// Where a sample stands in the file.
     pub(super) fn place(&self, sample: usize) -> Place {
-        self.table.places[self.rows[sample]]
+        self.table.places.get(self.rows[sample])
     }
 
     /// Where the record is first interrupted, and by what.
@@ -97,7 +98,7 @@ impl Measured {
             DataProblem::EmptyCell { .. } => self.rows[self.pieces[1].start - 1] + 1,
             _ => self.rows[self.pieces[1].start],
         };
-        Some(DataError { path: self.table.path.clone(), place: Some(self.table.places[row]), problem })
+        Some(DataError { path: self.table.path.clone(), place: Some(self.table.places.get(row)), problem })
     }
 
     /// The time of every sample as it stands in the file; none without a time column, or where rows were interpolated.

@@ -35,6 +35,7 @@ mod sampling;
 mod select;
 mod series;
 mod spikes;
+mod standing;
 mod told;
 mod voice;
 mod wire;

@@ -33,7 +33,7 @@ pub(super) struct Place {
     /// Number of the left knot; the right one is the next.
     pub(super) knot: usize,
     /// Height of the right hat; the left one's is `1 − weight`.
-    weight: f64,
+    pub(super) weight: f64,
 }
 
 impl Place {

@@ -1,9 +1,9 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
-use super::basis::{Basis, Cell, Spacing, place_knots};
+use super::basis::{Basis, Spacing, place_knots};
 use super::branch::{Branches, ReversalRule};
+use super::cells::Cells;
 use super::error::FreeError;
-use super::model;
 use super::problem::{Segment, Structure};
 use super::sensor::SensorNoise;
 use super::settings::{InputMap, Settings};
@@ -23,7 +23,7 @@ pub(super) struct Data<'a> {
 #[derive(Debug)]
 pub(super) struct Featured<'a> {
     pub(super) basis: Basis,
-    records: Vec<(&'a Record, usize, Vec<Cell>)>,
+    records: Vec<(&'a Record, usize, Cells)>,
 }
 
 impl<'a> Data<'a> {
@@ -82,7 +82,7 @@ impl<'a> Data<'a> {
     /// Hats of every sample.
     pub(super) fn featured(&self, basis: Basis) -> Featured<'a> {
         let hats = |(record, branches): &(&'a Record, Branches)| {
-            (*record, branches.first_known(), model::cells(&basis, record.v(), branches))
+            (*record, branches.first_known(), Cells::of(&basis, record.v(), branches))
         };
         Featured { records: self.records.iter().map(hats).collect(), basis }
     }

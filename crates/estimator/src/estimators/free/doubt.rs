@@ -3,6 +3,7 @@
 use super::basis::Basis;
 use super::normalise::{Covariance, Quantity, quantities, scaled_information};
 use super::problem::{Parameters, Structure};
+use super::units::OutputUnits;
 use super::warning::Warning;
 use crate::estimators::border_distance::{BorderDistance, BorderGap, joint_limit};
 use crate::hysteresis::Branch;
@@ -18,6 +19,8 @@ pub(super) struct Doubt<'a> {
     pub(super) information: &'a DMatrix<f64>,
     /// None if a parameter has no information.
     pub(super) covariance: Option<&'a Covariance>,
+    /// What numbers are told in.
+    pub(super) units: OutputUnits,
 }
 
 /// A number and its standard error.
@@ -40,7 +43,8 @@ impl Doubt<'_> {
     /// How far the borders lie apart; `None` for a model of one curve, or without errors.
     pub(super) fn distance(&self) -> Option<BorderDistance> {
         let covariance = self.covariance.filter(|_| self.basis.is_switched())?;
-        let all = quantities(self.theta, self.basis);
+        // Differences of the borders know no origin.
+        let all = quantities(self.theta, self.basis, OutputUnits::OWN);
         let points = &all[self.theta.a.len() + self.theta.b.len()..];
         let mut places: Vec<f64> =
             self.basis.descending().iter().chain(self.basis.ascending()).copied().collect();
@@ -97,7 +101,7 @@ impl Doubt<'_> {
 
     /// What of `A` and `B` cannot be told from zero though the model rests on it.
     fn coefficients(&self, covariance: &Covariance, found: &mut Vec<Warning>) {
-        let all = quantities(self.theta, self.basis);
+        let all = quantities(self.theta, self.basis, self.units);
         let (a, rest) = all.split_at(self.theta.a.len());
         let b = &rest[..self.theta.b.len()];
         let ahead = self.structure.ahead();

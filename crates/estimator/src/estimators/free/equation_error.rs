@@ -65,7 +65,7 @@ pub(super) fn fill_row(
     row.clear();
     row.extend((0..n).map(|i| (i, -segment.y[t - 1 - i])));
     for i in 0..structure.numerator() {
-        let cell = segment.cells[structure.input(t, i)];
+        let cell = segment.cells.at(structure.input(t, i));
         row.extend(cell.features().map(|(k, x)| (n + i * width + k, x)));
     }
     let constant = n + structure.numerator() * width;

@@ -6,6 +6,7 @@ use super::normalise::{Covariance, Figures, normalise};
 use super::problem::{Parameters, Segment};
 use super::rank_one::{information, residual_energy};
 use super::simulation_error::{cost, linearise};
+use super::units::OutputUnits;
 use crate::estimators::Estimate;
 use nalgebra::DMatrix;
 
@@ -43,7 +44,7 @@ impl Errors {
 /// Normalised parameters of an equation-error fit and their standard errors.
 pub(super) fn equation_error_estimate(moments: &Moments, basis: &Basis, theta: &Parameters) -> Estimate {
     let errors = Errors::of_equation(moments, theta);
-    let figures = figures(moments, errors.variance);
+    let figures = figures(moments, errors.variance, OutputUnits::OWN);
     normalise(theta, moments.structure, basis, errors.covariance.as_ref(), figures)
 }
 
@@ -53,8 +54,9 @@ fn freedom(moments: &Moments, theta: &Parameters) -> f64 {
     moments.samples.saturating_sub(parameters).max(1) as f64
 }
 
-pub(super) fn figures(moments: &Moments, variance: f64) -> Figures {
-    Figures { noise_sd: variance.sqrt(), excitation: smallest_eigenvalue(moments), samples: moments.samples }
+pub(super) fn figures(moments: &Moments, variance: f64, units: OutputUnits) -> Figures {
+    let (excitation, samples) = (smallest_eigenvalue(moments), moments.samples);
+    Figures { noise_sd: variance.sqrt(), excitation, samples, units }
 }
 
 /// λ_min of the over-parameterised regression's information matrix, per sample.

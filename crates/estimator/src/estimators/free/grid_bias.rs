@@ -3,6 +3,7 @@
 use super::basis::Basis;
 use super::normalise::{Covariance, quantities};
 use super::problem::Parameters;
+use super::units::OutputUnits;
 use nalgebra::{DMatrix, DVector};
 
 /// The bias of a fit on a grid of knots whose two borders bend between them.
@@ -53,12 +54,13 @@ impl Uncertain {
 }
 
 impl GridBias {
-    /// Of a fit with the given covariance; `information` is that of the same fit on its halved grid.
+    /// Of a fit with the given covariance, of what it tells in some units; `information` is that of the same fit on its halved grid.
     pub(super) fn of(
         theta: &Parameters,
         basis: &Basis,
         covariance: &Covariance,
         information: &DMatrix<f64>,
+        units: OutputUnits,
     ) -> Self {
         let coefficients = theta.a.len() + theta.b.len();
         let missed = missed_by_chords(basis);
@@ -74,7 +76,7 @@ impl GridBias {
             let [se, bias_se] = [derivative, &response].map(|d| covariance.standard_error(d));
             Uncertain { se, bias, bias_se }
         };
-        let parameters = quantities(theta, basis).iter().map(|q| parameter(&q.derivative)).collect();
+        let parameters = quantities(theta, basis, units).iter().map(|q| parameter(&q.derivative)).collect();
         Self {
             parameters,
             coefficients,
@@ -193,7 +195,7 @@ mod tests {
         let theta = equation_error_fit(&moments).unwrap();
         let covariance = Errors::of_equation(&moments, &theta).covariance.unwrap();
         let on_halved = information(&expected(&halved), &theta.on_basis(&basis, &halved));
-        let estimated = GridBias::of(&theta, &basis, &covariance, &on_halved);
+        let estimated = GridBias::of(&theta, &basis, &covariance, &on_halved, OutputUnits::OWN);
         let mut truth = vec![a[0], a[1], b[0] * hysteresis.span(), b[1] * hysteresis.span()];
         for (branch, knots) in
             [(Branch::Descending, basis.descending()), (Branch::Ascending, basis.ascending())]
@@ -202,7 +204,7 @@ mod tests {
         }
         let (mut energy, mut missed) = (0.0, 0.0);
         for ((quantity, truth), estimated) in
-            quantities(&theta, &basis).iter().zip(&truth).zip(&estimated.parameters).skip(4)
+            quantities(&theta, &basis, OutputUnits::OWN).iter().zip(&truth).zip(&estimated.parameters).skip(4)
         {
             energy += (quantity.value - truth).powi(2);
             missed += (quantity.value - truth - estimated.bias).powi(2);

@@ -17,8 +17,8 @@ use super::selection::{Selection, select, with_best_rule};
 use super::settings::Settings;
 use super::simulation_error::Effort;
 use super::simulation_error::linearise;
-
 use super::undersmoothing::{GridFit, undersmoothed};
+use super::units::OutputUnits;
 use super::warning::Warning;
 use crate::estimators::{BorderDistance, Estimate, LevelErrors};
 use crate::record::Record;
@@ -44,6 +44,8 @@ pub struct Identified {
 }
 
 /// Identifies a Hammerstein system from any records.
+///
+/// The output is centred and scaled first, so that the answer depends on neither its zero nor its unit:
 ///
 /// 1. The branch at every sample is read off `v` ([`crate::estimators::free::Branches`]).
 /// 2. Whether reversals take effect at samples or between them is decided by the fit of a middling structure. Order, delay and knots are chosen by cross-validation where the settings leave them open.
@@ -74,7 +76,9 @@ pub fn identify_watched(
     progress: &dyn Progress,
 ) -> Result<Identified, FreeError> {
     settings.check()?;
-    let data = with_best_rule(Data::new(records, settings)?, settings);
+    let units = OutputUnits::of(records);
+    let centred: Vec<Record> = records.iter().map(|record| units.centred(record)).collect();
+    let data = with_best_rule(Data::new(&centred.iter().collect::<Vec<_>>(), settings)?, settings);
     let selection = select(&data, settings, progress)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
@@ -94,28 +98,28 @@ pub fn identify_watched(
         Errors::of_equation(&moments, &theta)
     };
     let basis = &featured.basis;
-    let figures = figures(&moments, errors.variance);
+    let figures = figures(&moments, errors.variance, units);
     let mut estimate = normalise(&theta, structure, basis, errors.covariance.as_ref(), figures);
     let (information, covariance) = (&errors.information, errors.covariance.as_ref());
-    let doubt = Doubt { structure, basis, theta: &theta, information, covariance };
+    let doubt = Doubt { structure, basis, theta: &theta, information, covariance, units };
     let hollow = estimate.hollow_coefficients();
     let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum }).collect();
     let examined = examine(&data, featured, structure, &theta, &segments);
     let warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
-    let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance));
+    let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance, units));
     if settings.undersmooth && basis.is_switched() {
         let start = Fitted { structure, basis: basis.clone(), theta: theta.clone() };
         let fits = finer_fits(&data, start, settings.refine).take(1 + MOST_HALVINGS);
         if let Some(finer) = undersmoothed(structure, figures, fits) {
             // The noise is that of the model's free run.
-            estimate = Estimate { noise_sd: figures.noise_sd, ..finer.estimate };
+            estimate = Estimate { noise_sd: estimate.noise_sd, ..finer.estimate };
             level_errors = Some(finer.level_errors);
         }
     }
-    let covariance =
-        covariance.map(|c| c.matrix().row_iter().map(|row| row.iter().copied().collect()).collect());
-    let model = Model { basis: basis.clone(), structure, parameters: theta, rule: data.rule };
+    let covariance = covariance.map(|covariance| units.covariance(&theta, covariance.matrix()));
+    let parameters = units.parameters(&theta);
+    let model = Model { basis: basis.clone(), structure, parameters, rule: data.rule };
     Ok(Identified { estimate, level_errors, model, selection, distance, warnings, covariance })
 }
 

@@ -3,6 +3,7 @@
 use super::basis::Basis;
 use super::normalise::{Covariance, Quantity, quantities};
 use super::problem::Parameters;
+use super::units::OutputUnits;
 use crate::estimators::border_distance::joint_limit;
 use nalgebra::DVector;
 
@@ -13,7 +14,7 @@ use nalgebra::DVector;
 /// all cells. A smooth border differs by about `h³F‴/2`, which is small beside its bend `h²F″` on every grid that follows it. The first and
 /// the last cell have no neighbours to be judged by.
 pub(super) fn rises_at_jumps(theta: &Parameters, basis: &Basis, covariance: &Covariance) -> Vec<f64> {
-    let all = quantities(theta, basis);
+    let all = quantities(theta, basis, OutputUnits::OWN);
     let points = &all[theta.a.len() + theta.b.len()..];
     let limit = joint_limit(points.len() - 2);
     let (descending, ascending) = points.split_at(basis.descending().len());

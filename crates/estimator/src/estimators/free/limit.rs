@@ -6,6 +6,7 @@ use super::fit::equation_error_fit;
 use super::normalise::{Covariance, quantities};
 use super::rank_one::{information, score};
 use super::regression::Regression;
+use super::units::OutputUnits;
 use nalgebra::DVector;
 
 /// The estimate from expected moments, with its first-order response to any others.
@@ -36,8 +37,8 @@ impl Limit {
         let theta = equation_error_fit(expected).ok_or(FreeError::NotExcited)?;
         let covariance = Covariance::new(&information(expected, &theta), &theta, noise_variance)
             .ok_or(FreeError::NotExcited)?;
-        let (values, derivatives) =
-            quantities(&theta, &regression.grid().basis).into_iter().map(|q| (q.value, q.derivative)).unzip();
+        let quantities = quantities(&theta, &regression.grid().basis, OutputUnits::OWN);
+        let (values, derivatives) = quantities.into_iter().map(|q| (q.value, q.derivative)).unzip();
         Ok(Self { theta, covariance, values, derivatives })
     }
 

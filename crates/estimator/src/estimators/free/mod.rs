@@ -18,6 +18,7 @@
 
 mod basis;
 mod branch;
+mod cells;
 mod cross_validation;
 mod data;
 mod doubt;
@@ -45,6 +46,7 @@ mod sensor;
 mod settings;
 mod simulation_error;
 mod undersmoothing;
+mod units;
 mod warning;
 
 pub use basis::Basis;

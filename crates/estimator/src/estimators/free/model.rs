@@ -2,6 +2,7 @@
 
 use super::basis::{Basis, Cell};
 use super::branch::{Branches, LookAhead, ReversalRule};
+use super::cells::Cells;
 use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::free_run;
 use crate::hysteresis::Branch;
@@ -158,9 +159,11 @@ impl Model {
     /// by more than the threshold counts as ascending.
     pub fn simulate(&self, v: &[f64], y_before: &[f64]) -> Vec<f64> {
         let cells = self.cells(v);
-        let (Some(&first), Some(&last)) = (cells.first(), cells.last()) else { return Vec::new() };
-        let memory = self.structure.memory();
-        let cells = [vec![first; memory], cells, vec![last; self.structure.ahead()]].concat();
+        let Some(end) = cells.len().checked_sub(1) else { return Vec::new() };
+        let (first, last, memory) = (cells.at(0), cells.at(end), self.structure.memory());
+        let rests = |cell: Cell, samples| std::iter::repeat_n(cell, samples);
+        let cells: Cells =
+            rests(first, memory).chain(cells.iter()).chain(rests(last, self.structure.ahead())).collect();
         let rest = y_before.first().copied().unwrap_or_else(|| self.rest(first.value(&self.parameters.f)));
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
@@ -189,33 +192,14 @@ impl Model {
     }
 
     /// Hats of every sample.
-    fn cells(&self, v: &[f64]) -> Vec<Cell> {
+    fn cells(&self, v: &[f64]) -> Cells {
         match Branches::of(v, self.rule) {
-            Some(branches) => cells(&self.basis, v, &branches),
+            Some(branches) => Cells::of(&self.basis, v, &branches),
             None => {
                 let resting = |&v: &f64| Cell { main: self.basis.place(Branch::Ascending, v), next: None };
                 v.iter().map(resting).collect()
             }
         }
-    }
-}
-
-/// Hats of every sample of an input whose branches are known.
-pub(super) fn cells(basis: &Basis, v: &[f64], branches: &Branches) -> Vec<Cell> {
-    let labelled = v.iter().zip(branches.labels()).enumerate();
-    let cell = |(t, (&v, &branch))| {
-        let turned = branches.turned(t).filter(|_| basis.is_switched());
-        let next = turned.map(|share| (basis.place(other(branch), v), share));
-        Cell { main: basis.place(branch, v), next }
-    };
-    labelled.map(cell).collect()
-}
-
-/// The branch that a reversal leads to.
-fn other(branch: Branch) -> Branch {
-    match branch {
-        Branch::Ascending => Branch::Descending,
-        Branch::Descending => Branch::Ascending,
     }
 }
 

@@ -10,6 +10,7 @@ use super::one_shot::Grid;
 use super::rank_one::information;
 use super::regression::Regression;
 use super::undersmoothing::{GridFit, undersmoothed};
+use super::units::OutputUnits;
 use crate::estimators::Estimate;
 
 /// The regressions of one input on a grid and on ever finer ones that contain it, for estimates whose intervals hold the truth of borders
@@ -79,6 +80,7 @@ impl NestedRegressions {
             let halved_information = information(&on_halved, &theta.on_basis(&basis, halved));
             Some(GridFit { basis, theta, errors, halved_information })
         });
-        Ok(undersmoothed(structure, figures(&moments(0), 0.0), fits).ok_or(FreeError::NotExcited)?.estimate)
+        let figures = figures(&moments(0), 0.0, OutputUnits::OWN);
+        Ok(undersmoothed(structure, figures, fits).ok_or(FreeError::NotExcited)?.estimate)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::basis::Basis;
 use super::problem::{Parameters, Structure};
+use super::units::OutputUnits;
 use crate::estimators::{BorderPoint, Estimate, LevelErrors};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -137,12 +138,13 @@ impl Span {
     }
 }
 
-/// What else an [`Estimate`] reports.
+/// What else an [`Estimate`] reports, of the centred output, and the units that it reports in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figures {
     pub(super) noise_sd: f64,
     pub(super) excitation: f64,
     pub(super) samples: usize,
+    pub(super) units: OutputUnits,
 }
 
 /// Below this share of `Σ|bᵢ|`, `B(1)` counts as zero and the level of `u` as unknown.
@@ -162,14 +164,17 @@ pub(super) struct Quantity {
 
 /// `a`, `b`, the points of the descending border (or the only curve), and those of the ascending one, in the normalisation `u_M − u_m = 1`.
 ///
-/// With `k = u_M − u_m` in the fit's scale: `b̂ = k b`, `F̂ = (f + c/B(1))/k`, so that `B̂(1)/Â(1)·F̂` is the stationary output.
-pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
+/// With `k = u_M − u_m` in the fit's scale: `b̂ = k b`, `F̂ = (f + c/B(1))/k`, so that `B̂(1)/Â(1)·F̂` is the stationary output. `theta` is of a
+/// centred output; the quantities are those of the output in its `units`, where `c/B(1)` is `(c + origin·A(1)/scale)/B(1)`.
+pub(super) fn quantities(theta: &Parameters, basis: &Basis, units: OutputUnits) -> Vec<Quantity> {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
     let p = n + nb + m + 1;
     let span = Span::of(&theta.f);
     let knot = |k: usize| if k == 0 { 0.0 } else { theta.f[k - 1] };
     let b_one: f64 = theta.b.iter().sum();
-    let level = if has_gain(theta) { theta.c / b_one } else { 0.0 };
+    let a_one = 1.0 + theta.a.iter().sum::<f64>();
+    let origin = units.relative_origin();
+    let level = if has_gain(theta) { (theta.c + origin * a_one) / b_one } else { 0.0 };
     // Adds `x` times the derivative of knot value k.
     let add_knot = |d: &mut DVector<f64>, k: usize, x: f64| {
         if k > 0 {
@@ -185,7 +190,7 @@ pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
         derivative[n + i] = span.value;
         add_knot(&mut derivative, span.high, theta.b[i]);
         add_knot(&mut derivative, span.low, -theta.b[i]);
-        Quantity { value: theta.b[i] * span.value, derivative }
+        Quantity { value: units.scale * theta.b[i] * span.value, derivative: derivative * units.scale }
     });
     let points = (0..basis.sizes().sum()).map(|k| {
         let value = (knot(k) + level) / span.value;
@@ -195,6 +200,9 @@ pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
         add_knot(&mut derivative, span.low, value / span.value);
         if has_gain(theta) {
             derivative[p - 1] += 1.0 / (b_one * span.value);
+            for i in 0..n {
+                derivative[i] += origin / (b_one * span.value);
+            }
             for i in 0..nb {
                 derivative[n + i] -= level / (b_one * span.value);
             }
@@ -204,8 +212,8 @@ pub(super) fn quantities(theta: &Parameters, basis: &Basis) -> Vec<Quantity> {
     a.chain(b).chain(points).collect()
 }
 
-/// Standard errors of the gain and of both stationary outputs, by the delta method.
-pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance) -> LevelErrors {
+/// Standard errors of the gain and of both stationary outputs, by the delta method; in output units, as `theta` is of a centred output.
+pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance, units: OutputUnits) -> LevelErrors {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
     let (a_one, b_one) = (1.0 + theta.a.iter().sum::<f64>(), theta.b.iter().sum::<f64>());
     let span = Span::of(&theta.f);
@@ -219,7 +227,7 @@ pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance) -> Level
             derivative[n + nb + k - 1] += sign * b_one / a_one;
         }
         derivative[n + nb + m] = constant / a_one;
-        covariance.standard_error(&derivative)
+        units.scale * covariance.standard_error(&derivative)
     };
     LevelErrors {
         gain: error(span.value, &[(span.high, 1.0), (span.low, -1.0)], 0.0),
@@ -228,18 +236,18 @@ pub(super) fn level_errors(theta: &Parameters, covariance: &Covariance) -> Level
     }
 }
 
-/// The fit as an [`Estimate`], standard errors by the delta method.
+/// The fit as an [`Estimate`] in the `units` of the output, standard errors by the delta method.
 pub(super) fn normalise(
     theta: &Parameters,
     structure: Structure,
     basis: &Basis,
     covariance: Option<&Covariance>,
-    figures: Figures,
+    Figures { noise_sd, excitation, samples, units }: Figures,
 ) -> Estimate {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
     let a_one: f64 = 1.0 + theta.a.iter().sum::<f64>();
     let b_one: f64 = theta.b.iter().sum();
-    let parameters: Vec<(f64, f64)> = quantities(theta, basis)
+    let parameters: Vec<(f64, f64)> = quantities(theta, basis, units)
         .into_iter()
         .map(|q| (q.value, covariance.map_or(f64::NAN, |c| c.standard_error(&q.derivative))))
         .collect();
@@ -257,13 +265,13 @@ pub(super) fn normalise(
         b,
         b_se,
         delay: structure.delay,
-        noise_sd: figures.noise_sd,
-        gain: b_one * Span::of(&theta.f).value / a_one,
-        y_high: (b_one * theta.f[m - 1] + theta.c) / a_one,
-        y_low: theta.c / a_one,
+        noise_sd: units.scale * noise_sd,
+        gain: units.scale * b_one * Span::of(&theta.f).value / a_one,
+        y_high: units.level((b_one * theta.f[m - 1] + theta.c) / a_one),
+        y_low: units.level(theta.c / a_one),
         descending: curve(basis.descending(), 0),
         ascending: curve(basis.ascending(), first),
-        excitation: figures.excitation,
-        samples: figures.samples,
+        excitation,
+        samples,
     }
 }

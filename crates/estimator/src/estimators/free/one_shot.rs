@@ -2,11 +2,11 @@
 
 use super::basis::Basis;
 use super::branch::{Branches, ReversalRule};
+use super::cells::Cells;
 use super::equation_error::Moments;
 use super::error::FreeError;
 use super::errors::equation_error_estimate;
 use super::fit::equation_error_fit;
-use super::model;
 use super::problem::{Segment, Structure};
 use crate::estimators::Estimate;
 use crate::record::Record;
@@ -65,7 +65,7 @@ pub fn one_shot(records: &[&Record], grid: &Grid) -> Result<Estimate, FreeError>
     if branches.is_empty() {
         return Err(FreeError::NoMotion { threshold: rule.threshold });
     }
-    let cells: Vec<_> = branches.iter().map(|(r, b)| model::cells(basis, r.v(), b)).collect();
+    let cells: Vec<_> = branches.iter().map(|(r, b)| Cells::of(basis, r.v(), b)).collect();
     let segments: Vec<Segment> = branches
         .iter()
         .zip(&cells)

@@ -1,6 +1,7 @@
 //! The regression behind every fit: parameters, structure, and the stretches of data they meet.
 
-use super::basis::{Basis, Cell};
+use super::basis::Basis;
+use super::cells::Cells;
 use super::error::FreeError;
 use std::ops::Range;
 
@@ -80,7 +81,7 @@ impl Parameters {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment<'a> {
     pub(super) y: &'a [f64],
-    pub(super) cells: &'a [Cell],
+    pub(super) cells: &'a Cells,
     pub(super) from: usize,
     pub(super) to: usize,
 }
@@ -90,7 +91,7 @@ impl<'a> Segment<'a> {
     pub(super) fn usable(
         structure: Structure,
         y: &'a [f64],
-        cells: &'a [Cell],
+        cells: &'a Cells,
         range: Range<usize>,
     ) -> Option<Self> {
         let from = range.start + structure.memory();
@@ -114,7 +115,7 @@ impl Basis {
     /// Samples beside each knot.
     pub(super) fn visits(&self, segments: &[Segment]) -> Vec<usize> {
         let mut visits = vec![0; self.features() + 1];
-        for cell in segments.iter().flat_map(|s| &s.cells[s.from..s.to]) {
+        for cell in segments.iter().flat_map(|s| (s.from..s.to).map(|t| s.cells.at(t))) {
             visits[cell.main.knot] += 1;
             visits[cell.main.knot + 1] += 1;
         }

@@ -1,12 +1,11 @@
 //! The regression of one input, for many outputs.
 
-use super::basis::Cell;
 use super::branch::Branches;
+use super::cells::Cells;
 use super::equation_error::Moments;
 use super::error::FreeError;
 use super::errors::equation_error_estimate;
 use super::fit::quick_equation_error_fit;
-use super::model;
 use super::one_shot::Grid;
 use super::problem::Segment;
 use crate::estimators::Estimate;
@@ -27,7 +26,7 @@ use nalgebra::DMatrix;
 #[derive(Debug, Clone)]
 pub struct Regression {
     grid: Grid,
-    cells: Vec<Cell>,
+    cells: Cells,
     start: usize,
     checkpoints: Vec<usize>,
     /// `Σψψᵀ` at each checkpoint.
@@ -55,7 +54,7 @@ impl Regression {
     pub(super) fn unchecked(v: &[f64], grid: Grid, checkpoints: &[usize]) -> Result<Self, FreeError> {
         let Grid { structure, ref basis, rule } = grid;
         let branches = Branches::of(v, rule).ok_or(FreeError::NoMotion { threshold: rule.threshold })?;
-        let cells = model::cells(basis, v, &branches);
+        let cells = Cells::of(basis, v, &branches);
         let start = branches.first_known() + structure.memory();
         let available = v.len().saturating_sub(start + structure.ahead());
         if let Some(wanted) = checkpoints.last().copied().filter(|&last| last > available) {
@@ -172,7 +171,7 @@ impl Regression {
         let (structure, width) = (self.grid.structure, self.grid.basis.features());
         row.clear();
         for i in 0..structure.numerator() {
-            row.extend(self.cells[structure.input(t, i)].features().map(|(k, x)| (i * width + k, x)));
+            row.extend(self.cells.at(structure.input(t, i)).features().map(|(k, x)| (i * width + k, x)));
         }
         row.push((structure.numerator() * width, 1.0));
     }

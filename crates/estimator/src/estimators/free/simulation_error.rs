@@ -24,19 +24,24 @@ impl Effort {
 
 /// The free run over a stretch: measured outputs before it, simulated ones from there on.
 pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segment) -> Vec<f64> {
-    let u: Vec<f64> = segment.cells.iter().map(|cell| cell.value(&theta.f)).collect();
-    let mut y = segment.y[..segment.from].to_vec();
+    // Of a long record only what the stretch answers to.
+    let first = segment.from - structure.memory();
+    let u: Vec<f64> =
+        (first..segment.to + structure.ahead()).map(|t| segment.cells.at(t).value(&theta.f)).collect();
+    let order = theta.a.len();
+    let mut y = Vec::with_capacity(order + segment.len());
+    y.extend_from_slice(&segment.y[segment.from - order..segment.from]);
     for t in segment.from..segment.to {
         let mut now = theta.c;
         for (i, a) in theta.a.iter().enumerate() {
-            now -= a * y[t - 1 - i];
+            now -= a * y[y.len() - 1 - i];
         }
         for (i, b) in theta.b.iter().enumerate() {
-            now += b * u[structure.input(t, i)];
+            now += b * u[structure.input(t, i) - first];
         }
         y.push(now);
     }
-    y.split_off(segment.from)
+    y.split_off(order)
 }
 
 /// Sum of squared free-run errors; infinite for an unstable `A`.
@@ -103,7 +108,7 @@ pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Se
                     present[i] -= before(now - 1 - i);
                 }
                 for (i, b) in theta.b.iter().enumerate() {
-                    let cell = segment.cells[structure.input(now, i)];
+                    let cell = segment.cells.at(structure.input(now, i));
                     present[n + i] += cell.value(&theta.f);
                     for (k, x) in cell.features() {
                         present[n + nb + k] += b * x;

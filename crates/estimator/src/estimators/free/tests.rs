@@ -2,9 +2,9 @@
 
 use super::basis::Basis;
 use super::branch::{Branches, ReversalRule, Timing};
+use super::cells::Cells;
 use super::equation_error::{Moments, fill_row};
 use super::limit::Limit;
-use super::model::cells;
 use super::one_shot::{Grid, one_shot};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::over_parameterised;
@@ -25,12 +25,12 @@ fn uniform(rng: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
 }
 
 /// Random input and output with the hats of two borders of three knots.
-fn random_data(seed: u64, timing: Timing) -> (Vec<f64>, Basis, Vec<super::basis::Cell>, usize) {
+fn random_data(seed: u64, timing: Timing) -> (Vec<f64>, Basis, Cells, usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let (v, y) = (uniform(&mut rng, 200), uniform(&mut rng, 200));
     let basis = Basis::borders(vec![-1.0, 0.2, 1.0], vec![-1.0, -0.3, 1.0]);
     let branches = Branches::of(&v, ReversalRule { timing, ..ReversalRule::EXACT }).unwrap();
-    let cells = cells(&basis, &v, &branches);
+    let cells = Cells::of(&basis, &v, &branches);
     (y, basis, cells, branches.first_known())
 }
 

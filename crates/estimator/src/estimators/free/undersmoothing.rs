@@ -22,8 +22,9 @@ use super::doubt::is_ill_conditioned;
 use super::errors::Errors;
 use super::grid_bias::GridBias;
 use super::jumps::rises_at_jumps;
-use super::normalise::{Figures, level_errors, normalise};
+use super::normalise::{Covariance, Figures, level_errors, normalise};
 use super::problem::{Parameters, Structure};
+use super::units::OutputUnits;
 use crate::estimators::border_distance::joint_limit;
 use crate::estimators::{BorderPoint, Estimate, LevelErrors};
 use nalgebra::DMatrix;
@@ -36,6 +37,12 @@ pub(super) struct GridFit {
     pub(super) errors: Errors,
     /// The information matrix of the same fit on its halved grid, per unit noise variance.
     pub(super) halved_information: DMatrix<f64>,
+}
+
+impl GridFit {
+    fn bias(&self, covariance: &Covariance, units: OutputUnits) -> GridBias {
+        GridBias::of(&self.theta, &self.basis, covariance, &self.halved_information, units)
+    }
 }
 
 /// An estimate whose intervals allow for the grid.
@@ -63,7 +70,8 @@ pub(super) fn undersmoothed(
             break;
         }
         coarsest.get_or_insert_with(|| fit.basis.clone());
-        let bias = GridBias::of(&fit.theta, &fit.basis, covariance, &fit.halved_information);
+        // Judged on the centred output: how well the level is known beside an origin far away is no matter of the grid.
+        let bias = fit.bias(covariance, OutputUnits::OWN);
         if best.as_ref().is_some_and(|(_, before)| bias.in_errors() >= before.in_errors()) {
             break;
         }
@@ -73,15 +81,15 @@ pub(super) fn undersmoothed(
             break;
         }
     }
-    let ((fit, bias), coarsest) = (best?, coarsest?);
+    let ((fit, _), coarsest) = (best?, coarsest?);
     let covariance = fit.errors.covariance.as_ref()?;
     let figures = Figures { noise_sd: fit.errors.variance.sqrt(), ..figures };
     let mut estimate = normalise(&fit.theta, structure, &fit.basis, Some(covariance), figures);
     let rises = rises_at_jumps(&fit.theta, &fit.basis, covariance);
-    set_errors(&mut estimate, &bias, &rises);
+    set_errors(&mut estimate, &fit.bias(covariance, figures.units), &rises);
     keep_knots(&mut estimate.descending, coarsest.descending());
     keep_knots(&mut estimate.ascending, coarsest.ascending());
-    Some(Undersmoothed { estimate, level_errors: level_errors(&fit.theta, covariance) })
+    Some(Undersmoothed { estimate, level_errors: level_errors(&fit.theta, covariance, figures.units) })
 }
 
 /// Puts the bias, and the rises at jumps, into the standard errors.

@@ -16,7 +16,7 @@ pub(crate) fn on_a_free_drift_path(campaign: &Campaign, single: &Explanation) ->
     let law = (effect.card().freed)(campaign, &single.fit)?;
     let parts = vec![Part::of(effect, (NUMBER, &law))];
     let build = |values: &[f64]| assembled(&parts, values);
-    let ground = Ground { campaign, grid: &single.fit.grid, known: Some(&single.fit.design) };
+    let ground = Ground { campaign, grid: &single.fit.grid, known: Some(single.fit.near()) };
     let task = Task { ground, build: &build, held: 0 };
     let fit = task.together(&law.starts[0], &single.fit.linear, ROUNDS)?;
     Some(Explanation { parts: parts.clone(), fit, ..single.clone() }).filter(Explanation::is_sound)

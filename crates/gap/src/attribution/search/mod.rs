@@ -97,17 +97,17 @@ fn improved(
     let build = |values: &[f64]| assembled(&sketch.parts, values);
     let grid = sketch.fit.grid.clone();
     let task = Task {
-        ground: Ground { campaign, grid: &grid, known: Some(&sketch.fit.design) },
+        ground: Ground { campaign, grid: &grid, known: Some(sketch.fit.near()) },
         build: &build,
         held,
     };
-    let fit = improve(&task, sketch.fit.clone());
+    let fit = improve(&task, sketch.fit.clone()).set_aside(sketch.fit.near());
     Explanation { fit, ..sketch.clone() }
 }
 
 /// A cheap screening of a law on top of what is known: near its best start.
 fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
-    let (campaign, known) = (known.campaign, known.explanation);
+    let (campaign, design, known) = (known.campaign, &known.design, known.explanation);
     let (law, parts) = (&candidate.law, &candidate.parts);
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
     let build = |values: &[f64]| assembled(parts, values);
@@ -115,7 +115,7 @@ fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
         Some(grid) => crate::nominal::knots::carried_over(&known.fit, grid),
         None => known.fit.linear.clone(),
     };
-    let ground = Ground { campaign, grid, known: Some(&known.fit.design) };
+    let ground = Ground { campaign, grid, known: Some(&**design) };
     let task = Task { ground, build: &build, held: known.fit.nonlinear.len() };
     // The nonlinear parameters of what is known, then those of the law.
     let joined = |nonlinear: &[NonlinearParameter]| {
@@ -123,16 +123,19 @@ fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
     };
     let starts = law.starts.iter().map(|nonlinear| joined(nonlinear));
     let held = |nonlinear: Vec<NonlinearParameter>| {
-        let design = Design::like(ground.known, campaign, grid, &task.assembly(&nonlinear));
-        let there = task.on(&design);
+        let here = Design::like(ground.known, campaign, grid, &task.assembly(&nonlinear));
+        let there = task.on(&here);
         let afresh = there.dynamics_refitted(&nonlinear, &base).and_then(|p| there.held(&nonlinear, &p, 0));
         let nearer = best([there.held(&nonlinear, &base, 0), afresh].into_iter().flatten())?;
-        there.held(&nonlinear, &nearer.linear, 1)
+        there.held(&nonlinear, &nearer.linear, 1).map(|fit| fit.set_aside(design))
+    };
+    let started = |nonlinear: Vec<NonlinearParameter>| {
+        task.together(&nonlinear, &base, 1).map(|fit| fit.set_aside(design))
     };
     let fit = match law.search {
         // Without nonlinear parameters there is one start, and nothing to compare.
         Search::Smooth if law.starts[0].is_empty() => task.together(&known.fit.nonlinear, &base, FINAL),
-        Search::Smooth => ahead(starts.filter_map(|nonlinear| task.together(&nonlinear, &base, 1)), |fit| {
+        Search::Smooth => ahead(starts.filter_map(started), |fit| {
             task.from(fit).together(&fit.nonlinear, &fit.linear, SCREENING - 1)
         }),
         Search::Profile => ahead(starts.filter_map(held), |fit| {
@@ -151,7 +154,7 @@ fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
             )
         }
     }?;
-    let set_back = known.set_back;
+    let (fit, set_back) = (fit.set_aside(known.fit.near()), known.set_back);
     Some(Explanation { parts: parts.clone(), fit, set_back, held_out: 0.0 })
 }
 
@@ -166,7 +169,7 @@ struct Task<'a> {
 impl Task<'_> {
     /// The search from where a fit ended.
     fn from<'b>(&'b self, fit: &'b Fit) -> Task<'b> {
-        self.on(&fit.design)
+        self.on(fit.near())
     }
 
     /// The search where something is built already: it serves on.

@@ -30,9 +30,10 @@ pub(crate) fn profiled(
     let mut intervals = fit.intervals();
     let unknown: Vec<usize> = (0..intervals.len()).filter(|j| fit.nonlinear_se[*j].is_nan()).collect();
     let ends: Vec<(usize, f64)> = unknown.iter().flat_map(|&j| [(j, -1.0), (j, 1.0)]).collect();
+    let design = fit.design();
     let found = workers.map(&ends, |&(j, side)| {
         let build = |values: &[f64]| assembled(&explanation.parts, values);
-        let ground = Ground { campaign, grid: &fit.grid, known: Some(&fit.design) };
+        let ground = Ground { campaign, grid: &fit.grid, known: Some(&design) };
         Task { ground, build: &build, held: 0 }.end(fit, j, side)
     });
     for (j, ends) in unknown.iter().zip(found.chunks(2)) {

@@ -108,10 +108,10 @@ fn guessed(
     let build = |values: &[f64]| assembled(parts, values);
     let values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
     let assembly = Some(build(&values)).filter(may_rule)?;
-    let design = Design::like(Some(&known.explanation.fit.design), campaign, grid, &assembly);
+    let design = Design::like(Some(known.explanation.fit.near()), campaign, grid, &assembly);
     let start = first_guess(&design, known.explanation.fit.linear.a.len()).ok()?;
     let task = Task { ground: Ground { campaign, grid, known: Some(&design) }, build: &build, held: 0 };
-    let fit = task.held(nonlinear, &start, 1)?;
+    let fit = task.held(nonlinear, &start, 1)?.set_aside(known.explanation.fit.near());
     let set_back = known.explanation.set_back;
     Some(Explanation { parts: parts.to_vec(), fit, set_back, held_out: 0.0 }).filter(Explanation::is_sound)
 }

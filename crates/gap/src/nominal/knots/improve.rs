@@ -27,7 +27,7 @@ struct Place {
 
 /// A finer grid, or nothing where no knot is worth its cost.
 pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
+    let design = Design::like(Some(best.near()), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener);
     let mut places = suspicious(campaign, best, &design, &innovations);

@@ -91,7 +91,7 @@ pub(super) fn polished(model: &Model<'_>, mut fitted: Fit) -> Option<Fit> {
 
 /// The same model on another grid, one step from the present parameters.
 fn looked_at(model: &Model<'_>, fitted: &Fit, grid: &Grid) -> Option<Fit> {
-    let known = Some(&*fitted.design);
+    let known = Some(&**fitted.near());
     fit(
         Ground { campaign: model.campaign, grid, known },
         model.build,
@@ -109,7 +109,7 @@ fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
     if (0..2).all(|s| best.grid.jumps(s).next().is_none()) {
         return None;
     }
-    let design = Design::like(Some(&best.design), model.campaign, &best.grid, &best.assembly);
+    let design = Design::like(Some(best.near()), model.campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener).concat();
     let jacobian = Jacobian::new(&design, &best.linear, &whitener, &Weights::default());

@@ -36,7 +36,7 @@ impl Model<'_> {
 
 /// Adds knots and jumps while the data ask for them.
 pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
-    let passages = Passages::new(campaign, &best.design);
+    let passages = Passages::new(campaign, &best.design());
     let model = Model { campaign, build, passages: &passages };
     for _ in 0..ROUNDS {
         let Some(grid) = improved_grid(campaign, &best) else { break };
@@ -129,7 +129,7 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
 /// The same model re-fitted on another grid.
 fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
-    let known = Some(&*fitted.design);
+    let known = Some(&**fitted.near());
     fit(Ground { campaign, grid, known }, build, &fitted.nonlinear, &start, 5)
 }
 

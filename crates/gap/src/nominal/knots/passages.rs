@@ -153,7 +153,7 @@ mod tests {
             assembly.noise.ma = ma;
             let ground = Ground { campaign: &campaign, grid: &grid, known: None };
             let fit = fit(ground, &|_| assembly.clone(), &[], &start, 3).expect("a fit");
-            let design = &fit.design;
+            let design = &fit.design();
             let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
             let w = design.innovations(&fit.linear, &whitener).concat();
             let jacobian = Jacobian::new(design, &fit.linear, &whitener, &Weights::default());

@@ -13,7 +13,7 @@ const WORTH: f64 = 16.0;
 pub(super) fn pruned(model: &Model<'_>, best: Fit) -> Fit {
     let campaign = model.campaign;
     let first = first_grid(campaign);
-    let design = Design::like(Some(&best.design), campaign, &best.grid, &best.assembly);
+    let design = Design::like(Some(best.near()), campaign, &best.grid, &best.assembly);
     let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener);
     let mut normal =

@@ -3,54 +3,79 @@
 use super::cell::{self, Cell};
 use super::dialect::Dialect;
 use super::error::{DataError, DataProblem, Place};
-use super::lines::{is_idle, numbered};
+use super::lines::is_idle;
 use super::{Column, Fault, Kind, Table};
 
 /// Faults kept of a column or of the rows; of others only the count is told.
 pub(super) const KEPT: usize = 3;
 
-/// Reads the rows from line `first_row` on into the columns.
-pub(super) fn fill(table: &mut Table, text: &str, dialect: &Dialect, first_row: u64) {
-    let mut readers: Vec<Reader> = table.columns.iter().map(|_| Reader::default()).collect();
-    let mut cells = Vec::new();
-    let mut ragged = Vec::new();
-    let skipped = usize::try_from(first_row - 1).unwrap_or(usize::MAX);
-    let mut last = 0;
-    for (line, text) in numbered(text).skip(skipped).filter(|(_, text)| !is_idle(text)) {
-        dialect.delimiter.split(text, &mut cells);
-        last = line;
-        while cells.len() > dialect.width && cells.last() == Some(&"") {
+/// Rows on their way into the columns of a table.
+pub(super) struct Rows<'t> {
+    table: &'t mut Table,
+    dialect: Dialect,
+    first_row: u64,
+    readers: Vec<Reader>,
+    /// Lines of another width: the first few and the last, each with its cells.
+    ragged: Vec<(u64, usize)>,
+    /// The last line that is no comment.
+    last: u64,
+}
+
+impl<'t> Rows<'t> {
+    /// Rows that begin at line `first_row`.
+    pub(super) fn of(table: &'t mut Table, dialect: Dialect, first_row: u64) -> Self {
+        let readers = table.columns.iter().map(|_| Reader::default()).collect();
+        Self { table, dialect, first_row, readers, ragged: Vec::new(), last: 0 }
+    }
+
+    /// Takes the next line of the text, whatever it holds.
+    pub(super) fn push(&mut self, line: u64, text: &str) {
+        if line < self.first_row || is_idle(text) {
+            return;
+        }
+        let mut cells = Vec::with_capacity(self.dialect.width);
+        self.dialect.delimiter.split(text, &mut cells);
+        self.last = line;
+        while cells.len() > self.dialect.width && cells.last() == Some(&"") {
             cells.pop();
         }
-        if cells.len() != dialect.width {
-            ragged.push((line, cells.len()));
-            continue;
+        if cells.len() != self.dialect.width {
+            self.ragged.truncate(KEPT);
+            self.ragged.push((line, cells.len()));
+            return;
         }
-        let row = table.places.len();
-        for ((column, reader), text) in table.columns.iter_mut().zip(&mut readers).zip(&cells) {
-            reader.push(column, row, text, dialect);
+        let row = self.table.places.len();
+        for ((column, reader), text) in self.table.columns.iter_mut().zip(&mut self.readers).zip(&cells) {
+            reader.push(column, row, text, &self.dialect);
         }
-        table.places.push(Place::Line(line));
+        self.table.places.push(Place::Line(line));
     }
-    for (column, reader) in table.columns.iter().zip(&readers) {
-        let Some(Place::Line(line)) = reader.midnights.first().map(|row| table.places[*row]) else {
-            continue;
+
+    /// Tells what was odd, once all lines are in.
+    pub(super) fn finish(self) {
+        let Self { table, dialect, readers, mut ragged, last, .. } = self;
+        for (column, reader) in table.columns.iter().zip(&readers) {
+            let Some(Place::Line(line)) = reader.midnights.first().map(|row| table.places.get(*row)) else {
+                continue;
+            };
+            let name = &column.name;
+            table
+                .notes
+                .push(format!("the clock of `{name}` passes midnight at line {line} and is continued"));
+        }
+        // A logger that was switched off leaves its last line unfinished.
+        let cut_off = ragged.pop_if(|(line, found)| *line == last && *found < dialect.width);
+        if cut_off.is_some() {
+            table.notes.push(format!("line {last}, the last, is cut off and left out"));
+        }
+        let fault = |&(line, found): &(u64, usize)| DataError {
+            path: table.path.clone(),
+            place: Some(Place::Line(line)),
+            problem: DataProblem::Ragged { found, expected: dialect.width },
         };
-        let name = &column.name;
-        table.notes.push(format!("the clock of `{name}` passes midnight at line {line} and is continued"));
+        table.cut_off = cut_off.as_ref().map(fault);
+        table.faults = ragged.iter().take(KEPT).map(fault).collect();
     }
-    // A logger that was switched off leaves its last line unfinished.
-    let cut_off = ragged.pop_if(|(line, found)| *line == last && *found < dialect.width);
-    if cut_off.is_some() {
-        table.notes.push(format!("line {last}, the last, is cut off and left out"));
-    }
-    let fault = |&(line, found): &(u64, usize)| DataError {
-        path: table.path.clone(),
-        place: Some(Place::Line(line)),
-        problem: DataProblem::Ragged { found, expected: dialect.width },
-    };
-    table.cut_off = cut_off.as_ref().map(fault);
-    table.faults = ragged.iter().take(KEPT).map(fault).collect();
 }
 
 /// What the cells so far make of a column.

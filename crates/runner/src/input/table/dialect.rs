@@ -51,6 +51,12 @@ impl Dialect {
         best.map(|(_, dialect)| dialect)
     }
 
+    /// Whether a text that goes on shows as many lines as are looked at, all of them whole.
+    pub(super) fn is_seen_in(text: &str) -> bool {
+        let lines = numbered(text).filter(|(_, line)| !is_idle(line));
+        lines.take(LOOKED_AT + 1).count() > LOOKED_AT
+    }
+
     /// A single column of numbers; none where less than half of the lines are numbers.
     pub(super) fn single(text: &str) -> Option<Self> {
         let lines: Vec<&str> = numbered(text).map(|(_, line)| line).filter(|line| !is_idle(line)).collect();

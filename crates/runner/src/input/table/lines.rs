@@ -1,10 +1,18 @@
 //! The lines of a text, whatever ends them, and their cells.
 
-/// Lines with their number, from 1. Lines end in LF, CRLF or, where the text has no LF, in CR.
+/// Lines with their number, from 1.
 pub(super) fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
-    let end = if text.contains('\n') { '\n' } else { '\r' };
-    let lines = text.split(end).map(|line| line.strip_suffix('\r').unwrap_or(line));
-    (1..).zip(lines)
+    (1..).zip(text.split(end(text)).map(without_return))
+}
+
+/// What ends the lines of a text: LF, after which CRLF is left a [return](without_return), or where there is none CR.
+pub(super) fn end(text: &str) -> char {
+    if text.contains('\n') { '\n' } else { '\r' }
+}
+
+/// A line that ended in CRLF.
+pub(super) fn without_return(line: &str) -> &str {
+    line.strip_suffix('\r').unwrap_or(line)
 }
 
 /// Whether a line holds no cells: blank, or a comment.

@@ -9,13 +9,16 @@ mod dialect;
 mod error;
 mod head;
 mod lines;
+mod places;
 pub(crate) mod unit;
 
 pub use error::{DataError, DataProblem, Place, Step};
+pub(crate) use places::Places;
 
-use super::decode::decode;
 use super::mat;
 use super::text_file::{FileError, read_bytes};
+use super::text_pieces::{PieceError, TextPieces};
+use body::Rows;
 use dialect::Dialect;
 use head::Head;
 use lines::Delimiter;
@@ -29,7 +32,7 @@ pub(crate) struct Table {
     /// In the order of the file.
     pub(crate) columns: Vec<Column>,
     /// Where each row stands.
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Places,
     /// Whether the names of the columns are the file's own.
     pub(crate) has_header: bool,
     /// What was recognised and is not how such files usually look.
@@ -79,6 +82,41 @@ pub(crate) enum TableError {
     Data(DataError),
 }
 
+/// Why a text gives no table.
+enum Unread {
+    Told(TableError),
+    /// It is not UTF-8, as was guessed.
+    NotUtf8,
+}
+
+impl Unread {
+    /// Read as Windows-1252 every text is one.
+    fn told(self) -> TableError {
+        match self {
+            Self::Told(error) => error,
+            Self::NotUtf8 => unreachable!("every byte is a letter"),
+        }
+    }
+}
+
+impl From<DataError> for Unread {
+    fn from(error: DataError) -> Self {
+        Self::Told(TableError::Data(error))
+    }
+}
+
+impl From<PieceError> for Unread {
+    fn from(error: PieceError) -> Self {
+        match error {
+            PieceError::File(error) => Self::Told(TableError::File(error)),
+            PieceError::NotUtf8 => Self::NotUtf8,
+        }
+    }
+}
+
+/// Bytes of text looked at for its dialect at first: more than most preambles and headers take.
+const ENOUGH: usize = 1 << 18;
+
 impl Column {
     /// `force [N]`, or the name alone.
     pub(crate) fn label(&self) -> String {
@@ -106,43 +144,79 @@ impl Table {
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
     pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
-        let bytes = read_bytes(path).map_err(TableError::File)?;
-        if mat::is_matlab(path, &bytes) {
-            return mat::read(path, bytes);
+        let pieces = TextPieces::open(path).map_err(TableError::File)?;
+        if mat::is_matlab(path, pieces.first_bytes()) {
+            return mat::read(path, read_bytes(path).map_err(TableError::File)?);
         }
-        let decoded = decode(bytes);
-        let mut table =
-            Self::parse(&path.display().to_string(), &decoded.text, least).map_err(TableError::Data)?;
-        if let Some(encoding) = decoded.encoding {
-            table.notes.insert(0, format!("text in {encoding}"));
+        match Self::of_pieces(path, pieces, least) {
+            Err(Unread::NotUtf8) => {
+                let again = TextPieces::open(path).map_err(TableError::File)?.in_windows_1252();
+                Self::of_pieces(path, again, least).map_err(Unread::told)
+            }
+            table => table.map_err(Unread::told),
         }
-        Ok(table)
     }
 
     /// The table in a text.
-    pub(crate) fn parse(path: &str, text: &str, least: usize) -> Result<Self, DataError> {
-        let fail = |place, problem| DataError { path: path.to_owned(), place, problem };
-        if text.trim().is_empty() {
-            return Err(fail(None, DataProblem::Empty));
+    pub(crate) fn parse(text: &str, least: usize) -> Result<Self, TableError> {
+        let path = Path::new("");
+        Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::told)
+    }
+
+    /// The first lines tell the dialect; then rows are read line by line, and no more of the text is held than a piece.
+    fn of_pieces(path: &Path, mut pieces: TextPieces<'_>, least: usize) -> Result<Self, Unread> {
+        let path = path.display().to_string();
+        let fail = |place, problem| DataError { path: path.clone(), place, problem };
+        let mut text = String::new();
+        let mut wanted = ENOUGH;
+        while !pieces.has_ended() && !Dialect::is_seen_in(&text) {
+            while !pieces.has_ended() && text.len() < wanted {
+                pieces.append_to(&mut text)?;
+            }
+            wanted *= 2;
         }
-        let single = || if least <= 1 { Dialect::single(text) } else { None };
-        let dialect = Dialect::of(text).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
-        let head = Head::find(text, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
+        if text.trim().is_empty() {
+            return Err(fail(None, DataProblem::Empty).into());
+        }
+        let end = lines::end(&text);
+        let whole = if pieces.has_ended() { text.len() } else { text.rfind(end).unwrap_or(text.len()) };
+        let first = &text[..whole];
+        let single = || if least <= 1 { Dialect::single(first) } else { None };
+        let dialect = Dialect::of(first).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let head = Head::find(first, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
         let mut table = Self {
-            path: path.to_owned(),
+            path: path.clone(),
             columns: columns(&head, dialect.width),
-            places: Vec::new(),
+            places: Places::default(),
             has_header: !head.names.is_empty(),
             notes: notes(&head, &dialect),
             faults: Vec::new(),
             cut_off: None,
         };
-        body::fill(&mut table, text, &dialect, head.first_row);
+        table.notes.splice(..0, pieces.encoding().map(|encoding| format!("text in {encoding}")));
+        let mut rows = Rows::of(&mut table, dialect, head.first_row);
+        let mut line = 0;
+        loop {
+            let mut rest = text.as_str();
+            while let Some((whole, after)) = rest.split_once(end) {
+                line += 1;
+                rows.push(line, lines::without_return(whole));
+                rest = after;
+            }
+            if pieces.has_ended() {
+                rows.push(line + 1, lines::without_return(rest));
+                break;
+            }
+            let taken = text.len() - rest.len();
+            text.drain(..taken);
+            pieces.append_to(&mut text)?;
+        }
+        rows.finish();
         // A delimiter at the end of every row makes no column.
         let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
         if table.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
             let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
-            return Err(fail(Some(Place::Line(head.line)), problem));
+            return Err(fail(Some(Place::Line(head.line)), problem).into());
         }
         table.columns.retain(|column| !is_blank(column));
         Ok(table)
