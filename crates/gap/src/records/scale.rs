@@ -67,7 +67,7 @@ pub(super) fn check_plausible(rig: &Rig) -> Result<(), DiagnoseError> {
     type Signal = fn(&RigRecord) -> &[f64];
     let signals: [(&'static str, Signal); 2] = [("v", |r| r.record.v()), ("y", |r| r.record.y())];
     for (signal, of) in signals {
-        let Some((median, width)) = centre(rig.fit_records().flat_map(|r| of(r)).copied().collect()) else {
+        let Some((median, width)) = centre(rig.fit_records().flat_map(&of).copied().collect()) else {
             continue;
         };
         for r in &rig.records {
