@@ -23,4 +23,5 @@ pub mod report;
 pub mod results;
 pub mod rig;
 pub mod scenario;
+pub mod selftest;
 pub mod study;

@@ -14,5 +14,6 @@ pub mod merge;
 pub mod plant;
 pub mod power;
 pub mod rig;
+pub mod selftest;
 pub mod simulate;
 pub mod study;
