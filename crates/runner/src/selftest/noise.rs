@@ -27,17 +27,17 @@ const TAILS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 pub(super) fn figures(seed: u64) -> Vec<Figure> {
     let mut noise = WhiteNoise::new(Width::detect(), StreamId { seed, experiment: 0, replicate: 0 });
     let lanes = noise.lanes();
-    examine(lanes, |block| noise.fill(block))
+    examine((SAMPLES, lanes), |block| noise.fill(block))
 }
 
-/// The figures of a generator that fills blocks; sample `t` of replicate `l` at `t·lanes + l`.
-fn examine(lanes: usize, mut fill: impl FnMut(&mut [f64])) -> Vec<Figure> {
+/// The figures of so many samples of a generator that fills blocks; sample `t` of replicate `l` at `t·lanes + l`.
+fn examine((samples, lanes): (usize, usize), mut fill: impl FnMut(&mut [f64])) -> Vec<Figure> {
     let distances: Vec<(String, usize)> = std::iter::once(("neighbouring replicates".to_owned(), 1))
         .filter(|_| lanes > 1)
         .chain((1..=4).map(|lag| (format!("samples {lag} apart"), lag * lanes)))
         .collect();
     let mut block = vec![0.0; BLOCK * lanes];
-    let blocks = SAMPLES / block.len();
+    let blocks = samples / block.len();
     let mut powers = [0.0; 4];
     let mut beyond = [[0_u64; TAILS.len()]; 2];
     let mut products = vec![0.0; distances.len()];
@@ -91,11 +91,9 @@ mod tests {
     use crate::selftest::tests::{all_hold, some_fail};
 
     /// The right generator, with something done to every block.
-    fn spoilt(lanes: usize, mut spoil: impl FnMut(&mut [f64])) -> Vec<Figure> {
-        let width = Width::detect();
-        let mut noise = WhiteNoise::new(width, StreamId { seed: 3, experiment: 0, replicate: 0 });
-        assert!(lanes <= noise.lanes());
-        examine(noise.lanes(), |block| {
+    fn spoilt(samples: usize, mut spoil: impl FnMut(&mut [f64])) -> Vec<Figure> {
+        let mut noise = WhiteNoise::new(Width::detect(), StreamId { seed: 3, experiment: 0, replicate: 0 });
+        examine((samples, noise.lanes()), |block| {
             noise.fill(block);
             spoil(block);
         })
@@ -110,18 +108,18 @@ mod tests {
 
     #[test]
     fn a_wrong_variance_shows() {
-        some_fail(&spoilt(1, |block| block.iter_mut().for_each(|x| *x *= 1.002)), "moment 2");
+        some_fail(&spoilt(SAMPLES, |block| block.iter_mut().for_each(|x| *x *= 1.002)), "moment 2");
     }
 
     #[test]
     fn a_mean_shows() {
-        some_fail(&spoilt(1, |block| block.iter_mut().for_each(|x| *x += 0.002)), "moment 1");
+        some_fail(&spoilt(SAMPLES, |block| block.iter_mut().for_each(|x| *x += 0.002)), "moment 1");
     }
 
     #[test]
     fn tails_that_are_cut_show() {
         some_fail(
-            &spoilt(1, |block| block.iter_mut().for_each(|x| *x = x.clamp(-4.0, 4.0))),
+            &spoilt(SAMPLES, |block| block.iter_mut().for_each(|x| *x = x.clamp(-4.0, 4.0))),
             "share above 4 sd",
         );
     }
@@ -136,7 +134,7 @@ mod tests {
                 *x = (0..12).map(|k| uniforms[(i + 37 * k) % uniforms.len()]).sum::<f64>() - 6.0;
             }
         };
-        some_fail(&spoilt(1, sum_of_twelve), "moment 4");
+        some_fail(&spoilt(SAMPLES / 16, sum_of_twelve), "moment 4");
     }
 
     #[test]
@@ -151,6 +149,6 @@ mod tests {
             }
             last = fresh;
         };
-        some_fail(&spoilt(1, remembers), "correlation of samples 1 apart");
+        some_fail(&spoilt(SAMPLES, remembers), "correlation of samples 1 apart");
     }
 }
