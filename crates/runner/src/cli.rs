@@ -15,7 +15,7 @@ use thiserror::Error;
 
 /// Identify switched-hysteresis systems, benchmark their estimators' consistency, diagnose the sim-to-real gap.
 ///
-/// Exit codes: 0 done; 1 an expectation or comparison failed; 2 bad input, nothing written; 3 stopped by a signal, what was finished
+/// Exit codes: 0 done; 1 an expectation, comparison or self-test failed; 2 bad input, nothing written; 3 stopped, what was finished
 /// is kept.
 #[derive(Debug, Parser)]
 #[command(
@@ -47,6 +47,7 @@ enum Verb {
     Replay(cmd::replay::Args),
     Rerun(cmd::rerun::Args),
     Rig(cmd::rig::Args),
+    Selftest(cmd::selftest::Args),
     Simulate(cmd::simulate::Args),
 }
 
@@ -126,6 +127,7 @@ impl Cli {
             Some(Verb::Replay(args)) => cmd::replay::run(&args),
             Some(Verb::Rerun(args)) => cmd::rerun::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
+            Some(Verb::Selftest(args)) => cmd::selftest::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),
         }

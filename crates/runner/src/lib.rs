@@ -26,4 +26,5 @@ pub mod report;
 pub mod results;
 pub mod rig;
 pub mod scenario;
+pub mod selftest;
 pub mod study;

@@ -75,6 +75,7 @@ fn numbers_that_cannot_be_are_told_in_plain_words() {
     plain(&["gap", "rig.toml", "--threads", "0"], &[whole]);
     plain(&["gap", "rig.toml", "--threads", "65535"], &[whole]);
     plain(&["rig", "--out", "x", "--seed", "x"], &["give a whole number, 0 or more"]);
+    plain(&["selftest", "--seed", "-1"], &["give a whole number from 0 to 4294967295"]);
     plain(&["rig", "--out", "x", "--size", "large"], &["give a number"]);
     plain(&["design", "--out", "x", "--order", "0"], &["give a whole number from 1 to 20"]);
     plain(&["design", "--out", "x", "--periods", "0"], &["give a whole number from 1"]);
@@ -147,9 +148,19 @@ fn there_is_a_manual_page_for_the_program_and_for_every_verb() {
     let folder = Folder::with_good_rig();
     printed(&mut folder.switchback(&["man", "--out", "man1"]));
     let pages = listing(&folder.path("man1"));
-    for verb in
-        ["", "-compare", "-completions", "-gap", "-identify", "-init", "-man", "-plant", "-rig", "-simulate"]
-    {
+    for verb in [
+        "",
+        "-compare",
+        "-completions",
+        "-gap",
+        "-identify",
+        "-init",
+        "-man",
+        "-plant",
+        "-rig",
+        "-selftest",
+        "-simulate",
+    ] {
         assert!(pages.contains(&format!("switchback{verb}.1")), "{verb} is missing in {pages:?}");
     }
     let gap = std::fs::read_to_string(folder.path("man1/switchback-gap.1")).expect("a page");

@@ -98,3 +98,22 @@ fn a_file_that_is_none_is_told() {
     let lonely = Bench::new().with("bench.mat", version_5(&[matrix("v", [3, 1], &[1.0, 2.0, 3.0])]));
     assert!(lonely.refusal(&["bench.mat"]).contains("no two numeric vectors of the same length"));
 }
+
+#[test]
+fn sizes_that_contradict_the_contents_are_told() {
+    let negative = |n: i32| n as u32;
+    let refused = |size: [u32; 2], values: &[f64]| {
+        let file = version_5(&[matrix("v", size, values), matrix("y", [3, 1], &[1.0, 2.0, 3.0])]);
+        Bench::new().with("bench.mat", file).refusal(&["bench.mat"])
+    };
+    // Their product is that of the contents, or overflows.
+    let told = refused([negative(-2), negative(-3)], &[0.0; 6]);
+    assert!(told.contains("`v` is said to have"), "{told}");
+    for size in [[3, 1 << 30], [1 << 16, 1 << 16], [negative(-1), 3]] {
+        let told = refused(size, &[0.0; 3]);
+        assert!(told.contains("cannot be read as MATLAB data") || told.contains("is said to have"), "{told}");
+    }
+    // Two thousand million empty columns are no column.
+    let told = refused([0, i32::MAX as u32], &[]);
+    assert!(told.contains("no two numeric vectors of the same length"), "{told}");
+}

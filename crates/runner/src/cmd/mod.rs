@@ -18,5 +18,6 @@ pub mod power;
 pub mod replay;
 pub mod rerun;
 pub mod rig;
+pub mod selftest;
 pub mod simulate;
 pub mod study;

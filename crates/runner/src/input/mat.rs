@@ -51,7 +51,16 @@ use formats::{hdf5, matlab5};
 /// The arrays as columns: those whose length most of them share.
 #[cfg(feature = "matlab")]
 fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
-    let columns: Vec<(String, Vec<f64>)> = arrays.into_iter().flat_map(columns).collect();
+    if let Some(array) = arrays.iter().find(|array| !array.is_whole()) {
+        let [rows, columns] = array.size;
+        let reason = format!(
+            "`{}` is said to have {rows} rows and {columns} columns, but its contents are others",
+            array.name
+        );
+        return Err(unreadable(path, reason));
+    }
+    let full = arrays.into_iter().filter(|array| !array.values.is_empty());
+    let columns: Vec<(String, Vec<f64>)> = full.flat_map(columns).collect();
     let lengths: Vec<usize> = columns.iter().map(|(_, values)| values.len()).filter(|len| *len > 1).collect();
     let shared = |len: &usize| lengths.iter().filter(|other| *other == len).count();
     let rows = lengths.iter().copied().max_by_key(|len| (shared(len), *len));
@@ -85,6 +94,15 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         faults: Vec::new(),
         cut_off: None,
     })
+}
+
+#[cfg(feature = "matlab")]
+impl Array {
+    /// Whether it has as many values as its size says, which a damaged file may not: sizes there are of any number and sign.
+    fn is_whole(&self) -> bool {
+        let [rows, columns] = self.size;
+        rows.checked_mul(columns) == Some(self.values.len())
+    }
 }
 
 /// A vector lies either way; the columns of a matrix get their number after its name.
