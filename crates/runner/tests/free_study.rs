@@ -7,10 +7,11 @@ use switchback::results::{self, Results, Verdict};
 use switchback::scenario::Method;
 
 /// Straight pieces with corners at −1, 0 and 1: on the grid for m = 3, beside it for m = 4.
+/// Replicates are a multiple of the 16 sections of the jackknife.
 const SMALL: &str = r#"study = "consistency"
 question = "Is it consistent from any record?"
 seed = 3
-replicates = 60
+replicates = 96
 [system]
 a = [-0.7]
 b = [0.3]
@@ -60,7 +61,7 @@ fn a_grid_that_holds_the_borders_is_consistent_and_at_its_theory() {
     assert!(results.as_expected(), "{:?}", results.expectations);
     assert!(results.summaries.iter().all(|s| s.verdict == Verdict::Consistent));
     let last = results.cells.last().expect("a cell");
-    assert_eq!((last.series.method, last.samples, last.replicates), (Method::Free, 4500, 60));
+    assert_eq!((last.series.method, last.samples, last.replicates), (Method::Free, 4500, 96));
     let names: Vec<&str> = last.parameters.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(
         names,

@@ -47,7 +47,7 @@ fn study(scenario: &Scenario) -> Results {
 }
 
 const REPLICATES: usize = 60;
-const SECTIONS: usize = 20;
+const SECTIONS: usize = 16;
 
 /// The errors of one parameter in one cell, a value a replicate.
 fn errors(
@@ -69,8 +69,7 @@ fn errors(
 /// A figure of both sides by definition, and its jackknife over sections that hold the same replicates on both.
 fn by_definition(one: &[f64], other: &[f64], figure: fn(&[f64]) -> f64) -> [f64; 3] {
     let without = |errors: &[f64], section: usize| -> Vec<f64> {
-        let size = REPLICATES / SECTIONS;
-        let kept = errors.iter().enumerate().filter(|(r, _)| r / size != section);
+        let kept = errors.iter().enumerate().filter(|(r, _)| r % SECTIONS != section);
         kept.map(|(_, e)| *e).collect()
     };
     let jackknife = |value: &dyn Fn(usize) -> f64| {

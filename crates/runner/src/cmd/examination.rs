@@ -8,7 +8,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::input::{read_text, stream};
 use crate::interrupt::{self, Heeding};
 use crate::options::{Force, Quiet, Shard, Threads};
-use crate::output::{OutputError, OutputFolder, sha256};
+use crate::output::{OutputError, OutputFolder, note, sha256};
 use crate::progress::Meter;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use crate::study::Progress;
@@ -202,7 +202,7 @@ fn examine<E: Examination>(
                 if !cases.is_empty() {
                     stopped(&cases)?;
                 }
-                page.say("run the same command again to go on")?;
+                note("stopped; what was finished is kept, run the same command again to go on\n");
                 return Ok(false);
             }
         }

@@ -39,7 +39,7 @@ impl Batches {
     pub(super) fn pieces(self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let size = self.size;
         let first = range.start / size;
-        let batches = first..range.end.div_ceil(size).max(first);
+        let batches = first..if range.is_empty() { first } else { range.end.div_ceil(size) };
         batches.map(move |k| range.start.max(k * size)..range.end.min((k + 1) * size))
     }
 

@@ -10,7 +10,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::interrupt::Heeding;
 use crate::kept::{Found, KEPT_FILE, Kept};
 use crate::options::{Force, Quiet, Shard, Threads};
-use crate::output::{Artefacts, OutputFolder};
+use crate::output::{Artefacts, OutputFolder, note};
 use crate::progress::Meter;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use crate::report;
@@ -119,7 +119,9 @@ fn run_part(scenario: &Scenario, shard: Shard, order: Order<'_>) -> CommandResul
     kept.conclude(&standing, ended)?;
     if ended == Ended::Stopped {
         let left = standing.left(Some(shard));
-        order.quiet.note(&format!("stopped; {left} replicates of part {shard} are left\n"));
+        note(&format!(
+            "stopped; {left} replicates of part {shard} are left, run the same command again to go on\n"
+        ));
         return Ok(Outcome::Stopped);
     }
     let mut artefacts = part.with(kept.bytes(&standing)).artefacts();
@@ -164,7 +166,7 @@ fn tell_partial(results: &Results, folder: OutputFolder, order: Order<'_>) -> Co
     drop(folder);
     order.force.claim(&place, &FILES)?.commit(&artefacts(results, order.threads)?)?;
     tell(results, &place, order)?;
-    order.quiet.note("run the same command again to go on\n");
+    note("stopped; what was finished is kept, run the same command again to go on\n");
     Ok(Outcome::Stopped)
 }
 
