@@ -54,10 +54,15 @@ fn identified(v: &[f64], y: &[f64], map: InputMap) -> Identified {
 /// To rounding: 1e-9 of the size of what is compared.
 const ROUNDING: f64 = 1e-9;
 
+/// The same of standard errors: entries of the inverse of a normal matrix, whose condition number, 1e8 in records like these, multiplies the
+/// rounding of its own entries, 1e-16. Estimates gain from the residuals being small; errors do not.
+const ROUNDING_OF_ERRORS: f64 = 1e-7;
+
 #[track_caller]
 fn agree(what: &str, found: f64, expected: f64, size: f64) {
     let off = (found - expected).abs();
-    assert!(off <= ROUNDING * size, "{what}: {found:e} for {expected:e}, off by {:e}", off / size);
+    let rounding = if what.contains("error") { ROUNDING_OF_ERRORS } else { ROUNDING };
+    assert!(off <= rounding * size, "{what}: {found:e} for {expected:e}, off by {:e}", off / size);
 }
 
 fn check(seed: u64, map: InputMap, (of_v, of_y): (Units, Units)) {
