@@ -14,6 +14,7 @@ pub mod identification;
 pub mod input;
 pub mod interrupt;
 pub mod kept;
+pub mod launch;
 pub mod model;
 pub mod options;
 pub mod output;

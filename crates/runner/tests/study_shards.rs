@@ -97,6 +97,8 @@ fn what_makes_no_whole_is_refused() {
         assert!(!folder.path("none").exists());
     };
     refused(&["part-1", "part-3"], "missing: 2/3");
+    refused(&["part-1", "part-3"], "as a job array: --array=2");
+    refused(&["part-1"], "--array=2-3");
     refused(&["part-1", "part-2", "part-2", "part-3"], "the same part, 2/3");
     fs::create_dir(folder.path("empty")).expect("a new folder");
     refused(&["part-1", "part-2", "empty"], "empty: holds no part");

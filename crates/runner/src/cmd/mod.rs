@@ -10,6 +10,7 @@ pub mod examination;
 pub mod gap;
 pub mod identify;
 pub mod init;
+pub mod launch;
 pub mod man;
 pub mod merge;
 mod partial;

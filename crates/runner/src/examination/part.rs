@@ -12,6 +12,7 @@ use crate::study::Unusable;
 use miette::Diagnostic;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -153,7 +154,9 @@ pub enum MergeError {
     },
     /// Parts are missing.
     #[error("of {scenario} these parts are missing: {missing}")]
-    #[diagnostic(help("run them: switchback {scenario} --shard {first} --out DIR"))]
+    #[diagnostic(help(
+        "run them: switchback {scenario} --shard {first} --out DIR; as a job array: --array={array}"
+    ))]
     Missing {
         /// The scenario's file name.
         scenario: String,
@@ -161,7 +164,30 @@ pub enum MergeError {
         missing: String,
         /// The first of them.
         first: Shard,
+        /// Their numbers, as a scheduler takes them.
+        array: String,
     },
+}
+
+impl MergeError {
+    /// What is missing of so many parts, if the parts of these numbers are there.
+    pub fn missing(scenario: &str, there: &[usize], of: usize) -> Option<Self> {
+        let is_there: BTreeSet<usize> = there.iter().copied().collect();
+        let missing: Vec<usize> = (1..=of).filter(|number| !is_there.contains(number)).collect();
+        let &first = missing.first()?;
+        let runs = missing.chunk_by(|one, next| one + 1 == *next);
+        let array = runs.map(|run| match run {
+            [only] => only.to_string(),
+            run => format!("{}-{}", run[0], run[run.len() - 1]),
+        });
+        let all = missing.iter().map(|&number| Shard { number, of }.to_string());
+        Some(Self::Missing {
+            scenario: scenario.to_owned(),
+            missing: all.collect::<Vec<_>>().join(", "),
+            first: Shard { number: first, of },
+            array: array.collect::<Vec<_>>().join(","),
+        })
+    }
 }
 
 impl<C: Judged> Part<C> {
@@ -321,12 +347,9 @@ pub fn merged<C: Judged>(mut parts: Vec<Part<C>>) -> Result<Whole<C>, MergeError
         return Err(MergeError::Twice { folder: other.name(), first: one.name(), shard: one.label.shard });
     }
     let of = first.label.shard.of;
-    let is_missing = |shard: &Shard| parts.iter().all(|part| part.label.shard != *shard);
-    let missing: Vec<Shard> = (1..=of).map(|number| Shard { number, of }).filter(is_missing).collect();
-    if let Some(&first_missing) = missing.first() {
-        let all: Vec<String> = missing.iter().map(Shard::to_string).collect();
-        let scenario = first.label.scenario.clone();
-        return Err(MergeError::Missing { scenario, missing: all.join(", "), first: first_missing });
+    let there: Vec<usize> = parts.iter().map(|part| part.label.shard.number).collect();
+    if let Some(error) = MergeError::missing(&first.label.scenario, &there, of) {
+        return Err(error);
     }
     let scenario = first.folder.join(&first.label.scenario);
     let mut lines: Vec<&str> = parts.iter().flat_map(|part| part.keys.lines()).collect();

@@ -25,6 +25,7 @@ pub fn merge(folders: &[PathBuf], order: Order<'_>) -> CommandResult {
     let study = order.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
     let mut standing = added_up(&parts, &study)?;
     let meter = Meter::new(order.quiet);
+    meter.begin(standing.target(), standing.replicates());
     let is_whole = !study.next_round(&mut standing, &meter);
     let kept = Kept::new(order.out.unwrap_or(Path::new("")), study.origin());
     let out = order.out.unwrap_or(Path::new("."));
@@ -85,12 +86,9 @@ fn added_up(parts: &[Part], study: &Study<'_>) -> Result<Standing, MergeError> {
         }
     }
     if let Some(of) = parts.first().and_then(|part| part.label.shard).map(|shard| shard.of) {
-        let is_missing = |shard: &Shard| parts.iter().all(|part| part.label.shard != Some(*shard));
-        let missing: Vec<Shard> = (1..=of).map(|number| Shard { number, of }).filter(is_missing).collect();
-        if let Some(&first) = missing.first() {
-            let all: Vec<String> = missing.iter().map(Shard::to_string).collect();
-            let scenario = parts[0].label.scenario.clone();
-            return Err(MergeError::Missing { scenario, missing: all.join(", "), first });
+        let there: Vec<usize> = parts.iter().filter_map(|part| Some(part.label.shard?.number)).collect();
+        if let Some(error) = MergeError::missing(&parts[0].label.scenario, &there, of) {
+            return Err(error);
         }
     }
     for part in parts {
