@@ -84,6 +84,8 @@ fn what_cannot_be_replayed_is_told() {
         assert!(told.contains(words), "`{words}` is missing in: {told}");
     };
     refused(&["replay", "out", "99:0"], "99:0: the results have 2 cells, counted from 0");
+    refused(&["replay", "out", "0:12"], "0:12: the study has 12 replicates, counted from 0");
+    refused(&["replay", "out", "12"], "12: the study has 12 replicates, counted from 0");
     refused(&["replay", "out", "first"], "write CELL:REPLICATE as in 17:118");
     refused(&["replay", "out", "3", "--out", "x"], "name the cell too, as in 0:3");
     refused(&["replay", "none", "3"], "none");

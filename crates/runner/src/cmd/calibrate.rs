@@ -1,10 +1,11 @@
 //! `switchback calibrate DIR… --out VERDICT.json`
 
 use crate::calibrate::calibrated;
-use crate::examination::{PART_FILE, Part, read_cases, scenario_of};
+use crate::examination::{Part, read_cases};
 use crate::failure::{CommandResult, Outcome};
 use crate::field::{self, Case};
 use crate::options::{Force, Quiet};
+use crate::parts::{PART_FILE, scenario_of};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use switchback_gap::fitted::CalibrateError;

@@ -2,13 +2,14 @@
 
 use super::partial;
 use crate::examination::{
-    Examination, Journal, Judged, KEY_FILE, PART_FILE, Part, Partial, Report, SEALED_FILE, Sealed, key_file,
+    Examination, Journal, Judged, KEY_FILE, Part, Partial, Report, SEALED_FILE, Sealed, key_file,
 };
 use crate::failure::{CommandResult, Outcome};
 use crate::input::{read_text, stream};
 use crate::interrupt::{self, Heeding};
 use crate::options::{Force, Quiet, Shard, Threads};
 use crate::output::{OutputError, OutputFolder, note, sha256};
+use crate::parts::PART_FILE;
 use crate::progress::Meter;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use crate::study::Progress;

@@ -3,11 +3,12 @@
 use super::consistency::{self, Order};
 use super::examination::{self, JUDGING_SOURCES, Page, conclude};
 use crate::blind::{self, Blind};
-use crate::examination::{Examination, Part, Whole, merged, scenario_of};
+use crate::examination::{Examination, Part, Whole, merged};
 use crate::failure::CommandResult;
 use crate::field::{self, Field};
 use crate::options::{Force, Quiet, Threads};
 use crate::output::{sha256, verify};
+use crate::parts::scenario_of;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};

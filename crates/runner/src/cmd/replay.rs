@@ -52,7 +52,8 @@ impl FromStr for Id {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        const WANTED: &str = "write CELL:REPLICATE as in 17:118, or REPLICATE alone as in 118";
+        const WANTED: &str =
+            "write CELL:REPLICATE as in 17:118, or REPLICATE alone as in 118, whole numbers up to 4294967295";
         let (cell, replicate) = match text.split_once(':') {
             Some((cell, replicate)) => (Some(cell.parse().map_err(|_| WANTED)?), replicate),
             None => (None, text),
@@ -76,6 +77,11 @@ enum ReplayError {
     #[error("{id}: the results have {cells} cells, counted from 0")]
     #[diagnostic(help("the number of a cell is its place in `cells` of results.json"))]
     NoCell { id: Id, cells: usize },
+    #[error("{id}: the study has {replicates} replicates, counted from 0")]
+    #[diagnostic(help(
+        "the numbers of those without an estimate are in `failures` of each cell of results.json"
+    ))]
+    NoReplicate { id: Id, replicates: usize },
     #[error("{id}: --out writes the records of one cell")]
     #[diagnostic(help("name the cell too, as in 0:{replicate}", replicate = id.replicate))]
     ManyRecords { id: Id },
@@ -94,6 +100,13 @@ pub fn run(args: &Args) -> CommandResult {
     let cells = results.cells.len();
     if id.cell.is_some_and(|cell| cell >= cells) {
         return Err(ReplayError::NoCell { id, cells }.into());
+    }
+    let of = |cell: &Cell| cell.replicates;
+    let replicates =
+        id.cell.map_or_else(|| results.cells.iter().map(of).max(), |k| Some(of(&results.cells[k])));
+    let replicates = replicates.unwrap_or_default();
+    if id.replicate as usize >= replicates {
+        return Err(ReplayError::NoReplicate { id, replicates }.into());
     }
     let files = ["descendant.csv", "ascendant.csv", "record.csv"];
     let folder = args.force.claim_if_asked(args.out.as_deref(), &files, &[&args.results])?;

@@ -21,7 +21,7 @@ pub use calibration::{CalibrationBin, calibration_bins, calibration_error};
 pub use journal::{Journal, JournalError, KEY_FILE, SEALED_FILE};
 pub use json::{bins_json, measure_json, share_json};
 pub use measure::{Bound, Line, Measure, Reached, Share, bounded, measures_table};
-pub use part::{MergeError, PART_FILE, Part, Whole, case_lines, merged, read_cases, scenario_of};
+pub use part::{Part, Whole, case_lines, merged, read_cases};
 pub use random::{scramble, uniform};
 pub use reply::{ClosureCheck, Evidence, PairEvidence, Reply};
 pub use scenario::{ScenarioError, effects_listed, refuse_large_design, refuse_more_than, study_of};

@@ -58,7 +58,8 @@ pub struct ReplayedExperiment {
     pub step_means: Vec<f64>,
 }
 
-/// The estimates of one replicate in every cell, in the order of the results: to look into a failure or an outlier.
+/// The estimates of one replicate in every cell of the pulse methods, in the order of the results, by the estimators as a user calls them: what
+/// the study's own arithmetic, eight replicates at a time, is held against.
 ///
 /// # Errors
 /// [`StudyError`] if a method or an experiment does not exist for some cell.

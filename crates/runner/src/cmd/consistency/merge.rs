@@ -2,10 +2,10 @@
 
 use super::part::Part;
 use super::{FILES, Order, write};
-use crate::examination::MergeError;
 use crate::failure::{CommandResult, Outcome};
 use crate::kept::Kept;
-use crate::options::{Shard, Threads};
+use crate::options::Threads;
+use crate::parts::{MergeError, check_whole};
 use crate::progress::Meter;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use crate::study::{Standing, Study};
@@ -70,27 +70,7 @@ fn added_up(parts: &[Part], study: &Study<'_>) -> Result<Standing, MergeError> {
         None => study.begin(),
     };
     let round = standing.clone();
-    for pair in parts.windows(2) {
-        let (one, other) = (&pair[0], &pair[1]);
-        if one.label.shard == other.label.shard {
-            let shard = one.label.shard.unwrap_or(Shard { number: 1, of: 1 });
-            return Err(MergeError::Twice { folder: name(other), first: name(one), shard });
-        }
-        let differs = [
-            ((&one.label.scenario, &one.text) != (&other.label.scenario, &other.text), "the scenario"),
-            (one.label.engine != other.label.engine, "the engine"),
-            (one.label.shard.map(|s| s.of) != other.label.shard.map(|s| s.of), "the number of parts"),
-        ];
-        if let Some((_, what)) = differs.into_iter().find(|(differs, _)| *differs) {
-            return Err(MergeError::Strange { folder: name(other), what, first: name(one) });
-        }
-    }
-    if let Some(of) = parts.first().and_then(|part| part.label.shard).map(|shard| shard.of) {
-        let there: Vec<usize> = parts.iter().filter_map(|part| Some(part.label.shard?.number)).collect();
-        if let Some(error) = MergeError::missing(&parts[0].label.scenario, &there, of) {
-            return Err(error);
-        }
-    }
+    check_whole(&parts.iter().filter_map(Part::piece).collect::<Vec<_>>())?;
     for part in parts {
         standing.add(part.standing_in(&round, study)?);
     }

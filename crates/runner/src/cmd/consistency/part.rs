@@ -1,18 +1,16 @@
 //! A part of a study on disk: which part of which scenario, the scenario as it was, and what its replicates left behind.
 
 use super::Order;
-use crate::examination::{MergeError, PART_FILE};
 use crate::input::{FileError, read_text, stream};
 use crate::kept::KEPT_FILE;
 use crate::options::Shard;
-use crate::output::{Artefacts, stamped};
+use crate::output::Artefacts;
+use crate::parts::{MergeError, PART_FILE, Piece, label, label_text};
 use crate::provenance::PROVENANCE_FILE;
 use crate::scenario::{Engine, Scenario, ScenarioError};
 use crate::study::{Standing, Study};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-
-const SCHEMA: &str = "switchback/part/1";
 
 /// What tells which part it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,13 +23,6 @@ pub(super) struct Label {
     pub(super) engine: Engine,
     /// Which part; none for the rounds before, put together.
     pub(super) shard: Option<Shard>,
-}
-
-#[derive(Deserialize)]
-struct WrittenLabel {
-    schema: String,
-    #[serde(flatten)]
-    label: Label,
 }
 
 /// A part of a study.
@@ -75,7 +66,7 @@ impl Part {
 
     pub(super) fn artefacts(&self) -> Artefacts {
         let mut artefacts = Artefacts::default();
-        artefacts.add(PART_FILE, stamped(SCHEMA, &self.label));
+        artefacts.add(PART_FILE, label_text(&self.label));
         artefacts.add(self.label.scenario.as_str(), self.text.as_str());
         artefacts.add(KEPT_FILE, self.sums.as_slice());
         artefacts
@@ -84,14 +75,20 @@ impl Part {
     /// Reads the folder of a part.
     pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
         let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
-        let written = read_text(&folder.join(PART_FILE)).map_err(|_| no_part())?;
-        let written: WrittenLabel = serde_json::from_str(&written).map_err(|_| no_part())?;
-        if written.schema != SCHEMA {
-            return Err(no_part());
-        }
-        let text = read_text(&folder.join(&written.label.scenario))?;
+        let label: Label = label(folder)?;
+        let text = read_text(&folder.join(&label.scenario))?;
         let sums = std::fs::read(folder.join(KEPT_FILE)).map_err(|_| no_part())?;
-        Ok(Self { folder: folder.to_owned(), label: written.label, text, sums })
+        Ok(Self { folder: folder.to_owned(), label, text, sums })
+    }
+
+    /// It as a piece of the round; nothing where it is all of one.
+    pub(super) fn piece(&self) -> Option<Piece<'_>> {
+        Some(Piece {
+            folder: &self.folder,
+            scenario: (&self.label.scenario, &self.text),
+            made_by: ("the engine", self.label.engine.name()),
+            shard: self.label.shard?,
+        })
     }
 
     /// Its replicates, as a part of the round that `round` stands at.
