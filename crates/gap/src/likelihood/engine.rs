@@ -63,81 +63,52 @@ pub(crate) struct Fit {
     pub(crate) samples: usize,
     /// Effective number of parameters.
     pub(crate) parameters: f64,
-    /// The records fitted.
+    pub(crate) records: FitRecords,
+}
+
+/// The records that a model is fitted to.
+#[derive(Debug, Clone)]
+pub(crate) struct FitRecords {
     campaign: Campaign,
     /// Their design, or one that has much in common with it.
     near: Arc<Design>,
 }
 
+impl FitRecords {
+    /// Those of a campaign, and their design.
+    pub(crate) fn new(campaign: &Campaign, design: Design) -> Self {
+        Self { campaign: campaign.clone(), near: Arc::new(design) }
+    }
+}
+
 /// Half-width of a 90 % interval in standard errors of a normal estimate.
 const Z90: f64 = 1.644_853_626_951_472_6;
 
-/// Parameters in place, before the records are theirs.
-pub(crate) struct Found {
-    pub(crate) assembly: Assembly,
-    pub(crate) linear: Linear,
-    pub(crate) nonlinear: Vec<NonlinearParameter>,
-    /// Standard errors of the nonlinear parameters.
-    pub(crate) nonlinear_se: Vec<f64>,
-    pub(crate) deviance: f64,
-    pub(crate) variance: f64,
-    pub(crate) power: f64,
-    pub(crate) samples: usize,
-    pub(crate) parameters: f64,
-}
-
 impl Fit {
-    /// What was found on a design of the fit records.
-    pub(crate) fn of(campaign: &Campaign, design: Design, found: Found) -> Self {
-        let Found {
-            assembly,
-            linear,
-            nonlinear,
-            nonlinear_se,
-            deviance,
-            variance,
-            power,
-            samples,
-            parameters,
-        } = found;
-        Self {
-            assembly,
-            grid: design.grid.clone(),
-            linear,
-            nonlinear,
-            nonlinear_se,
-            deviance,
-            variance,
-            power,
-            samples,
-            parameters,
-            campaign: campaign.clone(),
-            near: Arc::new(design),
-        }
-    }
-
     /// The fit records under it; built anew where they were [set aside](Self::set_aside).
     pub(crate) fn design(&self) -> Arc<Design> {
-        match self.near.serves(&self.grid, &self.assembly) {
-            true => Arc::clone(&self.near),
-            false => Design::like(Some(&self.near), &self.campaign, &self.grid, &self.assembly).into(),
+        let FitRecords { campaign, near } = &self.records;
+        match near.serves(&self.grid, &self.assembly) {
+            true => Arc::clone(near),
+            false => Design::like(Some(near), campaign, &self.grid, &self.assembly).into(),
         }
     }
 
     /// Samples of the longest record fitted.
     pub(crate) fn longest_record(&self) -> usize {
-        self.campaign.fit().map(|track| track.v.len()).max().unwrap_or(0)
+        self.records.campaign.fit().map(|track| track.v.len()).max().unwrap_or(0)
     }
 
     /// A design that has much in common with that of the fit, for what is built from it.
     pub(crate) fn near(&self) -> &Arc<Design> {
-        &self.near
+        &self.records.near
     }
 
     /// The same fit for keeping: its design, which holds hundreds of bytes a sample, is given up for one that is held anyway.
     #[must_use]
     pub(crate) fn set_aside(self, held: &Arc<Design>) -> Self {
-        Self { near: Arc::clone(held), ..self }
+        let records = FitRecords { near: Arc::clone(held), ..self.records };
+        Self { records, ..self }
     }
 
     /// 90 % intervals of the nonlinear parameters; NaN where the likelihood gives no standard error.
@@ -329,8 +300,9 @@ pub(crate) fn fit(
     if let Some(mixture) = state.weights.mixture {
         assembly.noise.mixture = Some(mixture);
     }
-    let found = Found {
+    Some(Fit {
         assembly,
+        grid: design.grid.clone(),
         linear: p,
         nonlinear,
         nonlinear_se,
@@ -339,8 +311,8 @@ pub(crate) fn fit(
         power,
         samples,
         parameters,
-    };
-    Some(Fit::of(ground.campaign, design, found))
+        records: FitRecords::new(ground.campaign, design),
+    })
 }
 
 /// Numerical derivatives of the weighted innovations with respect to the nonlinear parameters, one column each.

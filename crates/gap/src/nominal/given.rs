@@ -4,7 +4,7 @@ use switchback_estimator::linear::is_stable;
 
 use crate::error::DiagnoseError;
 use crate::likelihood::design::{Design, Linear, Whitener};
-use crate::likelihood::engine::{Fit, Found};
+use crate::likelihood::engine::{Fit, FitRecords};
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
 use crate::records::campaign::{Campaign, dimensionless};
@@ -47,8 +47,9 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
     let w = design.innovations(&linear, &Whitener::default());
     let samples = design.samples();
     let variance = w.iter().flatten().map(|w| w * w).sum::<f64>() / samples.max(1) as f64;
-    let found = Found {
+    Ok(Fit {
         assembly,
+        grid,
         linear,
         nonlinear: Vec::new(),
         nonlinear_se: Vec::new(),
@@ -57,6 +58,6 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
         power: variance,
         samples,
         parameters: 0.0,
-    };
-    Ok(Fit::of(campaign, design, found))
+        records: FitRecords::new(campaign, design),
+    })
 }
