@@ -2,10 +2,12 @@
 
 mod autocovariance;
 mod filter;
+mod frequency;
 mod polynomial;
 mod system;
 
 pub use autocovariance::autocovariance;
 pub use filter::filter;
+pub use frequency::{frequency_response, roots};
 pub use polynomial::{is_stable, relative_coprimeness, settling_samples, spectral_radius};
 pub use system::{LinearSystem, SystemError};

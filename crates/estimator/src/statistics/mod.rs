@@ -1,6 +1,7 @@
 //! Performance measures of estimators, each with its Monte-Carlo standard error, and what residuals say of a model.
 
 mod block_bootstrap;
+mod correlation;
 mod error_sums;
 mod jackknife;
 mod lane_errors;
@@ -9,6 +10,7 @@ mod propagation;
 mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
+pub use correlation::correlation;
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};

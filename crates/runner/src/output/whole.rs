@@ -39,6 +39,14 @@ const NAMED: usize = 3;
 /// # Errors
 /// [`NotWhole`] if files were changed or are missing, or the folder was being replaced when a process was killed.
 pub fn verify(folder: &Path) -> Result<(), NotWhole> {
+    verify_those(folder, |_| true)
+}
+
+/// The same of the files whose names are wanted.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_those(folder: &Path, is_wanted: impl Fn(&str) -> bool) -> Result<(), NotWhole> {
     let shown = || folder.display().to_string();
     if stagings_of(folder).iter().any(|staging| is_unfinished(staging)) {
         return Err(NotWhole::Unfinished { folder: shown() });
@@ -49,7 +57,7 @@ pub fn verify(folder: &Path) -> Result<(), NotWhole> {
         Ok(Owner::Program) => None,
         _ => Some(format!("{name} has changed")),
     };
-    let mut wrong: Vec<String> = list.names().filter_map(wrong).collect();
+    let mut wrong: Vec<String> = list.names().filter(|name| is_wanted(name)).filter_map(wrong).collect();
     if wrong.is_empty() {
         return Ok(());
     }

@@ -20,6 +20,8 @@ pub mod power;
 mod selection;
 pub mod sheet;
 
+pub(crate) use identify::series::{thinned, worst_window};
+
 use crate::results::Results;
 use convergence::Measure;
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 mod borders;
 mod outputs;
-pub(in crate::plots) mod series;
+pub(crate) mod series;
 mod style;
 
 pub use borders::borders;
