@@ -77,7 +77,7 @@ pub enum PageError {
         file: &'static str,
     },
     /// A file is of another version.
-    #[error("{}: has the format {found}, but this program reads {wanted}", file.display())]
+    #[error("{}: has the format {found}, but this program reads `{wanted}`", file.display())]
     #[diagnostic(help(
         "run the command that writes this report again, or draw the page with the version that wrote it"
     ))]

@@ -69,7 +69,7 @@ fn title(svg: &str) -> Option<String> {
     let (inner, _) = rest.split_once("</text>")?;
     let plain = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
     let title = plain.iter().fold(inner.trim().to_owned(), |text, (sign, plain)| text.replace(sign, plain));
-    (!title.is_empty() && !title.contains('<')).then_some(title)
+    (!title.is_empty() && !inner.contains('<')).then_some(title)
 }
 
 #[cfg(test)]
