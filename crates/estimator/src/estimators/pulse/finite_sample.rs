@@ -41,6 +41,11 @@ impl Limit {
     ) -> FiniteSampleTheory {
         self.solution.finite_sample(records, noise)
     }
+
+    /// The standard deviations alone, given that of the equation error and the variance of a step experiment's mean (0 without one).
+    pub fn first_order_sd(&self, sigma: f64, step_variance: f64) -> Vec<f64> {
+        FirstOrder::of(&self.solution, sigma * sigma, step_variance).sd()
+    }
 }
 
 impl Solution {
@@ -64,11 +69,9 @@ impl Solution {
                 bend_of_base + self.free_means[point].map_or(0.0, |first| errors.bend_of_rank_one(first))
             }
         };
-        let of = |(k, quantity): (usize, &Quantity)| {
-            (errors.covariance(quantity, quantity).sqrt(), mean.along(&quantity.gradient) + bend(k))
-        };
-        let (sd, bias) = self.quantities.iter().enumerate().map(of).unzip();
-        FiniteSampleTheory { sd, bias }
+        let bias = |(k, quantity): (usize, &Quantity)| mean.along(&quantity.gradient) + bend(k);
+        let bias = self.quantities.iter().enumerate().map(bias).collect();
+        FiniteSampleTheory { sd: errors.sd(), bias }
     }
 }
 
@@ -82,7 +85,15 @@ struct FirstOrder<'a> {
     step_variance: f64,
 }
 
-impl FirstOrder<'_> {
+impl<'a> FirstOrder<'a> {
+    fn of(solution: &'a Solution, variance: f64, step_variance: f64) -> Self {
+        Self { solution, inverse: InverseForm::of(&solution.fit), variance, step_variance }
+    }
+
+    fn sd(&self) -> Vec<f64> {
+        self.solution.quantities.iter().map(|q| self.covariance(q, q).sqrt()).collect()
+    }
+
     fn covariance(&self, x: &Quantity, y: &Quantity) -> f64 {
         self.variance * self.inverse.at(&x.gradient, &y.gradient)
             + x.step_slope * y.step_slope * self.step_variance

@@ -113,15 +113,13 @@ impl Solution {
             relative.gradient.core += &base.core;
             (base.value + relative.value, relative.gradient, base.step)
         });
-        let a_at_one = 1.0 + fit.core.rows(0, n).sum();
-        let step_response = match level {
+        let through = match level {
             Level::Constant => None,
-            Level::Step(_) => {
-                Some(fit.response_to_constant(&experiments.statistics, &columns).times(-a_at_one))
-            }
+            Level::Step(_) => Some(fit.response_to_constant(&experiments.statistics, &columns)),
         };
+        let a_at_one = 1.0 + fit.core.rows(0, n).sum();
         let quantity = |(value, gradient, direct): (f64, Gradient, f64)| {
-            let step_slope = step_response.as_ref().map_or(0.0, |r| direct + r.along(&gradient));
+            let step_slope = through.as_ref().map_or(0.0, |r| direct - a_at_one * r.along(&gradient));
             Quantity { value, gradient, step_slope }
         };
         let quantities = coefficients.chain(border_points).map(quantity).collect();
@@ -141,7 +139,7 @@ impl Solution {
             points,
             quantities,
             free_means,
-            step_response,
+            step_response: through.map(|r| r.times(-a_at_one)),
             levels,
             u_low,
         })
