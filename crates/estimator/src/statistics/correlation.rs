@@ -33,10 +33,10 @@ pub fn correlation(pairs: &[(&[f64], &[f64])], lags: &[isize]) -> Vec<f64> {
         };
         pairs.iter().map(one).sum()
     };
-    let squares = |of: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| -> f64 {
-        pairs.iter().flat_map(of).map(|x| x * x).sum()
-    };
-    let size = (squares(|pair| &pair.0) * squares(|pair| &pair.1)).sqrt();
+    let squares =
+        |values: &mut dyn Iterator<Item = &Vec<f64>>| -> f64 { values.flatten().map(|x| x * x).sum() };
+    let of_x = squares(&mut pairs.iter().map(|(x, _)| x));
+    let size = (of_x * squares(&mut pairs.iter().map(|(_, y)| y))).sqrt();
     lags.iter().map(|&lag| if size > 0.0 { products(lag) / size } else { 0.0 }).collect()
 }
 
