@@ -11,9 +11,11 @@ use super::spread::{ERRORS, Spread, samples_axis};
 use super::style::{GREY, OKABE_ITO, Pen, SMALL_RADIUS};
 use crate::results::{Group, Paired, PairedGroup, Results};
 
+/// What a row draws of a group.
+type Ratio = fn(&PairedGroup) -> Paired;
+
 /// The rows: what is compared, and how.
-const ROWS: [(&str, fn(&PairedGroup) -> Paired); 2] =
-    [("variance", |g| g.variance_ratio), ("squared error", |g| g.mse_ratio)];
+const ROWS: [(&str, Ratio); 2] = [("variance", |g| g.variance_ratio), ("squared error", |g| g.mse_ratio)];
 /// Pixels between marks at the same `N`.
 const APART: f64 = 5.0;
 
@@ -74,12 +76,7 @@ fn legend(pairs: &Pairs<'_>) -> Vec<Entry> {
 }
 
 /// One side's ratios in one diagram.
-fn curve(
-    pairs: &Pairs<'_>,
-    side: &str,
-    group: Group,
-    ratio: fn(&PairedGroup) -> Paired,
-) -> Vec<(f64, Spread)> {
+fn curve(pairs: &Pairs<'_>, side: &str, group: Group, ratio: Ratio) -> Vec<(f64, Spread)> {
     let mut samples: Vec<usize> = Vec::new();
     for entry in pairs.of_side(side).flat_map(|c| &c.groups).filter(|g| g.group == group) {
         if !samples.contains(&entry.samples) {
@@ -96,13 +93,13 @@ fn curve(
 }
 
 /// Axes that a row shares.
-fn axes(pairs: &Pairs<'_>, ratio: fn(&PairedGroup) -> Paired) -> (Axis, Axis) {
+fn axes(pairs: &Pairs<'_>, ratio: Ratio) -> (Axis, Axis) {
     let groups = || pairs.comparisons.iter().flat_map(|c| &c.groups);
     let ends = groups().flat_map(|g| <[f64; 2]>::from(ratio(g).interval(ERRORS)));
     (samples_axis(groups().map(|g| g.samples), pairs.sides.len()), Axis::logarithmic(ends.chain([1.0])))
 }
 
-fn contents(panel: &Panel<'_, '_>, pairs: &Pairs<'_>, group: Group, ratio: fn(&PairedGroup) -> Paired) {
+fn contents(panel: &Panel<'_, '_>, pairs: &Pairs<'_>, group: Group, ratio: Ratio) {
     panel.level(1.0, Some(Dash::Dashes), Pen::data(GREY));
     let middle = (pairs.sides.len() - 1) as f64 / 2.0;
     let mut is_empty = true;

@@ -25,8 +25,11 @@ fn bars() -> Entry {
     Entry::new(Sample::Bar(Pen::data(INK)), INTERVALS)
 }
 
-/// Name and share of each curve of a table.
-type Curves<R, const N: usize> = [(&'static str, fn(&R) -> Share); N];
+/// Name and share of a curve of a table.
+type Curve<R> = (&'static str, fn(&R) -> Share);
+
+/// All of a figure.
+type Curves<R, const N: usize> = [Curve<R>; N];
 
 /// Draws a curve a share, marks a little apart so that intervals do not cover each other.
 fn curves<R, const N: usize>(panel: &Panel<'_, '_>, rows: &[R], x: fn(&R) -> f64, curves: &Curves<R, N>) {
@@ -43,8 +46,7 @@ fn curves<R, const N: usize>(panel: &Panel<'_, '_>, rows: &[R], x: fn(&R) -> f64
 }
 
 fn legend<R, const N: usize>(curves: &Curves<R, N>) -> Vec<Entry> {
-    let entry =
-        |((name, _), colour): (&(&'static str, fn(&R) -> Share), RGBColor)| Entry::disc(colour, *name);
+    let entry = |((name, _), colour): (&Curve<R>, RGBColor)| Entry::disc(colour, *name);
     curves.iter().zip(OKABE_ITO).map(entry).chain([bars()]).collect()
 }
 
