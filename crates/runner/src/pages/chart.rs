@@ -123,6 +123,8 @@ const RIGHT: f64 = 14.0;
 const TOP: f64 = 12.0;
 const BOTTOM: f64 = 62.0;
 const WHOLE: f64 = 1000.0;
+/// Labels of an axis at most.
+const TICKS: usize = 7;
 
 impl Chart {
     /// The figure.
@@ -172,7 +174,7 @@ impl Chart {
         let (right, bottom) = (LEFT + width, TOP + height);
         let ticks = |scale: &Scale| -> Vec<(f64, String)> {
             let place = |tick: crate::plots::axis::Tick| Some((scale.axis.place(tick.at)?, tick.label?));
-            scale.axis.ticks().into_iter().filter_map(place).collect()
+            scale.axis.ticks(TICKS).into_iter().filter_map(place).collect()
         };
         let upright = format!("rotate(-90 20 {})", TOP + height / 2.0);
         html! {

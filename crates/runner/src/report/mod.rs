@@ -15,7 +15,7 @@ use crate::plots;
 use crate::results::{Results, to_csv, to_json};
 
 /// What the files of a report are called; a `*` stands for what is not known of a name.
-pub const FILES: [&str; 8] = [
+pub const FILES: [&str; 12] = [
     "results.json",
     "table.csv",
     "report.md",
@@ -24,6 +24,10 @@ pub const FILES: [&str; 8] = [
     "sd-*.svg",
     "borders-*.svg",
     "paired-*.svg",
+    "forest-*.svg",
+    "ratios*.svg",
+    "efficiency*.svg",
+    "zip*.svg",
 ];
 
 /// The files of a report: `results.json`, `table.csv`, `report.md`, the figures and the page `index.html`. They are made side by side, on

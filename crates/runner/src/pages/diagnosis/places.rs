@@ -3,7 +3,7 @@
 use crate::diagnosis::SIGNIFICANT;
 use crate::diagnosis::json::{GapFile, Place};
 use crate::pages::table::{Cell, Table};
-use crate::plots::axis::plain;
+use crate::plots::style::plain;
 use maud::{Markup, html};
 
 /// A row a cell of the map.

@@ -28,9 +28,19 @@ pub fn study(results: &Results, figures: &[Figure]) -> Result<String, PageError>
     };
     Ok(Page::new("Consistency study", &results.name, lead)
         .section("verdicts", "Verdicts", verdicts::verdicts(results))
-        .section("curves", "Bias and standard deviation against N", drawn(&["bias", "sd"])?)
+        .section(
+            "curves",
+            "Bias and standard deviation against N",
+            html! { (drawn(&["ratios"])?) (drawn(&["bias", "sd"])?) },
+        )
         .section("borders", "Borders", drawn(&["borders"])?)
-        .section("paired", "On the same noise", html! { (verdicts::paired(results)) (drawn(&["paired"])?) })
+        .section("efficiency", "Variance over the Cramér–Rao bound", drawn(&["efficiency"])?)
+        .section("coverage", "Do intervals hold the truth", drawn(&["zip"])?)
+        .section(
+            "paired",
+            "On the same noise",
+            html! { (verdicts::paired(results)) (drawn(&["paired", "forest"])?) },
+        )
         .section("figures", "Other figures", others(figures)?)
         .section("cells", "Cells of the design", cells::cells(results))
         .section("unresolved", "What was not resolved", unresolved::unresolved(results))
@@ -39,7 +49,7 @@ pub fn study(results: &Results, figures: &[Figure]) -> Result<String, PageError>
 }
 
 /// What figures are called that have a section of their own.
-const PLACED: [&str; 4] = ["bias", "sd", "borders", "paired"];
+const PLACED: [&str; 8] = ["bias", "sd", "borders", "paired", "forest", "ratios", "efficiency", "zip"];
 
 fn drawn(figures: &[Figure], starts: &[&str]) -> Result<Markup, PageError> {
     chosen(figures, |name| starts.iter().any(|start| name.starts_with(start)))
