@@ -152,6 +152,31 @@ fn every_method_of_identify() {
     }
 }
 
+/// Noise on the input makes a threshold: in real time a reversal counts from where it is confirmed, which the file must say.
+#[test]
+fn a_causal_model_of_a_noisy_input() {
+    let folder = Folder::with_good_rig();
+    let mut seed = 5_u64;
+    let mut white = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let (mut rows, mut y, mut u, mut last) = (String::from("t,v,y\n"), 0.0, 0.0, 0.0);
+    for t in 0..4000 {
+        let at = 0.01 * f64::from(t);
+        let v = 0.6 * (2.3 * at).sin() + 0.4 * (0.7 * at).sin();
+        y += 0.3 * (u - y) + 0.002 * white();
+        u = 0.3 * v + if v > last { 0.2 } else { -0.2 };
+        last = v;
+        rows += &format!("{at:.2},{},{y}\n", v + 0.01 * white());
+    }
+    folder.write("noisy.csv", &rows);
+    succeed(&folder, &["identify", "noisy.csv", "--method", "free", "--causal", "--out", "found", "--quiet"]);
+    let text = fs::read_to_string(folder.path("found/model.json")).expect("a model");
+    assert!(text.contains("\"at_confirmation\":true"), "{text}");
+    agrees(&folder, "found/model.json", &[input(1.0), input(-1.0)]);
+}
+
 #[test]
 fn models_of_gap_with_effects_of_orders_one_to_four() {
     for (effect, order) in

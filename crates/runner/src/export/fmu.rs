@@ -62,16 +62,22 @@ pub fn platform() -> String {
 pub fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
     let path = match named {
         Some(path) => path.to_owned(),
-        None => {
-            let program = std::env::current_exe().unwrap_or_default();
-            program.parent().unwrap_or(Path::new("")).join(library_name())
-        }
+        None => beside_program(),
     };
     match std::fs::read(&path) {
         Ok(bytes) => Ok(bytes),
         Err(why) if why.kind() == std::io::ErrorKind::NotFound => Err(LibraryError::Missing(path)),
         Err(why) => Err(LibraryError::Unreadable { path, why }),
     }
+}
+
+/// Where the library is: beside the program, or in `deps` there, where cargo leaves it that builds it for this program alone.
+fn beside_program() -> PathBuf {
+    let program = std::env::current_exe().unwrap_or_default();
+    let folder = program.parent().unwrap_or(Path::new(""));
+    let places = [folder.join(library_name()), folder.join("deps").join(library_name())];
+    let [first, _] = &places;
+    places.iter().find(|place| place.is_file()).unwrap_or(first).clone()
 }
 
 /// The bytes of an FMU: the same model and library give the same.
