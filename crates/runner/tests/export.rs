@@ -152,6 +152,26 @@ fn every_method_of_identify() {
     }
 }
 
+#[test]
+fn orders_from_one_to_four() {
+    let folder = Folder::with_good_rig();
+    for order in ["1", "3", "4"] {
+        folder.edit("rig.toml", |text| {
+            let lines = text.lines().map(|line| match line.starts_with("order") {
+                true => format!("order = {order}\n"),
+                false => format!("{line}\n"),
+            });
+            lines.collect()
+        });
+        let identify =
+            ["identify", "rig.toml", "--method", "free", "--causal", "--out", "found", "--force", "--quiet"];
+        succeed(&folder, &identify);
+        let text = fs::read_to_string(folder.path("found/model.json")).expect("a model");
+        assert!(text.contains(&format!("\"order\": {order}")), "{text}");
+        agrees(&folder, "found/model.json", &[input(1.0), input(-1.0)]);
+    }
+}
+
 /// Noise on the input makes a threshold: in real time a reversal counts from where it is confirmed, which the file must say.
 #[test]
 fn a_causal_model_of_a_noisy_input() {
@@ -178,10 +198,8 @@ fn a_causal_model_of_a_noisy_input() {
 }
 
 #[test]
-fn models_of_gap_with_effects_of_orders_one_to_four() {
-    for (effect, order) in
-        [("creep", "1"), ("backlash", "2"), ("sensor_saturation", "3"), ("gain_drift", "4")]
-    {
+fn models_of_gap_with_effects() {
+    for (effect, order) in [("creep", "1"), ("backlash", "2"), ("sensor_saturation", "3")] {
         let folder = Folder::with_good_rig();
         succeed(
             &folder,

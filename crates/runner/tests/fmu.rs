@@ -117,7 +117,8 @@ fn an_exported_simulator_with_an_effect_left_out_is_diagnosed() {
     for model in ["nominal", "augmented"] {
         let model = format!("report/{model}.json");
         succeed(&folder, &["export", &model, "--to", "fmu", "--name", "sim", "--force", "--quiet"]);
-        let expected = if model.contains("nominal") { "cause backlash" } else { "cause none" };
+        // With the play in it only the first samples differ: it begins at rest, the rig in the middle of a move.
+        let expected = if model.contains("nominal") { "cause backlash" } else { "gap < 1 %" };
         let (code, out, told) =
             run(&folder, &["gap", &rig, "--fmu", "sim.fmu", "--expect", expected, "--json"]);
         assert_eq!(code, Some(0), "{model}: {told}");

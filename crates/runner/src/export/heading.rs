@@ -1,5 +1,6 @@
 //! What an exported model says of itself.
 
+use crate::diagnosis::digits;
 use crate::identification::unit;
 use crate::model::{Added, Header, ModelFile};
 use switchback_step::Heading;
@@ -27,6 +28,7 @@ pub fn heading(file: &ModelFile, name: &str) -> Heading {
 pub(super) fn effect(added: &Added) -> String {
     let parameters = added.parameters.iter().filter_map(|parameter| {
         let value = parameter.value?;
+        let value = digits(value, 4);
         Some(format!("{} {value} {}", parameter.name, parameter.unit).trim_end().to_owned())
     });
     format!("It has the effect {}: {}.", added.effect, parameters.collect::<Vec<_>>().join(", "))

@@ -85,7 +85,7 @@ fn find(
         (Some(name), _) => by_name(name).ok_or_else(|| {
             let remedy = match closest(name, names.iter().copied()) {
                 Some(near) => format!("did you mean `--map {key}={near}`?"),
-                None => has.clone(),
+                None => format!("name a variable that it has: `--map {key}=NAME`"),
             };
             FmuError::new(fmu, format!("there is no real {what} `{name}`; {has}"), remedy)
         }),

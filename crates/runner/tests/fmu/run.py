@@ -4,7 +4,8 @@ import sys
 
 import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
-from fmpy.fmi2 import FMU2Slave, FMICallException
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
 
 fmu, inputs = sys.argv[1:]
 # Against the schema of the standard, too.
