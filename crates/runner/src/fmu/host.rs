@@ -2,6 +2,7 @@
 
 use super::job::{Job, Line};
 use libloading::{Library, Symbol};
+use std::error::Error;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs::File;
 use std::io::Write;
@@ -54,8 +55,10 @@ impl Teller {
 
 fn run(job: &Job, teller: &mut Teller) -> Result<(), String> {
     // SAFETY: a library runs code of its own when it is loaded: that is why this process is none but its own.
-    let library = unsafe { Library::new(&job.library) }
-        .map_err(|error| format!("its library cannot be loaded: {error}"))?;
+    let library = unsafe { Library::new(&job.library) }.map_err(|error| {
+        let why = error.source().map_or_else(|| error.to_string(), ToString::to_string);
+        format!("its library cannot be loaded: {why}")
+    })?;
     let unit = Functions::of(&library)?;
     for (record, v) in job.inputs.iter().enumerate() {
         teller.stands(record, 0)?;
