@@ -163,7 +163,7 @@ fn other_formats_and_foreign_figures_are_refused() {
         &["gap.json", "`switchback/gap/0`", "`switchback/gap/1`"],
     );
     changed("gap/gap.json", "\"rig\": \"small\"", "\"rig\": 3", &["gap.json:3", "`rig`"]);
-    changed("gap/gap.json", "{", "", &["gap.json:1", "no JSON"]);
+    changed("gap/gap.json", "{", "", &["gap.json:2", "no JSON"]);
     changed("gap/series.csv", ",nominal_band,augmented_band", "", &["series.csv:1", "older version"]);
     changed(
         "gap/augmented.json",
