@@ -71,7 +71,7 @@ impl Snapshot<'_> {
         let mut bytes = serde_json::to_vec(&head).expect("names and numbers are JSON");
         bytes.push(b'\n');
         let halves = tally.nodes().iter().flat_map(|node| &node.cells).flat_map(CellSums::halves);
-        bytes.extend(halves.flat_map(LaneSums::numbers).flat_map(f64::to_le_bytes));
+        halves.for_each(|half| half.write(&mut bytes));
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
         bytes
@@ -114,7 +114,7 @@ impl Standing {
     /// # Errors
     /// [`Unusable`] if the file is of another origin, or not as it was written.
     pub fn read(self, bytes: &[u8], origin: &Origin) -> Result<Self, Unusable> {
-        let (head, numbers) = parts(bytes)?;
+        let (head, mut sums) = parts(bytes)?;
         if (&head.origin.scenario, &head.origin.part) != (&origin.scenario, &origin.part) {
             return Err(Unusable::OtherScenario);
         }
@@ -122,14 +122,10 @@ impl Standing {
         if head.origin != *origin || head.batch != tally.batches().size() || head.shape != tally.shape() {
             return Err(Unusable::OtherProgram);
         }
-        let mut numbers = numbers.chunks_exact(8).map(|number| {
-            let number = number.try_into().expect("eight bytes");
-            f64::from_le_bytes(number)
-        });
         let mut filled = Tally::new(tally.batches(), head.shape);
         for NodeHead { replicates, runs } in head.nodes {
             let cell = |(runs, &parameters): (Runs, &usize)| {
-                let mut half = || LaneSums::from_numbers(parameters, &mut numbers);
+                let mut half = || LaneSums::read(parameters, &mut sums);
                 Some(CellSums::of([half()?, half()?], runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
@@ -148,7 +144,7 @@ impl Standing {
     }
 }
 
-/// The head of a file, and its numbers, if it is as it was written.
+/// The head of a file, and its sums, if it is as it was written.
 fn parts(bytes: &[u8]) -> Result<(Head, &[u8]), Unusable> {
     if !bytes.starts_with(BEGINNING) {
         return Err(Unusable::Foreign);
