@@ -35,7 +35,10 @@ run_part() {
   "${with[@]}" "$switchback" "$scenario" --shard "$number/$parts" "${from[@]}" --threads "$threads" --yes --quiet \
     --out "$place/part-$number" &
   child=$!
-  [ -z "$seconds" ] || { (sleep "$seconds" && kill -TERM "$child") > /dev/null 2>&1 & clock=$!; }
+  if [ -n "$seconds" ]; then
+    (trap 'kill "$!"' TERM; sleep "$seconds" & wait "$!" && kill -TERM "$child") > /dev/null 2>&1 &
+    clock=$!
+  fi
   trap 'kill -TERM "$child" 2> /dev/null || true' TERM
   # A signal ends the wait, not the part.
   while code=0; wait "$child" || code=$?; kill -0 "$child" 2> /dev/null; do :; done

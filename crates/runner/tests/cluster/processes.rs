@@ -3,9 +3,9 @@
 use std::fs;
 
 pub(crate) struct Process {
-    pub id: u32,
+    pub(crate) id: u32,
     parent: u32,
-    pub name: String,
+    pub(crate) name: String,
 }
 
 /// All that can be seen.

@@ -1,7 +1,7 @@
 //! Slurm with three nodes on this host (`three-nodes.sh`).
 
 use crate::Cluster;
-use crate::processes::{all, has_variable, kill, number_in, parent};
+use crate::processes::{Process, all, has_variable, kill, number_in, parent};
 use crate::study::{Study, is_full};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,11 +40,17 @@ impl Slurm {
                 kill(id);
             }
         }
-        // Steps have ends of their own; nothing else has this configuration.
-        for process in all().iter().filter(|p| has_variable(p.id, "SLURM_CONF", &self.configuration())) {
-            kill(process.id);
-        }
+        let configuration = self.configuration();
+        let ours: Vec<_> =
+            all().into_iter().filter(|p| has_variable(p.id, "SLURM_CONF", &configuration)).collect();
+        steps_of(&ours).into_iter().chain(ours).for_each(|process| kill(process.id));
     }
+}
+
+/// The daemons that watch over jobs, of which these are processes.
+fn steps_of(processes: &[Process]) -> Vec<Process> {
+    let parents: Vec<u32> = processes.iter().filter_map(|process| parent(process.id)).collect();
+    all().into_iter().filter(|p| parents.contains(&p.id) && p.name.starts_with("slurmstepd")).collect()
 }
 
 impl Cluster for Slurm {
@@ -87,11 +93,9 @@ impl Cluster for Slurm {
             return false;
         }
         let node = number_in(&self.folder.join(format!("slurmd-{NODE}.pid"))).expect("it runs");
-        // The daemon first, then the step and what it runs, so that nobody reports their end.
+        // The daemon first, then the steps and what they run, so that nobody reports their end.
         kill(node);
-        let steps: Vec<u32> = running.iter().filter_map(|process| parent(process.id)).collect();
-        let steps = all().into_iter().filter(|p| steps.contains(&p.id) && p.name.starts_with("slurmstepd"));
-        steps.chain(running).for_each(|process| kill(process.id));
+        steps_of(&running).into_iter().chain(running).for_each(|process| kill(process.id));
         true
     }
 

@@ -18,19 +18,19 @@ pub(crate) fn is_full() -> bool {
 }
 
 pub(crate) struct Study {
-    pub folder: Folder,
+    pub(crate) folder: Folder,
     whole: OnceCell<Files>,
 }
 
 impl Study {
     /// Each part takes about `length` times a third of a second of one processor, ten times as long in the full test.
-    pub fn new(length: usize) -> Self {
+    pub(crate) fn new(length: usize) -> Self {
         let length = if is_full() { 10 * length } else { length };
         Self::of(&format!("replicates = {}", PARTS * length * 1024), "300_000")
     }
 
     /// The first of its rounds is not enough.
-    pub fn with_precision() -> Self {
+    pub(crate) fn with_precision() -> Self {
         Self::of(
             "replicates = 3000\nprecision = { sd_relative_mcse = 0.01 }\nmax_replicates = 30_000",
             "2000",
@@ -45,7 +45,7 @@ impl Study {
     }
 
     /// The leaf spring of `scenarios`, so many thousand replicates.
-    pub fn of_many_cells(thousands: usize) -> Self {
+    pub(crate) fn of_many_cells(thousands: usize) -> Self {
         let folder = Folder::with_good_rig();
         let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/leafspring.toml");
         let text = fs::read_to_string(scenario).expect("a scenario of the repository");
@@ -56,7 +56,7 @@ impl Study {
     }
 
     /// What `--plan` says of so many parts, with the time of one run.
-    pub fn plan(&self, parts: usize) -> serde_json::Value {
+    pub(crate) fn plan(&self, parts: usize) -> serde_json::Value {
         let arguments = ["launch", "study.toml", "--plan", "--json", "--tasks", &parts.to_string()];
         let told = self.folder.switchback(&arguments).output().expect("it runs");
         assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
@@ -67,7 +67,7 @@ impl Study {
         forecast
     }
 
-    pub fn seconds_of_part(&self, number: usize, parts: usize) -> f64 {
+    pub(crate) fn seconds_of_part(&self, number: usize, parts: usize) -> f64 {
         let (shard, out) = (format!("{number}/{parts}"), format!("part-{number}"));
         self.seconds(&[
             "study.toml",
@@ -82,14 +82,14 @@ impl Study {
         ])
     }
 
-    pub fn seconds_of_merge(&self, parts: usize) -> f64 {
+    pub(crate) fn seconds_of_merge(&self, parts: usize) -> f64 {
         let folders: Vec<String> = (1..=parts).map(|number| format!("part-{number}")).collect();
         let folders = folders.iter().map(String::as_str);
         let arguments = ["merge"].into_iter().chain(folders).chain(["--force", "--quiet", "--out", "merged"]);
         self.seconds(&arguments.collect::<Vec<_>>())
     }
 
-    pub fn seconds_of_one_run(&self) -> f64 {
+    pub(crate) fn seconds_of_one_run(&self) -> f64 {
         self.seconds(&["study.toml", "--threads", "1", "--force", "--quiet", "--out", "one-run"])
     }
 
@@ -117,7 +117,7 @@ impl Study {
     }
 
     /// The report of one run.
-    pub fn whole(&self) -> &Files {
+    pub(crate) fn whole(&self) -> &Files {
         self.whole.get_or_init(|| {
             let (code, told) = run(&self.folder, &["study.toml", "--quiet", "--out", "whole"], "");
             assert_eq!(code, Some(0), "{told}");
@@ -126,7 +126,7 @@ impl Study {
     }
 
     /// `switchback launch`, submitted or kept for later.
-    pub fn launch<C: Cluster>(&self, cluster: &C, more: &[&str]) -> Launched {
+    pub(crate) fn launch<C: Cluster>(&self, cluster: &C, more: &[&str]) -> Launched {
         let (out, work) = (self.folder.path("out"), self.folder.path("out-parts"));
         fs::create_dir_all(&work).expect("a folder");
         let mut launched = Launched { out, work, script: None };
@@ -147,19 +147,19 @@ impl Study {
 
 /// A study that is under way.
 pub(crate) struct Launched {
-    pub out: PathBuf,
-    pub work: PathBuf,
+    pub(crate) out: PathBuf,
+    pub(crate) work: PathBuf,
     script: Option<Child>,
 }
 
 impl Launched {
-    pub fn start_script<C: Cluster>(&mut self, cluster: &C) {
+    pub(crate) fn start_script<C: Cluster>(&mut self, cluster: &C) {
         let mut command = Command::new("bash");
         command.arg(self.work.join("launch.sh"));
         self.start(&mut command, cluster);
     }
 
-    pub fn edit_script(&self, change: impl Fn(&str) -> String) {
+    pub(crate) fn edit_script(&self, change: impl Fn(&str) -> String) {
         let place = self.work.join("launch.sh");
         let text = change(&fs::read_to_string(&place).expect("a script"));
         fs::write(place, text).expect("it can be written");
@@ -173,7 +173,7 @@ impl Launched {
         self.script = Some(command.spawn().expect("it starts"));
     }
 
-    pub fn wait_for_the_script(&mut self) {
+    pub(crate) fn wait_for_the_script(&mut self) {
         if let Some(mut script) = self.script.take() {
             script.wait().expect("it ends");
         }
@@ -181,7 +181,7 @@ impl Launched {
 
     /// Waits until something has come about.
     #[track_caller]
-    pub fn wait(&mut self, what: &str, mut has_come: impl FnMut(&Self) -> bool) {
+    pub(crate) fn wait(&mut self, what: &str, mut has_come: impl FnMut(&Self) -> bool) {
         let begun = Instant::now();
         while !has_come(self) {
             let patience = Duration::from_secs(if is_full() { 1800 } else { 300 });
@@ -190,27 +190,27 @@ impl Launched {
         }
     }
 
-    pub fn part(&self, number: usize) -> PathBuf {
+    pub(crate) fn part(&self, number: usize) -> PathBuf {
         self.work.join(format!("round-1/part-{number}"))
     }
 
     /// Parts of the first round that are finished.
-    pub fn finished(&self) -> Vec<usize> {
+    pub(crate) fn finished(&self) -> Vec<usize> {
         (1..=PARTS).filter(|&number| self.part(number).join("part.json").exists()).collect()
     }
 
-    pub fn has_report(&self) -> bool {
+    pub(crate) fn has_report(&self) -> bool {
         self.out.join("results.json").exists()
     }
 
     /// How often a part of the first round was begun.
-    pub fn turns(&self, number: usize) -> usize {
+    pub(crate) fn turns(&self, number: usize) -> usize {
         let begun = format!("part {number} of {PARTS} on ");
         self.logs().iter().map(|text| text.lines().filter(|line| line.starts_with(&begun)).count()).sum()
     }
 
     /// What script, parts and merge have said.
-    pub fn told(&self) -> String {
+    pub(crate) fn told(&self) -> String {
         let told = fs::read_to_string(self.work.join("told")).unwrap_or_default();
         [vec![told], self.logs()].concat().concat()
     }
