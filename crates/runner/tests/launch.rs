@@ -102,7 +102,7 @@ fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
         (vec!["study.toml", "--hq", "--calibrate"], "no field examination"),
         (vec!["study.toml", "--hq", "--cpus", "0"], "from 1"),
         (vec!["study.toml", "--plan", "--submit"], "--submit"),
-        (vec!["study.toml", "--hq", "--within", "1:00:00"], "--plan"),
+        (vec!["study.toml", "--hq", "--within", "1:00:00"], "--within"),
         (vec!["wrong.toml", "--slurm", "--submit"], "replicates"),
         (vec!["rig.toml", "--slurm", "--submit"], "a rig"),
         (vec!["descendant.csv", "--hq", "--submit"], "data"),

@@ -38,11 +38,11 @@ pub struct Args {
     plan: bool,
 
     /// With --plan: how many tasks are done within this time, written as for --time
-    #[arg(long, value_name = "TIME", requires = "plan")]
+    #[arg(long, value_name = "TIME", conflicts_with_all = ["slurm", "hq"])]
     within: Option<TimeLimit>,
 
     /// With --plan: print JSON instead of words
-    #[arg(long, requires = "plan")]
+    #[arg(long, conflicts_with_all = ["slurm", "hq"])]
     json: bool,
 
     /// In how many parts
