@@ -120,7 +120,7 @@ fn run_part(scenario: &Scenario, shard: Shard, order: Order<'_>) -> CommandResul
         ));
         return Ok(Outcome::Stopped);
     }
-    let mut artefacts = part.with(kept.bytes(&standing)).artefacts();
+    let mut artefacts = part.artefacts(kept.bytes(&standing));
     artefacts.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
     folder.commit(&artefacts)?;
     kept.close()?;
