@@ -1,7 +1,9 @@
 //! Performance measures of estimators, each with its Monte-Carlo standard error, and what residuals say of a model.
 
 mod block_bootstrap;
+mod correlation;
 mod error_sums;
+mod interval_counts;
 mod jackknife;
 mod lane_errors;
 mod line;
@@ -9,7 +11,9 @@ mod propagation;
 mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
+pub use correlation::correlation;
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
+pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};

@@ -3,6 +3,7 @@
 use super::{Case, Examiner, Sealed, Study, Ticket, WrittenKeys};
 use super::{artefacts, design, examine, score, seal, summary};
 use crate::examination::{Done, Examination, KEY_FILE, Measure, Report};
+use crate::pages::INDEX;
 use crate::plots;
 use crate::provenance::PROVENANCE_FILE;
 use miette::Diagnostic;
@@ -29,6 +30,7 @@ impl Examination for Blind {
         KEY_FILE,
         PROVENANCE_FILE,
         "results.json",
+        INDEX,
         "summary.txt",
         "answers.csv",
         "confusion.*",
@@ -67,7 +69,7 @@ impl Examination for Blind {
     fn report(&self, key_sha256: &str, cases: &[Case]) -> miette::Result<Report> {
         let scores = score(cases, &self.0.expect);
         let mut files = artefacts(&self.0, key_sha256, cases, &scores);
-        for figure in plots::blind::figures(cases, &scores)? {
+        for figure in plots::blind::figures(cases, &scores) {
             files.add(figure.name, figure.svg);
         }
         let is_as_expected = !scores.measures.iter().any(Measure::is_unexpected);

@@ -4,9 +4,10 @@
 
 mod error;
 mod examine;
+mod expectation;
 mod experiment;
 mod given;
-mod json;
+pub(crate) mod json;
 mod model_file;
 mod number;
 mod parameter;
@@ -20,12 +21,14 @@ mod words;
 pub use crate::model::ModelError;
 pub use error::DiagnosisError;
 pub use examine::{Report, examine, examine_watched};
+pub use expectation::{Checked, Expectation};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use given::GivenModel;
 pub use json::json;
 pub use number::{closed_percent, digits, fit_percent};
 pub use parameter::{Told, told};
 pub use place::SIGNIFICANT;
+pub(crate) use sentences::probability;
 pub use subject::{Source, Subject, SubjectError, met_by};
 pub use units::Units;
 pub use why::why;

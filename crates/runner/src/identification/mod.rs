@@ -7,7 +7,7 @@ mod errors_of_run;
 mod examine;
 mod flag;
 mod free;
-mod json;
+pub(crate) mod json;
 mod method;
 mod pulse;
 mod request;
@@ -18,6 +18,7 @@ mod yardstick;
 
 pub use crate::scenario::Method;
 pub use causal::CausalAlternative;
+pub(crate) use causal::obstacles;
 pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
 pub use examine::{Examination, examined, examined_watched};

@@ -2,9 +2,7 @@
 
 mod borders;
 mod outputs;
-pub(in crate::plots) mod series;
-mod style;
+pub(crate) mod series;
 
 pub use borders::borders;
 pub use outputs::outputs;
-pub use style::PlotError;

@@ -1,4 +1,4 @@
-//! A [`Standing`] as a file: a line of JSON that tells what it is of and how it is laid out, then the sums as little-endian numbers of 64 bits,
+//! A [`Standing`] as a file: a line of JSON that tells what it is of and how it is laid out, then the sums as little-endian numbers of 64 bits, counts of 32,
 //! then the SHA-256 of all before.
 
 use super::{Round, Snapshot, Standing};
@@ -8,11 +8,11 @@ use crate::study::tally::{Node, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
-use switchback_estimator::statistics::LaneSums;
+use switchback_estimator::statistics::{IntervalCounts, LaneSums};
 use thiserror::Error;
 
 /// What such a file begins with.
-const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/1\",";
+const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/2\",";
 
 /// What tells the sums of one study from those of another, or of other sources on another platform: they are never mixed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ impl Snapshot<'_> {
             runs: node.cells.iter().map(|cell| cell.runs.clone()).collect(),
         };
         let head = Head {
-            schema: "switchback/sums/1".to_owned(),
+            schema: "switchback/sums/2".to_owned(),
             origin: origin.clone(),
             batch: tally.batches().size(),
             round: round.replicates.clone(),
@@ -70,8 +70,11 @@ impl Snapshot<'_> {
         };
         let mut bytes = serde_json::to_vec(&head).expect("names and numbers are JSON");
         bytes.push(b'\n');
-        let halves = tally.nodes().iter().flat_map(|node| &node.cells).flat_map(CellSums::halves);
-        bytes.extend(halves.flat_map(LaneSums::numbers).flat_map(f64::to_le_bytes));
+        for cell in tally.nodes().iter().flat_map(|node| &node.cells) {
+            cell.halves().iter().for_each(|half| half.write(&mut bytes));
+            let counts = cell.intervals().iter().flat_map(|counts| counts.below.iter().chain(&counts.above));
+            bytes.extend(counts.flat_map(|count| count.to_le_bytes()));
+        }
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
         bytes
@@ -114,7 +117,7 @@ impl Standing {
     /// # Errors
     /// [`Unusable`] if the file is of another origin, or not as it was written.
     pub fn read(self, bytes: &[u8], origin: &Origin) -> Result<Self, Unusable> {
-        let (head, numbers) = parts(bytes)?;
+        let (head, mut sums) = parts(bytes)?;
         if (&head.origin.scenario, &head.origin.part) != (&origin.scenario, &origin.part) {
             return Err(Unusable::OtherScenario);
         }
@@ -122,15 +125,13 @@ impl Standing {
         if head.origin != *origin || head.batch != tally.batches().size() || head.shape != tally.shape() {
             return Err(Unusable::OtherProgram);
         }
-        let mut numbers = numbers.chunks_exact(8).map(|number| {
-            let number = number.try_into().expect("eight bytes");
-            f64::from_le_bytes(number)
-        });
         let mut filled = Tally::new(tally.batches(), head.shape);
         for NodeHead { replicates, runs } in head.nodes {
             let cell = |(runs, &parameters): (Runs, &usize)| {
-                let mut half = || LaneSums::from_numbers(parameters, &mut numbers);
-                Some(CellSums::of([half()?, half()?], runs))
+                let mut half = || LaneSums::read(parameters, &mut sums);
+                let halves = [half()?, half()?];
+                let intervals = (0..parameters).map(|_| counts(&mut sums)).collect::<Option<_>>()?;
+                Some(CellSums::of(halves, intervals, runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
             filled.add(Node { range: replicates, cells: cells.ok_or(Unusable::Damaged)? });
@@ -148,7 +149,17 @@ impl Standing {
     }
 }
 
-/// The head of a file, and its numbers, if it is as it was written.
+/// Where the truth lies in the intervals of a parameter, from the beginning of `bytes`; `None` where there is too little.
+fn counts(bytes: &mut &[u8]) -> Option<IntervalCounts> {
+    let mut counts = IntervalCounts::default();
+    for count in counts.below.iter_mut().chain(&mut counts.above) {
+        let (own, rest) = bytes.split_first_chunk()?;
+        (*count, *bytes) = (u32::from_le_bytes(*own), rest);
+    }
+    Some(counts)
+}
+
+/// The head of a file, and its sums, if it is as it was written.
 fn parts(bytes: &[u8]) -> Result<(Head, &[u8]), Unusable> {
     if !bytes.starts_with(BEGINNING) {
         return Err(Unusable::Foreign);
