@@ -138,7 +138,8 @@ fn sign(spring: &SwitchedHysteresis) -> Outcome<[String; 3]> {
     let u = spring.output(&v, spring.u_high());
     let rest = system.static_gain() * spring.u_high();
     let y = filter(system.a(), system.b(), &u, &[], rest, spring.u_high());
-    let data = PulseData::from_record(&Record::new(v, y)?, system.order(), experiment.period())?;
+    let data =
+        PulseData::from_record(&Record::new(v, y)?, Branch::Ascending, system.order(), experiment.period())?;
     let step = StepMean { mean: system.static_gain() * spring.u_low(), samples: 1000.0 };
     let fit = PulseMethod::Paper { experiment: &data, step }.fit()?;
     let truth = system.normalised(spring.span());

@@ -29,7 +29,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut white = || -> f64 { StandardNormal.sample(&mut random) };
         let xi: Vec<f64> = v.iter().map(|_| 0.2 * white()).collect();
         let y = filter(system.a(), system.b(), &u, &xi, system.static_gain() * before, before);
-        Ok(PulseData::from_record(&Record::new(v, y)?, system.order(), experiment.period())?)
+        Ok(PulseData::from_record(
+            &Record::new(v, y)?,
+            direction.visited_branch(),
+            system.order(),
+            experiment.period(),
+        )?)
     };
     let experiments = [measure(Direction::Descendant)?, measure(Direction::Ascendant)?];
 
