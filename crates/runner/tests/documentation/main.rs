@@ -48,7 +48,7 @@ fn commands_run_and_print_what_pages_quote() {
     let pages = pages();
     let wrong: Vec<String> = thread::scope(|scope| {
         let runs: Vec<_> =
-            pages.iter().map(|page| scope.spawn(|| commands::complaints(root(), page))).collect();
+            pages.iter().map(|page| scope.spawn(move || commands::complaints(root(), page))).collect();
         runs.into_iter().flat_map(|run| run.join().expect("it does not panic")).collect()
     });
     report(&wrong);
