@@ -215,7 +215,20 @@ fn studies() -> Vec<Written> {
 
 fn the_rest() -> Vec<Written> {
     let folder = Folder::with_good_rig();
-    let design = ["design", "--order", "2", "--points", "4", "--interval", "-1,1", "--rate", "100", "--out", "plan", "--json"];
+    let design = [
+        "design",
+        "--order",
+        "2",
+        "--points",
+        "4",
+        "--interval",
+        "-1,1",
+        "--rate",
+        "100",
+        "--out",
+        "plan",
+        "--json",
+    ];
     let judged = root().join("reports/field-slice").display().to_string();
     let calibrate = ["calibrate", &judged, "--out", "verdict.json", "--quiet"];
     assert_eq!(folder.switchback(&calibrate).output().expect("it runs").status.code(), Some(0));
