@@ -1,7 +1,7 @@
 //! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
 use super::data_args::DataArgs;
-use super::power::{self, Asked, DataPlace, PowerArgs};
+use super::power::{self, DataPlace, PowerArgs};
 use crate::diagnosis::{self, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::model;
@@ -11,7 +11,7 @@ use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use switchback_gap::fitted::Shares;
 use switchback_gap::{Effect, Settings};
 
@@ -21,27 +21,11 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
-    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
-    #[arg(long, value_name = "MODEL.json")]
-    model: Option<PathBuf>,
-
-    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    without: Vec<Effect>,
-
-    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
-    /// than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    ask: Vec<Effect>,
-
-    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
-    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
-    #[arg(long, value_name = "SHARES", value_parser = prior)]
-    prior: Option<Shares>,
+    #[command(flatten)]
+    asked: Asked,
 
     /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "power")]
     explain: bool,
 
     /// Print one JSON object instead of words.
@@ -64,6 +48,41 @@ pub struct Args {
 
     #[command(flatten)]
     force: Force,
+}
+
+/// What is asked of the records.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
+    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    without: Vec<Effect>,
+
+    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    ask: Vec<Effect>,
+
+    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
+    #[arg(long, value_name = "SHARES", value_parser = prior)]
+    prior: Option<Shares>,
+}
+
+impl Asked {
+    /// The file of the model under diagnosis, where one is given.
+    pub fn model(&self) -> Option<&Path> {
+        self.model.as_deref()
+    }
+
+    /// How the records are diagnosed.
+    pub fn settings(&self) -> Settings {
+        Settings { prior: self.prior, ..Settings::default().without(&self.without).asking(&self.ask) }
+    }
 }
 
 /// What the folder gets.
@@ -90,11 +109,10 @@ pub fn run(args: &Args) -> CommandResult {
         return run_power(args, &loaded);
     }
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
-    let subject = Subject::choose(loaded.rig, args.model.as_deref())?.noting(loaded.told.warnings);
+    let subject = Subject::choose(loaded.rig, args.asked.model())?.noting(loaded.told.warnings);
     let watch = Watch::new(args.quiet);
-    let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings(args), &watch))?;
+    let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
-    let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report))?;
     }
@@ -106,10 +124,23 @@ pub fn run(args: &Args) -> CommandResult {
     Ok(Outcome::Done)
 }
 
+/// The diagnosis alone: nothing is read, printed or written. `place` is what messages call the records.
+///
+/// # Errors
+/// Records that cannot be diagnosed.
+pub fn diagnosed(
+    subject: Subject,
+    asked: &Asked,
+    (place, threads, watch): (&Path, Threads, &Watch),
+) -> miette::Result<Report> {
+    let report = threads.install(|| diagnosis::examine_watched(subject, &asked.settings(), watch))?;
+    Ok(report.map_err(|error| error.in_file(place))?)
+}
+
 fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
-    let asked = Asked {
-        model: args.model.as_deref(),
-        settings: settings(args),
+    let asked = power::Order {
+        model: args.asked.model(),
+        settings: args.asked.settings(),
         out: args.out.as_ref(),
         json: args.json,
         options: (args.threads, args.quiet, args.force),
@@ -118,16 +149,13 @@ fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
     power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))
 }
 
-fn settings(args: &Args) -> Settings {
-    Settings { prior: args.prior, ..Settings::default().without(&args.without).asking(&args.ask) }
-}
-
 fn effect() -> impl TypedValueParser<Value = Effect> {
     PossibleValuesParser::new(Effect::ALL.map(Effect::name))
         .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
 }
 
-fn artefacts(report: &Report) -> Artefacts {
+/// The files of a diagnosis.
+pub fn artefacts(report: &Report) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
     for (name, file) in model::diagnosed(report) {

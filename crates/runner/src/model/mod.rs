@@ -33,7 +33,7 @@ pub use domain::Domain;
 pub use file::{Header, ModelFile, SCHEMA, System};
 pub use make::{diagnosed, identified};
 pub use points::Points;
-pub use read::{ModelError, read};
+pub use read::{ModelError, parse, read};
 pub use run::Run;
 pub use series::{diagnosed_series, identified_series};
 pub use switchback_gap::PortableModel;
