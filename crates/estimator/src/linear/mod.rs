@@ -2,10 +2,14 @@
 
 mod autocovariance;
 mod filter;
+mod noise_memory;
 mod polynomial;
+mod sum_variance;
 mod system;
 
 pub use autocovariance::autocovariance;
 pub use filter::filter;
+pub use noise_memory::NoiseMemory;
 pub use polynomial::{is_stable, relative_coprimeness, settling_samples, spectral_radius};
+pub use sum_variance::SumVariance;
 pub use system::{LinearSystem, SystemError};

@@ -2,6 +2,7 @@
 
 mod block_bootstrap;
 mod error_sums;
+mod interval_counts;
 mod jackknife;
 mod lane_errors;
 mod line;
@@ -10,6 +11,7 @@ mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
+pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};
 pub use line::{Line, weighted_line};

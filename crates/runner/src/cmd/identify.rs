@@ -109,9 +109,9 @@ pub fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<A
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
         let name = format!("measured_and_simulated_{}.svg", record.name);
-        artefacts.add(name, plots::identify::outputs(rig, record, run)?);
+        artefacts.add(name, plots::identify::outputs(rig, record, run));
     }
-    if let Some(svg) = plots::identify::borders(rig, identification)? {
+    if let Some(svg) = plots::identify::borders(rig, identification) {
         artefacts.add("borders.svg", svg);
     }
     Ok(artefacts)

@@ -1,13 +1,12 @@
 //! All differences of a comparison in one figure.
 
 use super::{Comparison, Difference};
-use crate::plots::axis::{Axis, plain};
-use crate::plots::canvas::{Dash, Pen};
+use crate::plots::axis::Axis;
+use crate::plots::canvas::Dash;
 use crate::plots::legend::{Entry, Sample};
-use crate::plots::palette::{GREY, INK, OKABE_ITO, tint};
 use crate::plots::panel::{Mark, Panel};
 use crate::plots::sheet::{Grid, Sheet};
-use plotters::style::RGBColor;
+use crate::plots::style::{BAD, GOOD, GREY, INK, PALE, Pen, SMALL_RADIUS, plain, tint};
 
 /// The measures drawn, a diagram each.
 const MEASURES: [(&str, &str); 4] = [
@@ -16,30 +15,27 @@ const MEASURES: [(&str, &str); 4] = [
     ("mse", "mean squared error"),
     ("coverage", "coverage of the 95 % intervals"),
 ];
-const BEYOND: RGBColor = OKABE_ITO[1];
-const WITHIN: RGBColor = OKABE_ITO[0];
 
 /// An SVG of all differences in units of their Monte-Carlo errors: sorted, beside what chance would give.
 ///
 /// In each diagram the differences stand in order at the normal quantiles they would have if nothing had changed; then
 /// they follow the diagonal.
 pub fn quantiles(comparison: &Comparison, title: &str) -> String {
-    let sheet = Sheet {
-        title: title.to_owned(),
-        notes: vec![
+    let mut sheet = Sheet::new(
+        title,
+        vec![
             "Every measure of the new results less the baseline's, over the joint Monte-Carlo standard error, in order."
                 .to_owned(),
         ],
-        legend: vec![
-            Entry::new(Sample::Disc(Pen::new(WITHIN, 1.0), true), "within chance"),
-            Entry::new(
-                Sample::Disc(Pen::new(BEYOND, 1.0), true),
-                format!("beyond chance, |z| > {}", plain((comparison.threshold * 100.0).round() / 100.0)),
-            ),
-            Entry::new(Sample::Line(Pen::new(GREY, 1.2)), "expected where nothing changed"),
-        ],
-        grid: Grid { columns: 2, rows: 2, height: 300.0, left: 82.0, between: 82.0, above: 78.0 },
-    };
+        Grid::new(2, 2, 260.0),
+    );
+    let threshold = plain((comparison.threshold * 100.0).round() / 100.0);
+    sheet.legend = vec![
+        Entry::disc(GOOD, "within chance"),
+        Entry::disc(BAD, format!("beyond chance, |z| > {threshold}")),
+        Entry::new(Sample::Dashes(Pen::hair(tint(INK, PALE)), Dash::Dashes), "its limits"),
+        Entry::line(GREY, "expected where nothing changed"),
+    ];
     sheet.render(|canvas, frames| {
         for (i, (measure, name)) in MEASURES.into_iter().enumerate() {
             let mut shown: Vec<&Difference> = comparison
@@ -50,10 +46,10 @@ pub fn quantiles(comparison: &Comparison, title: &str) -> String {
             shown.sort_by(|a, b| a.z.total_cmp(&b.z));
             let reach = shown.iter().map(|d| d.z.abs()).fold(comparison.threshold.min(8.0), f64::max);
             let axes = (Axis::linear([-4.5, 4.5]), Axis::linear([-reach, reach]));
-            let panel = Panel::new(canvas, frames.corner(i / 2, i % 2), frames.size(), axes);
+            let panel = frames.panel(canvas, (i / 2, i % 2), axes);
             panel.title(name);
             panel.x_name("z expected by chance");
-            panel.y_name("z found", 62.0);
+            panel.y_name("z found", 58.0);
             if shown.is_empty() {
                 panel.remark("not in both tables");
                 continue;
@@ -64,13 +60,13 @@ pub fn quantiles(comparison: &Comparison, title: &str) -> String {
 }
 
 fn contents(panel: &Panel<'_, '_>, shown: &[&Difference], threshold: f64) {
-    panel.line(&[(-5.0, -5.0), (5.0, 5.0)], Pen::new(GREY, 1.2));
+    panel.line(&[(-5.0, -5.0), (5.0, 5.0)], Pen::data(GREY));
     for limit in [-threshold, threshold] {
-        panel.dashes(&[(-5.0, limit), (5.0, limit)], Dash::Dashes, Pen::new(tint(INK, 0.4), 1.0));
+        panel.dashes(&[(-5.0, limit), (5.0, limit)], Dash::Dashes, Pen::hair(tint(INK, PALE)));
     }
     for (k, d) in thinned(shown) {
-        let colour = if d.z.abs() > threshold { BEYOND } else { WITHIN };
-        let mark = Mark { pen: Pen::new(colour, 1.0), radius: 2.5, filled: true, aside: 0.0 };
+        let colour = if d.z.abs() > threshold { BAD } else { GOOD };
+        let mark = Mark::disc(Pen::data(colour), SMALL_RADIUS);
         panel.mark(normal_quantile((k as f64 + 0.5) / shown.len() as f64), d.z, (d.z, d.z), mark);
     }
 }

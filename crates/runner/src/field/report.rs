@@ -32,7 +32,7 @@ pub(super) fn report(
     files.add("by-size.csv", tables::rows("size", &scores.by_size));
     files.add("confusion.csv", scores.confusion.csv());
     files.add("calibration.csv", tables::strata(scores));
-    for figure in plots::field::figures(scores)? {
+    for figure in plots::field::figures(scores) {
         files.add(figure.name, figure.svg);
     }
     let is_as_expected = !scores.measures.iter().any(Measure::is_unexpected);

@@ -1,6 +1,6 @@
 //! A sheet to draw on: fractions of a pixel, lines, marks and text into an SVG string.
 
-use super::palette::{INK, PAPER};
+use super::style::{Anchor, PAPER, Pen, Shape, TextLook, minus};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -10,88 +10,6 @@ const FINE: f64 = 8.0;
 
 /// A point on the sheet, pixels from the top left corner.
 pub type Point = (f64, f64);
-
-/// Where a text stands relative to its point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Anchor {
-    /// It begins at the point.
-    Start,
-    /// It is centred on the point.
-    Middle,
-    /// It ends at the point.
-    End,
-}
-
-/// How a text looks.
-#[derive(Debug, Clone, Copy)]
-pub struct TextLook {
-    /// Height of the letters' box, pixels.
-    pub size: f64,
-    /// Ink.
-    pub colour: RGBColor,
-    /// Horizontal placing; vertically a text is centred on its point.
-    pub anchor: Anchor,
-    /// Whether it is thicker.
-    pub bold: bool,
-    /// Whether it runs upwards.
-    pub upwards: bool,
-}
-
-impl TextLook {
-    /// Plain dark text that begins at its point.
-    pub fn new(size: f64) -> Self {
-        Self { size, colour: INK, anchor: Anchor::Start, bold: false, upwards: false }
-    }
-
-    /// The same, centred.
-    pub fn middle(self) -> Self {
-        Self { anchor: Anchor::Middle, ..self }
-    }
-
-    /// The same, ending at its point.
-    pub fn end(self) -> Self {
-        Self { anchor: Anchor::End, ..self }
-    }
-
-    /// The same, thicker.
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
-    /// The same, running upwards.
-    pub fn upwards(self) -> Self {
-        Self { upwards: true, ..self }
-    }
-
-    /// The same in another colour.
-    pub fn colour(self, colour: RGBColor) -> Self {
-        Self { colour, ..self }
-    }
-}
-
-/// A line's colour and width in pixels.
-#[derive(Debug, Clone, Copy)]
-pub struct Pen {
-    /// Ink.
-    pub colour: RGBColor,
-    /// Pixels.
-    pub width: f64,
-}
-
-impl Pen {
-    /// A pen.
-    pub fn new(colour: RGBColor, width: f64) -> Self {
-        Self { colour, width }
-    }
-
-    fn style(self) -> ShapeStyle {
-        ShapeStyle {
-            color: self.colour.to_rgba(),
-            filled: false,
-            stroke_width: fine(self.width).max(1) as u32,
-        }
-    }
-}
 
 /// How a line is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,6 +39,19 @@ impl Dash {
     }
 }
 
+/// Where a mark for something beyond the frame points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Towards {
+    /// Greater values of the vertical axis.
+    Up,
+    /// Smaller ones.
+    Down,
+    /// Smaller values of the horizontal axis.
+    Left,
+    /// Greater ones.
+    Right,
+}
+
 /// The sheet.
 pub struct Canvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
@@ -137,8 +68,13 @@ fn at((x, y): Point) -> (i32, i32) {
     (fine(x), fine(y))
 }
 
-/// Draws a sheet of the given size in pixels and returns the SVG.
-pub fn draw((width, height): (f64, f64), paint: impl FnOnce(&Canvas<'_>)) -> String {
+fn stroke(pen: Pen) -> ShapeStyle {
+    let stroke_width = fine(pen.width()).max(1) as u32;
+    ShapeStyle { color: pen.colour.to_rgba(), filled: false, stroke_width }
+}
+
+/// Draws a sheet of the given size in pixels and returns the SVG; a screen reader reads `title`.
+pub fn draw((width, height): (f64, f64), title: &str, paint: impl FnOnce(&Canvas<'_>)) -> String {
     let mut svg = String::new();
     let (w, h) = at((width, height));
     {
@@ -147,7 +83,8 @@ pub fn draw((width, height): (f64, f64), paint: impl FnOnce(&Canvas<'_>)) -> Str
         paint(&Canvas { area: area.clone() });
         area.present().expect(IN_MEMORY);
     }
-    let shown = format!("width=\"{width}\" height=\"{height}\"");
+    let title = minus(title).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+    let shown = format!("width=\"{width}\" height=\"{height}\" role=\"img\" aria-label=\"{title}\"");
     let svg = svg.replacen(&format!("width=\"{w}\" height=\"{h}\""), &shown, 1);
     let svg = [Dash::Dashes, Dash::Dots].into_iter().fold(svg, |svg, dash| {
         let (drawn, left_out) = dash.pattern();
@@ -162,13 +99,13 @@ impl Canvas<'_> {
     /// A line through points.
     pub fn line(&self, points: &[Point], pen: Pen) {
         let points: Vec<(i32, i32)> = points.iter().copied().map(at).collect();
-        self.area.draw(&PathElement::new(points, pen.style())).expect(IN_MEMORY);
+        self.area.draw(&PathElement::new(points, stroke(pen))).expect(IN_MEMORY);
     }
 
     /// A broken line through points.
     pub fn dashes(&self, points: &[Point], dash: Dash, pen: Pen) {
         let points: Vec<(i32, i32)> = points.iter().copied().map(at).collect();
-        let style = ShapeStyle { color: pen.colour.mix(dash.opacity()), ..pen.style() };
+        let style = ShapeStyle { color: pen.colour.mix(dash.opacity()), ..stroke(pen) };
         self.area.draw(&PathElement::new(points, style)).expect(IN_MEMORY);
     }
 
@@ -178,8 +115,51 @@ impl Canvas<'_> {
         let solid = ShapeStyle { color: fill.to_rgba(), filled: true, stroke_width: 1 };
         self.area.draw(&Circle::new(at(centre), fine(radius), solid)).expect(IN_MEMORY);
         if !filled {
-            self.area.draw(&Circle::new(at(centre), fine(radius), pen.style())).expect(IN_MEMORY);
+            self.area.draw(&Circle::new(at(centre), fine(radius), stroke(pen))).expect(IN_MEMORY);
         }
+    }
+
+    /// A mark of a shape as large as a disc of that radius, filled with its colour or hollow.
+    pub fn shape(&self, shape: Shape, (x, y): Point, radius: f64, (pen, filled): (Pen, bool)) {
+        let corners = match shape {
+            Shape::Disc => return self.disc((x, y), radius, pen, filled),
+            Shape::Square => {
+                let r = 0.9 * radius;
+                vec![(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)]
+            }
+            Shape::Diamond => {
+                let r = 1.25 * radius;
+                vec![(x, y - r), (x + r, y), (x, y + r), (x - r, y)]
+            }
+            Shape::Triangle => {
+                let r = 1.25 * radius;
+                vec![(x, y - r), (x + r, y + 0.75 * r), (x - r, y + 0.75 * r)]
+            }
+        };
+        self.polygon(&corners, if filled { pen.colour } else { PAPER });
+        if !filled {
+            let closed: Vec<Point> = corners.iter().chain(&corners[..2]).copied().collect();
+            self.line(&closed, pen);
+        }
+    }
+
+    /// A filled triangle whose tip is at a point: what it stands for lies beyond, in that direction.
+    pub fn arrow(&self, (x, y): Point, towards: Towards, length: f64, colour: RGBColor) {
+        let half = 0.6 * length;
+        let foot = match towards {
+            Towards::Up => [(x - half, y + length), (x + half, y + length)],
+            Towards::Down => [(x - half, y - length), (x + half, y - length)],
+            Towards::Left => [(x + length, y - half), (x + length, y + half)],
+            Towards::Right => [(x - length, y - half), (x - length, y + half)],
+        };
+        self.polygon(&[(x, y), foot[0], foot[1]], colour);
+    }
+
+    /// A filled area.
+    pub fn polygon(&self, corners: &[Point], colour: RGBColor) {
+        let corners: Vec<(i32, i32)> = corners.iter().copied().map(at).collect();
+        let solid = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
+        self.area.draw(&Polygon::new(corners, solid)).expect(IN_MEMORY);
     }
 
     /// A filled rectangle between two corners.
@@ -190,10 +170,10 @@ impl Canvas<'_> {
 
     /// The outline of a rectangle between two corners.
     pub fn frame(&self, corner: Point, opposite: Point, pen: Pen) {
-        self.area.draw(&Rectangle::new([at(corner), at(opposite)], pen.style())).expect(IN_MEMORY);
+        self.area.draw(&Rectangle::new([at(corner), at(opposite)], stroke(pen))).expect(IN_MEMORY);
     }
 
-    /// A text.
+    /// A text; a hyphen before a number becomes a minus sign.
     pub fn text(&self, text: &str, point: Point, look: TextLook) {
         let style = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
         let mut font = FontDesc::new(FontFamily::SansSerif, look.size * FINE, style);
@@ -206,11 +186,6 @@ impl Canvas<'_> {
             Anchor::End => HPos::Right,
         };
         let style = TextStyle::from(font).color(&look.colour).pos(Pos::new(horizontal, VPos::Center));
-        self.area.draw(&Text::new(text.to_owned(), at(point), style)).expect(IN_MEMORY);
+        self.area.draw(&Text::new(minus(text), at(point), style)).expect(IN_MEMORY);
     }
-}
-
-/// How wide running text comes out, pixels: half its size a letter, roughly.
-pub fn text_width(text: &str, size: f64) -> f64 {
-    0.5 * size * text.chars().count() as f64
 }

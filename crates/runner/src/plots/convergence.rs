@@ -1,13 +1,13 @@
 //! Bias and standard deviation against N.
 
-use super::MOST_ROWS;
-use super::axis::{Axis, plain};
-use super::canvas::{Dash, Pen};
+use super::axis::Axis;
+use super::canvas::{Dash, Towards};
 use super::legend::{Entry, Sample};
-use super::palette::{GREY, INK, OKABE_ITO, tint};
 use super::panel::{Mark, Panel};
-use super::selection::{Selection, thinned};
+use super::selection::{Selection, distinct, listed, thinned};
 use super::sheet::{Grid, Sheet};
+use super::spread::{ERRORS, Spread, samples_axis};
+use super::style::{GREY, INK, OKABE_ITO, PALE, Pen, SMALL_RADIUS, Shape, plain, tint};
 use crate::results::{Cell, Group, Measured, Parameter, Results, root_mean_square, root_mean_square_exact};
 use plotters::style::RGBColor;
 
@@ -20,261 +20,286 @@ pub(super) enum Measure {
     Sd,
 }
 
-const THEORY_WIDTH: f64 = 1.6;
+impl Measure {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Bias => "|bias|",
+            Self::Sd => "standard deviation",
+        }
+    }
 
-/// One row of the figure.
-struct Row<'r> {
-    border: &'r str,
-    points: usize,
+    fn title(self) -> &'static str {
+        match self {
+            Self::Bias => "bias of the estimates against N",
+            Self::Sd => "standard deviation of the estimates against N",
+        }
+    }
 }
 
-/// Draws one figure: rows are border shapes (and `m`), columns parameter groups, colours noise levels.
-///
-/// The same part of a `baseline` is drawn behind, in grey.
+/// More numbers of points `m` than this are not told apart beside several noise levels, and beside one or two.
+const MOST_POINTS: (usize, usize) = (3, 4);
+/// Height of a diagram, and how far apart marks of different `m` stand, pixels.
+const HEIGHT: f64 = 400.0;
+const APART: f64 = 4.5;
+
+/// What a figure draws: a diagram a group of parameters, a colour a noise level, a shape an `m`, a mark all borders.
+struct Design {
+    measure: Measure,
+    groups: Vec<Group>,
+    noises: Vec<f64>,
+    points: Vec<usize>,
+}
+
+/// Draws one figure. The same part of a `baseline` is drawn behind, in grey.
 pub(super) fn figure(
     measure: Measure,
     selection: &Selection<'_>,
     baseline: Option<&Selection<'_>>,
     results: &Results,
 ) -> String {
-    let rows = rows(selection);
-    let groups = selection.groups();
     let noises = thinned(&selection.noises(), OKABE_ITO.len());
-    let sheet = Sheet {
-        title: title(measure, selection, results, baseline.is_some()),
-        notes: notes(measure, selection, &rows),
-        legend: legend(measure, &noises, selection, baseline.is_some()),
-        grid: Grid {
-            columns: groups.len().max(1),
-            rows: rows.len(),
-            height: 190.0,
-            left: 112.0,
-            between: 62.0,
-            above: 42.0,
-        },
-    };
+    let most = if noises.len() > 2 { MOST_POINTS.0 } else { MOST_POINTS.1 };
+    let points = thinned(&selection.points(), most);
+    let design = Design { measure, groups: selection.groups(), noises, points };
+    let and = if baseline.is_some() { ", over the baseline" } else { "" };
+    let mut sheet = Sheet::new(
+        format!("{}: {}{and}", selection.title(results), measure.title()),
+        design.notes(selection),
+        Grid::shared(1, design.groups.len(), HEIGHT),
+    );
+    if design.groups.is_empty() {
+        return sheet.empty("No cell of this method has a parameter.");
+    }
+    sheet.legend = design.legend(selection, baseline.is_some());
+    let axes = design.axes([Some(selection), baseline]);
     sheet.render(|canvas, frames| {
-        for (column, &group) in groups.iter().enumerate() {
-            let axes = axes(measure, &shown(&rows, [Some(selection), baseline]), group);
-            for (r, row) in rows.iter().enumerate() {
-                let panel = Panel::new(canvas, frames.corner(r, column), frames.size(), axes);
-                if r == 0 {
-                    panel.title(group.label());
+        for (column, &group) in design.groups.iter().enumerate() {
+            let panel = frames.inner_panel(canvas, (0, column), axes);
+            panel.title(group.label());
+            panel.x_name("samples N");
+            if column == 0 {
+                panel.y_name(measure.name(), 62.0);
+            }
+            if let Some(baseline) = baseline {
+                design.each(baseline, group, |curve| curve.draw_behind(&panel, measure));
+            }
+            match measure {
+                Measure::Bias => {
+                    design.each(selection, group, |curve| curve.draw_floor(&panel));
+                    design.each(selection, group, |curve| curve.draw_bias(&panel));
                 }
-                if r + 1 == rows.len() {
-                    panel.x_name("samples N");
-                }
-                if column == 0 {
-                    frames.name_row(canvas, r, (row.border, row.points));
-                }
-                for (k, &noise) in noises.iter().enumerate() {
-                    let cells = selection.curve(row.border, row.points, noise);
-                    let aside = if noises.len() == 1 {
-                        5.0
-                    } else {
-                        5.0 * (k as f64 - (noises.len() - 1) as f64 / 2.0)
-                    };
-                    if let Some(baseline) = baseline {
-                        let cells = baseline.curve(row.border, row.points, noise);
-                        Curve { cells, group, colour: GREY, aside: -6.0, radius: 3.0 }
-                            .draw_behind(&panel, measure);
-                    }
-                    let radius = 3.5 + 1.2 * (noises.len() - 1 - k) as f64;
-                    let curve = Curve { cells, group, colour: OKABE_ITO[k], aside, radius };
-                    match measure {
-                        Measure::Bias => curve.draw_bias(&panel),
-                        Measure::Sd => curve.draw_sd(&panel),
-                    }
+                Measure::Sd => {
+                    design.each(selection, group, |curve| curve.draw_limits(&panel));
+                    design.each(selection, group, |curve| curve.draw_sd(&panel));
                 }
             }
         }
     })
 }
 
-fn rows<'r>(selection: &Selection<'r>) -> Vec<Row<'r>> {
-    let (borders, mut points) = (selection.borders(), selection.points());
-    if borders.len() * points.len() > MOST_ROWS {
-        points = points.split_off(points.len() - 1);
+impl Design {
+    fn notes(&self, selection: &Selection<'_>) -> Vec<String> {
+        let borders = selection.borders().len();
+        let over =
+            if borders > 1 { format!("median over {borders} border shapes") } else { "marks".to_owned() };
+        let reach = if borders > 1 { "from the least to the greatest, with" } else { "±" };
+        let mut notes = vec![format!(
+            "Root mean square of the {} over the parameters of a group: {over}; bars: {reach} {ERRORS} Monte-Carlo standard \
+             errors; {}. Borders in units of u_M − u_m.",
+            self.measure.name(),
+            selection.replicates()
+        )];
+        if self.points.len() < selection.points().len() {
+            notes.push(format!("Shown for m = {}; every other m is in table.csv.", listed(&self.points)));
+        }
+        notes
     }
-    borders.iter().flat_map(|&border| points.iter().map(move |&points| Row { border, points })).collect()
-}
 
-fn title(measure: Measure, selection: &Selection<'_>, results: &Results, over_baseline: bool) -> String {
-    let what = match measure {
-        Measure::Bias => "bias of the estimates against N",
-        Measure::Sd => "standard deviation of the estimates against N",
-    };
-    let and = if over_baseline { ", over the baseline" } else { "" };
-    format!("{}: {what}{and}", selection.title(results))
-}
-
-fn notes(measure: Measure, selection: &Selection<'_>, rows: &[Row<'_>]) -> Vec<String> {
-    let what = match measure {
-        Measure::Bias => "|bias|",
-        Measure::Sd => "standard deviation",
-    };
-    let mut notes = vec![format!(
-        "Root mean square of the {what} over the parameters of each group; {}; bars: ± 2 Monte-Carlo standard errors.",
-        selection.replicates()
-    )];
-    if rows.len() < selection.borders().len() * selection.points().len() {
-        let largest = rows.first().map_or(0, |r| r.points);
-        notes.push(format!("Shown for m = {largest}; every other m is in table.csv."));
-    }
-    notes
-}
-
-fn legend(measure: Measure, noises: &[f64], selection: &Selection<'_>, over_baseline: bool) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = noises
-        .iter()
-        .zip(&OKABE_ITO)
-        .map(|(&noise, &colour)| {
-            Entry::new(Sample::Disc(Pen::new(colour, 1.5), true), format!("noise {}", plain(noise)))
-        })
-        .collect();
-    if over_baseline {
-        entries.push(Entry::new(Sample::Disc(Pen::new(GREY, 1.5), true), "grey, left of it: the baseline"));
-    }
-    let has = |f: fn(&Parameter) -> bool| selection.cells.iter().any(|c| c.parameters.iter().any(f));
-    match measure {
-        Measure::Bias => {
-            let hollow = Sample::Disc(Pen::new(INK, 1.5), false);
-            entries.push(Entry::new(hollow, "hollow: not told from zero (below 2 MCSE)"));
-            let slope = Sample::Dashes(Pen::new(GREY, 1.5), Dash::Dots);
-            entries.push(Entry::new(slope, "law 1/N through the first resolved point"));
-            if has(|p| p.bias_controlled.is_some()) {
-                let faint = Sample::Bar(Pen::new(tint(INK, 0.35), 1.5));
-                entries.push(Entry::new(faint, "behind: the same without control variate"));
+    fn legend(&self, selection: &Selection<'_>, over_baseline: bool) -> Vec<Entry> {
+        let noise =
+            |(&noise, &colour): (&f64, &RGBColor)| Entry::patch(colour, format!("noise {}", plain(noise)));
+        let mut entries: Vec<Entry> = self.noises.iter().zip(&OKABE_ITO).map(noise).collect();
+        let shape = |(&m, shape): (&usize, Shape)| {
+            Entry::new(Sample::Mark(shape, Pen::data(INK), true), format!("m = {m}"))
+        };
+        entries.extend(self.points.iter().zip(Shape::ALL).map(shape));
+        if over_baseline {
+            entries.push(Entry::disc(GREY, "grey, left of it: the baseline"));
+        }
+        let has = |f: fn(&Parameter) -> bool| selection.cells.iter().any(|c| c.parameters.iter().any(f));
+        match self.measure {
+            Measure::Bias => {
+                let hollow = Sample::Mark(Shape::Disc, Pen::data(INK), false);
+                entries.push(Entry::new(hollow, "hollow: not told from zero"));
+                entries.push(Entry::new(Sample::Arrow(Towards::Down, INK), "the bar includes zero"));
+                let slope = Sample::Dashes(Pen::data(GREY), Dash::Dots);
+                entries.push(Entry::new(slope, "law 1/N through the first point told from zero"));
+                if has(|p| p.bias_controlled.is_some()) {
+                    let floor = Sample::Dashes(Pen::data(tint(INK, PALE)), Dash::Dashes);
+                    entries.push(Entry::new(floor, "least bias told from zero without control variate"));
+                }
+            }
+            Measure::Sd => {
+                if has(|p| p.theory_sd.is_some()) {
+                    entries.push(Entry::line(INK, "asymptotic theory"));
+                }
+                if has(|p| p.bound_sd.is_some()) {
+                    let broad = Sample::Line(Pen::broad(tint(INK, PALE)));
+                    entries.push(Entry::new(broad, "Cramér–Rao bound"));
+                }
+                if has(|p| p.theory_sd.is_some() && p.bound_sd.is_some()) {
+                    let both = Sample::Upon(Pen::data(INK), Pen::broad(tint(INK, PALE)));
+                    entries.push(Entry::new(both, "both coincide"));
+                }
             }
         }
-        Measure::Sd => {
-            if has(|p| p.theory_sd.is_some()) {
-                entries.push(Entry::new(Sample::Line(Pen::new(INK, THEORY_WIDTH)), "asymptotic theory"));
-            }
-            if has(|p| p.bound_sd.is_some()) {
-                let dashes = Sample::Dashes(Pen::new(INK, THEORY_WIDTH), Dash::Dashes);
-                entries.push(Entry::new(dashes, "Cramér–Rao bound"));
+        entries
+    }
+
+    /// Axes that all diagrams share, so that they can be compared.
+    fn axes(&self, selections: [Option<&Selection<'_>>; 2]) -> (Axis, Axis) {
+        let mut values = Vec::new();
+        for (group, selection) in
+            self.groups.iter().flat_map(|g| selections.into_iter().flatten().map(move |s| (*g, s)))
+        {
+            self.each(selection, group, |curve| values.extend(curve.values(self.measure)));
+        }
+        let samples = selections.into_iter().flatten().flat_map(|s| s.cells.iter().map(|c| c.samples));
+        (samples_axis(samples, self.points.len()), Axis::logarithmic(values))
+    }
+
+    /// Does something with the curve of every noise level and `m`.
+    fn each(&self, selection: &Selection<'_>, group: Group, mut act: impl FnMut(&Curve<'_>)) {
+        let middle = (self.points.len() - 1) as f64 / 2.0;
+        for (&noise, &colour) in self.noises.iter().zip(&OKABE_ITO) {
+            for (j, (&points, shape)) in self.points.iter().zip(Shape::ALL).enumerate() {
+                let cells: Vec<&Cell> = selection
+                    .cells
+                    .iter()
+                    .copied()
+                    .filter(|c| c.series.noise == noise && c.series.points == points)
+                    .collect();
+                let is_largest = j + 1 == self.points.len();
+                act(&Curve { cells, group, colour, shape, is_largest, aside: APART * (j as f64 - middle) });
             }
         }
     }
-    entries
 }
 
-/// The cells that the figure draws.
-fn shown<'r>(rows: &[Row<'_>], selections: [Option<&Selection<'r>>; 2]) -> Vec<&'r Cell> {
-    let drawn = |c: &&Cell| rows.iter().any(|r| r.border == c.series.border && r.points == c.series.points);
-    selections.into_iter().flatten().flat_map(|s| s.cells.iter().copied()).filter(drawn).collect()
-}
-
-/// Axes that all rows of a column share, so that they can be compared.
-fn axes(measure: Measure, shown: &[&Cell], group: Group) -> (Axis, Axis) {
-    let measured = |f: fn(&Parameter) -> Option<Measured>| {
-        shown
-            .iter()
-            .filter_map(move |c| root_mean_square(c, group, f))
-            .flat_map(|m| [m.value(), m.value() + 2.0 * m.mcse()])
-            .collect::<Vec<f64>>()
-    };
-    let exact = |f: fn(&Parameter) -> Option<f64>| {
-        shown.iter().filter_map(move |c| root_mean_square_exact(c, group, f)).collect::<Vec<f64>>()
-    };
-    let values = match measure {
-        Measure::Bias => [measured(|p| p.bias), measured(|p| p.bias_controlled)].concat(),
-        Measure::Sd => [measured(Parameter::best_sd), exact(|p| p.theory_sd), exact(|p| p.bound_sd)].concat(),
-    };
-    (Axis::logarithmic(shown.iter().map(|c| c.samples as f64)), Axis::logarithmic(values))
-}
-
-/// The cells of one noise level in one diagram.
+/// The cells of one noise level and `m` in one diagram: all borders, all `N`.
 struct Curve<'r> {
     cells: Vec<&'r Cell>,
     group: Group,
     colour: RGBColor,
-    /// How far marks stand beside their place where they would cover others, pixels.
+    shape: Shape,
+    /// Whether no `m` is larger.
+    is_largest: bool,
+    /// How far marks stand beside their place, pixels.
     aside: f64,
-    /// Of the discs, pixels; what is drawn later is smaller, so that equal values show as rings.
-    radius: f64,
 }
 
-impl Curve<'_> {
+impl<'r> Curve<'r> {
+    /// The limit of a plain study: twice the Monte-Carlo error of the bias without control variate, at the largest `m`.
+    fn draw_floor(&self, panel: &Panel<'_, '_>) {
+        panel.dashes(&self.floor(), Dash::Dashes, Pen::data(tint(self.colour, PALE)));
+    }
+
+    fn floor(&self) -> Vec<(f64, f64)> {
+        let is_drawn = self.is_largest && self.is_controlled();
+        if is_drawn { self.exact(|p| p.bias.map(|b| ERRORS * b.mcse())) } else { Vec::new() }
+    }
+
     fn draw_bias(&self, panel: &Panel<'_, '_>) {
-        let controlled = self.pooled(|p| p.bias_controlled);
-        let plain = self.pooled(|p| p.bias);
-        let front = if controlled.is_empty() { &plain } else { &controlled };
-        if !controlled.is_empty() {
-            let pen = Pen::new(tint(self.colour, 0.3), 1.5);
-            for (n, bias) in &plain {
-                panel.mark(
-                    *n,
-                    bias.value(),
-                    bar(bias),
-                    Mark { pen, radius: 2.5, filled: true, aside: self.aside },
-                );
-            }
+        let marks = self.pooled(Parameter::best_bias);
+        let told = |n: f64| self.at(n).all(|cell| self.is_told_from_zero(cell));
+        if let Some((n0, first)) = marks.iter().find(|(n, _)| told(*n)) {
+            let last = marks.last().map_or(*n0, |(n, _)| *n);
+            let law = [(*n0, first.middle), (last, first.middle * n0 / last)];
+            panel.dashes(&law, Dash::Dots, Pen::data(tint(self.colour, 0.7)));
         }
-        if let Some((n0, b0)) = front.iter().find(|(n, b)| self.resolved(*n, b)) {
-            let last = self.cells.last().map_or(*n0, |c| c.samples as f64);
-            let law = [(*n0, b0.value()), (last, b0.value() * n0 / last)];
-            panel.dashes(&law, Dash::Dots, Pen::new(self.colour, 1.5));
+        for (n, bias) in marks {
+            panel.mark(n, bias.middle, bias.positive_ends(), Mark { filled: told(n), ..self.mark() });
         }
-        for (n, bias) in front {
-            let filled = self.resolved(*n, bias);
-            let aside = if filled { 0.0 } else { self.aside };
-            let mark = Mark { pen: Pen::new(self.colour, 1.5), radius: self.radius, filled, aside };
-            panel.mark(*n, bias.value(), bar(bias), mark);
-        }
+    }
+
+    /// The bound broadly behind, theory upon it.
+    fn draw_limits(&self, panel: &Panel<'_, '_>) {
+        panel.line(&self.exact(|p| p.bound_sd), Pen::broad(tint(self.colour, PALE)));
+        panel.line(&self.exact(|p| p.theory_sd), Pen::hair(self.colour));
     }
 
     fn draw_sd(&self, panel: &Panel<'_, '_>) {
-        let pen = Pen::new(tint(self.colour, 0.75), THEORY_WIDTH);
-        panel.line(&self.exact(|p| p.theory_sd), pen);
-        panel.dashes(&self.exact(|p| p.bound_sd), Dash::Dashes, pen);
         for (n, sd) in self.pooled(Parameter::best_sd) {
-            let mark =
-                Mark { pen: Pen::new(self.colour, 1.5), radius: self.radius, filled: true, aside: 0.0 };
-            panel.mark(n, sd.value(), bar(&sd), mark);
+            panel.mark(n, sd.middle, sd.positive_ends(), self.mark());
         }
     }
 
-    /// The figures alone, smaller and beside their place.
+    /// The marks alone, in grey and further to the left.
     fn draw_behind(&self, panel: &Panel<'_, '_>, measure: Measure) {
-        let figures = match measure {
+        let marks = match measure {
             Measure::Bias => self.pooled(Parameter::best_bias),
             Measure::Sd => self.pooled(Parameter::best_sd),
         };
-        let mark =
-            Mark { pen: Pen::new(self.colour, 1.2), radius: self.radius, filled: true, aside: self.aside };
-        for (n, figure) in figures {
-            panel.mark(n, figure.value(), bar(&figure), mark);
+        let mark = Mark { pen: Pen::data(GREY), aside: self.aside - 2.0 * APART, ..self.mark() };
+        for (n, figure) in marks {
+            panel.mark(n, figure.middle, figure.positive_ends(), mark);
+        }
+    }
+
+    fn mark(&self) -> Mark {
+        Mark {
+            shape: self.shape,
+            aside: self.aside,
+            ..Mark::disc(Pen::data(self.colour), SMALL_RADIUS + 0.7)
         }
     }
 
     /// Whether a pooled bias exceeds twice what it would show if the true one were zero.
-    fn resolved(&self, n: f64, bias: &Measured) -> bool {
-        let floor = self.cells.iter().find(|c| c.samples as f64 == n).and_then(|cell| {
-            let controlled =
-                cell.parameters.iter().any(|p| p.group == self.group && p.bias_controlled.is_some());
-            root_mean_square_exact(cell, self.group, |p| {
-                let bias = if controlled { p.bias_controlled } else { p.bias };
-                bias.map(|b| b.mcse())
-            })
-        });
-        bias.value() >= 2.0 * floor.unwrap_or(bias.mcse())
+    fn is_told_from_zero(&self, cell: &Cell) -> bool {
+        let floor =
+            root_mean_square_exact(cell, self.group, |p| p.best_bias().map(|b| b.mcse())).unwrap_or(0.0);
+        root_mean_square(cell, self.group, Parameter::best_bias).is_some_and(|b| b.value() >= ERRORS * floor)
     }
 
-    fn pooled(&self, measure: impl Fn(&Parameter) -> Option<Measured>) -> Vec<(f64, Measured)> {
-        let at = |c: &&Cell| Some((c.samples as f64, root_mean_square(c, self.group, &measure)?));
-        self.cells.iter().filter_map(at).collect()
+    fn is_controlled(&self) -> bool {
+        let of_group = |p: &Parameter| p.group == self.group && p.bias_controlled.is_some();
+        self.cells.iter().any(|cell| cell.parameters.iter().any(of_group))
     }
 
+    /// All that the curve draws.
+    fn values(&self, measure: Measure) -> Vec<f64> {
+        let (marks, lines) = match measure {
+            Measure::Bias => (self.pooled(Parameter::best_bias), self.floor()),
+            Measure::Sd => (
+                self.pooled(Parameter::best_sd),
+                [self.exact(|p| p.theory_sd), self.exact(|p| p.bound_sd)].concat(),
+            ),
+        };
+        // The axis is set by the marks and the upper ends: a bar that reaches zero has no lower one.
+        let marks = marks.into_iter().flat_map(|(_, s)| [s.middle, s.ends.1]);
+        marks.chain(lines.into_iter().map(|(_, y)| y)).collect()
+    }
+
+    fn samples(&self) -> Vec<usize> {
+        let mut samples = distinct(self.cells.iter().map(|c| c.samples));
+        samples.sort_unstable();
+        samples
+    }
+
+    /// The cells of all borders at one `N`.
+    fn at(&self, n: f64) -> impl Iterator<Item = &'r Cell> {
+        self.cells.iter().copied().filter(move |c| c.samples as f64 == n)
+    }
+
+    fn pooled(&self, measure: impl Fn(&Parameter) -> Option<Measured>) -> Vec<(f64, Spread)> {
+        let figures = |n: f64| self.at(n).filter_map(|c| root_mean_square(c, self.group, &measure));
+        let spread = |n: usize| Some((n as f64, Spread::of_measured(figures(n as f64))?));
+        self.samples().into_iter().filter_map(spread).collect()
+    }
+
+    /// The median over the borders of what is known exactly.
     fn exact(&self, measure: impl Fn(&Parameter) -> Option<f64>) -> Vec<(f64, f64)> {
-        let at = |c: &&Cell| Some((c.samples as f64, root_mean_square_exact(c, self.group, &measure)?));
-        self.cells.iter().filter_map(at).collect()
+        let measured = |p: &Parameter| measure(p).and_then(|x| Measured::new(x, 0.0));
+        self.pooled(measured).into_iter().map(|(n, spread)| (n, spread.middle)).collect()
     }
-}
-
-/// Two Monte-Carlo standard errors to either side; down to the frame where zero lies within.
-fn bar(m: &Measured) -> (f64, f64) {
-    let low = m.value() - 2.0 * m.mcse();
-    (if low > 0.0 { low } else { f64::MIN_POSITIVE }, m.value() + 2.0 * m.mcse())
 }

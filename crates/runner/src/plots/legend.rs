@@ -1,18 +1,26 @@
 //! A legend above the diagrams, where it covers nothing.
 
-use super::canvas::{Canvas, Dash, Pen, TextLook, text_width};
+use super::canvas::{Canvas, Dash, Towards};
+use super::style::{Pen, RADIUS, Shape, TextLook};
+use plotters::style::RGBColor;
 
 /// What stands beside a legend's text.
 #[derive(Debug, Clone, Copy)]
 pub enum Sample {
-    /// A disc, filled or hollow.
-    Disc(Pen, bool),
+    /// A mark, filled or hollow.
+    Mark(Shape, Pen, bool),
     /// A line.
     Line(Pen),
     /// A broken line.
     Dashes(Pen, Dash),
+    /// A line upon a broader one.
+    Upon(Pen, Pen),
     /// An error bar.
     Bar(Pen),
+    /// A filled rectangle.
+    Patch(RGBColor),
+    /// What lies beyond the frame.
+    Arrow(Towards, RGBColor),
 }
 
 /// One entry.
@@ -29,33 +37,54 @@ impl Entry {
     pub fn new(sample: Sample, text: impl Into<String>) -> Self {
         Self { sample, text: text.into() }
     }
+
+    /// A filled disc.
+    pub fn disc(colour: RGBColor, text: impl Into<String>) -> Self {
+        Self::new(Sample::Mark(Shape::Disc, Pen::data(colour), true), text)
+    }
+
+    /// A filled rectangle.
+    pub fn patch(colour: RGBColor, text: impl Into<String>) -> Self {
+        Self::new(Sample::Patch(colour), text)
+    }
+
+    /// A line.
+    pub fn line(colour: RGBColor, text: impl Into<String>) -> Self {
+        Self::new(Sample::Line(Pen::data(colour)), text)
+    }
 }
 
-const TEXT: f64 = 16.0;
-const SAMPLE_WIDTH: f64 = 28.0;
-const GAP: f64 = 24.0;
+const SAMPLE_WIDTH: f64 = 26.0;
+const BESIDE: f64 = 7.0;
+const GAP: f64 = 20.0;
+/// Half the height of an error bar and of a rectangle, and half the width of the former's ends, pixels.
+const HALF_BAR: f64 = 8.0;
+const HALF_PATCH: f64 = 5.0;
+const CAP: f64 = 3.0;
 
 /// Height of one line of the legend, pixels.
-pub const LINE: f64 = 24.0;
+pub const LINE: f64 = 23.0;
 
 /// Breaks entries into lines no wider than `width` pixels.
 pub fn lines(entries: &[Entry], width: f64) -> Vec<Vec<&Entry>> {
-    let mut lines: Vec<Vec<&Entry>> = vec![Vec::new()];
+    let mut lines: Vec<Vec<&Entry>> = Vec::new();
     let mut used = 0.0;
     for entry in entries {
         let wide = entry_width(entry);
-        if used > 0.0 && used + wide > width {
-            lines.push(Vec::new());
-            used = 0.0;
+        match lines.last_mut() {
+            Some(line) if used + wide - GAP <= width => line.push(entry),
+            _ => {
+                lines.push(vec![entry]);
+                used = 0.0;
+            }
         }
-        lines.last_mut().expect("there is a first line").push(entry);
         used += wide;
     }
     lines
 }
 
 fn entry_width(entry: &Entry) -> f64 {
-    SAMPLE_WIDTH + 8.0 + text_width(&entry.text, TEXT) + GAP
+    SAMPLE_WIDTH + BESIDE + TextLook::label().width(&entry.text) + GAP
 }
 
 /// Draws the lines, the first at `top`.
@@ -64,7 +93,7 @@ pub fn draw(canvas: &Canvas<'_>, (left, top): (f64, f64), lines: &[Vec<&Entry>])
         let (mut x, y) = (left, top + i as f64 * LINE);
         for entry in line {
             sample(canvas, (x, y), entry.sample);
-            canvas.text(&entry.text, (x + SAMPLE_WIDTH + 8.0, y), TextLook::new(TEXT));
+            canvas.text(&entry.text, (x + SAMPLE_WIDTH + BESIDE, y), TextLook::label());
             x += entry_width(entry);
         }
     }
@@ -74,15 +103,47 @@ fn sample(canvas: &Canvas<'_>, (x, y): (f64, f64), sample: Sample) {
     let ends = [(x, y), (x + SAMPLE_WIDTH, y)];
     let middle = (x + SAMPLE_WIDTH / 2.0, y);
     match sample {
-        Sample::Disc(pen, filled) => canvas.disc(middle, 5.0, pen, filled),
+        Sample::Mark(shape, pen, filled) => canvas.shape(shape, middle, RADIUS + 1.0, (pen, filled)),
         Sample::Line(pen) => canvas.line(&ends, pen),
         Sample::Dashes(pen, dash) => canvas.dashes(&ends, dash, pen),
+        Sample::Upon(pen, broad) => {
+            canvas.line(&ends, broad);
+            canvas.line(&ends, pen);
+        }
         Sample::Bar(pen) => {
-            let (foot, head) = ((middle.0, y + 9.0), (middle.0, y - 9.0));
+            let (foot, head) = ((middle.0, y + HALF_BAR), (middle.0, y - HALF_BAR));
             canvas.line(&[foot, head], pen);
             for end in [foot, head] {
-                canvas.line(&[(end.0 - 3.0, end.1), (end.0 + 3.0, end.1)], pen);
+                canvas.line(&[(end.0 - CAP, end.1), (end.0 + CAP, end.1)], pen);
             }
         }
+        Sample::Patch(colour) => canvas.fill((x, y - HALF_PATCH), (x + SAMPLE_WIDTH, y + HALF_PATCH), colour),
+        Sample::Arrow(towards, colour) => {
+            let half = HALF_BAR / 2.0;
+            let tip = match towards {
+                Towards::Up => (middle.0, y - half),
+                Towards::Down => (middle.0, y + half),
+                Towards::Left => (middle.0 - half, y),
+                Towards::Right => (middle.0 + half, y),
+            };
+            canvas.arrow(tip, towards, HALF_BAR, colour);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plots::style::INK;
+
+    #[test]
+    fn entries_fill_lines_and_none_is_lost() {
+        let entries: Vec<Entry> = (0..7).map(|i| Entry::line(INK, format!("series number {i}"))).collect();
+        let broken = lines(&entries, 400.0);
+        assert!(broken.len() > 1);
+        assert_eq!(broken.iter().map(Vec::len).sum::<usize>(), 7);
+        let widths = broken.iter().map(|line| line.iter().map(|e| entry_width(e)).sum::<f64>() - GAP);
+        assert!(widths.into_iter().all(|width| width <= 400.0));
+        assert!(lines(&[], 400.0).is_empty());
     }
 }

@@ -26,6 +26,68 @@ pub(super) fn selections(results: &Results) -> Vec<Selection<'_>> {
     found
 }
 
+/// One case with all its methods.
+pub(super) struct CaseSelection<'r> {
+    /// The case's name.
+    pub(super) case: &'r str,
+    /// A selection a method, in the order of the table.
+    pub(super) methods: Vec<Selection<'r>>,
+}
+
+/// Every case.
+pub(super) fn cases(results: &Results) -> Vec<CaseSelection<'_>> {
+    let mut found: Vec<CaseSelection<'_>> = Vec::new();
+    for selection in selections(results) {
+        match found.iter_mut().find(|c| c.case == selection.case) {
+            Some(case) => case.methods.push(selection),
+            None => found.push(CaseSelection { case: selection.case, methods: vec![selection] }),
+        }
+    }
+    found
+}
+
+impl<'r> CaseSelection<'r> {
+    /// All its cells.
+    pub(super) fn cells(&self) -> impl Iterator<Item = &'r Cell> {
+        self.methods.iter().flat_map(|s| s.cells.iter().copied())
+    }
+
+    /// The groups that any of its parameters belongs to.
+    pub(super) fn groups(&self) -> Vec<Group> {
+        groups(|g| self.methods.iter().any(|s| s.has(g)))
+    }
+
+    /// Numbers of samples, ascending.
+    pub(super) fn samples(&self) -> Vec<usize> {
+        let mut samples = distinct(self.cells().map(|c| c.samples));
+        samples.sort_unstable();
+        samples
+    }
+
+    /// `NAME.svg`, with the case behind the name where the table has several.
+    pub(super) fn file(&self, what: &str, results: &Results) -> String {
+        if has_several_cases(results) {
+            format!("{what}-{}.svg", slug(self.case))
+        } else {
+            format!("{what}.svg")
+        }
+    }
+
+    /// What the titles of its figures begin with: the study, and the case where there are several.
+    pub(super) fn title(&self, results: &Results) -> String {
+        let name = &results.name;
+        if has_several_cases(results) { format!("{name}, {}", self.case) } else { name.clone() }
+    }
+}
+
+fn has_several_cases(results: &Results) -> bool {
+    results.cells.iter().any(|c| c.series.case != results.cells[0].series.case)
+}
+
+fn groups(holds: impl Fn(Group) -> bool) -> Vec<Group> {
+    Group::ALL.into_iter().filter(|g| holds(*g)).collect()
+}
+
 impl<'r> Selection<'r> {
     /// Names of the borders, in the order of the table.
     pub(super) fn borders(&self) -> Vec<&'r str> {
@@ -48,8 +110,11 @@ impl<'r> Selection<'r> {
 
     /// The groups that any of its parameters belongs to.
     pub(super) fn groups(&self) -> Vec<Group> {
-        let holds = |g: &Group| self.cells.iter().any(|c| c.parameters.iter().any(|p| p.group == *g));
-        Group::ALL.into_iter().filter(holds).collect()
+        groups(|g| self.has(g))
+    }
+
+    fn has(&self, group: Group) -> bool {
+        self.cells.iter().any(|c| c.parameters.iter().any(|p| p.group == group))
     }
 
     /// The cells of one curve, by increasing `N`.
@@ -66,24 +131,39 @@ impl<'r> Selection<'r> {
 
     /// `NAME-method.svg`, with the case in between where the table has several.
     pub(super) fn file(&self, what: &str, results: &Results) -> String {
-        let several = results.cells.iter().any(|c| c.series.case != self.case);
-        let case = if several { format!("{}-", slug(self.case)) } else { String::new() };
+        let case = if has_several_cases(results) { format!("{}-", slug(self.case)) } else { String::new() };
         format!("{what}-{case}{}.svg", self.method)
     }
 
     /// `method` or `method, case` where the table has several cases.
     pub(super) fn title(&self, results: &Results) -> String {
-        let several = results.cells.iter().any(|c| c.series.case != self.case);
-        if several { format!("{}, {}", self.method, self.case) } else { self.method.to_string() }
+        if has_several_cases(results) {
+            format!("{}, {}", self.method, self.case)
+        } else {
+            self.method.to_string()
+        }
     }
 
     /// `500 replicates`, or the range where cells differ.
     pub(super) fn replicates(&self) -> String {
-        let counts = || self.cells.iter().map(|c| c.replicates);
-        match (counts().min().unwrap_or(0), counts().max().unwrap_or(0)) {
-            (low, high) if low == high => format!("{low} replicates"),
-            (low, high) => format!("{low} to {high} replicates"),
-        }
+        replicates(self.cells.iter().copied())
+    }
+}
+
+/// `500 replicates`, or the range where cells differ.
+pub(super) fn replicates<'r>(cells: impl Iterator<Item = &'r Cell>) -> String {
+    let (low, high) = cells
+        .fold((usize::MAX, 0), |(low, high), cell| (low.min(cell.replicates), high.max(cell.replicates)));
+    if low < high { format!("{low} to {high} replicates") } else { format!("{high} replicates") }
+}
+
+/// `m = 4`, `m = 4, 8 and 16`.
+pub(super) fn listed(values: &[impl ToString]) -> String {
+    let words: Vec<String> = values.iter().map(ToString::to_string).collect();
+    match words.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }
 
@@ -121,6 +201,13 @@ mod tests {
     fn thinning_keeps_both_ends() {
         assert_eq!(thinned(&[1, 2, 3, 4, 5, 6, 7], 3), [1, 4, 7]);
         assert_eq!(thinned(&[1, 2], 3), [1, 2]);
+    }
+
+    #[test]
+    fn lists_end_in_and() {
+        assert_eq!(listed(&[0; 0]), "");
+        assert_eq!(listed(&[4]), "4");
+        assert_eq!(listed(&[4, 8, 16]), "4, 8 and 16");
     }
 
     #[test]

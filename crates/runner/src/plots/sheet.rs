@@ -1,17 +1,18 @@
 //! A page: title, explanation, legend, and a grid of diagrams below.
 
-use super::canvas::{Canvas, Point, TextLook, draw};
+use super::axis::Axis;
+use super::canvas::{Canvas, Point, draw};
 use super::legend::{self, Entry};
-use super::palette::GREY;
-
-/// Width of every page, pixels.
-pub const WIDTH: f64 = 1200.0;
+use super::panel::{Numbers, Panel};
+use super::style::{GREY, MARGIN, TextLook, WIDTH};
 
 /// What a page says and how its diagrams are arranged.
 pub struct Sheet {
+    /// Width, pixels.
+    pub width: f64,
     /// What the figure shows.
     pub title: String,
-    /// How it is to be read; one entry a line.
+    /// How it is to be read; an entry begins a line, and goes on on the next where it is long.
     pub notes: Vec<String>,
     /// What its marks mean.
     pub legend: Vec<Entry>,
@@ -32,29 +33,72 @@ pub struct Grid {
     pub left: f64,
     /// Room between two columns, pixels.
     pub between: f64,
-    /// Room above the first row for column titles, and between two rows, pixels.
+    /// Room above the first row, for titles, pixels.
     pub above: f64,
+    /// Room between two rows, pixels.
+    pub apart: f64,
+    /// Room below the last row, for numbers and the axis' name, pixels.
+    pub below: f64,
 }
 
-const MARGIN: f64 = 20.0;
-const BOTTOM: f64 = 56.0;
+impl Grid {
+    /// Diagrams of a height with titles above, numbers left of and below each, and room for the axes' names at the first column
+    /// and the last row.
+    pub fn new(rows: usize, columns: usize, height: f64) -> Self {
+        let (rows, columns) = (rows.max(1), columns.max(1));
+        Self { columns, rows, height, left: 84.0, between: 66.0, above: 34.0, apart: 84.0, below: 52.0 }
+    }
+
+    /// The same for diagrams that share their axes: numbers stand at the first column and the last row only, names of rows left of all.
+    pub fn shared(rows: usize, columns: usize, height: f64) -> Self {
+        Self { left: 92.0, between: 14.0, apart: 14.0, ..Self::new(rows, columns, height) }
+    }
+}
 
 impl Sheet {
+    /// A page of full width without a legend.
+    pub fn new(title: impl Into<String>, notes: Vec<String>, grid: Grid) -> Self {
+        Self { width: WIDTH, title: title.into(), notes, legend: Vec::new(), grid }
+    }
+
     /// Draws the page; `paint` gets the canvas and the frames' places, and fills them.
     pub fn render(&self, paint: impl FnOnce(&Canvas<'_>, &Frames)) -> String {
-        let entries = legend::lines(&self.legend, WIDTH - 2.0 * MARGIN);
-        let notes_top = 62.0;
-        let legend_top = notes_top + 22.0 * self.notes.len() as f64 + 8.0;
-        let top = legend_top + legend::LINE * entries.len() as f64;
-        let frames = Frames { grid: self.grid, top };
-        let height = top + (self.grid.above + self.grid.height) * self.grid.rows as f64 + BOTTOM;
-        draw((WIDTH, height.round()), |canvas| {
-            canvas.text(&self.title, (MARGIN, 30.0), TextLook::new(25.0).bold());
-            for (i, note) in self.notes.iter().enumerate() {
-                canvas.text(note, (MARGIN, notes_top + 22.0 * i as f64), TextLook::new(16.0).colour(GREY));
+        let room = self.width - 2.0 * MARGIN;
+        let wrapped = |look: TextLook, text: &str| -> Vec<(String, TextLook)> {
+            look.wrapped(text, room).into_iter().map(|line| (line, look)).collect()
+        };
+        let mut head = wrapped(TextLook::title(), &self.title);
+        head.extend(self.notes.iter().flat_map(|note| wrapped(TextLook::note(), note)));
+        let mut lines = Vec::new();
+        let mut bottom = MARGIN - 4.0;
+        for (text, look) in head {
+            lines.push((text, bottom + look.line() / 2.0, look));
+            bottom += look.line();
+        }
+        let entries = legend::lines(&self.legend, room);
+        let legend_top = bottom + 6.0 + legend::LINE / 2.0;
+        let top = bottom + 6.0 + legend::LINE * entries.len() as f64;
+        let frames = Frames { grid: self.grid, width: self.width, top };
+        let height = frames.corner(self.grid.rows - 1, 0).1 + self.grid.height + self.grid.below;
+        draw((self.width, height.round()), &self.title, |canvas| {
+            for (text, y, look) in &lines {
+                canvas.text(text, (MARGIN, *y), *look);
             }
             legend::draw(canvas, (MARGIN, legend_top), &entries);
             paint(canvas, &frames);
+        })
+    }
+
+    /// The page with a remark in place of its diagrams: why there is nothing to draw.
+    pub fn empty(mut self, why: &str) -> String {
+        self.legend.clear();
+        self.grid = Grid { height: 3.0 * TextLook::label().line(), below: MARGIN, ..Grid::new(1, 1, 0.0) };
+        self.render(|canvas, frames| {
+            let (_, top) = frames.corner(0, 0);
+            let look = TextLook::label().middle().colour(GREY);
+            for (i, line) in look.wrapped(why, frames.width - 2.0 * MARGIN).iter().enumerate() {
+                canvas.text(line, (frames.width / 2.0, top + i as f64 * look.line()), look);
+            }
         })
     }
 }
@@ -62,6 +106,7 @@ impl Sheet {
 /// Where the diagrams stand.
 pub struct Frames {
     grid: Grid,
+    width: f64,
     top: f64,
 }
 
@@ -69,21 +114,43 @@ impl Frames {
     /// Width and height of every frame.
     pub fn size(&self) -> (f64, f64) {
         let gaps = self.grid.between * (self.grid.columns - 1) as f64;
-        ((WIDTH - self.grid.left - MARGIN - gaps) / self.grid.columns as f64, self.grid.height)
+        ((self.width - self.grid.left - MARGIN - gaps) / self.grid.columns as f64, self.grid.height)
     }
 
     /// Top left corner of a frame.
     pub fn corner(&self, row: usize, column: usize) -> Point {
         let (width, height) = self.size();
         let x = self.grid.left + (width + self.grid.between) * column as f64;
-        (x, self.top + self.grid.above + (height + self.grid.above) * row as f64)
+        (x, self.top + self.grid.above + (height + self.grid.apart) * row as f64)
     }
 
-    /// Writes what a row shows, and its number of points `m`, upwards at its left.
-    pub fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, points): (&str, usize)) {
+    /// The empty diagram at a row and column, with numbers at both axes.
+    pub fn panel<'c, 's>(
+        &self,
+        canvas: &'c Canvas<'s>,
+        (row, column): (usize, usize),
+        axes: (Axis, Axis),
+    ) -> Panel<'c, 's> {
+        Panel::new(canvas, self.corner(row, column), self.size(), axes)
+    }
+
+    /// The empty diagram at a row and column of a grid whose rows and columns share their axes: numbers at the outer ones only.
+    pub fn inner_panel<'c, 's>(
+        &self,
+        canvas: &'c Canvas<'s>,
+        (row, column): (usize, usize),
+        axes: (Axis, Axis),
+    ) -> Panel<'c, 's> {
+        let numbers = Numbers { x: row + 1 == self.grid.rows, y: column == 0 };
+        Panel::with_numbers(canvas, (self.corner(row, column), self.size()), axes, numbers)
+    }
+
+    /// Writes what a row shows upwards at its left, and below it in grey what more there is to say.
+    pub fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, more): (&str, &str)) {
         let middle = self.corner(row, 0).1 + self.size().1 / 2.0;
-        canvas.text(name, (20.0, middle), TextLook::new(17.0).bold().middle().upwards());
-        let points = format!("m = {points}");
-        canvas.text(&points, (42.0, middle), TextLook::new(15.0).middle().upwards().colour(GREY));
+        let first = MARGIN;
+        canvas.text(name, (first, middle), TextLook::heading().middle().upwards());
+        let look = TextLook::axis().middle().upwards().colour(GREY);
+        canvas.text(more, (first + look.line() - 3.0, middle), look);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Group, Measured, Series};
 use serde::{Deserialize, Serialize};
+use switchback_estimator::statistics::CLASSES;
 
 /// What the replicates of one (case, border, method, m, noise, N) gave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,9 @@ pub struct Cell {
     pub precise: Option<bool>,
     /// Replicates that gave no estimate; never redrawn.
     pub failures: Failures,
+    /// Where the truth lies in the 95 % intervals, one entry a group; empty in results of versions that did not count it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub intervals: Vec<Intervals>,
     /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.
     pub parameters: Vec<Parameter>,
 }
@@ -35,6 +39,19 @@ pub struct Failures {
     /// What each of those said whose indices are kept; empty where all said the same.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reasons: Vec<String>,
+}
+
+/// How many replicates' estimates of the parameters of a group lie how far from the truth, in half widths of the 95 % interval that each
+/// reports: up to 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3, 5, and more. The truth is in the intervals of the first four classes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Intervals {
+    /// The parameters.
+    pub group: Group,
+    /// Estimates less than the truth, a number a class.
+    pub below: [u32; CLASSES],
+    /// Estimates greater than the truth, or equal to it.
+    pub above: [u32; CLASSES],
 }
 
 /// The performance of one parameter's estimate over the replicates.

@@ -15,7 +15,7 @@ mod summary;
 #[cfg(test)]
 pub(crate) mod synthetic;
 
-pub use cell::{Cell, Failures, Parameter};
+pub use cell::{Cell, Failures, Intervals, Parameter};
 pub use csv::to_csv;
 pub use curve::{BorderCurve, CurvePoint};
 pub use json::{ResultsError, read, to_json};

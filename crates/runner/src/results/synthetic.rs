@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::scenario::{Engine, Method};
+use statrs::distribution::{ContinuousCDF, Normal};
+use switchback_estimator::statistics::CLASS_ENDS;
 
 /// Two leaf springs, three methods (one of them inconsistent), two `m`, two noise levels, five `N`.
 pub(crate) fn results() -> Results {
@@ -112,7 +114,24 @@ fn cell(series: &Series, samples: usize) -> Cell {
         _ => Failures::default(),
     };
     let replicates = REPLICATES as usize;
-    Cell { series: series.clone(), samples, replicates, precise: None, failures, parameters }
+    let intervals =
+        Group::ALL.into_iter().filter(|g| sees(*g)).map(|g| intervals(g, series, samples)).collect();
+    Cell { series: series.clone(), samples, replicates, precise: None, failures, intervals, parameters }
+}
+
+/// Of an estimate that is normal about the truth, or about a wrong value.
+fn intervals(group: Group, series: &Series, samples: usize) -> Intervals {
+    let wrong =
+        if series.method == Method::Memoryless { 0.04 / series.noise * (samples as f64).sqrt() } else { 0.0 };
+    let up_to = |z: f64| Normal::new(wrong, 1.0).expect("a distribution").cdf(z);
+    let end =
+        |k: usize| 1.96 * if k == 0 { 0.0 } else { CLASS_ENDS.get(k - 1).copied().unwrap_or(f64::INFINITY) };
+    let counted = |share: f64| (REPLICATES * share).round() as u32;
+    Intervals {
+        group,
+        below: std::array::from_fn(|k| counted(up_to(-end(k)) - up_to(-end(k + 1)))),
+        above: std::array::from_fn(|k| counted(up_to(end(k + 1)) - up_to(end(k)))),
+    }
 }
 
 fn parameter(

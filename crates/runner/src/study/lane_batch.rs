@@ -87,13 +87,13 @@ impl Place<'_> {
         if noise.len() == LANES_AT_ONCE && noise.iter().zip(&*fits).all(plain) {
             // Every other eight belongs to the same sections.
             let [a, b, c, d] = errors;
-            sums.of_eight(noise[0].first).add_all(&contender.truth, &[a, c]);
-            sums.of_eight(noise[1].first).add_all(&contender.truth, &[b, d]);
+            sums.add_all(noise[0].first, &contender.truth, &[a, c]);
+            sums.add_all(noise[1].first, &contender.truth, &[b, d]);
             return;
         }
         for (i, noise) in noise.iter().enumerate() {
             let solved = array::from_fn(|l| noise.chosen[l] && fits[i].sound[l]);
-            sums.of_eight(noise.first).add(&contender.truth, errors[i], &solved);
+            sums.add(noise.first, &contender.truth, errors[i], &solved);
             for l in (0..LANES).filter(|&l| noise.chosen[l] && !fits[i].sound[l]) {
                 let steps = steps[i].map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
                 let data = self.bench.replicate(&statistics[i], l);

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use switchback_estimator::estimators::pulse::ErrorTerms;
 use switchback_estimator::estimators::pulse::lanes::LANES;
-use switchback_estimator::statistics::{ErrorSums, LaneSums, ReplicateError};
+use switchback_estimator::statistics::{ErrorSums, IntervalCounts, LaneErrors, LaneSums, ReplicateError};
 
 /// Replicates are kept in so many sections, so that any figure drawn from several cells can be jackknifed: two for each lane.
 pub(super) const SECTIONS: usize = 2 * LANES;
@@ -55,6 +55,9 @@ impl Runs {
 pub(super) struct SectionSums {
     /// One a parameter.
     pub(super) parameters: Vec<ErrorSums>,
+    /// One a parameter, of the replicates that were added since the section was taken.
+    intervals: Vec<IntervalCounts>,
+    /// Likewise.
     pub(super) runs: Runs,
 }
 
@@ -62,9 +65,15 @@ impl SectionSums {
     /// Adds a replicate: the errors with the standard errors that the method reports, and their leading terms.
     pub(super) fn push(&mut self, errors: impl Iterator<Item = (f64, f64)>, terms: &ErrorTerms) {
         let terms = terms.first.iter().zip(&terms.second);
-        for (((error, se), (&first, &second_order)), sums) in errors.zip(terms).zip(&mut self.parameters) {
-            sums.push(ReplicateError { error, se, first_order: Some(first), second_order });
+        for (k, ((error, se), (&first, &second_order))) in errors.zip(terms).enumerate() {
+            self.push_parameter(k, ReplicateError { error, se, first_order: Some(first), second_order });
         }
+    }
+
+    /// Adds what a replicate tells of one parameter.
+    pub(super) fn push_parameter(&mut self, k: usize, replicate: ReplicateError) {
+        self.intervals[k].push(replicate.error, replicate.se);
+        self.parameters[k].push(replicate);
     }
 }
 
@@ -75,42 +84,70 @@ impl SectionSums {
 pub(super) struct CellSums {
     /// Sections 0 to 7, and 8 to 15.
     halves: [LaneSums; 2],
+    /// One a parameter, of all sections: counts add up exactly, in any order.
+    intervals: Vec<IntervalCounts>,
     pub(super) runs: Runs,
 }
 
 impl CellSums {
     pub(super) fn new(parameters: usize) -> Self {
-        Self { halves: [0, 1].map(|_| LaneSums::new(parameters)), runs: Runs::default() }
+        Self {
+            halves: [0, 1].map(|_| LaneSums::new(parameters)),
+            intervals: vec![IntervalCounts::default(); parameters],
+            runs: Runs::default(),
+        }
     }
 
-    /// Puts together what [`halves`](Self::halves) and `runs` hold.
-    pub(super) fn of(halves: [LaneSums; 2], runs: Runs) -> Self {
-        Self { halves, runs }
+    /// Puts together what [`halves`](Self::halves), [`intervals`](Self::intervals) and `runs` hold.
+    pub(super) fn of(halves: [LaneSums; 2], intervals: Vec<IntervalCounts>, runs: Runs) -> Self {
+        Self { halves, intervals, runs }
     }
 
     pub(super) fn halves(&self) -> &[LaneSums; 2] {
         &self.halves
     }
 
-    /// The sums that eight replicates belong to, of which this is the first.
-    pub(super) fn of_eight(&mut self, first: u32) -> &mut LaneSums {
-        &mut self.halves[first as usize / LANES % 2]
+    /// Where the truth lies in the intervals, one a parameter.
+    pub(super) fn intervals(&self) -> &[IntervalCounts] {
+        &self.intervals
+    }
+
+    /// Adds whole groups of eight replicates of the same sections, of which this is the first.
+    pub(super) fn add_all(&mut self, first: u32, truth: &[f64], errors: &[LaneErrors<'_>]) {
+        self.halves[half(first)].add_all(truth, errors);
+        errors.iter().for_each(|e| IntervalCounts::add(&mut self.intervals, truth, e, &[true; LANES]));
+    }
+
+    /// Adds those of eight replicates that are chosen.
+    pub(super) fn add(&mut self, first: u32, truth: &[f64], errors: LaneErrors<'_>, chosen: &[bool; LANES]) {
+        self.halves[half(first)].add(truth, errors, chosen);
+        IntervalCounts::add(&mut self.intervals, truth, &errors, chosen);
     }
 
     /// A section's sums as they stand, without the counts.
     pub(super) fn section(&self, section: usize) -> SectionSums {
-        SectionSums { parameters: self.halves[section / LANES].lane(section % LANES), runs: Runs::default() }
+        SectionSums {
+            parameters: self.halves[section / LANES].lane(section % LANES),
+            intervals: vec![IntervalCounts::default(); self.intervals.len()],
+            runs: Runs::default(),
+        }
     }
 
     /// Puts back what [`section`](Self::section) gave, with more replicates in it.
     pub(super) fn put_section(&mut self, section: usize, sums: &SectionSums) {
         self.halves[section / LANES].set_lane(section % LANES, &sums.parameters);
+        self.count(&sums.intervals);
         self.runs.merge(&sums.runs);
+    }
+
+    fn count(&mut self, intervals: &[IntervalCounts]) {
+        self.intervals.iter_mut().zip(intervals).for_each(|(into, from)| into.merge(from));
     }
 
     /// Adds the sums of other replicates, section for section.
     pub(super) fn merge(&mut self, other: &Self) {
         self.halves.iter_mut().zip(&other.halves).for_each(|(into, from)| into.merge(from));
+        self.count(&other.intervals);
         self.runs.merge(&other.runs);
     }
 
@@ -123,4 +160,9 @@ impl CellSums {
         }
         all
     }
+}
+
+/// Which half of the sections eight replicates belong to, of which this is the first.
+fn half(first: u32) -> usize {
+    first as usize / LANES % 2
 }

@@ -2,9 +2,9 @@
 
 use super::cell::CellSpec;
 use super::sections::{CellSums, Runs};
-use crate::results::{Cell, Failures, Measured, Parameter};
+use crate::results::{Cell, Failures, Group, Intervals, Measured, Parameter};
 use rayon::prelude::*;
-use switchback_estimator::statistics::{self, ErrorSums};
+use switchback_estimator::statistics::{self, ErrorSums, IntervalCounts};
 
 /// One entry a cell, in their order.
 pub(super) fn cells(specs: &[CellSpec], totals: &[CellSums], precise: Option<&[bool]>) -> Vec<Cell> {
@@ -21,10 +21,23 @@ pub(super) fn cells(specs: &[CellSpec], totals: &[CellSums], precise: Option<&[b
                 parameters: parameters.collect(),
                 replicates: runs.replicates,
                 precise: precise.map(|precise| precise[index]),
+                intervals: intervals(spec, &totals[index]),
                 failures: failures(runs),
             }
         })
         .collect()
+}
+
+/// One entry a group that has parameters.
+fn intervals(spec: &CellSpec, total: &CellSums) -> Vec<Intervals> {
+    let of_group = |group: Group| {
+        let mut counts: Option<IntervalCounts> = None;
+        for (_, more) in spec.parameters.iter().zip(total.intervals()).filter(|(p, _)| p.group == group) {
+            counts.get_or_insert_default().merge(more);
+        }
+        counts.map(|counts| Intervals { group, below: counts.below, above: counts.above })
+    };
+    Group::ALL.into_iter().filter_map(of_group).collect()
 }
 
 fn failures(runs: &Runs) -> Failures {

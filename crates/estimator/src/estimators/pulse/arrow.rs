@@ -51,7 +51,7 @@ pub(crate) struct ArrowFit {
     /// Residual variance, degrees of freedom counted.
     pub(crate) variance: f64,
     freedom: f64,
-    factor: Cholesky<f64, Dyn>,
+    pub(super) factor: Cholesky<f64, Dyn>,
     pub(super) ties: Vec<LocalTie>,
 }
 
@@ -67,7 +67,7 @@ pub(crate) struct Score {
 #[derive(Debug, Clone)]
 pub(super) struct LocalTie {
     /// Its own entry `D = Σ K w²` of the normal matrix.
-    own: f64,
+    pub(super) own: f64,
     /// `c/D`: how its estimate follows the core's.
     pub(super) slope: DVector<f64>,
     /// Right-hand side over `D`: its estimate were the core zero.
@@ -248,11 +248,25 @@ impl ArrowFit {
 /// A change of all parameters.
 #[derive(Debug, Clone)]
 pub(crate) struct Response {
-    core: DVector<f64>,
-    local: Vec<f64>,
+    pub(super) core: DVector<f64>,
+    pub(super) local: Vec<f64>,
 }
 
 impl Response {
+    /// The same change, so many times.
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        self.core *= factor;
+        self.local.iter_mut().for_each(|l| *l *= factor);
+        self
+    }
+
+    /// Both changes.
+    pub(super) fn plus(mut self, other: &Self) -> Self {
+        self.core += &other.core;
+        self.local.iter_mut().zip(&other.local).for_each(|(l, o)| *l += o);
+        self
+    }
+
     /// The change of the quantity whose derivative is `gradient`.
     pub(crate) fn along(&self, gradient: &Gradient) -> f64 {
         gradient.core.dot(&self.core) + gradient.local.iter().map(|&(l, w)| w * self.local[l]).sum::<f64>()

@@ -99,6 +99,7 @@ fn constrained_levels(experiments: &Experiments<'_>, fit: &ArrowFit) -> Vec<Vec<
             levels.extend(next.by_ref().take(part.points() - 1).map(|l| RelativeLevel {
                 value: fit.local[l],
                 gradient: Gradient { core: DVector::zeros(fit.core.len()), local: vec![(l, 1.0)] },
+                free_means: None,
             }));
             levels
         })

@@ -97,7 +97,7 @@ impl PulseMethod<'_> {
 /// Control variates: Glasserman, "Monte Carlo Methods in Financial Engineering" (2003), section 4.1.
 #[derive(Debug, Clone)]
 pub struct Limit {
-    solution: Solution,
+    pub(super) solution: Solution,
     fit: PulseFit,
     samples: f64,
 }

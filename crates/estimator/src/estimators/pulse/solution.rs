@@ -1,6 +1,6 @@
 //! A solved regression read as a system: its parameters, their derivatives and their errors.
 
-use super::arrow::{ArrowFit, Columns, Gradient};
+use super::arrow::{ArrowFit, Columns, Gradient, Response};
 use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
@@ -24,6 +24,8 @@ pub(crate) enum Level {
 pub(crate) struct RelativeLevel {
     pub(crate) value: f64,
     pub(crate) gradient: Gradient,
+    /// The first of the free means `hᵢ` of which the level is `Σᵢ bᵢhᵢ / Σᵢ bᵢ²`; `None` where it is linear in the parameters.
+    pub(crate) free_means: Option<usize>,
 }
 
 /// Rank-one value `Σᵢ bᵢhᵢ / Σᵢ bᵢ²` (3.24b) of a level whose free means `hᵢ ≈ bᵢ f` are local columns `first…first+n−1`.
@@ -37,20 +39,21 @@ pub(crate) fn rank_one_level(fit: &ArrowFit, order: usize, first_local: usize) -
         core[order + i] = h[i] / norm - 2.0 * b[i] * inner / (norm * norm);
     }
     let local = (0..order).map(|i| (first_local + i, b[i] / norm)).collect();
-    RelativeLevel { value: inner / norm, gradient: Gradient { core, local } }
+    RelativeLevel { value: inner / norm, gradient: Gradient { core, local }, free_means: Some(first_local) }
 }
 
 /// A level that the method does not estimate.
 pub(crate) fn known_level(fit: &ArrowFit, value: f64) -> RelativeLevel {
-    RelativeLevel { value, gradient: Gradient { core: DVector::zeros(fit.core.len()), local: Vec::new() } }
+    let gradient = Gradient { core: DVector::zeros(fit.core.len()), local: Vec::new() };
+    RelativeLevel { value, gradient, free_means: None }
 }
 
 /// A reported parameter: its value, its derivative in the regression's parameters and, in total, in `ŷ₀`.
 #[derive(Debug, Clone)]
-struct Quantity {
-    value: f64,
-    gradient: Gradient,
-    step_slope: f64,
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    pub(super) gradient: Gradient,
+    pub(super) step_slope: f64,
 }
 
 /// A regression over pulse experiments, solved, with all that is reported of it: `a`, `b`, then the borders' points.
@@ -64,13 +67,17 @@ struct Quantity {
 /// and through the regression on `ỹ = y − ŷ₀`, whose residual it leaves at `−A(1)·δ`.
 #[derive(Debug, Clone)]
 pub(crate) struct Solution {
-    columns: Columns,
-    fit: ArrowFit,
-    level: Level,
-    order: usize,
-    reference: f64,
+    pub(super) columns: Columns,
+    pub(super) fit: ArrowFit,
+    pub(super) level: Level,
+    pub(super) order: usize,
+    pub(super) reference: f64,
     points: Vec<usize>,
-    quantities: Vec<Quantity>,
+    pub(super) quantities: Vec<Quantity>,
+    /// What [`RelativeLevel::free_means`] says of each border point.
+    pub(super) free_means: Vec<Option<usize>>,
+    /// How all parameters move with the step experiment's mean.
+    pub(super) step_response: Option<Response>,
     /// The gain, `y` held at `u_M` and at `u_m`.
     levels: [Quantity; 3],
     u_low: f64,
@@ -96,6 +103,7 @@ impl Solution {
             _ => base.value,
         };
         let points = levels.iter().map(Vec::len).collect();
+        let free_means = levels.iter().flatten().map(|relative| relative.free_means).collect();
         let coefficients = (0..2 * n).map(|k| {
             let mut core = DVector::zeros(fit.core.len());
             core[k] = 1.0;
@@ -130,6 +138,8 @@ impl Solution {
             reference: experiments.reference,
             points,
             quantities,
+            free_means,
+            step_response: through.map(|r| r.times(-a_at_one)),
             levels,
             u_low,
         })

@@ -3,12 +3,9 @@
 use super::plan::{NoisePlan, NoisePlanError};
 use super::white::{BLOCK, StreamId, WhiteNoise};
 use super::width::Width;
-use crate::linear::{autocovariance, settling_samples};
+use crate::linear::SumVariance;
 use nalgebra::{Cholesky, DMatrix};
 use std::ops::Range;
-
-/// What is left of the noise's memory when its covariance is taken as zero.
-const FORGOTTEN: f64 = 1e-17;
 
 /// Draws the means of `e(0) … e(N−1)` at all checkpoints N of a plan from their joint law.
 ///
@@ -48,7 +45,8 @@ impl MeanNoise {
     /// If the plan is not valid.
     pub fn new(plan: &NoisePlan) -> Result<Self, NoisePlanError> {
         plan.validate()?;
-        let variance = SumVariance::new(plan);
+        let longest = plan.checkpoints.last().copied().unwrap_or_default();
+        let variance = SumVariance::new(&plan.ar, &plan.ma, longest);
         let n = &plan.checkpoints;
         let covariance = DMatrix::from_fn(n.len(), n.len(), |i, j| {
             (variance.at(n[i]) + variance.at(n[j]) - variance.at(n[i].abs_diff(n[j]))) / 2.0
@@ -92,34 +90,5 @@ impl MeanNoise {
                 visit(replicate, &means);
             }
         }
-    }
-}
-
-/// `V(N)`, by sums over the lags at which the noise remembers anything.
-struct SumVariance {
-    /// `γ(0)`.
-    variance: f64,
-    /// `Σ_{k=1}^{K} γ(k)` and `Σ_{k=1}^{K} k γ(k)`, for `K = 0, 1, …`.
-    sums: Vec<[f64; 2]>,
-}
-
-impl SumVariance {
-    fn new(plan: &NoisePlan) -> Self {
-        let longest = plan.checkpoints.last().copied().unwrap_or_default();
-        let lags = (settling_samples(&plan.ar, FORGOTTEN) + plan.ma.len()).min(longest);
-        let gamma = autocovariance(&plan.ar, &plan.ma, lags);
-        let mut sums = vec![[0.0; 2]];
-        let mut sum = [0.0; 2];
-        for (k, gamma) in gamma.iter().enumerate().skip(1) {
-            sum = [sum[0] + gamma, sum[1] + k as f64 * gamma];
-            sums.push(sum);
-        }
-        Self { variance: gamma[0], sums }
-    }
-
-    fn at(&self, samples: usize) -> f64 {
-        let n = samples as f64;
-        let [plain, weighted] = self.sums[samples.saturating_sub(1).min(self.sums.len() - 1)];
-        n * self.variance + 2.0 * (n * plain - weighted)
     }
 }

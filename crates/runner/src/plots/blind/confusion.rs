@@ -1,44 +1,59 @@
 //! The confusion matrix as a heat map.
 
-use super::page::{INK, PlotError, letters, page};
 use crate::blind::Confusion;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use crate::plots::canvas::{Canvas, Point};
+use crate::plots::legend::Entry;
+use crate::plots::sheet::{Grid, Sheet};
+use crate::plots::style::{BAD, FAINT, GOOD, GREY, INK, MARGIN, NARROW, PAPER, Pen, TextLook, count, tint};
 
-const CELL: i32 = 27;
-const LEFT: i32 = 180;
-const TOP: i32 = 190;
+/// Width and height of a cell, room for the names of rows and columns and for the count of a row, pixels.
+const CELL: f64 = 27.0;
+const LEFT: f64 = 190.0;
+const TOP: f64 = 160.0;
+const COUNT: f64 = 56.0;
+/// A cell is shaded so much at least where it is not empty, and its number is white from so much on.
+const PALEST: f64 = 0.06;
+const DARK: f64 = 0.6;
 
 /// Rows are truths, columns answers; shade and number are the row's share in percent. `rows` says which rigs have a row.
-///
-/// # Errors
-/// [`PlotError`] if the drawing library fails.
-pub(in crate::plots) fn confusion(table: &Confusion, rows: &str) -> Result<String, PlotError> {
-    let width = LEFT + CELL * table.columns.len() as i32 + 20;
-    let height = TOP + CELL * table.rows.len() as i32 + 20;
-    page((width as u32, height as u32), |canvas| {
-        let title = format!("What was put in (rows, {rows}) and what was said (columns), % of a row");
-        canvas.draw(&Text::new(title, (16, 10), letters(17))).map_err(PlotError::new)?;
-        let key = "blue: the right answer; orange: another one";
-        canvas.draw(&Text::new(key, (16, 34), letters(14))).map_err(PlotError::new)?;
-        let name = letters(13).pos(Pos::new(HPos::Right, VPos::Center));
-        for (i, row) in table.rows.iter().enumerate() {
-            let at = (LEFT - 8, TOP + CELL * i as i32 + CELL / 2);
-            canvas.draw(&Text::new(*row, at, name.clone())).map_err(PlotError::new)?;
-        }
-        let upright = ("sans-serif", 13).into_font().transform(FontTransform::Rotate270).color(&INK);
+pub(in crate::plots) fn confusion(table: &Confusion, rows: &str) -> String {
+    let grid =
+        Grid { left: LEFT, above: TOP, below: MARGIN, ..Grid::new(1, 1, CELL * table.rows.len() as f64) };
+    let mut sheet = Sheet::new(
+        "Confusion: what was put in and what was said",
+        vec![format!(
+            "A row an effect that was put in ({rows}), a column an answer; a cell is the share of its row in percent, right of it the \
+             number of rigs."
+        )],
+        grid,
+    );
+    sheet.width = (LEFT + CELL * table.columns.len() as f64 + COUNT + MARGIN).max(NARROW);
+    if table.counts.iter().flatten().sum::<usize>() == 0 {
+        return sheet.empty("No rig of this kind was judged.");
+    }
+    sheet.legend = vec![Entry::patch(GOOD, "the right answer"), Entry::patch(BAD, "another one")];
+    sheet.render(|canvas, frames| {
+        let (left, top) = frames.corner(0, 0);
         for (j, column) in table.columns.iter().enumerate() {
-            let at = (LEFT + CELL * j as i32 + 6, TOP - 8);
-            canvas.draw(&Text::new(*column, at, upright.clone())).map_err(PlotError::new)?;
+            let x = left + CELL * (j as f64 + 0.5);
+            let look = TextLook::number().upwards();
+            canvas.text(&look.fitted(column, TOP - 16.0), (x, top - 8.0), look);
         }
-        for (i, counts) in table.counts.iter().enumerate() {
+        let right = left + CELL * table.columns.len() as f64 + COUNT - 6.0;
+        canvas.text("rigs", (right, top - 14.0), TextLook::number().colour(GREY).end());
+        for (i, (name, counts)) in table.rows.iter().zip(&table.counts).enumerate() {
+            let middle = top + CELL * (i as f64 + 0.5);
             let total: usize = counts.iter().sum();
+            let colour = if total == 0 { GREY } else { INK };
+            let look = TextLook::number().colour(colour).end();
+            canvas.text(&look.fitted(name, LEFT - 8.0 - MARGIN), (left - 8.0, middle), look);
+            canvas.text(&count(total), (right, middle), TextLook::number().colour(colour).end());
             for (j, &count) in counts.iter().enumerate() {
                 let share = count as f64 / total.max(1) as f64;
-                draw_cell(canvas, (i, j), share, is_right(table.rows[i], table.columns[j]))?;
+                let corner = (left + CELL * j as f64, top + CELL * i as f64);
+                cell(canvas, corner, share, is_right(name, table.columns[j]));
             }
         }
-        Ok(())
     })
 }
 
@@ -47,24 +62,14 @@ fn is_right(truth: &str, answer: &str) -> bool {
     truth == answer || matches!((truth, answer), ("outside", "unexplained") | ("none", "refit"))
 }
 
-fn draw_cell(
-    canvas: &super::page::Canvas<'_>,
-    (i, j): (usize, usize),
-    share: f64,
-    right: bool,
-) -> Result<(), PlotError> {
-    let (x, y) = (LEFT + CELL * j as i32, TOP + CELL * i as i32);
-    let shade = |full: u8| (255.0 - share * (255.0 - f64::from(full))) as u8;
-    let (r, g, b) = if right { (0x00, 0x72, 0xB2) } else { (0xD5, 0x5E, 0x00) };
-    let colour = RGBColor(shade(r), shade(g), shade(b));
-    let area = [(x, y), (x + CELL - 1, y + CELL - 1)];
-    canvas.draw(&Rectangle::new(area, colour.filled())).map_err(PlotError::new)?;
-    canvas.draw(&Rectangle::new(area, INK.mix(0.15))).map_err(PlotError::new)?;
+fn cell(canvas: &Canvas<'_>, (x, y): Point, share: f64, right: bool) {
+    let opposite = (x + CELL, y + CELL);
     if share > 0.0 {
-        let ink = if share > 0.6 { WHITE } else { INK };
-        let style = letters(11).color(&ink).pos(Pos::new(HPos::Center, VPos::Center));
-        let text = format!("{:.0}", 100.0 * share);
-        canvas.draw(&Text::new(text, (x + CELL / 2, y + CELL / 2), style)).map_err(PlotError::new)?;
+        canvas.fill((x, y), opposite, tint(if right { GOOD } else { BAD }, share.max(PALEST)));
     }
-    Ok(())
+    canvas.frame((x, y), opposite, Pen::hair(FAINT));
+    if share > 0.0 {
+        let look = TextLook::small().middle().colour(if share > DARK { PAPER } else { INK });
+        canvas.text(&format!("{:.0}", 100.0 * share), (x + CELL / 2.0, y + CELL / 2.0), look);
+    }
 }

@@ -1,46 +1,76 @@
-//! The diagnosis beside simpler rules, as bars.
+//! The diagnosis beside simpler rules: what should be large, and what should be small.
 
-use super::page::{COLOURS, PlotError, letters, page};
 use crate::blind::BaselineRow;
 use crate::examination::Share;
-use plotters::prelude::*;
+use crate::plots::axis::Axis;
+use crate::plots::legend::Entry;
+use crate::plots::panel::{Mark, Panel};
+use crate::plots::sheet::{Grid, Sheet};
+use crate::plots::style::{OKABE_ITO, Pen, RADIUS, TextLook, percent};
 
-/// Four shares a rule.
-///
-/// # Errors
-/// [`PlotError`] if the drawing library fails.
-pub(super) fn baselines(rows: &[BaselineRow]) -> Result<String, PlotError> {
-    const LEFT: i32 = 200;
-    const FULL: f64 = 440.0;
-    const BAR: i32 = 16;
-    let names = ["exact, ≥ 1 sd", "precision", "false alarm", "outside named"];
-    let shares: [fn(&BaselineRow) -> Share; 4] =
-        [|r| r.exact, |r| r.precision, |r| r.false_alarm, |r| r.outside_named];
-    let group = BAR * 4 + 20;
-    let height = 80 + group * rows.len() as i32;
-    page((760, height as u32), |canvas| {
-        canvas
-            .draw(&Text::new("The same rigs under simpler rules", (16, 10), letters(19)))
-            .map_err(PlotError::new)?;
-        for (k, name) in names.iter().enumerate() {
-            let x = 20 + 170 * k as i32;
-            let sample = Rectangle::new([(x, 42), (x + 20, 54)], COLOURS[k].filled());
-            canvas.draw(&sample).map_err(PlotError::new)?;
-            canvas.draw(&Text::new(*name, (x + 26, 41), letters(14))).map_err(PlotError::new)?;
-        }
-        for (i, row) in rows.iter().enumerate() {
-            let top = 72 + group * i as i32;
-            canvas.draw(&Text::new(row.rule, (16, top + 24), letters(15))).map_err(PlotError::new)?;
-            for (k, share) in shares.iter().enumerate() {
-                let y = top + BAR * k as i32;
-                let value = share(row).value();
-                let length = (FULL * value.unwrap_or(0.0)) as i32;
-                let bar = Rectangle::new([(LEFT, y), (LEFT + length, y + BAR - 3)], COLOURS[k].filled());
-                canvas.draw(&bar).map_err(PlotError::new)?;
-                let text = value.map_or_else(|| "—".to_owned(), |x| format!("{:.1} %", 100.0 * x));
-                canvas.draw(&Text::new(text, (LEFT + length + 6, y), letters(12))).map_err(PlotError::new)?;
+/// Height of a rule's row, and how far its marks stand from its middle, pixels.
+const ROW: f64 = 52.0;
+const ASIDE: f64 = 11.0;
+/// Room for the figures right of a frame, pixels.
+const FIGURES: f64 = 70.0;
+
+/// A diagram: what its direction means, and its two shares.
+type Half = (&'static str, [(&'static str, fn(&BaselineRow) -> Share); 2]);
+
+const HALVES: [Half; 2] = [
+    (
+        "the more the better →",
+        [("exact, gap ≥ 1 sd", |r| r.exact), ("of the causes named, right ones", |r| r.precision)],
+    ),
+    (
+        "← the less the better",
+        [
+            ("a cause named where there is none", |r| r.false_alarm),
+            ("… where it is outside the library", |r| r.outside_named),
+        ],
+    ),
+];
+
+/// Four shares a rule with their intervals.
+pub(super) fn baselines(rows: &[BaselineRow]) -> String {
+    let grid = Grid { left: 180.0, between: 20.0, ..Grid::new(1, HALVES.len(), ROW * rows.len() as f64) };
+    let mut sheet = Sheet::new(
+        "Baselines: the same rigs under simpler rules",
+        vec!["Shares of rigs with 95 % intervals (Wilson).".to_owned()],
+        grid,
+    );
+    if rows.is_empty() {
+        return sheet.empty("No rig was judged.");
+    }
+    let names = HALVES.iter().flat_map(|(_, shares)| shares.iter().map(|(name, _)| *name));
+    sheet.legend = names.zip(OKABE_ITO).map(|(name, colour)| Entry::disc(colour, name)).collect();
+    sheet.render(|canvas, frames| {
+        let (width, height) = frames.size();
+        for (h, (direction, shares)) in HALVES.into_iter().enumerate() {
+            let (left, top) = frames.corner(0, h);
+            let width = width - FIGURES;
+            let axes = (Axis::percent(0.0, 1.0), Axis::rows(rows.len() as f64));
+            let panel = Panel::new(canvas, (left, top), (width, height), axes);
+            panel.title(direction);
+            panel.x_name("share");
+            for (i, row) in rows.iter().enumerate() {
+                let middle = i as f64 + 0.5;
+                if h == 0 {
+                    canvas.text(row.rule, (left - 10.0, top + ROW * middle), TextLook::label().end());
+                }
+                for (k, (_, share)) in shares.into_iter().enumerate() {
+                    let aside = if k == 0 { -ASIDE } else { ASIDE };
+                    let at = (left + width + FIGURES - 12.0, top + ROW * middle + aside);
+                    let look = TextLook::number().end();
+                    let (Some(value), Some([low, high])) = (share(row).value(), share(row).interval()) else {
+                        canvas.text("–", at, look);
+                        continue;
+                    };
+                    let mark = Mark { aside, ..Mark::disc(Pen::data(OKABE_ITO[2 * h + k]), RADIUS) };
+                    panel.level_mark((low, high), value, middle, mark);
+                    canvas.text(&percent(value, 1), at, look);
+                }
             }
         }
-        Ok(())
     })
 }

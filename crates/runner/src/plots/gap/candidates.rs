@@ -1,60 +1,70 @@
 //! The candidates' ranking.
 
 use crate::diagnosis::{Report, closed_percent};
-use crate::plots::canvas::{Canvas, Pen, TextLook};
+use crate::plots::canvas::{Canvas, Towards};
 use crate::plots::legend::{Entry, Sample};
-use crate::plots::palette::{FAINT, GREY, OKABE_ITO, tint};
 use crate::plots::sheet::{Frames, Grid, Sheet};
+use crate::plots::style::{FAINT, GREY, INK, MARGIN, OKABE_ITO, PALE, Pen, TextLook, count, tint};
 use plotters::style::RGBColor;
 use switchback_gap::{Candidate, Status};
 
-/// Height of a candidate's row, pixels.
+/// Height of a candidate's row, half the height of its bars, and length of an arrow, pixels.
 const ROW: f64 = 24.0;
-const COLUMNS: usize = 3;
+const HALF_BAR: f64 = 8.0;
+const ARROW: f64 = 9.0;
+const COLUMNS: [&str; 3] = ["probability", "evidence: drop of the BIC", "closure"];
 /// Room for a bar's figure right of it, pixels.
-const FIGURE: f64 = 70.0;
+const FIGURE: f64 = 74.0;
 
 /// A row an explanation, best first: its probability, its evidence, and how far it closes the gap alone.
 pub(super) fn figure(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let rows = rows(report);
     let is_named = diagnosis.verdict.status == Status::Named;
-    let entry = |rank: Rank, name: &str| Entry::new(Sample::Line(Pen::new(rank.colour(), 10.0)), name);
+    let entry = |rank: Rank, name: &str| Entry::patch(rank.colour(), name);
     let mut legend = vec![entry(Rank::Chosen, if is_named { "named" } else { "in the verdict" })];
     if diagnosis.verdict.corrected_by.is_some() {
         legend.push(entry(Rank::Corrects, "corrects the law of the one named"));
     }
     legend.push(entry(Rank::Other, "other candidates"));
-    let sheet = Sheet {
-        title: format!("{}: what explains the gap", report.rig.name),
-        notes: vec![
-            "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale.".to_owned(),
-            "Closure is on the records judged; unstable: with this effect the model's free run leaves every range.".to_owned(),
-        ],
-        legend,
-        grid: Grid {
-            columns: COLUMNS,
-            rows: 1,
-            height: ROW * rows.len() as f64,
-            left: 190.0,
-            between: 24.0,
-            above: 40.0,
-        },
-    };
-    let strongest = rows.iter().filter_map(|row| row.evidence).fold(1.0, f64::max);
+    legend.push(Entry::new(Sample::Arrow(Towards::Left, INK), "goes on beyond the bar's ground"));
+    let notes = vec![
+        "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale."
+            .to_owned(),
+        "A probability compares: it falls exponentially with how far the evidence lies behind the best, so a candidate with much \
+         evidence may have none. What the best leaves unexplained counts for “none of these”."
+            .to_owned(),
+        "Closure is on the records judged; left of the line the effect makes the gap larger there; unstable: with it the model's free \
+         run leaves every range."
+            .to_owned(),
+    ];
+    let height = ROW * rows.len() as f64;
+    let grid =
+        Grid { left: 190.0, between: 22.0, above: 38.0, below: 14.0, ..Grid::new(1, COLUMNS.len(), height) };
+    let mut sheet = Sheet::new(format!("{}: what explains the gap", report.rig.name), notes, grid);
+    sheet.legend = legend;
+    let strongest = rows.iter().filter_map(|row| row.evidence).fold(1.0, |a, b| f64::max(a, b.abs()));
+    let grounds = [
+        Ground { low: 0.0 },
+        Ground { low: if rows.iter().any(|r| r.evidence.is_some_and(|e| e < 0.0)) { -0.25 } else { 0.0 } },
+        Ground { low: if rows.iter().any(|r| r.closure.is_some_and(|c| c < 0.0)) { -1.0 } else { 0.0 } },
+    ];
     sheet.render(|canvas, frames| {
         for (i, row) in rows.iter().enumerate() {
-            row.draw(canvas, frames, i, strongest);
+            row.draw(canvas, frames, (i, strongest), &grounds);
         }
-        for (column, title) in ["probability", "evidence: drop of the BIC", "closure"].into_iter().enumerate()
-        {
+        for (column, title) in COLUMNS.into_iter().enumerate() {
             let (x, y) = frames.corner(0, column);
-            canvas.text(title, (x, y - 16.0), TextLook::new(16.0).bold());
+            canvas.text(title, (x, y - 16.0), TextLook::heading());
+            if grounds[column].low < 0.0 {
+                let zero = x + grounds[column].place(0.0) * (frames.size().0 - FIGURE);
+                canvas.line(&[(zero, y), (zero, y + height)], Pen::hair(GREY));
+            }
         }
     })
 }
 
-/// What the verdict makes of a candidate.
+/// What a verdict makes of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Rank {
     Chosen,
@@ -66,9 +76,21 @@ impl Rank {
     fn colour(self) -> RGBColor {
         match self {
             Self::Chosen => OKABE_ITO[0],
-            Self::Corrects => tint(OKABE_ITO[0], 0.5),
+            Self::Corrects => tint(OKABE_ITO[0], PALE),
             Self::Other => tint(GREY, 0.5),
         }
+    }
+}
+
+/// The scale of a column's bars: from `low` to 1.
+struct Ground {
+    low: f64,
+}
+
+impl Ground {
+    /// 0 at the left end, 1 at the right.
+    fn place(&self, share: f64) -> f64 {
+        (share - self.low) / (1.0 - self.low)
     }
 }
 
@@ -112,30 +134,58 @@ fn rows(report: &Report) -> Vec<Row> {
 }
 
 impl Row {
-    fn draw(&self, canvas: &Canvas<'_>, frames: &Frames, index: usize, strongest: f64) {
-        let colour = self.rank.colour();
+    fn draw(
+        &self,
+        canvas: &Canvas<'_>,
+        frames: &Frames,
+        (index, strongest): (usize, f64),
+        grounds: &[Ground; 3],
+    ) {
         let middle = frames.corner(0, 0).1 + ROW * (index as f64 + 0.5);
-        let look = TextLook::new(15.0);
-        let name = if self.rank == Rank::Chosen { look.bold() } else { look };
-        canvas.text(&self.name, (frames.corner(0, 0).0 - 10.0, middle), name.end());
-        let evidence = self.evidence.map(|e| ((e.max(0.0) / strongest).sqrt(), whole(e)));
+        let name = if self.rank == Rank::Chosen { TextLook::heading() } else { TextLook::label() };
+        let left = frames.corner(0, 0).0 - 10.0;
+        canvas.text(&name.fitted(&self.name, left - MARGIN), (left, middle), name.end());
+        let evidence = self.evidence.map(|e| ((e.abs() / strongest).sqrt().copysign(e), whole(e)));
         let closure = match self.closure {
             _ if self.unstable => Some((0.0, "unstable".to_owned())),
-            closure => closure.map(|c| (c.clamp(0.0, 1.0), format!("{} %", closed_percent(100.0 * c)))),
+            closure => closure.map(|c| (c, format!("{} %", closed_percent(100.0 * c)))),
         };
-        let probability = Some((self.probability.clamp(0.0, 1.0), format!("{:.3}", self.probability)));
-        for (column, bar) in [probability, evidence, closure].into_iter().enumerate() {
+        let probability = Some((self.probability, format!("{:.3}", self.probability)));
+        for ((column, bar), ground) in [probability, evidence, closure].into_iter().enumerate().zip(grounds) {
             let Some((share, text)) = bar else { continue };
             let left = frames.corner(0, column).0;
             let width = frames.size().0 - FIGURE;
-            canvas.fill((left, middle - 8.0), (left + width, middle + 8.0), tint(FAINT, 0.6));
-            canvas.fill((left, middle - 8.0), (left + share * width, middle + 8.0), colour);
-            canvas.text(&text, (left + width + FIGURE - 6.0, middle), look.end());
+            let x = |share: f64| left + ground.place(share.clamp(ground.low, 1.0)) * width;
+            canvas.fill((left, middle - HALF_BAR), (left + width, middle + HALF_BAR), tint(FAINT, 0.6));
+            let (from, to) = (x(share.min(0.0)), x(share.max(0.0)));
+            canvas.fill((from, middle - HALF_BAR), (to, middle + HALF_BAR), self.rank.colour());
+            if share < ground.low {
+                canvas.arrow((left, middle), Towards::Left, ARROW, INK);
+            } else if share > 1.0 {
+                canvas.arrow((left + width, middle), Towards::Right, ARROW, INK);
+            }
+            canvas.text(&text, (left + width + FIGURE - 4.0, middle), TextLook::number().end());
         }
     }
 }
 
+/// To the unit, `16,210`.
 fn whole(x: f64) -> String {
-    // Adding zero turns the −0 of rounding into 0.
-    format!("{}", x.round() + 0.0).replace('-', "−")
+    let digits = count(x.abs().round() as usize);
+    if x <= -0.5 { format!("-{digits}") } else { digits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn negative_shares_have_a_place_left_of_zero() {
+        let ground = Ground { low: -1.0 };
+        assert_eq!((ground.place(-1.0), ground.place(0.0), ground.place(1.0)), (0.0, 0.5, 1.0));
+        assert_eq!(
+            (whole(16_210.4), whole(-0.4), whole(-35.2)),
+            ("16,210".to_owned(), "0".to_owned(), "-35".to_owned())
+        );
+    }
 }

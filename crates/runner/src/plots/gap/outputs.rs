@@ -1,19 +1,16 @@
 //! Measured, nominal and augmented output of one hold-out record.
 
-use crate::diagnosis::{Report, fit_percent};
+use crate::diagnosis::{Report, Units, fit_percent};
 use crate::plots::axis::Axis;
-use crate::plots::canvas::{Canvas, Pen};
+use crate::plots::canvas::{Canvas, Dash};
 use crate::plots::identify::series::{thinned, worst_window};
+use crate::plots::labelled;
 use crate::plots::legend::{Entry, Sample};
-use crate::plots::palette::{FAINT, GREY, OKABE_ITO};
 use crate::plots::panel::Panel;
-use crate::plots::sheet::{Frames, Grid, Sheet, WIDTH};
-use plotters::style::RGBColor;
+use crate::plots::sheet::{Frames, Grid, Sheet};
+use crate::plots::style::{AFTER, BEFORE, FAINT, GREY, PALE, Pen, WIDTH, tint};
 use std::ops::Range;
 use switchback_gap::HoldoutSeries;
-
-const BEFORE: RGBColor = OKABE_ITO[1];
-const AFTER: RGBColor = OKABE_ITO[0];
 
 /// Samples of the stretch that is drawn enlarged.
 const WINDOW: usize = 300;
@@ -25,19 +22,23 @@ type Series = Vec<(f64, f64)>;
 pub(super) fn figure(report: &Report, series: &HoldoutSeries) -> String {
     let drawing = Drawing::new(report, series);
     let before = report.source.label();
-    let sheet = Sheet {
-        title: drawing.title(),
-        notes: vec![format!(
-            "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the {} misses most, is enlarged below.",
+    let mut sheet = Sheet::new(
+        drawing.title(),
+        vec![format!(
+            "Free runs, from v alone. The dotted lines are the noise floor, ±2 sd; the shaded stretch, where the {} misses most, is \
+             enlarged below.",
             report.source.model()
         )],
-        legend: vec![
-            Entry::new(Sample::Line(Pen::new(GREY, 4.0)), "measured"),
-            Entry::new(Sample::Line(Pen::new(BEFORE, 2.0)), format!("{before}, and measured − {before}")),
-            Entry::new(Sample::Line(Pen::new(AFTER, 2.0)), "augmented, and measured − augmented"),
-        ],
-        grid: Grid { columns: 1, rows: 3, height: 210.0, left: 96.0, between: 0.0, above: 76.0 },
-    };
+        Grid { apart: 76.0, ..Grid::new(3, 1, 200.0) },
+    );
+    if series.measured.is_empty() {
+        return sheet.empty("The record has no sample.");
+    }
+    sheet.legend = vec![
+        Entry::new(Sample::Line(Pen::broad(tint(GREY, PALE))), "measured"),
+        Entry::line(BEFORE, format!("{before}, and measured − {before}")),
+        Entry::line(AFTER, "augmented, and measured − augmented"),
+    ];
     sheet.render(|canvas, frames| {
         drawing.errors(canvas, frames, 0, 0..series.measured.len());
         drawing.outputs(canvas, frames, 1);
@@ -90,46 +91,40 @@ impl<'a> Drawing<'a> {
         let y = Axis::linear(shown);
         let x = Axis::linear([before[0].0, before[before.len() - 1].0]);
         let whole = stretch.len() > self.window.len();
-        let corner = frames.corner(row, 0);
-        let size = frames.size();
         if whole {
+            let (corner, size) = (frames.corner(row, 0), frames.size());
             let edge = |k: usize| {
                 let t = k as f64 * self.report.rig.sample_time;
                 corner.0 + size.0 * x.place(t).unwrap_or(0.0)
             };
-            canvas.fill(
-                (edge(self.window.start), corner.1),
-                (edge(self.window.end - 1), corner.1 + size.1),
-                FAINT,
-            );
+            let ends = (edge(self.window.start), edge(self.window.end - 1));
+            canvas.fill((ends.0, corner.1), (ends.1, corner.1 + size.1), FAINT);
         }
-        let panel = Panel::new(canvas, corner, size, (x, y));
+        let panel = frames.panel(canvas, (row, 0), (x, y));
         for level in [floor, -floor] {
-            let line = [(x.low(), level), (x.high(), level)];
-            panel.dashes(&line, crate::plots::canvas::Dash::Dots, Pen::new(GREY, 1.2));
+            panel.level(level, Some(Dash::Dots), Pen::data(GREY));
         }
         for (line, colour) in [(before, BEFORE), (after, AFTER)] {
-            panel.line(&thinned(&line, WIDTH as usize), Pen::new(colour, 1.4));
+            panel.line(&thinned(&line, WIDTH as usize), Pen::data(colour));
         }
         panel.title(if whole { "errors over the whole record" } else { "errors, enlarged" });
-        self.names(&panel, &format!("error{}", self.output_unit()));
+        self.names(&panel, &format!("error [{}]", Units::of(&self.report.rig).output));
     }
 
     fn outputs(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize) {
         let lines = [
-            (&self.series.measured, GREY, 4.5),
-            (&self.series.nominal, BEFORE, 1.6),
-            (&self.series.augmented, AFTER, 1.6),
+            (&self.series.measured, Pen::broad(tint(GREY, PALE))),
+            (&self.series.nominal, Pen::data(BEFORE)),
+            (&self.series.augmented, Pen::data(AFTER)),
         ];
-        let lines =
-            lines.map(|(values, colour, width)| (self.timed(values, &self.window), Pen::new(colour, width)));
+        let lines = lines.map(|(values, pen)| (self.timed(values, &self.window), pen));
         let times = &lines[0].0;
         let x = Axis::linear([times[0].0, times[times.len() - 1].0]);
         let [low, high] = extremes(lines[0].0.iter().map(|p| p.1));
         let reach = self.reach();
         let inside = |y: f64| y.clamp(low - reach, high + reach);
         let y = Axis::linear(lines.iter().flat_map(|(line, _)| line.iter().map(|p| inside(p.1))));
-        let panel = Panel::new(canvas, frames.corner(row, 0), frames.size(), (x, y));
+        let panel = frames.panel(canvas, (row, 0), (x, y));
         for (line, pen) in &lines {
             panel.line(line, *pen);
         }
@@ -138,20 +133,12 @@ impl<'a> Drawing<'a> {
             self.window.len(),
             self.report.source.model()
         ));
-        self.names(&panel, &self.report.rig.output_label);
+        self.names(&panel, &labelled(&self.report.rig.output_label, "output units"));
     }
 
     fn names(&self, panel: &Panel<'_, '_>, y: &str) {
         panel.x_name("time since the record's start [s]");
-        panel.y_name(y, 74.0);
-    }
-
-    /// ` [N]`, or nothing where the rig names no unit.
-    fn output_unit(&self) -> String {
-        match crate::identification::unit(&self.report.rig.output_label) {
-            "" => String::new(),
-            unit => format!(" [{unit}]"),
-        }
+        panel.y_name(y, 64.0);
     }
 }
 

@@ -2,28 +2,28 @@
 
 use crate::diagnosis::Report;
 use crate::plots::axis::Axis;
-use crate::plots::canvas::{Canvas, Dash, Pen};
+use crate::plots::canvas::{Canvas, Dash};
 use crate::plots::legend::{Entry, Sample};
-use crate::plots::palette::{GREY, OKABE_ITO};
-use crate::plots::panel::{Mark, Panel};
+use crate::plots::panel::Mark;
 use crate::plots::sheet::{Frames, Grid, Sheet};
+use crate::plots::style::{AFTER, BEFORE, GREY, Pen, SMALL_RADIUS, Shape};
 use plotters::style::RGBColor;
 use switchback_gap::ResidualPicture;
 
-const BEFORE: RGBColor = OKABE_ITO[1];
-const AFTER: RGBColor = OKABE_ITO[0];
-
 /// Autocorrelations with the band of white noise, and spectra.
 pub(super) fn figure(report: &Report) -> String {
-    let sheet = Sheet {
-        title: format!("{}: what the model misses, before and after", report.rig.name),
-        notes: vec!["Fit records. White noise stays within the dotted band at 19 of 20 lags, and has a flat spectrum.".to_owned()],
-        legend: vec![
-            Entry::new(Sample::Disc(Pen::new(BEFORE, 1.5), false), "nominal model"),
-            Entry::new(Sample::Disc(Pen::new(AFTER, 1.5), true), "augmented model"),
+    let mut sheet = Sheet::new(
+        format!("{}: what the model misses, before and after", report.rig.name),
+        vec![
+            "Errors one step ahead on the fit records. White noise stays within the dotted band at 19 of 20 lags, and has a flat spectrum."
+                .to_owned(),
         ],
-        grid: Grid { columns: 2, rows: 1, height: 330.0, left: 86.0, between: 110.0, above: 44.0 },
-    };
+        Grid { between: 92.0, ..Grid::new(1, 2, 300.0) },
+    );
+    sheet.legend = vec![
+        Entry::new(Sample::Mark(Shape::Disc, Pen::data(BEFORE), false), "nominal model"),
+        Entry::disc(AFTER, "augmented model"),
+    ];
     let diagnosis = &report.diagnosis;
     let pictures = [(&diagnosis.residuals_before, BEFORE, false), (&diagnosis.residuals_after, AFTER, true)];
     sheet.render(|canvas, frames| {
@@ -41,15 +41,14 @@ fn autocorrelation(canvas: &Canvas<'_>, frames: &Frames, pictures: &[Picture<'_>
     let values = pictures.iter().flat_map(|(p, ..)| p.autocorrelation.iter().skip(1).copied());
     let y = Axis::linear(values.chain([2.0 * band, -2.0 * band, 0.0]));
     let x = Axis::linear([0.0, lags as f64 + 1.0]);
-    let panel = Panel::new(canvas, frames.corner(0, 0), frames.size(), (x, y));
-    let level = |at: f64| [(x.low(), at), (x.high(), at)];
-    panel.line(&level(0.0), Pen::new(GREY, 1.0));
+    let panel = frames.panel(canvas, (0, 0), (x, y));
+    panel.level(0.0, None, Pen::hair(GREY));
     for edge in [band, -band] {
-        panel.dashes(&level(edge), Dash::Dots, Pen::new(GREY, 1.2));
+        panel.level(edge, Some(Dash::Dots), Pen::data(GREY));
     }
     for (i, (picture, colour, filled)) in pictures.iter().enumerate() {
         let aside = if i == 0 { -3.0 } else { 3.0 };
-        let mark = Mark { pen: Pen::new(*colour, 1.5), radius: 3.0, filled: *filled, aside };
+        let mark = Mark { filled: *filled, aside, ..Mark::disc(Pen::data(*colour), SMALL_RADIUS) };
         for (lag, r) in picture.autocorrelation.iter().enumerate().skip(1) {
             panel.mark(lag as f64, *r, (r.min(0.0), r.max(0.0)), mark);
         }
@@ -73,9 +72,9 @@ fn spectrum(
     });
     let x = Axis::linear(lines.iter().flat_map(|(line, _)| line.iter().map(|p| p.0)));
     let y = Axis::logarithmic(lines.iter().flat_map(|(line, _)| line.iter().map(|p| p.1)));
-    let panel = Panel::new(canvas, frames.corner(0, 1), frames.size(), (x, y));
+    let panel = frames.panel(canvas, (0, 1), (x, y));
     for (line, colour) in &lines {
-        panel.line(line, Pen::new(*colour, 1.8));
+        panel.line(line, Pen::data(*colour));
     }
     panel.title("power spectrum");
     panel.x_name("frequency [Hz]");

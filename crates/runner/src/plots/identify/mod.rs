@@ -3,8 +3,6 @@
 mod borders;
 mod outputs;
 pub(in crate::plots) mod series;
-mod style;
 
 pub use borders::borders;
 pub use outputs::outputs;
-pub use style::PlotError;

@@ -178,13 +178,10 @@ impl FreeNoiseGroup {
         match estimate.map(|estimate| at_knots(estimate, &on.grid.basis)) {
             Ok(estimate) if parameters(&estimate).all(|(x, se)| x.is_finite() && se.is_finite()) => {
                 let truth = &setting.specs[checkpoint].truth;
-                for (k, ((value, se), sums)) in parameters(&estimate).zip(&mut sums.parameters).enumerate() {
-                    sums.push(ReplicateError {
-                        error: value - truth[k],
-                        se,
-                        first_order: first_order.as_ref().map(|first| first[k]),
-                        second_order: 0.0,
-                    });
+                for (k, (value, se)) in parameters(&estimate).enumerate() {
+                    let first_order = first_order.as_ref().map(|first| first[k]);
+                    let error = value - truth[k];
+                    sums.push_parameter(k, ReplicateError { error, se, first_order, second_order: 0.0 });
                 }
             }
             Ok(_) => sums.runs.fail(replicate, "the record leaves a parameter open".to_owned()),

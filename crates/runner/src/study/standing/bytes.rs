@@ -8,11 +8,11 @@ use crate::study::tally::{Node, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
-use switchback_estimator::statistics::LaneSums;
+use switchback_estimator::statistics::{IntervalCounts, LaneSums};
 use thiserror::Error;
 
 /// What such a file begins with.
-const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/1\",";
+const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/2\",";
 
 /// What tells the sums of one study from those of another, or of other sources on another platform: they are never mixed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ impl Snapshot<'_> {
             runs: node.cells.iter().map(|cell| cell.runs.clone()).collect(),
         };
         let head = Head {
-            schema: "switchback/sums/1".to_owned(),
+            schema: "switchback/sums/2".to_owned(),
             origin: origin.clone(),
             batch: tally.batches().size(),
             round: round.replicates.clone(),
@@ -70,8 +70,11 @@ impl Snapshot<'_> {
         };
         let mut bytes = serde_json::to_vec(&head).expect("names and numbers are JSON");
         bytes.push(b'\n');
-        let halves = tally.nodes().iter().flat_map(|node| &node.cells).flat_map(CellSums::halves);
-        bytes.extend(halves.flat_map(LaneSums::numbers).flat_map(f64::to_le_bytes));
+        for cell in tally.nodes().iter().flat_map(|node| &node.cells) {
+            bytes.extend(cell.halves().iter().flat_map(LaneSums::numbers).flat_map(f64::to_le_bytes));
+            let counts = cell.intervals().iter().flat_map(|counts| counts.below.iter().chain(&counts.above));
+            bytes.extend(counts.flat_map(|count| f64::from(*count).to_le_bytes()));
+        }
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
         bytes
@@ -130,7 +133,9 @@ impl Standing {
         for NodeHead { replicates, runs } in head.nodes {
             let cell = |(runs, &parameters): (Runs, &usize)| {
                 let mut half = || LaneSums::from_numbers(parameters, &mut numbers);
-                Some(CellSums::of([half()?, half()?], runs))
+                let halves = [half()?, half()?];
+                let intervals = (0..parameters).map(|_| counts(&mut numbers)).collect::<Option<_>>()?;
+                Some(CellSums::of(halves, intervals, runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
             filled.add(Node { range: replicates, cells: cells.ok_or(Unusable::Damaged)? });
@@ -146,6 +151,15 @@ impl Standing {
         }
         Ok(Self { round, tally: filled, in_rounds: self.in_rounds })
     }
+}
+
+/// Where the truth lies in the intervals of a parameter; `None` where numbers are missing.
+fn counts(numbers: &mut impl Iterator<Item = f64>) -> Option<IntervalCounts> {
+    let mut counts = IntervalCounts::default();
+    for count in counts.below.iter_mut().chain(&mut counts.above) {
+        *count = numbers.next()? as u32;
+    }
+    Some(counts)
 }
 
 /// The head of a file, and its numbers, if it is as it was written.
