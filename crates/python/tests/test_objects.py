@@ -158,7 +158,7 @@ def test_notebooks_show_pages(results: dict[str, Any]) -> None:
     assert all(repr(result) for result in results.values())
     # Figures lie within the page, whatever lies beside it.
     page = results["diagnosis"]._repr_html_()
-    assert "svg" in page and 'src="where.svg"' not in page
+    assert page.startswith("<iframe srcdoc=") and "svg" in page and 'src="where.svg"' not in page
 
 
 def test_files_of_others_are_not_replaced(identification: sb.Identification, tmp_path: Path) -> None:

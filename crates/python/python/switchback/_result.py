@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import os
-import re
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -87,7 +85,7 @@ class Result:
     def _repr_html_(self) -> str:
         page = self._files.get("index.html")
         if page is not None:
-            return framed(self_contained(page.decode(), self._files))
+            return framed(page.decode())
         figures = (data.decode() for name, data in self._files.items() if name.endswith(".svg"))
         return f"<pre>{escape(self.words)}</pre>" + "".join(f"<div>{svg}</div>" for svg in figures)
 
@@ -98,16 +96,5 @@ _HEIGHT = 640
 
 def framed(page: str) -> str:
     """A page in a frame, so that its styles stay its own."""
-    return f'<iframe srcdoc="{escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0" sandbox="allow-popups allow-same-origin"></iframe>'
+    return f'<iframe srcdoc="{escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0" sandbox="allow-scripts"></iframe>'
 
-
-def self_contained(page: str, files: dict[str, bytes]) -> str:
-    """A page with the figures that lie beside it put into it."""
-
-    def put_in(found: re.Match[str]) -> str:
-        data = files.get(found[2])
-        if data is None:
-            return found[0]
-        return f'{found[1]}="data:image/svg+xml;base64,{base64.b64encode(data).decode()}"'
-
-    return re.sub(r'(src)="([^":/]+\.svg)"', put_in, page)

@@ -54,14 +54,16 @@ impl Page for Diagnosed {
     }
 
     fn files(&self) -> miette::Result<Artefacts> {
-        Ok(gap::artefacts(&self.report))
+        Ok(gap::artefacts(&self.report)?)
     }
 
     fn texts(&self) -> BTreeMap<String, String> {
         let models = model::diagnosed(&self.report).into_iter();
         let models = models.map(|(name, model)| (name.to_owned(), model.text()));
-        let others =
-            [("series.csv", model::diagnosed_series(&self.report)), ("why", diagnosis::why(&self.report))];
+        let others = [
+            ("series.csv", model::diagnosed_series(&self.report).text()),
+            ("why", diagnosis::why(&self.report)),
+        ];
         models.chain(others.map(|(name, text)| (name.to_owned(), text))).collect()
     }
 

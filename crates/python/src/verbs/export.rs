@@ -22,7 +22,7 @@ pub(crate) fn export<'py>(
     let made = Call::run(py, &heard, move |_| {
         let (path, text) = model;
         let asked: Asked = options(words)?;
-        let file = model::parse(&path, &text)?;
+        let file = model::of_text(&path, &text)?;
         let name = asked.name(&file, out.as_deref());
         Ok(made(&file, &asked, (&path, &name))?)
     })?;

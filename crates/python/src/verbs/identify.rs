@@ -54,7 +54,7 @@ impl Page for Identified {
 
     fn texts(&self) -> BTreeMap<String, String> {
         let model = model::identified(&self.rig, &self.identification);
-        let series = model::identified_series(&self.rig, &self.identification);
+        let series = model::identified_series(&self.rig, &self.identification).text();
         let model = model.map(|model| ("model.json".to_owned(), model.text()));
         model.into_iter().chain([("series.csv".to_owned(), series)]).collect()
     }

@@ -25,7 +25,7 @@ pub(crate) fn plant(
     Call::run(py, &heard, move |_| {
         let asked: cmd::plant::Asked = options(words)?;
         let carrier = match (model, asked.model()) {
-            (Some((path, text)), _) => Some((model::parse(&path, &text)?, path)),
+            (Some((path, text)), _) => Some((model::of_text(&path, &text)?, path)),
             (None, Some(path)) => Some((model::read(path)?, path.to_owned())),
             (None, None) => None,
         };

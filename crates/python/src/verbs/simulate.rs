@@ -30,7 +30,7 @@ pub(crate) fn simulate<'py>(
     let y = y.map(|y| numbers(y.as_bytes())).transpose()?;
     let run = Call::run(py, &heard, move |_| {
         let (path, text) = model;
-        let file = model::parse(&path, &text)?;
+        let file = model::of_text(&path, &text)?;
         let header = &file.header;
         let input = InputSeries {
             sample_time: header.sample_time,
@@ -61,7 +61,7 @@ pub(crate) fn simulate_file<'py>(
     let run = Call::run(py, &heard, move |_| {
         let (path, text) = model;
         let asked: Asked = options(words)?;
-        let file = model::parse(&path, &text)?;
+        let file = model::of_text(&path, &text)?;
         let input = played(&asked, (&file, &path))?;
         Ok(Simulation::new(file, input, asked.file())?)
     })?;

@@ -103,7 +103,7 @@ impl Page for Studied {
     }
 
     fn files(&self) -> miette::Result<Artefacts> {
-        self.threads.install(|| report::artefacts(&self.results))
+        Ok(self.threads.install(|| report::artefacts(&self.results))??)
     }
 
     fn inputs(&self) -> &[PathBuf] {

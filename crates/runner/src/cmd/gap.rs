@@ -8,6 +8,7 @@ use crate::fmu::{self, FmuError, Map, Simulator};
 use crate::model;
 use crate::options::{Force, Quiet, Threads, prior};
 use crate::output::{Artefacts, note};
+use crate::pages::{self, INDEX, PageError};
 use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
@@ -53,8 +54,8 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures and the next
-    /// experiment into this folder.
+    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures, the next
+    /// experiment and all of it on one page, index.html, into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -116,7 +117,7 @@ impl Asked {
 }
 
 /// What the folder gets.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "gap.json",
     "nominal.json",
     "augmented.json",
@@ -127,6 +128,7 @@ const FILES: [&str; 10] = [
     "residuals.svg",
     "outputs_*.svg",
     diagnosis::NEXT_EXPERIMENT,
+    INDEX,
 ];
 
 /// Reads, diagnoses, prints, and writes the folder if one was asked for.
@@ -146,7 +148,7 @@ pub fn run(args: &Args) -> CommandResult {
     let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
     if let Some(folder) = folder {
-        folder.commit(&artefacts(&report))?;
+        folder.commit(&artefacts(&report)?)?;
     }
     let words = || {
         let why = if args.explain { diagnosis::why(&report) } else { String::new() };
@@ -212,13 +214,16 @@ fn effect() -> impl TypedValueParser<Value = Effect> {
 }
 
 /// The files of a diagnosis.
-pub fn artefacts(report: &Report) -> Artefacts {
+///
+/// # Errors
+/// A page that cannot be made.
+pub fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
     for (name, file) in model::diagnosed(report) {
         artefacts.add(name, file.text());
     }
-    artefacts.add("series.csv", model::diagnosed_series(report));
+    artefacts.add("series.csv", model::diagnosed_series(report).text());
     artefacts.add("verdict.txt", diagnosis::verdict(report));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);
@@ -226,5 +231,5 @@ pub fn artefacts(report: &Report) -> Artefacts {
     if let Some(csv) = diagnosis::next_experiment(report) {
         artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
     }
-    artefacts
+    pages::bound(artefacts)
 }

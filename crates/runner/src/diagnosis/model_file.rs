@@ -31,7 +31,7 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Given, ModelError> {
     let peek: Option<Peek> = serde_json::from_str(text).ok();
     // Pages of commands carry a schema, too, but no kind.
     match peek.is_some_and(|peek| peek.schema.is_some() && peek.kind.is_some()) {
-        true => Ok(Given::File(Box::new(model::parse(path, text)?))),
+        true => Ok(Given::File(Box::new(model::of_text(path, text)?))),
         false => page(path, text).map(Given::Page),
     }
 }

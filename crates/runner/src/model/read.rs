@@ -66,20 +66,20 @@ struct WireFile<M> {
 /// # Errors
 /// [`ModelError`] if the file is no JSON, of another format or version, or its parts contradict each other.
 pub fn read(path: &Path) -> Result<ModelFile, ModelError> {
-    parse(path, &read_text(path)?)
+    of_text(path, &read_text(path)?)
 }
 
-/// The model in a text; `path` is what messages call it.
+/// The model that a text holds; `path` is what messages call it.
 ///
 /// # Errors
 /// As [`read`].
-pub fn parse(path: &Path, text: &str) -> Result<ModelFile, ModelError> {
+pub fn of_text(path: &Path, text: &str) -> Result<ModelFile, ModelError> {
     let fail = |message: String, remedy: &str| ModelError::Content {
         place: path.display().to_string(),
         message,
         remedy: remedy.to_owned(),
     };
-    let peek: Peek = json(path, text)?;
+    let peek: Peek = parse(path, text)?;
     match peek.schema.as_deref() {
         Some(SCHEMA) => {}
         Some(other) if other.starts_with("switchback/model/") => {
@@ -96,9 +96,9 @@ pub fn parse(path: &Path, text: &str) -> Result<ModelFile, ModelError> {
         None => return Err(fail("this is no model file: there is no field `schema`".to_owned(), MAKE_ONE)),
     }
     let file = match peek.kind.as_deref() {
-        Some("switched") => joined(json(path, text)?, |model| System::Switched(Box::new(model))),
-        Some("curves") => joined(json(path, text)?, System::Curves),
-        Some("points") => joined(json(path, text)?, System::Points),
+        Some("switched") => joined(parse(path, text)?, |model| System::Switched(Box::new(model))),
+        Some("curves") => joined(parse(path, text)?, System::Curves),
+        Some("points") => joined(parse(path, text)?, System::Points),
         Some(other) => {
             return Err(fail(
                 format!("`kind` is `{other}`, but a model is switched, curves or points"),
@@ -120,7 +120,7 @@ fn joined<M>(wire: WireFile<M>, system: impl Fn(M) -> System) -> ModelFile {
     ModelFile { header, system: system(model) }
 }
 
-fn json<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, ModelError> {
+fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, ModelError> {
     json_file::parse(path, text).map_err(|JsonError { place, message, .. }| ModelError::Content {
         place,
         message,
