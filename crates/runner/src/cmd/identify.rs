@@ -6,10 +6,11 @@ use crate::identification::{self, Identification, Method, Request};
 use crate::model;
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
+use crate::pages::{self, INDEX};
 use crate::plots;
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use switchback_estimator::rig::Rig;
 
 /// Identify the linear part and both borders from a rig's records.
@@ -18,20 +19,14 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
-    /// records allow]
-    #[arg(long, value_parser = method(), hide_possible_values = true)]
-    method: Option<Method>,
-
-    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
-    #[arg(long)]
-    causal: bool,
+    #[command(flatten)]
+    asked: Asked,
 
     /// Print one JSON object instead of tables.
     #[arg(long)]
     json: bool,
 
-    /// Also write estimate.json, model.json, series.csv and the plots into this folder.
+    /// Also write estimate.json, model.json, series.csv, the plots and the page index.html into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -45,9 +40,22 @@ pub struct Args {
     force: Force,
 }
 
+/// What is asked of the records.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
+    /// records allow]
+    #[arg(long, value_parser = method(), hide_possible_values = true)]
+    method: Option<Method>,
+
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    #[arg(long)]
+    causal: bool,
+}
+
 /// What the folder gets.
-const FILES: [&str; 5] =
-    ["estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
+const FILES: [&str; 6] =
+    [INDEX, "estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
 
 /// Reads, identifies, prints, and writes the folder if one was asked for.
 ///
@@ -57,12 +65,9 @@ pub fn run(args: &Args) -> CommandResult {
     let loaded = args.data.load("identify", args.quiet)?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let rig = loaded.rig;
-    let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);
-    let identification = args.threads.install(|| identification::examined_watched(&rig, request, &watch))?;
+    let identification = identified(&rig, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
-    let identification = identification.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
@@ -71,18 +76,37 @@ pub fn run(args: &Args) -> CommandResult {
     Ok(Outcome::Done)
 }
 
+/// The identification alone: nothing is read, printed or written. `place` is what messages call the records.
+///
+/// # Errors
+/// Records that nothing can be identified from.
+pub fn identified(
+    rig: &Rig,
+    asked: &Asked,
+    (place, threads, watch): (&Path, Threads, &Watch),
+) -> miette::Result<Identification> {
+    let method = asked.method.unwrap_or_else(|| identification::default_method(rig));
+    let request = Request { method, causal: asked.causal };
+    let identification = threads.install(|| identification::examined_watched(rig, request, watch))?;
+    Ok(identification.map_err(|error| error.in_file(place))?)
+}
+
 fn method() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name))
         .map(|name| Method::from_name(&name).expect("only names of methods are possible values"))
 }
 
-fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
+/// The files of an identification.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
     let mut artefacts = Artefacts::default();
     artefacts.add("estimate.json", identification::json(rig, identification));
     if let Some(model) = model::identified(rig, identification) {
         artefacts.add("model.json", model.text());
     }
-    artefacts.add("series.csv", model::identified_series(rig, identification));
+    artefacts.add("series.csv", model::identified_series(rig, identification).text());
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
         let name = format!("measured_and_simulated_{}.svg", record.name);
@@ -91,5 +115,5 @@ fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artef
     if let Some(svg) = plots::identify::borders(rig, identification) {
         artefacts.add("borders.svg", svg);
     }
-    Ok(artefacts)
+    Ok(pages::bound(artefacts)?)
 }

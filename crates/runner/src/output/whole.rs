@@ -47,6 +47,18 @@ pub fn verify(folder: &Path) -> Result<(), NotWhole> {
 /// # Errors
 /// As [`verify`].
 pub fn verify_but(folder: &Path, others: &[&str]) -> Result<(), NotWhole> {
+    checked(folder, |_| true, others)
+}
+
+/// The same of the files whose names are wanted.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_those(folder: &Path, is_wanted: impl Fn(&str) -> bool) -> Result<(), NotWhole> {
+    checked(folder, is_wanted, &[])
+}
+
+fn checked(folder: &Path, is_wanted: impl Fn(&str) -> bool, others: &[&str]) -> Result<(), NotWhole> {
     let shown = || folder.display().to_string();
     if stagings_of(folder).iter().any(|staging| is_unfinished(staging)) {
         return Err(NotWhole::Unfinished { folder: shown() });
@@ -58,7 +70,7 @@ pub fn verify_but(folder: &Path, others: &[&str]) -> Result<(), NotWhole> {
         false => Some(format!("{name} is missing")),
         true => (!is_as_written(name)).then(|| format!("{name} has changed")),
     };
-    let mut wrong: Vec<String> = list.names().filter_map(wrong).collect();
+    let mut wrong: Vec<String> = list.names().filter(|name| is_wanted(name)).filter_map(wrong).collect();
     if wrong.is_empty() {
         return Ok(());
     }

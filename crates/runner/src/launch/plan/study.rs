@@ -3,6 +3,7 @@
 use super::clock::{most_memory, processor, timed};
 use super::{Costs, Ingredient, Plan, Share};
 use crate::output::sha256;
+use crate::pages::PageError;
 use crate::report;
 use crate::scenario::Scenario;
 use crate::study::{Keeper, Progress, ShareSize, Snapshot, Standing, Study};
@@ -39,11 +40,12 @@ pub fn measure<'s>(scenario: &'s Scenario) -> miette::Result<Plan<'s>> {
         let mut merged = study.begin();
         merged.add(read);
     });
-    let (_hashes, report) = timed(|| {
+    let (hashes, report) = timed(|| {
         let results = study.results(&standing, String::new());
-        let files = report::artefacts(&results);
-        files.iter().map(|(_, contents)| sha256(contents)).collect::<Vec<_>>()
+        let files = report::artefacts(&results)?;
+        Ok::<_, PageError>(files.iter().map(|(_, contents)| sha256(contents)).collect::<Vec<_>>())
     });
+    hashes?;
 
     let of_a_node = bytes.len() as f64 / standing.nodes() as f64;
     let keeping = (making + writing) / KEPT_EVERY.max(20.0 * (making + writing));
