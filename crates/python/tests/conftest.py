@@ -39,7 +39,7 @@ class Program:
 
     def error(self, *words: object) -> str:
         """What it says where it refuses, without the word that begins it."""
-        done = self.run(*words)
+        done = self.run(*words, "--quiet")
         assert done.returncode == 2, done.stdout
         assert done.stderr.startswith("error: "), done.stderr
         return done.stderr.removeprefix("error: ").strip()

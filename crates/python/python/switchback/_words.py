@@ -34,7 +34,10 @@ def words(**options: Option) -> list[str]:
 
 def number(value: float) -> str:
     """The shortest decimals that are read back as the same number."""
-    return str(operator.index(value)) if isinstance(value, SupportsIndex) else repr(float(value))
+    if isinstance(value, SupportsIndex):
+        return str(operator.index(value))
+    text = repr(float(value))
+    return text[:-2] if text.endswith(".0") else text
 
 
 def pair(value: tuple[float, float] | None, name: str) -> str | None:
