@@ -54,7 +54,7 @@ pub use diagnosis::{
 pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
 pub use evidence::{Compared, Comparison, EffectEvidence};
-pub use export::{PortableError, PortableModel, Simulated};
+pub use export::{LooksAhead, PortableError, PortableModel, Simulated};
 pub use phase::Phase;
 pub use settings::{Model, NominalModel, Settings};
 pub use verdict::fitted;

@@ -12,6 +12,8 @@ pub struct Settings {
     pub asked: Vec<Effect>,
     /// Largest order tried where the rig declares none.
     pub max_order: usize,
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    pub causal: bool,
     /// Most effects named together.
     pub max_effects: usize,
     /// A cause is named when its calibrated probability reaches this.
@@ -57,6 +59,7 @@ impl Default for Settings {
             effects: Effect::ALL.to_vec(),
             asked: Vec::new(),
             max_order: 4,
+            causal: false,
             max_effects: 2,
             name_at: 0.85,
             prior: None,

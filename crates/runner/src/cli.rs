@@ -38,7 +38,10 @@ enum Verb {
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
     Design(cmd::design::Args),
-    Gap(cmd::gap::Args),
+    Export(cmd::export::Args),
+    #[command(hide = true)]
+    FmuHost(cmd::fmu_host::Args),
+    Gap(Box<cmd::gap::Args>),
     Identify(cmd::identify::Args),
     Init(cmd::init::Args),
     Launch(cmd::launch::Args),
@@ -96,11 +99,13 @@ struct NoVerb {
 /// A misspelt verb would be taken for the name of a scenario file. What looks like a path is one.
 fn refuse_misspelt_verb(word: &str) -> Result<(), NoVerb> {
     let cli = Cli::command();
-    let verbs: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
-    let may_be_right = word.starts_with('-') || word.contains(['.', '/', '\\']) || verbs.contains(&word);
-    if may_be_right || word.is_empty() || Path::new(word).exists() {
+    let names = |verb: &clap::Command| verb.get_name() == word;
+    let may_be_right = word.starts_with('-') || word.contains(['.', '/', '\\']) || word == "help";
+    if may_be_right || cli.get_subcommands().any(names) || word.is_empty() || Path::new(word).exists() {
         return Ok(());
     }
+    let told = cli.get_subcommands().filter(|verb| !verb.is_hide_set());
+    let verbs: Vec<&str> = told.map(clap::Command::get_name).chain(["help"]).collect();
     let help = match closest(word, verbs.iter().copied()) {
         Some(verb) => format!("did you mean `switchback {verb}`?"),
         None => format!("the verbs are {}; a scenario is named by its path", verbs.join(", ")),
@@ -119,6 +124,8 @@ impl Cli {
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
             Some(Verb::Completions(args)) => cmd::completions::run(&args),
             Some(Verb::Design(args)) => cmd::design::run(&args),
+            Some(Verb::FmuHost(args)) => cmd::fmu_host::run(&args),
+            Some(Verb::Export(args)) => cmd::export::run(&args),
             Some(Verb::Gap(args)) => cmd::gap::run(&args),
             Some(Verb::Identify(args)) => cmd::identify::run(&args),
             Some(Verb::Init(args)) => cmd::init::run(&args),

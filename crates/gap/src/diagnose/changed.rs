@@ -41,7 +41,7 @@ pub(super) fn plan(
     let known = match model {
         Model::Identify => return Ok(None),
         Model::Given(model) => Some((Structure::of_order(model.a.len()), scaled(records, model)?)),
-        Model::Predicted => standing_in(workers, (rig, records), settings.max_order),
+        Model::Predicted => standing_in(workers, (rig, records), settings),
     };
     let Some((structure, known)) = known else { return Ok(None) };
     let led = structure.applied(records).with_nominal_held(&known.grid);
@@ -75,14 +75,14 @@ pub(super) fn plan(
 fn standing_in(
     workers: &impl Workers,
     (rig, records): (&Rig, &Campaign),
-    most: usize,
+    settings: &Settings,
 ) -> Option<(Structure, Fit)> {
     let predictions: Vec<Vec<f64>> = predicted(rig, records).into_iter().collect::<Option<_>>()?;
     let mut simulated = records.clone();
     for (track, predicted) in simulated.tracks.iter_mut().zip(&predictions) {
         track.y = predicted.clone().into();
     }
-    let chosen = best_simulator(workers, &simulated, most)?;
+    let chosen = best_simulator(workers, &simulated, settings)?;
     let (mut differs, mut missed) = (Vec::new(), Vec::new());
     for (number, (track, sim)) in records.tracks.iter().zip(&chosen.campaign.tracks).enumerate() {
         let run = free_run(&chosen.campaign, &chosen.fit, number, sim);

@@ -190,7 +190,7 @@ pub(super) mod tests {
             records,
         };
         let campaign = Campaign::new(&rig).expect("a usable rig");
-        match structure(&Serial, campaign, Some(1), 1).expect("a model") {
+        match structure(&Serial, campaign, Some(1), &Settings::default()).expect("a model") {
             Choice::One(chosen) => Plan::new(&rig, &Model::Identify, &Settings::default(), chosen),
             Choice::Either(..) => panic!("the order is declared"),
         }

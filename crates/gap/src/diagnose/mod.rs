@@ -64,7 +64,7 @@ pub fn diagnose_with(
     let records = Campaign::new(rig)?;
     let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
-    let chosen = structure(workers, records.clone(), declared, settings.max_order)?;
+    let chosen = structure(workers, records.clone(), declared, settings)?;
     let held =
         changed::plan(workers, (rig, &model), &records, settings)?.map(|plan| Way::gone(workers, plan));
     // Where parameters are all that has changed nothing is missing.

@@ -1,17 +1,20 @@
 //! Models that leave run as they did inside.
 
+use std::sync::Arc;
+
 use switchback_estimator::Record;
 use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+use switchback_step::Machine;
 
-use super::{Exporter, PortableModel};
+use super::{Exporter, LooksAhead, PortableModel};
 use crate::attribution::explain::Explanation;
 use crate::likelihood::engine::{Fit, Ground, fit};
 use crate::model::assembly::*;
 use crate::model::borders::Grid;
 use crate::model::forwards::Forwards;
 use crate::model::sensor::{Bumps, Knee, SensorCurve};
-use crate::records::campaign::Campaign;
-use crate::records::motion::Play;
+use crate::records::campaign::{Campaign, Criterion};
+use crate::records::motion::{Begins, Play};
 use crate::simulation::simulate::free_run;
 use crate::testing::{small_model, white};
 
@@ -178,6 +181,52 @@ fn what_leaves_runs_as_the_diagnosis_does_to_the_last_bit() {
             }
         }
     }
+}
+
+/// The largest difference of a run sample by sample from the free run from rest, in standard deviations of the output.
+fn largest_difference(model: &PortableModel, v: &[f64], scale: f64) -> f64 {
+    let program = model.causal().expect("a causal model").program();
+    let mut machine = Machine::new(Arc::new(program)).expect("a whole program");
+    machine.start(v[0], 0.0);
+    let run = model.simulate(v, None).y;
+    let differences = v.iter().zip(&run).map(|(v, y)| (machine.step(*v) - y).abs() / scale);
+    differences.fold(0.0, f64::max)
+}
+
+#[test]
+fn sample_by_sample_it_runs_as_from_rest() {
+    let rig = rig(&mut white());
+    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let exporter = Exporter::new(&rig);
+    let simulated = campaign.judged_by(Criterion::Simulation { share: 0.2 });
+    for led in [campaign.clone(), campaign.led_by(1), campaign.led_by(-2), simulated] {
+        for assembly in assemblies() {
+            let model = exporter.given(&led, &fitted(&led, &grid(), &assembly));
+            for v in [input(150, 0.4), input(150, 3.6), [vec![4.0; 9], input(80, 1.1)].concat()] {
+                let difference = largest_difference(&model, &v, led.y_scale);
+                assert!(difference < 1e-12, "{difference}: {assembly:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_looks_ahead_is_refused_sample_by_sample() {
+    let rig = rig(&mut white());
+    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let exporter = Exporter::new(&rig);
+    let causal = |campaign: &Campaign, assembly: &Assembly| {
+        exporter.given(campaign, &fitted(campaign, &grid(), assembly)).causal()
+    };
+    let none = Assembly::default();
+    assert_eq!(causal(&campaign.led_by(3), &none), Err(LooksAhead::Input(2)));
+    // A delay makes up for it.
+    assert!(causal(&campaign.led_by(3), &Assembly { delay: 2.5, ..none.clone() }).is_ok());
+    let mut thresholded = campaign.with_branches_from(Begins::AtExtreme);
+    assert!(causal(&thresholded, &none).is_ok());
+    thresholded.rule.threshold = 0.05;
+    let told = causal(&thresholded, &none).expect_err("dated back");
+    assert_eq!(told, LooksAhead::Reversals(0.05 * campaign.v_width));
 }
 
 #[test]

@@ -27,7 +27,7 @@ impl From<Forwards> for [f64; 2] {
 }
 
 /// Least slope.
-const FLATTEST: f64 = 0.05;
+pub(crate) const FLATTEST: f64 = 0.05;
 /// Newton steps at most.
 const STEPS: usize = 60;
 
@@ -49,6 +49,11 @@ impl Forwards {
             }
         }
         Self { square, cube, range }
+    }
+
+    /// The coefficients of `z²` and `z³`, and the range in which it is a polynomial.
+    pub(crate) fn told(&self) -> ([f64; 2], [f64; 2]) {
+        ([self.square, self.cube], self.range)
     }
 
     /// The reading of `z`, and its slope.

@@ -38,7 +38,7 @@ pub(crate) struct Knee {
 }
 
 /// Excess over the width beyond which a knee goes on straight.
-const STEEPEST: f64 = 5.0;
+pub(crate) const STEEPEST: f64 = 5.0;
 /// Slope of an inverse at least where noise is shown: flatter ones are a limit of the range.
 const FLATTEST: f64 = 0.05;
 

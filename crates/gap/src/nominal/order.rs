@@ -14,7 +14,7 @@ use crate::records::campaign::{Campaign, Criterion, Track};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
 use crate::residuals::spectrum::{independent_share, mean_square, unpredictable_variance};
-use crate::settings::Model;
+use crate::settings::{Model, Settings};
 use crate::simulation::noise_response::NoiseResponse;
 use crate::simulation::simulate::free_run;
 use crate::workers::Workers;
@@ -62,6 +62,8 @@ pub(crate) struct Simulator {
 
 /// Largest lead tried, samples.
 const LEADS: isize = 2;
+/// The lead at which an output follows the input within its sample, the largest in real time.
+const PRESENT: isize = 1;
 /// Orders above one chosen, and samples of delay beyond its own, at which a structure is asked whether it does what an effect does: a
 /// mode is two orders more.
 const HIGHER: usize = 2;
@@ -148,7 +150,7 @@ pub(crate) fn structure(
     workers: &impl Workers,
     campaign: Campaign,
     declared: Option<usize>,
-    most: usize,
+    settings: &Settings,
 ) -> Result<Choice, DiagnoseError> {
     match declared {
         Some(n) => {
@@ -157,17 +159,17 @@ pub(crate) fn structure(
             let structure = Structure::of_order(n);
             Ok(Choice::One(Chosen { campaign, fit, structure, told: None }))
         }
-        None => choose(workers, &campaign, most),
+        None => choose(workers, &campaign, settings),
     }
 }
 
-/// Chooses among orders `1…most` and leads of up to [`LEADS`] samples by the simulation error on the fit records.
+/// Chooses among orders up to the highest of the settings and leads of up to [`LEADS`] samples by the simulation error on the fit records.
 ///
 /// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
 /// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
 /// says.
-fn choose(workers: &impl Workers, campaign: &Campaign, most: usize) -> Result<Choice, DiagnoseError> {
-    let attempts = workers.map(&structures(campaign, most), |s| attempt(campaign, *s));
+fn choose(workers: &impl Workers, campaign: &Campaign, settings: &Settings) -> Result<Choice, DiagnoseError> {
+    let attempts = workers.map(&structures(campaign, settings), |s| attempt(campaign, *s));
     let mut tried = Vec::new();
     let mut failure = None;
     for attempt in attempts {
@@ -197,8 +199,12 @@ fn choose(workers: &impl Workers, campaign: &Campaign, most: usize) -> Result<Ch
 
 /// The nominal model that simulates the fit records best, of all structures: what behaves as another simulator does, whose predictions the
 /// records hold.
-pub(crate) fn best_simulator(workers: &impl Workers, campaign: &Campaign, most: usize) -> Option<Chosen> {
-    match choose(workers, campaign, most).ok()? {
+pub(crate) fn best_simulator(
+    workers: &impl Workers,
+    campaign: &Campaign,
+    settings: &Settings,
+) -> Option<Chosen> {
+    match choose(workers, campaign, settings).ok()? {
         Choice::One(chosen) => Some(chosen),
         Choice::Either(steps, simulator) => {
             let error = if settles(&steps.fit.linear.a) {
@@ -284,15 +290,16 @@ fn unstable() -> DiagnoseError {
 }
 
 /// Every structure, simpler ones first.
-fn structures(campaign: &Campaign, most: usize) -> Vec<Structure> {
-    // Without a threshold a reversal is confirmed by the first move.
-    let begins: &[Begins] = match campaign.rule.threshold > 0.0 {
+fn structures(campaign: &Campaign, settings: &Settings) -> Vec<Structure> {
+    // Without a threshold a reversal is confirmed by the first move; in real time it is known no sooner.
+    let begins: &[Begins] = match campaign.rule.threshold > 0.0 && !settings.causal {
         true => &[Begins::Confirmed, Begins::AtExtreme],
         false => &[Begins::Confirmed],
     };
     let mut all = Vec::new();
-    for lead in 0..=LEADS {
-        for order in 1..=most.max(1) {
+    let leads = if settings.causal { PRESENT } else { LEADS };
+    for lead in 0..=leads {
+        for order in 1..=settings.max_order.max(1) {
             all.extend(begins.iter().map(|&begins| Structure { order, lead, begins }));
         }
     }
@@ -358,6 +365,16 @@ mod tests {
         assembly.noise.mixture = is_hit.then_some((0.05, 50.0));
         let ground = Ground { campaign: &campaign, grid: &grid, known: None };
         white_share(&fit(ground, &|_| assembly.clone(), &[], &truth, 20).expect("a fit"))
+    }
+
+    #[test]
+    fn in_real_time_no_structure_looks_ahead() {
+        let (mut campaign, _) = small_campaign();
+        campaign.rule.threshold = 0.01;
+        let of = |causal| structures(&campaign, &Settings { causal, ..Settings::default() });
+        let looks_ahead = |s: &Structure| s.lead > 1 || s.begins == Begins::AtExtreme;
+        assert!(of(false).iter().any(looks_ahead));
+        assert!(!of(true).is_empty() && !of(true).iter().any(looks_ahead));
     }
 
     #[test]

@@ -126,7 +126,7 @@ pub(crate) fn warm_up(order: usize) -> usize {
 pub(crate) const HIGHEST_ORDER: usize = 20;
 
 /// Positions of the input closer than this are the same, in strokes; and readings, in standard deviations.
-const RESOLUTION: f64 = 1e-10;
+pub(crate) const RESOLUTION: f64 = 1e-10;
 
 impl Campaign {
     /// Scales the records of a rig.

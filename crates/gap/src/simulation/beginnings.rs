@@ -144,6 +144,11 @@ impl Level {
         })
     }
 
+    /// The level that is to be expected where nothing of a record is known.
+    pub(crate) fn expected(self) -> f64 {
+        self.mean
+    }
+
     /// The best linear prediction of a record's level from `n` equation errors about the mean level, whose variance is given: what they
     /// average is the first value and noise.
     fn given(self, errors: &[f64], variance: f64) -> f64 {

@@ -13,7 +13,7 @@ use crate::records::campaign::{Campaign, Track};
 use crate::simulation::beginnings::{Level, set_by_first_samples, set_level, with_beginnings, with_level};
 
 /// Outputs beyond this many standard deviations are those of an unstable model; the bound keeps its error finite.
-const LIMIT: f64 = 1e6;
+pub(crate) const LIMIT: f64 = 1e6;
 
 /// The output that the model predicts from the input alone; the samples before the first counted one are the measured ones
 /// and set the initial state. Dimensionless units.

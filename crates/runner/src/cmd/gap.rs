@@ -2,16 +2,19 @@
 
 use super::data_args::DataArgs;
 use super::power::{self, Asked, DataPlace, PowerArgs};
-use crate::diagnosis::{self, Report, Subject};
+use crate::diagnosis::{self, Checked, Expectation, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
+use crate::fmu::{self, FmuError, Map, Simulator};
 use crate::model;
 use crate::options::{Force, Quiet, Threads, prior};
-use crate::output::Artefacts;
+use crate::output::{Artefacts, note};
 use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
+use std::time::Duration;
+use switchback_estimator::rig::Rig;
 use switchback_gap::fitted::Shares;
 use switchback_gap::{Effect, Settings};
 
@@ -26,6 +29,24 @@ pub struct Args {
     #[arg(long, value_name = "MODEL.json")]
     model: Option<PathBuf>,
 
+    /// Diagnose a simulator: run this co-simulation FMU (FMI 2.0) over the records, and take its outputs for y_sim.
+    #[arg(long, value_name = "MODEL.fmu", conflicts_with_all = ["model", "power"])]
+    fmu: Option<PathBuf>,
+
+    /// Which variables of the FMU are the input and the output, e.g. v=position,y=force; delay=1 where its output is a sample late
+    /// [default: the only ones, or v and y]
+    #[arg(long, value_name = "VARIABLES", value_parser = fmu::map, requires = "fmu")]
+    map: Option<Map>,
+
+    /// Seconds without a sign of life after which the FMU is ended.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = patience, requires = "fmu", hide_default_value = true)]
+    patience: Duration,
+
+    /// What must come out, e.g. "gap < 2 %" or "cause none", in the words of the keys of --json; may be given more than once. Exit code 1
+    /// where it does not, after everything is written.
+    #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
+    expect: Vec<Expectation>,
+
     /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     without: Vec<Effect>,
@@ -34,6 +55,11 @@ pub struct Args {
     /// than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     ask: Vec<Effect>,
+
+    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
+    /// confirmed.
+    #[arg(long)]
+    causal: bool,
 
     /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
     /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
@@ -90,7 +116,9 @@ pub fn run(args: &Args) -> CommandResult {
         return run_power(args, &loaded);
     }
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
-    let subject = Subject::choose(loaded.rig, args.model.as_deref())?.noting(loaded.told.warnings);
+    let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.told.warnings);
+    notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
+    let subject = Subject::choose(rig, args.model.as_deref())?.noting(notes);
     let watch = Watch::new(args.quiet);
     let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings(args), &watch))?;
     watch.finish();
@@ -103,7 +131,32 @@ pub fn run(args: &Args) -> CommandResult {
         diagnosis::words(&report, args.out.as_deref()) + &why
     };
     args.quiet.tell_or(args.json, || diagnosis::json(&report), words)?;
-    Ok(Outcome::Done)
+    Ok(met(args, &report))
+}
+
+/// The rig with the predictions of the FMU, if one was given.
+fn simulated(args: &Args, rig: Rig) -> Result<Rig, FmuError> {
+    let Some(fmu) = &args.fmu else { return Ok(rig) };
+    let map = args.map.clone().unwrap_or_default();
+    fmu::predictions(rig, &Simulator { fmu, map, patience: args.patience })
+}
+
+/// Tells which expectations hold.
+fn met(args: &Args, report: &Report) -> Outcome {
+    let checked: Vec<Checked> = args.expect.iter().map(|expected| expected.check(report)).collect();
+    for one in &checked {
+        // What is broken is told even where nothing else is.
+        if !one.holds || !args.quiet.quiet {
+            note(&format!("{}\n", one.says));
+        }
+    }
+    if checked.iter().all(|one| one.holds) { Outcome::Done } else { Outcome::Unmet }
+}
+
+/// A positive number of seconds.
+fn patience(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0 && *seconds <= 1e6);
+    seconds.map(Duration::from_secs_f64).ok_or_else(|| "give a positive number of seconds".to_owned())
 }
 
 fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
@@ -119,7 +172,11 @@ fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
 }
 
 fn settings(args: &Args) -> Settings {
-    Settings { prior: args.prior, ..Settings::default().without(&args.without).asking(&args.ask) }
+    Settings {
+        prior: args.prior,
+        causal: args.causal,
+        ..Settings::default().without(&args.without).asking(&args.ask)
+    }
 }
 
 fn effect() -> impl TypedValueParser<Value = Effect> {

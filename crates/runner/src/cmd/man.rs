@@ -34,7 +34,7 @@ pub fn run(args: &Args) -> CommandResult {
     };
     let folder = args.force.claim(out, &["switchback*.1"])?;
     let mut pages = Artefacts::default();
-    let verbs: Vec<Command> = program.get_subcommands().cloned().collect();
+    let verbs: Vec<Command> = program.get_subcommands().filter(|verb| !verb.is_hide_set()).cloned().collect();
     for command in verbs.into_iter().chain([program]) {
         let (name, text) = page(command)?;
         pages.add(name, text);

@@ -7,6 +7,8 @@ pub mod consistency;
 pub mod data_args;
 pub mod design;
 pub mod examination;
+pub mod export;
+pub mod fmu_host;
 pub mod gap;
 pub mod identify;
 pub mod init;

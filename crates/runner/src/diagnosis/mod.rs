@@ -4,6 +4,7 @@
 
 mod error;
 mod examine;
+mod expectation;
 mod experiment;
 mod given;
 mod json;
@@ -20,6 +21,7 @@ mod words;
 pub use crate::model::ModelError;
 pub use error::DiagnosisError;
 pub use examine::{Report, examine, examine_watched};
+pub use expectation::{Checked, Expectation};
 pub use experiment::{NEXT_EXPERIMENT, next_experiment};
 pub use given::GivenModel;
 pub use json::json;

@@ -18,6 +18,7 @@ mod yardstick;
 
 pub use crate::scenario::Method;
 pub use causal::CausalAlternative;
+pub(crate) use causal::obstacles;
 pub use dispatch::{identify, identify_watched};
 pub use error::IdentificationError;
 pub use examine::{Examination, examined, examined_watched};

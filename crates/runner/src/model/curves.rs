@@ -18,7 +18,7 @@ use switchback_gap::NominalModel;
 /// | `order`, `delay` | of the linear part; a negative delay looks ahead |
 /// | `descending`, `ascending` | knots of the curves; only the first for a `curve` or a `line` |
 /// | `a`, `b`, `f`, `c` | coefficients; `f` are the knot values without the first, which is 0 |
-/// | `rule` | what counts as a reversal: `threshold` and `band` in input units, `between_samples` |
+/// | `rule` | what counts as a reversal: `threshold` and `band` in input units, and where it takes effect: `between_samples`, or `at_confirmation` (absent for no) in real time |
 /// | `noise_sd` | standard deviation of the error of the free run on the fit records |
 /// | `covariance` | of `a`, `b`, `f`, `c`: rows of the lower triangle; null where it is unknown |
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,6 +43,8 @@ struct Rule {
     threshold: f64,
     band: f64,
     between_samples: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    at_confirmation: bool,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -174,7 +176,12 @@ impl TryFrom<Wire> for Curves {
             }
             (Map::Line, None, _) => return Err("a `line` has two knots".to_owned()),
         };
-        let timing = if wire.rule.between_samples { Timing::BetweenSamples } else { Timing::AtSamples };
+        let timing = match (wire.rule.between_samples, wire.rule.at_confirmation) {
+            (false, false) => Timing::AtSamples,
+            (true, false) => Timing::BetweenSamples,
+            (false, true) => Timing::AtConfirmation,
+            (true, true) => return Err("a `rule` is `between_samples` or `at_confirmation`".to_owned()),
+        };
         let rule = ReversalRule { threshold: wire.rule.threshold, band: wire.rule.band, timing };
         let structure = Structure { order: wire.order, delay: wire.delay };
         let coefficients = Coefficients { a: wire.a, b: wire.b, f: wire.f, c: wire.c };
@@ -217,6 +224,7 @@ impl From<Curves> for Wire {
                 threshold: rule.threshold,
                 band: rule.band,
                 between_samples: rule.timing == Timing::BetweenSamples,
+                at_confirmation: rule.timing == Timing::AtConfirmation,
             },
             noise_sd,
             covariance,

@@ -17,6 +17,7 @@
 //! | `model` | what runs, by `kind`: [`PortableModel`] (`switched`), [`Curves`] (`curves`), [`Points`] (`points`) |
 //! | `version` | version of the program that wrote it |
 
+mod causal;
 mod curves;
 mod described;
 mod domain;
@@ -28,9 +29,10 @@ mod run;
 mod series;
 mod units;
 
+pub use causal::NotCausal;
 pub use curves::{Curves, plain};
 pub use domain::Domain;
-pub use file::{Header, ModelFile, SCHEMA, System};
+pub use file::{Added, Header, ModelFile, SCHEMA, System};
 pub use make::{diagnosed, identified};
 pub use points::Points;
 pub use read::{ModelError, read};
@@ -38,3 +40,4 @@ pub use run::Run;
 pub use series::{diagnosed_series, identified_series};
 pub use switchback_gap::PortableModel;
 pub use units::UnitError;
+pub(crate) use units::same_unit;

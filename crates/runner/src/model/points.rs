@@ -99,7 +99,7 @@ impl Points {
         self.0.estimate()
     }
 
-    fn interval(&self) -> Interval {
+    pub(super) fn interval(&self) -> Interval {
         let [low, high] = self.0.interval;
         Interval::new(low, high).expect("checked when the model was made")
     }

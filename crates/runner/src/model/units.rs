@@ -36,7 +36,7 @@ impl Header {
     ) -> Result<(), UnitError> {
         for (own, label) in [&self.input, &self.output].into_iter().zip(labels) {
             let (model, data) = (unit(own), unit(label));
-            if !model.is_empty() && !data.is_empty() && plain(model) != plain(data) {
+            if !model.is_empty() && !data.is_empty() && !same_unit(model, data) {
                 let name = own.split_once('[').map_or(own.as_str(), |(name, _)| name.trim());
                 let file = file.display();
                 return Err(UnitError {
@@ -51,6 +51,11 @@ impl Header {
         }
         Ok(())
     }
+}
+
+/// Whether two units are the same, however their letters are typed.
+pub(crate) fn same_unit(one: &str, other: &str) -> bool {
+    plain(one) == plain(other)
 }
 
 /// A unit however its letters are typed: `µm` and `um`, `N·m` and `Nm`.

@@ -80,7 +80,8 @@ impl Rows {
 /// The value of a clock at a sample.
 pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, path: f64) -> f64 {
     if track.standing {
-        return at_the_end(clock, campaign);
+        let records = campaign.tracks.iter().filter(|track| !track.standing).count();
+        return at_the_end(clock, campaign.total, records);
     }
     match clock {
         Clock::Campaign => (track.clock + t) as f64 / campaign.total as f64,
@@ -91,12 +92,12 @@ pub(crate) fn clock(clock: Clock, campaign: &Campaign, track: &Track, t: usize, 
     }
 }
 
-/// The value of a clock where the campaign, or its last record, ends.
-fn at_the_end(clock: Clock, campaign: &Campaign) -> f64 {
-    let records = campaign.tracks.iter().filter(|track| !track.standing).count().max(1);
+/// The value of a clock where a campaign of so many samples and records, or its last record, ends.
+pub(crate) fn at_the_end(clock: Clock, samples: usize, records: usize) -> f64 {
+    let records = records.max(1);
     match clock {
         Clock::Campaign | Clock::Record | Clock::Travel => 1.0,
-        Clock::Samples => campaign.total as f64,
+        Clock::Samples => samples as f64,
         Clock::Pauses => (records - 1) as f64 / records as f64,
     }
 }

@@ -1,6 +1,6 @@
 //! What noise on the input does to the working point.
 
-use statrs::function::erf::erfc;
+use libm::erfc;
 
 use super::Rows;
 use crate::model::borders::{Grid, side};

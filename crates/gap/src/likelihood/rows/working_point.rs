@@ -1,12 +1,11 @@
 //! The working point as a sparse combination of border values.
 
+use switchback_step::NEGLIGIBLE;
+
 use crate::model::assembly::{Transition, TransitionLaw};
 use crate::model::borders::{Finder, Grid, side};
 use crate::records::campaign::Criterion;
 use crate::records::motion::Motion;
-
-/// Weight below which a fading border value is dropped from a row.
-const NEGLIGIBLE: f64 = 1e-5;
 
 /// Follows the working point.
 pub(super) struct WorkingPoint<'a> {
