@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::diagnosis::{Figure, Gap, RecordGap};
-use crate::records::campaign::Campaign;
+use crate::records::campaign::{Campaign, Track};
 
 /// Simulations of one record, dimensionless.
 pub(crate) struct Simulated {
@@ -42,34 +42,67 @@ pub(crate) fn measure(
     let mut per_record = Vec::new();
     for run in runs {
         let track = &campaign.tracks[run.number];
-        let from = track.from;
-        let n = (track.y.len() - from).max(1) as f64;
-        let mean = track.y[from..].iter().sum::<f64>() / n;
-        let square = |x: f64| x * x;
-        let (mut before, mut after, mut energy) = (0.0, 0.0, 0.0);
-        for start in (from..track.y.len()).step_by(BLOCK) {
-            let mut b = Block { before: 0.0, after: 0.0, energy: 0.0, count: 0.0 };
-            for t in start..(start + BLOCK).min(track.y.len()) {
-                b.before += square(track.y[t] - run.before[t]);
-                b.after += square(track.y[t] - run.after[t]);
-                b.energy += square(track.y[t] - mean);
-                b.count += 1.0;
-            }
-            before += b.before;
-            after += b.after;
-            energy += b.energy;
-            blocks.push(b);
-        }
+        let n = (track.y.len() - track.from).max(1) as f64;
+        let own = blocks_of(track, run);
+        let [before, after, energy] = [|b: &Block| b.before, |b: &Block| b.after, |b: &Block| b.energy]
+            .map(|of| own.iter().map(of).sum::<f64>());
         let energy = energy.max(1e-300);
+        blocks.extend(own);
         per_record.push(RecordGap {
             record: track.name.clone(),
             before: (before - n * noise.0) / energy,
             after: (after - n * noise.0) / energy,
             fit_before: 100.0 * (1.0 - (before / energy).sqrt()),
             fit_after: 100.0 * (1.0 - (after / energy).sqrt()),
+            closure: None,
         });
     }
-    let figures = |blocks: &mut dyn Iterator<Item = Block>, noise: f64| {
+    let [before, after, closure] = figures(&blocks, noise, draws);
+    Gap {
+        before,
+        after,
+        closure: (before.ci90[0] > 0.0).then_some(closure),
+        noise_floor: noise.0.max(0.0).sqrt() * campaign.y_scale,
+        identified_anew: None,
+        predictive_gain: 0.0,
+        per_record,
+    }
+}
+
+/// The closure of the gap on each record by itself, with its interval; none on a record where the gap's interval includes zero.
+pub(crate) fn closures(
+    campaign: &Campaign,
+    runs: &[Simulated],
+    noise: (f64, f64),
+    draws: (u64, usize),
+) -> Vec<Option<Figure>> {
+    let of = |run: &Simulated| {
+        let [before, _, closure] = figures(&blocks_of(&campaign.tracks[run.number], run), noise, draws);
+        (before.ci90[0] > 0.0).then_some(closure)
+    };
+    runs.iter().map(of).collect()
+}
+
+fn blocks_of(track: &Track, run: &Simulated) -> Vec<Block> {
+    let from = track.from;
+    let mean = track.y[from..].iter().sum::<f64>() / (track.y.len() - from).max(1) as f64;
+    let square = |x: f64| x * x;
+    let block = |start: usize| {
+        let mut b = Block { before: 0.0, after: 0.0, energy: 0.0, count: 0.0 };
+        for t in start..(start + BLOCK).min(track.y.len()) {
+            b.before += square(track.y[t] - run.before[t]);
+            b.after += square(track.y[t] - run.after[t]);
+            b.energy += square(track.y[t] - mean);
+            b.count += 1.0;
+        }
+        b
+    };
+    (from..track.y.len()).step_by(BLOCK).map(block).collect()
+}
+
+/// `G²` before, after, and the closure, with intervals from a bootstrap over the blocks.
+fn figures(blocks: &[Block], noise: (f64, f64), draws: (u64, usize)) -> [Figure; 3] {
+    let told = |blocks: &mut dyn Iterator<Item = Block>, noise: f64| {
         let sum = blocks.fold(Block { before: 0.0, after: 0.0, energy: 1e-300, count: 0.0 }, |s, b| Block {
             before: s.before + b.before,
             after: s.after + b.after,
@@ -80,7 +113,7 @@ pub(crate) fn measure(
         let after = (sum.after - sum.count * noise) / sum.energy;
         [before, after, 1.0 - after / before]
     };
-    let [before, after, closure] = figures(&mut blocks.iter().copied(), noise.0);
+    let estimates = told(&mut blocks.iter().copied(), noise.0);
     let mut rng = ChaCha8Rng::seed_from_u64(draws.0);
     let mut samples: [Vec<f64>; 3] = Default::default();
     for _ in 0..draws.1 {
@@ -88,7 +121,7 @@ pub(crate) fn measure(
             (0..blocks.len()).map(|_| blocks[rng.random_range(0..blocks.len())]).collect();
         // Twelve uniforms make a normal deviate well enough for the error of the noise floor.
         let normal: f64 = (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
-        let values = figures(&mut drawn.into_iter(), noise.0 * (1.0 + noise.1 * normal));
+        let values = told(&mut drawn.into_iter(), noise.0 * (1.0 + noise.1 * normal));
         samples.iter_mut().zip(values).for_each(|(s, v)| s.push(v));
     }
     let figure = |estimate: f64, mut draws: Vec<f64>| {
@@ -104,15 +137,7 @@ pub(crate) fn measure(
             ci90: [estimate - FITTED * (estimate - low), estimate + FITTED * (high - estimate)],
         }
     };
+    let [before, after, closure] = estimates;
     let [drawn_before, drawn_after, drawn_closure] = samples;
-    let before = figure(before, drawn_before);
-    Gap {
-        before,
-        after: figure(after, drawn_after),
-        closure: (before.ci90[0] > 0.0).then(|| figure(closure, drawn_closure)),
-        noise_floor: noise.0.max(0.0).sqrt() * campaign.y_scale,
-        identified_anew: None,
-        predictive_gain: 0.0,
-        per_record,
-    }
+    [figure(before, drawn_before), figure(after, drawn_after), figure(closure, drawn_closure)]
 }

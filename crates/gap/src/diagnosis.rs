@@ -94,6 +94,8 @@ pub struct RecordGap {
     pub fit_before: f64,
     /// The same of the augmented model.
     pub fit_after: f64,
+    /// Share of the gap on this record that the augmented model closes; absent where the gap's interval includes zero or nothing was added.
+    pub closure: Option<Figure>,
 }
 
 /// How large the gap is and how far it closes.

@@ -20,6 +20,7 @@ pub mod launch;
 pub mod model;
 pub mod options;
 pub mod output;
+pub mod pages;
 pub mod parts;
 pub mod platform;
 pub mod plots;

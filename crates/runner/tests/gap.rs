@@ -161,6 +161,7 @@ fn the_report_folder_holds_the_object_and_the_figures() {
         "augmented.json",
         "candidates.svg",
         "gap.json",
+        "index.html",
         "nominal.json",
         "outputs_again.svg",
         "residuals.svg",

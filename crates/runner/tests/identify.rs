@@ -108,6 +108,7 @@ fn the_output_folder_holds_the_estimate_and_the_figures() {
             ".switchback.sha256",
             "borders.svg",
             "estimate.json",
+            "index.html",
             "measured_and_simulated_again.svg",
             "measured_and_simulated_ascendant.svg",
             "measured_and_simulated_descendant.svg",

@@ -5,7 +5,7 @@ mod common;
 #[path = "common/faults.rs"]
 mod faults;
 
-use common::{Folder, STUDY};
+use common::{BLIND, Folder, STUDY};
 use faults::{files, run};
 use std::fs;
 use std::process::Command;
@@ -38,6 +38,108 @@ fn a_script_for_slurm_is_printed_for_a_person_to_read() {
     refused(&["launch", "study.toml"], "--slurm");
     refused(&["launch", "none.toml", "--slurm"], "none.toml");
     refused(&["launch", "study.toml", "--slurm", "--tasks", "0"], "0");
+}
+
+#[test]
+fn a_script_for_hyperqueue_is_printed_for_a_person_to_read() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", STUDY);
+    let arguments = ["launch", "study.toml", "--hq", "--tasks", "7", "--time", "0:20", "--cpus", "2"];
+    let output = folder.switchback(&arguments).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let script = String::from_utf8(output.stdout).expect("UTF-8");
+    let first = "# study in 7 parts. Written by `switchback launch study.toml --hq --tasks 7 --cpus 2 --time 0:20`; change it as you \
+                 like, and run it where `hq` is.";
+    for line in ["#!/bin/bash", first, "parts=7", "options=('--cpus=2')", "threads=2", "seconds=20"] {
+        assert!(script.lines().any(|found| found == line), "`{line}` is missing in: {script}");
+    }
+    folder.write("launch.sh", &script);
+    let missing = |expected: &str| {
+        let told =
+            Command::new("bash").arg(folder.path("launch.sh")).args(["missing", "1"]).output().expect("bash");
+        assert_eq!(
+            String::from_utf8_lossy(&told.stdout),
+            expected,
+            "{}",
+            String::from_utf8_lossy(&told.stderr)
+        );
+    };
+    missing("1-7\n");
+    for number in [1, 4, 6, 7] {
+        let part = folder.path(&format!("reports/study-parts/round-1/part-{number}"));
+        fs::create_dir_all(&part).expect("a folder");
+        fs::write(part.join("part.json"), "").expect("a file");
+    }
+    missing("2-3,5\n");
+}
+
+#[test]
+fn a_calibration_is_launched_as_a_field_examination_is() {
+    let folder = Folder::with_good_rig();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/calibrate-field.toml");
+    for engine in ["--slurm", "--hq"] {
+        let output =
+            folder.switchback(&["launch", scenario, engine, "--calibrate"]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let script = String::from_utf8(output.stdout).expect("UTF-8");
+        for line in ["calibrate=yes", "name=calibrate-field"] {
+            assert!(script.lines().any(|found| found == line), "`{line}` is missing in: {script}");
+        }
+        assert!(script.contains("--calibrate`"), "its first line tells how to make it again");
+    }
+}
+
+#[test]
+fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", STUDY);
+    folder.write("wrong.toml", &STUDY.replace("replicates = 40", "replicates = -1"));
+    for (arguments, words) in [
+        (vec!["study.toml", "--hq", "--slurm"], "--slurm"),
+        (vec!["study.toml", "--hq", "--partition", "long"], "--partition"),
+        (vec!["study.toml", "--slurm", "--time", "2"], "3 minutes at least"),
+        (vec!["study.toml", "--slurm", "--time", "an hour"], "hours:minutes:seconds"),
+        (vec!["study.toml", "--hq", "--calibrate"], "no field examination"),
+        (vec!["study.toml", "--hq", "--cpus", "0"], "from 1"),
+        (vec!["study.toml", "--plan", "--submit"], "--submit"),
+        (vec!["study.toml", "--hq", "--within", "1:00:00"], "--within"),
+        (vec!["wrong.toml", "--slurm", "--submit"], "replicates"),
+        (vec!["rig.toml", "--slurm", "--submit"], "a rig"),
+        (vec!["descendant.csv", "--hq", "--submit"], "data"),
+    ] {
+        let (code, told) = run(&folder, &[&["launch"], &arguments[..]].concat(), "");
+        assert_eq!(code, Some(2), "{arguments:?}: {told}");
+        assert!(
+            told.contains(words) && told.matches("error: ").count() == 1,
+            "`{words}` is missing in: {told}"
+        );
+    }
+    assert!(!folder.path("reports").exists());
+}
+
+#[test]
+fn a_plan_tells_how_many_tasks_to_ask_for() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", &STUDY.replace("replicates = 40", "replicates = 100_000"));
+    folder.write("blind.toml", BLIND);
+    let told = |arguments: &[&str]| {
+        let output = folder.switchback(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let words = told(&["launch", "study.toml", "--plan", "--within", "1:00:00"]);
+    for expected in ["study: 782 batches", "noise sample", "\n24  ", "Within 60.0 min: 1 task or more"] {
+        assert!(words.contains(expected), "`{expected}` is missing in: {words}");
+    }
+    let plan: serde_json::Value =
+        serde_json::from_str(&told(&["launch", "blind.toml", "--plan", "--json", "--tasks", "2"]))
+            .expect("JSON");
+    assert_eq!((&plan["schema"], &plan["costs"]["piece"]), (&"switchback/plan/1".into(), &"rig".into()));
+    let of_two =
+        plan["forecasts"].as_array().and_then(|all| all.iter().find(|f| f["tasks"] == 2)).expect("two tasks");
+    let number = |name: &str| of_two[name].as_f64().expect("a number");
+    assert!(number("at_once") >= number("longest") && number("processor") > number("longest"));
+    assert_eq!(folder.listing().len(), 6, "nothing is written: {:?}", folder.listing());
 }
 
 /// Whether a Slurm answers.

@@ -2,6 +2,7 @@
 
 mod autocovariance;
 mod filter;
+mod frequency;
 mod noise_memory;
 mod polynomial;
 mod sum_variance;
@@ -9,6 +10,7 @@ mod system;
 
 pub use autocovariance::autocovariance;
 pub use filter::filter;
+pub use frequency::{frequency_response, roots};
 pub use noise_memory::NoiseMemory;
 pub use polynomial::{is_stable, relative_coprimeness, settling_samples, spectral_radius};
 pub use sum_variance::SumVariance;

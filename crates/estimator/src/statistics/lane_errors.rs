@@ -86,29 +86,35 @@ impl LaneSums {
         }
     }
 
-    /// All that is in it, as numbers: [`from_numbers`](Self::from_numbers) reads them.
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    /// Appends all that is in it, as little-endian numbers of 64 bits: [`read`](Self::read) takes them.
+    pub fn write(&self, bytes: &mut Vec<u8>) {
         let lanes = [&self.count, &self.controlled].into_iter().chain(self.terms.iter().flatten());
-        lanes.flat_map(|lane| lane.0)
+        bytes.reserve(LANE_BYTES * (2 + TERMS * self.terms.len()));
+        for lane in lanes {
+            let mut written = [0; LANE_BYTES];
+            written.chunks_exact_mut(8).zip(lane.0).for_each(|(to, x)| to.copy_from_slice(&x.to_le_bytes()));
+            bytes.extend_from_slice(&written);
+        }
     }
 
-    /// What [`numbers`](Self::numbers) gave, of so many parameters; `None` where there are too few.
-    pub fn from_numbers(parameters: usize, numbers: &mut impl Iterator<Item = f64>) -> Option<Self> {
-        let mut lane = || {
-            let mut lane = Lane::ZERO;
-            for number in &mut lane.0 {
-                *number = numbers.next()?;
-            }
-            Some(lane)
-        };
-        let (count, controlled) = (lane()?, lane()?);
+    /// Takes what [`write`](Self::write) appended, of so many parameters, from the beginning of `bytes`; `None` where there is too little.
+    pub fn read(parameters: usize, bytes: &mut &[u8]) -> Option<Self> {
+        let length = TERMS.checked_mul(parameters)?.checked_add(2)?.checked_mul(LANE_BYTES)?;
+        let (own, rest) = bytes.split_at_checked(length)?;
+        *bytes = rest;
+        let mut lanes = own.chunks_exact(LANE_BYTES).map(|lane| {
+            let number = |l: usize| lane[8 * l..8 * (l + 1)].try_into().expect("eight bytes");
+            Lane(std::array::from_fn(|l| f64::from_le_bytes(number(l))))
+        });
+        let (count, controlled) = (lanes.next()?, lanes.next()?);
         let mut terms = vec![[Lane::ZERO; TERMS]; parameters];
-        for term in terms.iter_mut().flatten() {
-            *term = lane()?;
-        }
+        terms.iter_mut().flatten().zip(lanes).for_each(|(term, lane)| *term = lane);
         Some(Self { count, controlled, terms })
     }
 }
+
+/// Bytes of a lane, written.
+const LANE_BYTES: usize = 8 * LANES;
 
 /// [`LaneSums::add`] on its way.
 struct Add<'a> {
@@ -234,10 +240,13 @@ mod tests {
             together.add_all(&truth, &errors);
             errors.iter().for_each(|errors| apart.add(&truth, *errors, &[true; LANES]));
             prop_assert_eq!(&together, &apart);
-            let written: Vec<f64> = together.numbers().collect();
-            let read = LaneSums::from_numbers(2, &mut written.iter().copied());
-            prop_assert_eq!(read.as_ref(), Some(&together));
-            prop_assert!(LaneSums::from_numbers(2, &mut written[1..].iter().copied()).is_none());
+            let mut written = Vec::new();
+            together.write(&mut written);
+            prop_assert!(LaneSums::read(2, &mut &written[1..]).is_none());
+            written.push(7);
+            let mut rest = written.as_slice();
+            prop_assert_eq!(LaneSums::read(2, &mut rest).as_ref(), Some(&together));
+            prop_assert_eq!(rest, [7]);
             let mut moved = LaneSums::new(2);
             (0..LANES).for_each(|l| moved.set_lane(l, &together.lane(l)));
             prop_assert_eq!(&moved, &together);

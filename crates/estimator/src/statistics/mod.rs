@@ -1,6 +1,7 @@
 //! Performance measures of estimators, each with its Monte-Carlo standard error, and what residuals say of a model.
 
 mod block_bootstrap;
+mod correlation;
 mod error_sums;
 mod interval_counts;
 mod jackknife;
@@ -10,6 +11,7 @@ mod propagation;
 mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
+pub use correlation::correlation;
 pub use error_sums::{ErrorSums, Performance, ReplicateError};
 pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
 pub use jackknife::jackknife_se;

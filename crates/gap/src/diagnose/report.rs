@@ -6,7 +6,7 @@ use super::parameters::parameters;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
-use crate::closure::{Simulated, measure};
+use crate::closure::{Simulated, closures, measure};
 use crate::diagnosis::{
     Candidate, Cell, Diagnosis, Figure, FittedParameter, HoldoutSeries, Models, Refit, Status, Together,
     Verdict,
@@ -61,6 +61,8 @@ impl Plan {
         }
         let mut limitations = self.limitations.clone();
         let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        let each = closures(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        gap.per_record.iter_mut().zip(each).for_each(|(record, closure)| record.closure = closure);
         gap.identified_anew = self.identified_anew(floor);
         if self.given.is_some() && gap.before.ci90[0] > 1.0 {
             limitations.push(
@@ -84,7 +86,10 @@ impl Plan {
         }
         let mut verdict = c.verdict;
         match verdict.status {
-            Status::None => gap.closure = None,
+            Status::None => {
+                gap.closure = None;
+                gap.per_record.iter_mut().for_each(|record| record.closure = None);
+            }
             Status::Refit => {
                 let structure = c.other.as_ref().map_or(self.structure, |other| other.structure);
                 let told = |closure| Refit { order: structure.order, delay: -structure.lead, closure };

@@ -69,6 +69,15 @@ impl PortableModel {
         self.run(v, Some(y), Some(number), false).y
     }
 
+    /// The same run with its band.
+    ///
+    /// # Panics
+    /// As [`outputs`](Self::outputs).
+    pub fn banded(&self, number: usize, v: &[f64], y: &[f64]) -> Simulated {
+        assert!(number < self.0.clock.records.len(), "the campaign has no record {number}");
+        self.run(v, Some(y), Some(number), true)
+    }
+
     /// Whether errors of its parameters are known, so that a band holds them.
     pub fn has_covariance(&self) -> bool {
         self.0.covariance.is_some()

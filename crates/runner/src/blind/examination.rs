@@ -3,6 +3,7 @@
 use super::{Case, Examiner, Sealed, Study, Ticket, WrittenKeys};
 use super::{artefacts, design, examine, score, seal, summary};
 use crate::examination::{Done, Examination, KEY_FILE, Measure, Report};
+use crate::pages::INDEX;
 use crate::plots;
 use crate::provenance::PROVENANCE_FILE;
 use miette::Diagnostic;
@@ -29,6 +30,7 @@ impl Examination for Blind {
         KEY_FILE,
         PROVENANCE_FILE,
         "results.json",
+        INDEX,
         "summary.txt",
         "answers.csv",
         "confusion.*",

@@ -24,6 +24,7 @@ pub use design::{Kind, Ticket, design};
 pub use examination::Blind;
 pub use examine::{Examiner, examine};
 pub use place::PlaceCheck;
+pub(crate) use report::json;
 pub use report::{artefacts, summary};
 pub use scenario::{Expect, Study, is_blind, read};
 pub use score::{

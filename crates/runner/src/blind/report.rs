@@ -1,6 +1,6 @@
 //! The report's tables as CSV, and everything in one results.json.
 
-mod json;
+pub(crate) mod json;
 mod tables;
 
 use super::case::Case;

@@ -9,6 +9,7 @@ use crate::input::{read_text, stream};
 use crate::interrupt::{self, Heeding};
 use crate::options::{Force, Quiet, Shard, Threads};
 use crate::output::{OutputError, OutputFolder, note, sha256};
+use crate::pages;
 use crate::parts::PART_FILE;
 use crate::progress::Meter;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
@@ -63,7 +64,8 @@ pub fn run<E: Examination>(examination: &E, order: Order<'_>) -> CommandResult {
     let partial = |cases: &[E::Case]| {
         let partial = Partial { rigs: cases.len(), of };
         let report = threads.install(|| examination.report(&sha256(&keys), cases))??.of_part(partial);
-        order.force.claim(&partial::place(&place), E::FILES)?.commit(&report.files)?;
+        let files = pages::bound(report.files.clone())?;
+        order.force.claim(&partial::place(&place), E::FILES)?.commit(&files)?;
         tell(&report, &partial::place(&place), page)
     };
     let Some(cases) = examine(examination, sealed, (&mut journal, &partial), order)? else {
@@ -224,6 +226,7 @@ pub(super) const JUDGING_SOURCES: &str = env!("JUDGING_SOURCES");
 pub fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page) -> CommandResult {
     let out = folder.path().to_owned();
     report.files.add(KEY_FILE, keys);
+    report.files = pages::bound(report.files)?;
     folder.commit(&report.files)?;
     tell(&report, &out, page)?;
     Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })

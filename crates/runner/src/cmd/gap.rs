@@ -8,6 +8,7 @@ use crate::fmu::{self, FmuError, Map, Simulator};
 use crate::model;
 use crate::options::{Force, Quiet, Threads, prior};
 use crate::output::{Artefacts, note};
+use crate::pages::{self, INDEX, PageError};
 use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
@@ -74,8 +75,8 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures and the next
-    /// experiment into this folder.
+    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures, the next
+    /// experiment and all of it on one page, index.html, into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -93,7 +94,7 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "gap.json",
     "nominal.json",
     "augmented.json",
@@ -104,6 +105,7 @@ const FILES: [&str; 10] = [
     "residuals.svg",
     "outputs_*.svg",
     diagnosis::NEXT_EXPERIMENT,
+    INDEX,
 ];
 
 /// Reads, diagnoses, prints, and writes the folder if one was asked for.
@@ -124,7 +126,7 @@ pub fn run(args: &Args) -> CommandResult {
     watch.finish();
     let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
-        folder.commit(&artefacts(&report))?;
+        folder.commit(&artefacts(&report)?)?;
     }
     let words = || {
         let why = if args.explain { diagnosis::why(&report) } else { String::new() };
@@ -184,13 +186,13 @@ fn effect() -> impl TypedValueParser<Value = Effect> {
         .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
 }
 
-fn artefacts(report: &Report) -> Artefacts {
+fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
     for (name, file) in model::diagnosed(report) {
         artefacts.add(name, file.text());
     }
-    artefacts.add("series.csv", model::diagnosed_series(report));
+    artefacts.add("series.csv", model::diagnosed_series(report).text());
     artefacts.add("verdict.txt", diagnosis::verdict(report));
     for figure in plots::gap::figures(report) {
         artefacts.add(figure.name, figure.svg);
@@ -198,5 +200,5 @@ fn artefacts(report: &Report) -> Artefacts {
     if let Some(csv) = diagnosis::next_experiment(report) {
         artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
     }
-    artefacts
+    pages::bound(artefacts)
 }

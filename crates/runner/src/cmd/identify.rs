@@ -6,6 +6,7 @@ use crate::identification::{self, Identification, Method, Request};
 use crate::model;
 use crate::options::{Force, Quiet, Threads};
 use crate::output::Artefacts;
+use crate::pages::{self, INDEX};
 use crate::plots;
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -31,7 +32,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 
-    /// Also write estimate.json, model.json, series.csv and the plots into this folder.
+    /// Also write estimate.json, model.json, series.csv, the plots and the page index.html into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -46,8 +47,8 @@ pub struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 5] =
-    ["estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
+const FILES: [&str; 6] =
+    [INDEX, "estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
 
 /// Reads, identifies, prints, and writes the folder if one was asked for.
 ///
@@ -82,7 +83,7 @@ fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artef
     if let Some(model) = model::identified(rig, identification) {
         artefacts.add("model.json", model.text());
     }
-    artefacts.add("series.csv", model::identified_series(rig, identification));
+    artefacts.add("series.csv", model::identified_series(rig, identification).text());
     for (record, run) in rig.records.iter().zip(&identification.runs) {
         let Some(run) = run else { continue };
         let name = format!("measured_and_simulated_{}.svg", record.name);
@@ -91,5 +92,5 @@ fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artef
     if let Some(svg) = plots::identify::borders(rig, identification) {
         artefacts.add("borders.svg", svg);
     }
-    Ok(artefacts)
+    Ok(pages::bound(artefacts)?)
 }

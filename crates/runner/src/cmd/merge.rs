@@ -6,8 +6,9 @@ use crate::blind::{self, Blind};
 use crate::examination::{Examination, Part, Whole, merged};
 use crate::failure::CommandResult;
 use crate::field::{self, Field};
+use crate::kept::KEPT_FILE;
 use crate::options::{Force, Quiet, Threads};
-use crate::output::{sha256, verify};
+use crate::output::{sha256, verify_but};
 use crate::parts::scenario_of;
 use crate::provenance::{PROVENANCE_FILE, Provenance};
 use miette::Diagnostic;
@@ -24,6 +25,10 @@ pub struct Args {
     /// Write the report into this folder.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+
+    /// Where a precision is asked for and not reached yet, write what there is into this folder instead; the next round goes on from it
+    #[arg(long, value_name = "DIR")]
+    next: Option<PathBuf>,
 
     /// Print results.json instead of words.
     #[arg(long)]
@@ -49,7 +54,7 @@ pub struct OtherProgram {
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    args.folders.iter().try_for_each(|folder| verify(folder))?;
+    args.folders.iter().try_for_each(|folder| verify_but(folder, &[KEPT_FILE]))?;
     let first = scenario_of(&args.folders[0])?;
     if field::is_field(&first) {
         return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));
@@ -68,7 +73,7 @@ pub fn run(args: &Args) -> CommandResult {
         quiet: args.quiet,
         force: args.force,
     };
-    consistency::merge(&args.folders, order)
+    consistency::merge(&args.folders, args.next.as_deref(), order)
 }
 
 /// The same once the kind of examination is known; `read` makes it from its scenario.

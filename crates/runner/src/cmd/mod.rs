@@ -19,6 +19,7 @@ mod partial;
 pub mod plant;
 pub mod power;
 pub mod replay;
+pub mod report;
 pub mod rerun;
 pub mod rig;
 pub mod selftest;

@@ -125,14 +125,14 @@ fn refuse_engine_and_rounds(args: &Args, kind: &str) -> miette::Result<()> {
 #[derive(Debug, Error, Diagnostic)]
 #[error("{path}: this is {kind}, but a scenario is wanted")]
 #[diagnostic(help("{remedy}"))]
-struct OtherKind {
+pub(super) struct OtherKind {
     path: String,
     kind: &'static str,
     remedy: String,
 }
 
 /// Data, rigs and what verbs wrote are told as such, with the verb that takes them.
-fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
+pub(super) fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
     let path = file.display().to_string();
     let shown = in_shell(&path);
     let (kind, remedy) = match FileKind::of(file) {

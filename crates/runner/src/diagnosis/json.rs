@@ -1,178 +1,239 @@
 //! The diagnosis as one JSON object.
 
-use super::{Report, Units, told};
+use super::{Report, Units, sentences, told};
 use crate::output::stamped;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use switchback_gap::fitted::{self, Shares};
 use switchback_gap::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Horizon, HorizonGain, Together,
 };
 
 /// Name and version of the layout.
-const SCHEMA: &str = "switchback/gap/1";
+pub(crate) const SCHEMA: &str = "switchback/gap/1";
 
-/// The object that `gap --json` prints; figures that do not exist are null.
-#[derive(Serialize)]
-struct Page<'a> {
-    rig: &'a str,
-    model: &'static str,
-    verdict: Verdict,
-    gap: Gap<'a>,
-    r#where: Vec<Place<'a>>,
-    candidates: Vec<Explanation>,
-    together: Option<Pair>,
-    samples: usize,
-    left: f64,
-    next_experiment: Option<Next<'a>>,
-    probability_none: f64,
-    probability_unexplained: f64,
-    second_opinion: Option<SecondOpinion>,
-    limitations: &'a [String],
-    version: &'static str,
+/// The object that `gap --json` prints and gap.json holds; figures that do not exist are null.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct GapFile {
+    pub(crate) rig: String,
+    pub(crate) input: String,
+    pub(crate) output: String,
+    pub(crate) model: String,
+    pub(crate) verdict: Verdict,
+    pub(crate) in_words: Vec<String>,
+    pub(crate) gap: Gap,
+    pub(crate) r#where: Vec<Place>,
+    pub(crate) candidates: Vec<Explanation>,
+    pub(crate) together: Option<Pair>,
+    pub(crate) samples: usize,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) left: f64,
+    pub(crate) next_experiment: Option<Next>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability_none: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability_unexplained: f64,
+    pub(crate) second_opinion: Option<SecondOpinion>,
+    pub(crate) limitations: Vec<String>,
+    pub(crate) version: String,
 }
 
-#[derive(Serialize)]
-struct Verdict {
-    status: &'static str,
-    effects: Vec<&'static str>,
-    class: Vec<&'static str>,
-    stage: Option<&'static str>,
-    probability: f64,
-    calibrated: bool,
-    corrected_by: Option<&'static str>,
-    refit: Option<Refit>,
-    held_out_error_ratio: Option<f64>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Verdict {
+    pub(crate) status: String,
+    pub(crate) effects: Vec<String>,
+    pub(crate) class: Vec<String>,
+    pub(crate) stage: Option<String>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability: f64,
+    pub(crate) calibrated: bool,
+    pub(crate) corrected_by: Option<String>,
+    pub(crate) refit: Option<Refit>,
+    pub(crate) held_out_error_ratio: Option<f64>,
 }
 
-#[derive(Serialize)]
-struct SecondOpinion {
-    examples: usize,
-    prior: Prior,
-    verdict: Verdict,
-    effects: Vec<Weighed>,
-    probability_none: f64,
-    probability_unexplained: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SecondOpinion {
+    pub(crate) examples: usize,
+    pub(crate) prior: Prior,
+    pub(crate) verdict: Verdict,
+    pub(crate) effects: Vec<Weighed>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability_none: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability_unexplained: f64,
 }
 
-#[derive(Serialize)]
-struct Weighed {
-    effect: &'static str,
-    probability: f64,
-    contributions: Vec<Contribution>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Weighed {
+    pub(crate) effect: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability: f64,
+    pub(crate) contributions: Vec<Contribution>,
 }
 
-#[derive(Serialize)]
-struct Prior {
-    effect: f64,
-    none: f64,
-    unexplained: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Prior {
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) effect: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) none: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) unexplained: f64,
 }
 
-#[derive(Serialize)]
-struct Contribution {
-    feature: &'static str,
-    value: f64,
-    adds: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Contribution {
+    pub(crate) feature: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) value: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) adds: f64,
 }
 
-#[derive(Serialize)]
-struct Refit {
-    order: usize,
-    delay: isize,
-    closure: Interval,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Refit {
+    pub(crate) order: usize,
+    pub(crate) delay: isize,
+    pub(crate) closure: Interval,
 }
 
-#[derive(Serialize)]
-struct Gap<'a> {
-    before: Interval,
-    after: Interval,
-    closure: Option<Interval>,
-    noise_floor: f64,
-    identified_anew: Option<Interval>,
-    predictive_gain: f64,
-    per_record: Vec<RecordGap<'a>>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Gap {
+    pub(crate) before: Interval,
+    pub(crate) after: Interval,
+    pub(crate) closure: Option<Interval>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) noise_floor: f64,
+    pub(crate) identified_anew: Option<Interval>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) predictive_gain: f64,
+    pub(crate) per_record: Vec<RecordGap>,
 }
 
-#[derive(Serialize)]
-struct Interval {
-    estimate: f64,
-    ci90: [f64; 2],
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Interval {
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) estimate: f64,
+    #[serde(deserialize_with = "crate::input::nullable::pair")]
+    pub(crate) ci90: [f64; 2],
 }
 
-#[derive(Serialize)]
-struct RecordGap<'a> {
-    record: &'a str,
-    before: f64,
-    after: f64,
-    fit_before: f64,
-    fit_after: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RecordGap {
+    pub(crate) record: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) before: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) after: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) fit_before: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) fit_after: f64,
+    pub(crate) closure: Option<Interval>,
 }
 
-#[derive(Serialize)]
-struct Place<'a> {
-    axis: &'static str,
-    cell: &'a str,
-    low: Option<f64>,
-    high: Option<f64>,
-    unit: Option<String>,
-    share: f64,
-    exposure: f64,
-    enrichment: f64,
-    q_value: f64,
-    enrichment_q_value: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Place {
+    pub(crate) axis: String,
+    pub(crate) cell: String,
+    pub(crate) low: Option<f64>,
+    pub(crate) high: Option<f64>,
+    pub(crate) unit: Option<String>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) share: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) exposure: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) enrichment: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) q_value: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) enrichment_q_value: f64,
 }
 
-#[derive(Serialize)]
-struct Explanation {
-    effect: &'static str,
-    stage: &'static str,
-    probability: f64,
-    parameters: Vec<Parameter>,
-    bic: f64,
-    delta_bic: f64,
-    heldout_log_score: f64,
-    gains: Vec<Gain>,
-    closure: Option<f64>,
-    unstable: bool,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Explanation {
+    pub(crate) effect: String,
+    pub(crate) stage: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) probability: f64,
+    pub(crate) parameters: Vec<Parameter>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) bic: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) delta_bic: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) heldout_log_score: f64,
+    pub(crate) gains: Vec<Gain>,
+    pub(crate) closure: Option<f64>,
+    pub(crate) unstable: bool,
 }
 
-#[derive(Serialize)]
-struct Gain {
-    samples: Option<usize>,
-    share: f64,
-    certainty: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Gain {
+    pub(crate) samples: Option<usize>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) share: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) certainty: f64,
 }
 
-#[derive(Serialize)]
-struct Pair {
-    effects: Vec<&'static str>,
-    parameters: Vec<Vec<Parameter>>,
-    gain: f64,
-    left: f64,
-    left_by_single: f64,
-    shares: Vec<f64>,
-    interaction: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Pair {
+    pub(crate) effects: Vec<String>,
+    pub(crate) parameters: Vec<Vec<Parameter>>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) gain: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) left: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) left_by_single: f64,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) shares: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) interaction: f64,
 }
 
-#[derive(Serialize)]
-struct Parameter {
-    name: String,
-    value: f64,
-    ci90: [f64; 2],
-    unit: String,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Parameter {
+    pub(crate) name: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) value: f64,
+    #[serde(deserialize_with = "crate::input::nullable::pair")]
+    pub(crate) ci90: [f64; 2],
+    pub(crate) unit: String,
 }
 
-#[derive(Serialize)]
-struct Next<'a> {
-    experiment: &'static str,
-    separates: Vec<&'static str>,
-    distance: f64,
-    sample_time: f64,
-    v: &'a [f64],
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Next {
+    pub(crate) experiment: String,
+    pub(crate) separates: Vec<String>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) distance: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) sample_time: f64,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) v: Vec<f64>,
 }
 
 /// One JSON object, indented, with a newline at its end.
 ///
+/// `input` and `output` are the rig's labels with their units, `in_words` the sentences of the verdict.
 /// `gap` holds `G²`, simulation error on the hold-out records beyond the noise over the variance of `y`; `noise_floor` is in
 /// output units, `identified_anew` the `G²` of a nominal model identified from the fit records where another was given,
 /// `predictive_gain` and `heldout_log_score` in nats per hold-out sample, parameters in the rig's units,
@@ -195,10 +256,13 @@ struct Next<'a> {
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
-    let page = Page {
-        rig: &report.rig.name,
-        model: report.source.name(),
+    let page = GapFile {
+        rig: report.rig.name.clone(),
+        input: report.rig.input_label.clone(),
+        output: report.rig.output_label.clone(),
+        model: report.source.name().to_owned(),
         verdict: verdict(&diagnosis.verdict),
+        in_words: sentences::verdict(report),
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
         candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
@@ -206,26 +270,29 @@ pub fn json(report: &Report) -> String {
         samples: diagnosis.samples,
         left: diagnosis.left,
         next_experiment: diagnosis.next_experiment.as_ref().map(|next| Next {
-            experiment: next.kind.name(),
+            experiment: next.kind.name().to_owned(),
             separates: names(&next.separates),
             distance: next.distance,
             sample_time: report.rig.sample_time,
-            v: &next.v,
+            v: next.v.clone(),
         }),
         probability_none: diagnosis.probability_none,
         probability_unexplained: diagnosis.probability_unexplained,
         second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
-        limitations: &diagnosis.limitations,
-        version: env!("CARGO_PKG_VERSION"),
+        limitations: diagnosis.limitations.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
 }
 
 fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
-    let contribution =
-        |c: &fitted::Contribution| Contribution { feature: c.feature, value: c.value, adds: c.adds };
+    let contribution = |c: &fitted::Contribution| Contribution {
+        feature: c.feature.to_owned(),
+        value: c.value,
+        adds: c.adds,
+    };
     let weighed = |(effect, probability, contributions): &(Effect, f64, Vec<fitted::Contribution>)| Weighed {
-        effect: effect.name(),
+        effect: effect.name().to_owned(),
         probability: *probability,
         contributions: contributions.iter().map(contribution).collect(),
     };
@@ -242,13 +309,13 @@ fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
 
 fn verdict(verdict: &switchback_gap::Verdict) -> Verdict {
     Verdict {
-        status: verdict.status.name(),
+        status: verdict.status.name().to_owned(),
         effects: names(&verdict.effects),
         class: names(&verdict.class),
-        stage: verdict.stage.map(|stage| stage.name()),
+        stage: verdict.stage.map(|stage| stage.name().to_owned()),
         probability: verdict.probability,
         calibrated: verdict.calibrated,
-        corrected_by: verdict.corrected_by.map(|effect| effect.name()),
+        corrected_by: verdict.corrected_by.map(|effect| effect.name().to_owned()),
         refit: verdict.refit.map(|refit| Refit {
             order: refit.order,
             delay: refit.delay,
@@ -258,14 +325,15 @@ fn verdict(verdict: &switchback_gap::Verdict) -> Verdict {
     }
 }
 
-fn gap(diagnosis: &Diagnosis) -> Gap<'_> {
+fn gap(diagnosis: &Diagnosis) -> Gap {
     let gap = &diagnosis.gap;
     let per_record = gap.per_record.iter().map(|record| RecordGap {
-        record: &record.record,
+        record: record.record.clone(),
         before: record.before,
         after: record.after,
         fit_before: record.fit_before,
         fit_after: record.fit_after,
+        closure: record.closure.as_ref().map(interval),
     });
     Gap {
         before: interval(&gap.before),
@@ -282,11 +350,11 @@ fn interval(figure: &Figure) -> Interval {
     Interval { estimate: figure.estimate, ci90: figure.ci90 }
 }
 
-fn place<'a>(cell: &'a Cell, units: &Units) -> Place<'a> {
+fn place(cell: &Cell, units: &Units) -> Place {
     let end = |end: fn(&CellInterval) -> f64| cell.interval.as_ref().map(end).filter(|x| x.is_finite());
     Place {
-        axis: cell.axis,
-        cell: &cell.cell,
+        axis: cell.axis.to_owned(),
+        cell: cell.cell.clone(),
         low: end(|interval| interval.low),
         high: end(|interval| interval.high),
         unit: cell.interval.map(|interval| units.of_cell(interval.unit)),
@@ -300,8 +368,8 @@ fn place<'a>(cell: &'a Cell, units: &Units) -> Place<'a> {
 
 fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
     Explanation {
-        effect: candidate.effect.name(),
-        stage: candidate.stage.name(),
+        effect: candidate.effect.name().to_owned(),
+        stage: candidate.stage.name().to_owned(),
         probability: candidate.probability,
         parameters: parameters(&candidate.parameters, units),
         bic: candidate.bic,
@@ -343,6 +411,6 @@ fn pair(pair: &Together, units: &Units) -> Pair {
     }
 }
 
-fn names(effects: &[Effect]) -> Vec<&'static str> {
-    effects.iter().map(|effect| effect.name()).collect()
+fn names(effects: &[Effect]) -> Vec<String> {
+    effects.iter().map(|effect| effect.name().to_owned()).collect()
 }

@@ -1,5 +1,6 @@
 //! Shares with their intervals, and the lines of a summary: what must be reached, what was.
 
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// A share of counted rigs.
@@ -34,7 +35,8 @@ impl Share {
 }
 
 /// What a figure must be.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Bound {
     /// At least this.
     AtLeast(f64),

@@ -19,7 +19,7 @@ mod tables;
 
 pub use calibration::{CalibrationBin, calibration_bins, calibration_error};
 pub use journal::{Journal, JournalError, KEY_FILE, SEALED_FILE};
-pub use json::{bins_json, measure_json, share_json};
+pub use json::{BinFile, MeasureFile, ShareFile};
 pub use measure::{Bound, Line, Measure, Reached, Share, bounded, measures_table};
 pub use part::{Part, Whole, case_lines, merged, read_cases};
 pub use random::{scramble, uniform};
@@ -66,7 +66,7 @@ pub struct Report {
 }
 
 /// Not all rigs of an examination.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Partial {
     /// Rigs that were judged.
     pub rigs: usize,
@@ -91,6 +91,8 @@ impl Report {
                 Some((_, "txt" | "md")) => {
                     files.add(name, format!("{partial}\n\n{}", String::from_utf8_lossy(contents)));
                 }
+                // A page is drawn of the other files.
+                Some((_, "html")) => {}
                 _ => files.add(name, contents),
             }
         }

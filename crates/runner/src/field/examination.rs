@@ -11,6 +11,7 @@ use super::seal::{Key, PutIn, Sealed, WrittenKeys};
 use super::{report, score};
 use crate::diagnosis::met_by;
 use crate::examination::{Done, Examination, KEY_FILE, Report};
+use crate::pages::INDEX;
 use crate::provenance::PROVENANCE_FILE;
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -192,6 +193,7 @@ impl Examination for Field<'_> {
         KEY_FILE,
         PROVENANCE_FILE,
         "results.json",
+        INDEX,
         "summary.md",
         "answers.csv",
         "cases.jsonl",

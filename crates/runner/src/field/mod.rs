@@ -26,6 +26,7 @@ pub use case::{Answered, Case, Fault};
 pub(crate) use design::law;
 pub use design::{Kind, Ticket, design};
 pub use examination::{Examiner, Field};
+pub(crate) use report::json;
 pub(crate) use resample::{resampled, runs_of};
 pub use scenario::{Expect, Study, is_field, read};
 pub(crate) use score::WIDEST_CLASS;

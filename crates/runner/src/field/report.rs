@@ -1,6 +1,6 @@
 //! The report: tables, everything in one results.json, what is printed, figures.
 
-mod json;
+pub(crate) mod json;
 mod tables;
 mod words;
 

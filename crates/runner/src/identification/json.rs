@@ -2,100 +2,133 @@
 
 use super::{CausalAlternative, Flag, Identification, Yardstick};
 use crate::output::stamped;
+use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
 use switchback_estimator::estimators::{BorderDistance, BorderPoint};
 use switchback_estimator::rig::Rig;
 
 /// Name and version of the layout.
-const SCHEMA: &str = "switchback/identify/1";
+pub(crate) const SCHEMA: &str = "switchback/identify/1";
 
 /// The object that `identify --json` prints; figures that do not exist are null.
-#[derive(Serialize)]
-struct Page<'a> {
-    rig: &'a str,
-    method: &'static str,
-    order: usize,
-    delay: isize,
-    a: &'a [f64],
-    a_se: &'a [f64],
-    b: &'a [f64],
-    b_se: &'a [f64],
-    noise_sd: f64,
-    gain: f64,
-    gain_se: Option<f64>,
-    y_high: f64,
-    y_high_se: Option<f64>,
-    y_low: f64,
-    y_low_se: Option<f64>,
-    descendant: Vec<Point>,
-    ascendant: Vec<Point>,
-    fit_percent: FitByRecord<'a>,
-    excitation: f64,
-    samples: usize,
-    records: Vec<RecordFit<'a>>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EstimateFile {
+    pub(crate) rig: String,
+    pub(crate) input: String,
+    pub(crate) output: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) sample_time: f64,
+    pub(crate) method: String,
+    pub(crate) order: usize,
+    pub(crate) delay: isize,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) a: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) a_se: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) b: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) b_se: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) noise_sd: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) gain: f64,
+    pub(crate) gain_se: Option<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) y_high: f64,
+    pub(crate) y_high_se: Option<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) y_low: f64,
+    pub(crate) y_low_se: Option<f64>,
+    pub(crate) descendant: Vec<Point>,
+    pub(crate) ascendant: Vec<Point>,
+    pub(crate) fit_percent: FitByRecord,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) excitation: f64,
+    pub(crate) samples: usize,
+    pub(crate) records: Vec<RecordFit>,
     /// Whether the model could run in real time.
-    causal: bool,
+    pub(crate) causal: bool,
     /// The best model that could, where this one could not.
-    causal_alternative: Option<Causal<'a>>,
-    yardsticks: Vec<Beside>,
+    pub(crate) causal_alternative: Option<Causal>,
+    pub(crate) yardsticks: Vec<Beside>,
     /// How far the borders lie apart.
-    r#loop: Option<Loop>,
-    innovations: Option<Innovations>,
+    pub(crate) r#loop: Option<Loop>,
+    pub(crate) innovations: Option<Innovations>,
     /// The sentences of `flags`.
-    warnings: Vec<&'a str>,
-    flags: Vec<Reservation<'a>>,
-    version: &'static str,
+    pub(crate) warnings: Vec<String>,
+    pub(crate) flags: Vec<Reservation>,
+    pub(crate) version: String,
 }
 
-#[derive(Serialize)]
-struct Reservation<'a> {
-    kind: &'static str,
-    figure: Option<f64>,
-    text: &'a str,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Reservation {
+    pub(crate) kind: String,
+    pub(crate) figure: Option<f64>,
+    pub(crate) text: String,
 }
 
 /// Another model on the held-out records.
-#[derive(Serialize)]
-struct Beside {
-    method: &'static str,
-    fit_percent: f64,
-    own_fit_percent: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Beside {
+    pub(crate) method: String,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) fit_percent: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) own_fit_percent: f64,
     /// Mean excess of the own squared error, as a share of the output's variance, and its 95 % interval.
-    excess: Option<[f64; 3]>,
+    pub(crate) excess: Option<[f64; 3]>,
 }
 
-#[derive(Serialize)]
-struct Causal<'a> {
-    order: usize,
-    delay: isize,
-    a: &'a [f64],
-    b: &'a [f64],
-    held_out: Option<Beside>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Causal {
+    pub(crate) order: usize,
+    pub(crate) delay: isize,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) a: Vec<f64>,
+    #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    pub(crate) b: Vec<f64>,
+    pub(crate) held_out: Option<Beside>,
 }
 
-#[derive(Serialize)]
-struct Loop {
-    told_apart: f64,
-    clearest_v: f64,
-    difference: f64,
-    se: f64,
-    z: f64,
-    limit: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Loop {
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) told_apart: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) clearest_v: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) difference: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) se: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) z: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) limit: f64,
 }
 
-#[derive(Serialize)]
-struct Innovations {
-    foretold: f64,
-    ljung_box: f64,
-    p_value: f64,
-    lags: usize,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Innovations {
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) foretold: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) ljung_box: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) p_value: f64,
+    pub(crate) lags: usize,
 }
 
 impl From<&Yardstick> for Beside {
     fn from(yardstick: &Yardstick) -> Self {
         Self {
-            method: yardstick.method.name(),
+            method: yardstick.method.name().to_owned(),
             fit_percent: yardstick.fit_percent,
             own_fit_percent: yardstick.own_fit_percent,
             excess: yardstick.excess.map(|e| [e.mean, e.low, e.high]),
@@ -117,59 +150,90 @@ impl From<BorderDistance> for Loop {
     }
 }
 
-#[derive(Serialize)]
-struct Point {
-    v: f64,
-    f: f64,
-    se: f64,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Point {
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) v: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) f: f64,
+    #[serde(deserialize_with = "crate::input::nullable::number")]
+    pub(crate) se: f64,
 }
 
-#[derive(Serialize)]
-struct RecordFit<'a> {
-    name: &'a str,
-    r#use: &'static str,
-    samples: usize,
-    fit_percent: Option<f64>,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RecordFit {
+    pub(crate) name: String,
+    pub(crate) r#use: String,
+    pub(crate) samples: usize,
+    pub(crate) fit_percent: Option<f64>,
 }
 
 /// `{record: fit %}` in the order of the rig.
-struct FitByRecord<'a>(&'a [RecordFit<'a>]);
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FitByRecord(Vec<(String, Option<f64>)>);
 
-impl Serialize for FitByRecord<'_> {
+impl Serialize for FitByRecord {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for record in self.0 {
-            map.serialize_entry(record.name, &record.fit_percent)?;
+        for (record, fit) in &self.0 {
+            map.serialize_entry(record, fit)?;
         }
         map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for FitByRecord {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = FitByRecord;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FitByRecord, A::Error> {
+                let mut fits = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    fits.push(entry);
+                }
+                Ok(FitByRecord(fits))
+            }
+        }
+        deserializer.deserialize_map(Entries)
     }
 }
 
 /// One JSON object, indented, with a newline at its end.
 pub fn json(rig: &Rig, identification: &Identification) -> String {
     let Identification { estimate, level_errors, examination, .. } = identification;
-    let records = || -> Vec<RecordFit<'_>> {
+    let records: Vec<RecordFit> = {
         rig.records
             .iter()
             .zip(&identification.runs)
             .map(|(record, run)| RecordFit {
-                name: &record.name,
-                r#use: record.usage.name(),
+                name: record.name.clone(),
+                r#use: record.usage.name().to_owned(),
                 samples: record.record.len(),
                 fit_percent: run.as_ref().map(|run| run.fit_percent),
             })
             .collect()
     };
-    let by_record = records();
-    let page = Page {
-        rig: &rig.name,
-        method: identification.method.name(),
+    let fits = records.iter().map(|record| (record.name.clone(), record.fit_percent)).collect();
+    let page = EstimateFile {
+        rig: rig.name.clone(),
+        input: rig.input_label.clone(),
+        output: rig.output_label.clone(),
+        sample_time: rig.sample_time,
+        method: identification.method.name().to_owned(),
         order: estimate.a.len(),
         delay: estimate.delay,
-        a: &estimate.a,
-        a_se: &estimate.a_se,
-        b: &estimate.b,
-        b_se: &estimate.b_se,
+        a: estimate.a.clone(),
+        a_se: estimate.a_se.clone(),
+        b: estimate.b.clone(),
+        b_se: estimate.b_se.clone(),
         noise_sd: estimate.noise_sd,
         gain: estimate.gain,
         gain_se: level_errors.map(|e| e.gain),
@@ -179,10 +243,10 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
         y_low_se: level_errors.map(|e| e.y_low),
         descendant: points(&estimate.descending),
         ascendant: points(&estimate.ascending),
-        fit_percent: FitByRecord(&by_record),
+        fit_percent: FitByRecord(fits),
         excitation: estimate.excitation,
         samples: estimate.samples,
-        records: records(),
+        records,
         causal: identification.obstacles.is_empty(),
         causal_alternative: examination.causal.as_ref().map(causal),
         yardsticks: examination.yardsticks.iter().map(Beside::from).collect(),
@@ -193,24 +257,24 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
             p_value: w.p_value,
             lags: w.lags,
         }),
-        warnings: identification.flags.iter().map(|flag| &*flag.text).collect(),
+        warnings: identification.flags.iter().map(|flag| flag.text.to_string()).collect(),
         flags: identification.flags.iter().map(reservation).collect(),
-        version: env!("CARGO_PKG_VERSION"),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
 }
 
-fn reservation(flag: &Flag) -> Reservation<'_> {
-    Reservation { kind: flag.kind, figure: flag.figure, text: &flag.text }
+fn reservation(flag: &Flag) -> Reservation {
+    Reservation { kind: flag.kind.to_owned(), figure: flag.figure, text: flag.text.to_string() }
 }
 
-fn causal(alternative: &CausalAlternative) -> Causal<'_> {
+fn causal(alternative: &CausalAlternative) -> Causal {
     let estimate = &alternative.identification.estimate;
     Causal {
         order: estimate.a.len(),
         delay: estimate.delay,
-        a: &estimate.a,
-        b: &estimate.b,
+        a: estimate.a.clone(),
+        b: estimate.b.clone(),
         held_out: alternative.held_out.as_ref().map(Beside::from),
     }
 }

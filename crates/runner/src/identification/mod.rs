@@ -7,7 +7,7 @@ mod errors_of_run;
 mod examine;
 mod flag;
 mod free;
-mod json;
+pub(crate) mod json;
 mod method;
 mod pulse;
 mod request;

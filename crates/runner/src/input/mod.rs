@@ -4,6 +4,7 @@ mod closest;
 pub(crate) mod json_file;
 mod kinds;
 mod mat;
+pub(crate) mod nullable;
 pub(crate) mod stream;
 mod table;
 mod terms;

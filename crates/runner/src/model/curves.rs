@@ -91,6 +91,10 @@ impl Curves {
         self.model.rule().threshold
     }
 
+    pub(super) fn moved(&self, step: &[f64]) -> Self {
+        Self { model: self.model.moved(step), ..self.clone() }
+    }
+
     pub(super) fn delay(&self) -> isize {
         self.model.structure().delay
     }

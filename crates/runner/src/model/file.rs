@@ -83,6 +83,15 @@ impl System {
         }
     }
 
+    /// Whether the errors of its parameters are known.
+    pub fn has_covariance(&self) -> bool {
+        match self {
+            Self::Switched(model) => model.has_covariance(),
+            Self::Curves(model) => model.covariance().is_some(),
+            Self::Points(model) => model.covariance().is_some(),
+        }
+    }
+
     fn value(&self) -> Value {
         let value = match self {
             Self::Switched(model) => serde_json::to_value(model),

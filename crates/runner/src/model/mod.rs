@@ -31,13 +31,14 @@ mod units;
 
 pub use causal::NotCausal;
 pub use curves::{Curves, plain};
+pub use described::Described;
 pub use domain::Domain;
 pub use file::{Added, Header, ModelFile, SCHEMA, System};
 pub use make::{diagnosed, identified};
 pub use points::Points;
-pub use read::{ModelError, read};
+pub use read::{ModelError, of_text, read};
 pub use run::Run;
-pub use series::{diagnosed_series, identified_series};
+pub use series::{Banded, RecordSeries, Series, diagnosed_series, identified_series};
 pub use switchback_gap::PortableModel;
 pub use units::UnitError;
 pub(crate) use units::same_unit;

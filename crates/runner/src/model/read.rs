@@ -66,13 +66,20 @@ struct WireFile<M> {
 /// # Errors
 /// [`ModelError`] if the file is no JSON, of another format or version, or its parts contradict each other.
 pub fn read(path: &Path) -> Result<ModelFile, ModelError> {
-    let text = read_text(path)?;
+    of_text(path, &read_text(path)?)
+}
+
+/// The model that a text holds; `path` is what messages call it.
+///
+/// # Errors
+/// As [`read`].
+pub fn of_text(path: &Path, text: &str) -> Result<ModelFile, ModelError> {
     let fail = |message: String, remedy: &str| ModelError::Content {
         place: path.display().to_string(),
         message,
         remedy: remedy.to_owned(),
     };
-    let peek: Peek = parse(path, &text)?;
+    let peek: Peek = parse(path, text)?;
     match peek.schema.as_deref() {
         Some(SCHEMA) => {}
         Some(other) if other.starts_with("switchback/model/") => {
@@ -83,15 +90,15 @@ pub fn read(path: &Path) -> Result<ModelFile, ModelError> {
             ));
         }
         Some(other) => {
-            let kind = json_file::kind(&text).map_or_else(|| format!("a `{other}`"), str::to_owned);
+            let kind = json_file::kind(text).map_or_else(|| format!("a `{other}`"), str::to_owned);
             return Err(fail(format!("this is {kind}, but a model is wanted"), MAKE_ONE));
         }
         None => return Err(fail("this is no model file: there is no field `schema`".to_owned(), MAKE_ONE)),
     }
     let file = match peek.kind.as_deref() {
-        Some("switched") => joined(parse(path, &text)?, |model| System::Switched(Box::new(model))),
-        Some("curves") => joined(parse(path, &text)?, System::Curves),
-        Some("points") => joined(parse(path, &text)?, System::Points),
+        Some("switched") => joined(parse(path, text)?, |model| System::Switched(Box::new(model))),
+        Some("curves") => joined(parse(path, text)?, System::Curves),
+        Some("points") => joined(parse(path, text)?, System::Points),
         Some(other) => {
             return Err(fail(
                 format!("`kind` is `{other}`, but a model is switched, curves or points"),

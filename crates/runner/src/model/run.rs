@@ -79,12 +79,7 @@ impl ModelFile {
             System::Curves(model) => model.run(v, y),
             System::Points(model) => model.run(v, y)?,
         };
-        let has_covariance = match &self.system {
-            System::Switched(model) => model.has_covariance(),
-            System::Curves(model) => model.covariance().is_some(),
-            System::Points(model) => model.covariance().is_some(),
-        };
-        if !has_covariance {
+        if !self.system.has_covariance() {
             run.notes.push(
                 "the errors of the model's parameters are unknown: the band holds the noise only".to_owned(),
             );

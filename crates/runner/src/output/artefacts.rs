@@ -58,5 +58,5 @@ impl Artefacts {
 
 /// Whether a file is read by people, rather than by programs that want every character as it is.
 fn is_page(name: &str) -> bool {
-    [".svg", ".md", ".txt"].iter().any(|ending| name.ends_with(ending))
+    [".svg", ".md", ".txt", ".html"].iter().any(|ending| name.ends_with(ending))
 }

@@ -117,11 +117,8 @@ impl OutputFolder {
         self.refuse_inputs(artefacts.iter().map(|(name, _)| name))?;
         let written = self.refuse_what_is_not_ours(artefacts.iter().map(|(name, _)| name))?;
         let stale = self.stale(&written, artefacts);
-        let mut files = artefacts.clone();
-        for (name, list) in written.without(&stale).with(artefacts).files() {
-            files.add(name, list);
-        }
-        self.stage_and_replace(&files, &stale).map_err(|source| self.unwritable(source))
+        let lists = written.without(&stale).with(artefacts);
+        self.stage_and_replace((artefacts, &lists), &stale).map_err(|source| self.unwritable(source))
     }
 
     /// The program's own unchanged files of the names expected that are not written anew.
@@ -171,8 +168,15 @@ impl OutputFolder {
         OutputError::Unwritable { target: self.target.display().to_string(), source }
     }
 
-    fn stage_and_replace(&self, artefacts: &Artefacts, stale: &[String]) -> io::Result<()> {
+    fn stage_and_replace(
+        &self,
+        (artefacts, lists): (&Artefacts, &Written),
+        stale: &[String],
+    ) -> io::Result<()> {
         let fresh = self.staging.folder("fresh")?;
+        for (name, list) in lists.files() {
+            self.disk.write(&fresh.join(name), list.as_bytes())?;
+        }
         for (name, contents) in artefacts.iter() {
             self.disk.write(&fresh.join(name), contents)?;
         }

@@ -44,4 +44,4 @@ pub use sha256::sha256;
 pub use single::OutputFile;
 pub(crate) use staging::abandon;
 pub use visible::visible;
-pub use whole::{NotWhole, verify};
+pub use whole::{NotWhole, verify, verify_but, verify_those};

@@ -39,17 +39,38 @@ const NAMED: usize = 3;
 /// # Errors
 /// [`NotWhole`] if files were changed or are missing, or the folder was being replaced when a process was killed.
 pub fn verify(folder: &Path) -> Result<(), NotWhole> {
+    verify_but(folder, &[])
+}
+
+/// The same but for some files, which hold a hash of their own and are checked when they are read.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_but(folder: &Path, others: &[&str]) -> Result<(), NotWhole> {
+    checked(folder, |_| true, others)
+}
+
+/// The same of the files whose names are wanted.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_those(folder: &Path, is_wanted: impl Fn(&str) -> bool) -> Result<(), NotWhole> {
+    checked(folder, is_wanted, &[])
+}
+
+fn checked(folder: &Path, is_wanted: impl Fn(&str) -> bool, others: &[&str]) -> Result<(), NotWhole> {
     let shown = || folder.display().to_string();
     if stagings_of(folder).iter().any(|staging| is_unfinished(staging)) {
         return Err(NotWhole::Unfinished { folder: shown() });
     }
     let list = Written::in_folder(folder).unwrap_or_default();
-    let wrong = |name: &str| match list.owner(folder, name) {
-        _ if !folder.join(name).exists() => Some(format!("{name} is missing")),
-        Ok(Owner::Program) => None,
-        _ => Some(format!("{name} has changed")),
+    let is_as_written =
+        |name: &str| others.contains(&name) || matches!(list.owner(folder, name), Ok(Owner::Program));
+    let wrong = |name: &str| match folder.join(name).exists() {
+        false => Some(format!("{name} is missing")),
+        true => (!is_as_written(name)).then(|| format!("{name} has changed")),
     };
-    let mut wrong: Vec<String> = list.names().filter_map(wrong).collect();
+    let mut wrong: Vec<String> = list.names().filter(|name| is_wanted(name)).filter_map(wrong).collect();
     if wrong.is_empty() {
         return Ok(());
     }

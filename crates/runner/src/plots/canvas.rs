@@ -4,6 +4,7 @@ use super::style::{Anchor, PAPER, Pen, Shape, TextLook, minus};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::cell::RefCell;
 
 /// The backend places everything on whole units, so the sheet is drawn this many times larger and shown smaller.
 const FINE: f64 = 8.0;
@@ -55,6 +56,7 @@ pub enum Towards {
 /// The sheet.
 pub struct Canvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
+    hints: RefCell<String>,
 }
 
 /// Writing into a string cannot fail.
@@ -77,13 +79,16 @@ fn stroke(pen: Pen) -> ShapeStyle {
 pub fn draw((width, height): (f64, f64), title: &str, paint: impl FnOnce(&Canvas<'_>)) -> String {
     let mut svg = String::new();
     let (w, h) = at((width, height));
-    {
+    let hints = {
         let area = SVGBackend::with_string(&mut svg, (w as u32, h as u32)).into_drawing_area();
         area.fill(&PAPER).expect(IN_MEMORY);
-        paint(&Canvas { area: area.clone() });
+        let canvas = Canvas { area: area.clone(), hints: RefCell::default() };
+        paint(&canvas);
         area.present().expect(IN_MEMORY);
-    }
-    let title = minus(title).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        canvas.hints.into_inner()
+    };
+    let svg = svg.replace("</svg>", &(hints + "</svg>"));
+    let title = escaped(title);
     let shown = format!("width=\"{width}\" height=\"{height}\" role=\"img\" aria-label=\"{title}\"");
     let svg = svg.replacen(&format!("width=\"{w}\" height=\"{h}\""), &shown, 1);
     let svg = [Dash::Dashes, Dash::Dots].into_iter().fold(svg, |svg, dash| {
@@ -95,7 +100,22 @@ pub fn draw((width, height): (f64, f64), title: &str, paint: impl FnOnce(&Canvas
     svg.replace(" opacity=\"1\"", "")
 }
 
+/// Text that is no markup.
+fn escaped(text: &str) -> String {
+    minus(text).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
 impl Canvas<'_> {
+    /// What is told of a place under the pointer: nothing is seen of it.
+    pub fn hint(&self, (x, y): Point, radius: f64, told: &str) {
+        let [x, y, r] = [x, y, radius].map(fine);
+        let told = escaped(told);
+        let mark = format!(
+            "<circle class=\"hint\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill-opacity=\"0\"><title>{told}</title></circle>\n"
+        );
+        self.hints.borrow_mut().push_str(&mark);
+    }
+
     /// A line through points.
     pub fn line(&self, points: &[Point], pen: Pen) {
         let points: Vec<(i32, i32)> = points.iter().copied().map(at).collect();

@@ -28,6 +28,8 @@ mod spread;
 pub mod style;
 mod zip;
 
+pub(crate) use identify::series::{thinned, worst_window};
+
 use crate::results::Results;
 use against::{Against, Pairs};
 use convergence::Measure;

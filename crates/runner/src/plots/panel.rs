@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Tick};
 use super::canvas::{Canvas, Dash, Point, Towards};
-use super::style::{FAINT, GREY, Pen, Shape, TextLook};
+use super::style::{FAINT, GREY, Pen, Shape, TextLook, rounded};
 use plotters::style::RGBColor;
 
 /// A diagram's place on the sheet and its axes.
@@ -191,6 +191,14 @@ impl<'c, 's> Panel<'c, 's> {
         let beside = |y: f64| self.place(x, y).map(|(px, py)| (px + mark.aside, py));
         let ends = [(low, Towards::Down), (high, Towards::Up)];
         self.bar((y, self.y), ends, mark, &beside);
+        if let Some(centre) = beside(y).filter(|_| self.y.holds(y) && mark.radius > 0.0) {
+            let interval = if low < high {
+                format!(" [{}, {}]", rounded(low, 4), rounded(high, 4))
+            } else {
+                String::new()
+            };
+            self.canvas.hint(centre, mark.radius, &format!("{}: {}{interval}", rounded(x, 4), rounded(y, 4)));
+        }
     }
 
     /// A figure with its level bar from `low` to `high`, cut as [`mark`](Self::mark)s are.

@@ -5,19 +5,19 @@ use crate::scenario::Method;
 
 /// Curves of one case and method (and group, where there is room) in one row.
 #[derive(Debug)]
-pub(super) struct Row<'r> {
-    pub(super) case: &'r str,
-    pub(super) method: Method,
+pub(crate) struct Row<'r> {
+    pub(crate) case: &'r str,
+    pub(crate) method: Method,
     /// `None` where all groups share a row.
-    pub(super) group: Option<Group>,
-    pub(super) summaries: Vec<&'r Summary>,
+    pub(crate) group: Option<Group>,
+    pub(crate) summaries: Vec<&'r Summary>,
 }
 
 /// More rows than this do not fit a screen; groups are then put together.
 const SCREEN: usize = 32;
 
 /// The rows of a table: one a case, method and group, or one a case and method where those would be too many.
-pub(super) fn rows(results: &Results) -> Vec<Row<'_>> {
+pub(crate) fn rows(results: &Results) -> Vec<Row<'_>> {
     let by_group = gather(results, true);
     if by_group.len() <= SCREEN { by_group } else { gather(results, false) }
 }
@@ -37,25 +37,25 @@ fn gather(results: &Results, by_group: bool) -> Vec<Row<'_>> {
 
 impl Row<'_> {
     /// Median estimate over the curves, between the medians of the interval ends.
-    pub(super) fn slope(&self, of: impl Fn(&Summary) -> Option<Fitted>) -> Option<Fitted> {
+    pub(crate) fn slope(&self, of: impl Fn(&Summary) -> Option<Fitted>) -> Option<Fitted> {
         let fitted: Vec<Fitted> = self.summaries.iter().filter_map(|s| of(s)).collect();
         let over = |f: fn(&Fitted) -> f64| median(fitted.iter().map(f).collect());
         Fitted::new(over(|f| f.estimate)?, (over(|f| f.ci.0)?, over(|f| f.ci.1)?))
     }
 
     /// Median over the curves that have the measure.
-    pub(super) fn median(&self, of: impl Fn(&Summary) -> Option<f64>) -> Option<f64> {
+    pub(crate) fn median(&self, of: impl Fn(&Summary) -> Option<f64>) -> Option<f64> {
         median(self.summaries.iter().filter_map(|s| of(s)).collect())
     }
 
     /// Largest bias that stays, over the curves that are inconsistent.
-    pub(super) fn plateau(&self) -> Option<f64> {
+    pub(crate) fn plateau(&self) -> Option<f64> {
         let inconsistent = self.summaries.iter().filter(|s| s.verdict == Verdict::Inconsistent);
         inconsistent.filter_map(|s| Some(s.plateau?.estimate.abs())).max_by(f64::total_cmp)
     }
 
     /// `consistent` where all curves agree, else how many say what: `inconsistent 17, undecided 1`.
-    pub(super) fn verdict(&self) -> String {
+    pub(crate) fn verdict(&self) -> String {
         let kinds = [Verdict::Inconsistent, Verdict::Undecided, Verdict::Consistent];
         let count = |v: Verdict| self.summaries.iter().filter(|s| s.verdict == v).count();
         match kinds.into_iter().find(|v| count(*v) == self.summaries.len()) {

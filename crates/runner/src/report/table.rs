@@ -47,13 +47,13 @@ fn slopes(results: &Results) -> String {
     }
 }
 
-fn header() -> Vec<String> {
+pub(crate) fn header() -> Vec<String> {
     ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
         .map(str::to_owned)
         .to_vec()
 }
 
-fn cells(row: &Row<'_>) -> Vec<String> {
+pub(crate) fn cells(row: &Row<'_>) -> Vec<String> {
     vec![
         row.method.to_string(),
         group(row.group).to_owned(),

@@ -68,14 +68,24 @@ pub fn read(path: &Path) -> Result<Results, ResultsError> {
     let path = if is_folder { path.join("results.json") } else { path.to_owned() };
     let text = std::fs::read_to_string(&path)
         .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?;
+    parse(&path, &text)
+}
+
+/// The results that a text holds; `path` is what messages call it.
+///
+/// # Errors
+/// [`ResultsError`] if it is no result table, or of another layout.
+pub fn parse(path: &Path, text: &str) -> Result<Results, ResultsError> {
     let refuse = |JsonError { place, message, .. }| ResultsError::NotResults { place, message };
-    if let Some(kind) = json_file::kind(&text).filter(|kind| *kind != "the results of a study") {
-        return Err(ResultsError::OtherKind { path, kind });
+    if let Some(kind) = json_file::kind(text).filter(|kind| *kind != "the results of a study") {
+        return Err(ResultsError::OtherKind { path: path.to_owned(), kind });
     }
-    let value: serde_json::Value = json_file::parse(&path, &text).map_err(refuse)?;
+    let value: serde_json::Value = json_file::parse(path, text).map_err(refuse)?;
     match value.get("schema").and_then(serde_json::Value::as_u64) {
-        Some(found) if found != u64::from(SCHEMA) => Err(ResultsError::OtherSchema { path, found }),
-        _ => json_file::parse(&path, &text).map_err(refuse),
+        Some(found) if found != u64::from(SCHEMA) => {
+            Err(ResultsError::OtherSchema { path: path.to_owned(), found })
+        }
+        _ => json_file::parse(path, text).map_err(refuse),
     }
 }
 

@@ -18,7 +18,7 @@ pub(crate) mod synthetic;
 pub use cell::{Cell, Failures, Intervals, Parameter};
 pub use csv::to_csv;
 pub use curve::{BorderCurve, CurvePoint};
-pub use json::{ResultsError, read, to_json};
+pub use json::{ResultsError, parse, read, to_json};
 pub use measured::{Measured, MeasuredError};
 pub use paired::{Comparison, Overall, Paired, PairedError, PairedGroup, PairedParameter, Pairing, Subject};
 pub use pooled::{root_mean_square, root_mean_square_exact};

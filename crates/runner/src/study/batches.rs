@@ -3,7 +3,7 @@
 use super::cost;
 use super::sections::SECTIONS;
 use crate::scenario::Scenario;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Least and largest number of replicates in a batch: every section gets one of them at least; and what begins anew with each batch costs
 /// less a replicate in the larger, and memory more.
@@ -44,15 +44,28 @@ impl Batches {
     }
 
     /// Which of a run of replicates the `number`-th (from 1) of so many equal parts holds, cut between batches.
+    ///
+    /// A part leaves one set of sums for each node that it fills of the tree in which batches are added up. So each cut moves by up to an
+    /// eighth of a part, to where the largest nodes end: a part fills three of them on average and six at most, however long it is.
     pub(super) fn share(self, range: Range<usize>, (number, of): (usize, usize)) -> Range<usize> {
         let first = range.start / self.size;
         let batches = range.end.div_ceil(self.size) - first;
+        let leeway = batches / of / 8;
         let cut = |part: usize| {
             let batch = first + (batches as u128 * part as u128 / of as u128) as usize;
+            let batch =
+                if part == 0 || part == of { batch } else { roundest(batch - leeway..=batch + leeway) };
             (batch * self.size).clamp(range.start, range.end)
         };
         cut(number - 1)..cut(number)
     }
+}
+
+/// The number that is a multiple of the largest power of two.
+fn roundest(among: RangeInclusive<usize>) -> usize {
+    let last = *among.end();
+    let multiples = (0..usize::BITS).map(|power| last >> power << power);
+    multiples.take_while(|multiple| among.contains(multiple)).last().unwrap_or(last)
 }
 
 #[cfg(test)]
@@ -72,7 +85,20 @@ mod tests {
             prop_assert_eq!(pieces.into_iter().flatten().collect::<Vec<_>>(), range.clone().collect::<Vec<_>>());
             let shares: Vec<_> = (1..=of).map(|number| batches.share(range.clone(), (number, of))).collect();
             prop_assert!(shares.iter().all(|s| s.is_empty() || s.start % size == 0 || s.start == range.start));
+            // Equal but for an eighth at each end, and for a batch.
+            let part = length as f64 / size as f64 / of as f64;
+            let batches = shares.iter().map(|s| s.len() as f64 / size as f64);
+            prop_assert!(batches.map(|x| (x - part).abs()).all(|off| off <= 0.25 * part + 2.0));
             prop_assert_eq!(shares.into_iter().flatten().collect::<Vec<_>>(), range.collect::<Vec<_>>());
         }
+    }
+
+    #[test]
+    fn the_roundest_number_is_found() {
+        let slowly = |among: RangeInclusive<usize>| among.max_by_key(|number| number.trailing_zeros());
+        for (start, length) in [(1, 0), (1, 6), (17, 14), (100, 27), (127, 1), (129, 126)] {
+            assert_eq!(Some(roundest(start..=start + length)), slowly(start..=start + length));
+        }
+        assert_eq!(roundest(0..=3), 0);
     }
 }

@@ -29,6 +29,7 @@ mod replay;
 mod sections;
 mod setting;
 mod single;
+mod sizes;
 mod standing;
 mod tabulate;
 mod tally;
@@ -54,6 +55,7 @@ pub use cost::least_seconds;
 pub use execute::Progress;
 pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
 pub use single::{Estimated, Single, SingleRecord};
+pub use sizes::ShareSize;
 pub use standing::{Keeper, Origin, Snapshot, Standing, Unusable};
 
 /// Why a study cannot be run.

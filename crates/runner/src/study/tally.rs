@@ -105,6 +105,13 @@ impl Tally {
     }
 }
 
+/// How many nodes the replicates of a run, cut between batches, come to.
+pub(super) fn nodes_of(batches: Batches, run: Range<usize>) -> usize {
+    let mut tally = Tally::new(batches, Vec::new());
+    batches.pieces(run).for_each(|range| tally.add(Node { range, cells: Vec::new() }));
+    tally.nodes.len()
+}
+
 impl Batches {
     /// Whether two runs of replicates that follow each other make one node of the tree. The second may be cut short, by the end of all.
     fn are_siblings(self, first: &Range<usize>, second: &Range<usize>) -> bool {
@@ -189,5 +196,16 @@ mod tests {
         run(&mut tally, 20..48);
         assert_eq!(tally.first_break(48), None);
         assert_eq!(tally.end(0), 48);
+    }
+
+    #[test]
+    fn a_part_keeps_few_nodes_however_long_it_is() {
+        let batches = Batches::with_size(16);
+        for (end, of) in [(16 * 469, 24), (16 * 5000, 24), (16 * 5000, 7), (16 * 777, 3)] {
+            let nodes = |number| nodes_of(batches, batches.share(0..end, (number, of)));
+            let counts: Vec<usize> = (1..=of).map(nodes).collect();
+            assert!(counts.iter().all(|count| *count <= 6), "{counts:?}");
+            assert!(counts.iter().sum::<usize>() <= 3 * of + 3, "{counts:?}");
+        }
     }
 }

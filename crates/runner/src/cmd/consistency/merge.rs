@@ -12,11 +12,12 @@ use crate::study::{Standing, Study};
 use miette::IntoDiagnostic;
 use std::path::{Path, PathBuf};
 
-/// Adds parts up in the order of one run; where a precision is asked for and not reached, tells what to run next.
+/// Adds parts up in the order of one run; where a precision is asked for and not reached, tells what to run next, once what there is has been
+/// written into the folder `next`, or else into that of the report.
 ///
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
-pub fn merge(folders: &[PathBuf], order: Order<'_>) -> CommandResult {
+pub fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> CommandResult {
     let provenance = Provenance::begin(Threads::default());
     let mut parts: Vec<Part> = folders.iter().map(|folder| Part::read(folder)).collect::<Result<_, _>>()?;
     parts.sort_by_key(|part| part.label.shard);
@@ -37,17 +38,18 @@ pub fn merge(folders: &[PathBuf], order: Order<'_>) -> CommandResult {
         let results = order.threads.install(|| study.results(&standing, order.command.to_owned()))?;
         return write(&results, (&scenario, &standing, &kept, &provenance), folder, order);
     }
-    let merged = first.of_all(kept.bytes(&standing));
+    let out = next.unwrap_or(out);
+    let merged = first.of_all();
     let folder = order.force.claim(out, &merged.files())?;
-    let mut artefacts = merged.artefacts();
+    let mut artefacts = merged.artefacts(kept.bytes(&standing));
     artefacts.add_beside(PROVENANCE_FILE, provenance.text());
     folder.commit(&artefacts)?;
-    order.quiet.note(&next(&standing, &first.label.scenario, out));
+    order.quiet.note(&how_to_go_on(&standing, &first.label.scenario, out));
     Ok(Outcome::Stopped)
 }
 
 /// What to run to go on.
-fn next(standing: &Standing, scenario: &str, out: &Path) -> String {
+fn how_to_go_on(standing: &Standing, scenario: &str, out: &Path) -> String {
     format!(
         "{} replicates, and not precise enough yet; written to {out}.\n\
          Run those up to {} in parts: switchback {scenario} --shard K/N --from {out} --out DIR\n\

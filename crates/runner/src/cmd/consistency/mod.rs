@@ -22,17 +22,13 @@ use part::Part;
 use std::path::Path;
 
 /// What the folder of a report gets.
-const FILES: [&str; 9] = [
-    "results.json",
-    "table.csv",
-    "report.md",
-    "bias-*.svg",
-    "sd-*.svg",
-    "borders-*.svg",
-    "paired-*.svg",
-    KEPT_FILE,
-    PROVENANCE_FILE,
-];
+const FILES: [&str; report::FILES.len() + 2] = {
+    let mut files = [KEPT_FILE; report::FILES.len() + 2];
+    let (written, _) = files.split_at_mut(report::FILES.len());
+    written.copy_from_slice(&report::FILES);
+    files[report::FILES.len() + 1] = PROVENANCE_FILE;
+    files
+};
 
 /// What is to be run, and how it is told.
 #[derive(Debug, Clone, Copy)]
@@ -124,7 +120,7 @@ fn run_part(scenario: &Scenario, shard: Shard, order: Order<'_>) -> CommandResul
         ));
         return Ok(Outcome::Stopped);
     }
-    let mut artefacts = part.with(kept.bytes(&standing)).artefacts();
+    let mut artefacts = part.artefacts(kept.bytes(&standing));
     artefacts.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
     folder.commit(&artefacts)?;
     kept.close()?;
@@ -171,7 +167,7 @@ fn tell_partial(results: &Results, folder: OutputFolder, order: Order<'_>) -> Co
 }
 
 fn artefacts(results: &Results, threads: Threads) -> miette::Result<Artefacts> {
-    threads.install(|| report::artefacts(results))
+    Ok(threads.install(|| report::artefacts(results))??)
 }
 
 fn tell(results: &Results, place: &Path, order: Order<'_>) -> miette::Result<()> {

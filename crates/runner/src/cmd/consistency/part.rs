@@ -32,7 +32,6 @@ pub(super) struct Part {
     pub(super) label: Label,
     /// The scenario's text.
     pub(super) text: String,
-    sums: Vec<u8>,
 }
 
 impl Part {
@@ -40,12 +39,12 @@ impl Part {
     pub(super) fn new(order: Order<'_>, engine: Engine, shard: Option<Shard>) -> Result<Self, FileError> {
         let (scenario, command) = (stream::copy_name(order.file), order.command.to_owned());
         let label = Label { scenario, command, engine, shard };
-        Ok(Self { folder: PathBuf::new(), label, text: read_text(order.file)?, sums: Vec::new() })
+        Ok(Self { folder: PathBuf::new(), label, text: read_text(order.file)? })
     }
 
     /// The same label and scenario, without a shard: for what all parts of a round make.
-    pub(super) fn of_all(&self, sums: Vec<u8>) -> Self {
-        Self { label: Label { shard: None, ..self.label.clone() }, sums, ..self.clone() }
+    pub(super) fn of_all(&self) -> Self {
+        Self { label: Label { shard: None, ..self.label.clone() }, ..self.clone() }
     }
 
     /// The scenario as it is run.
@@ -54,31 +53,25 @@ impl Part {
         Ok(Scenario::parse(&file.display().to_string(), &self.text)?.on(self.label.engine))
     }
 
-    /// The same with what its replicates left behind.
-    pub(super) fn with(self, sums: Vec<u8>) -> Self {
-        Self { sums, ..self }
-    }
-
     /// Names of the files of its folder.
     pub(super) fn files(&self) -> [&str; 4] {
         [PART_FILE, &self.label.scenario, KEPT_FILE, PROVENANCE_FILE]
     }
 
-    pub(super) fn artefacts(&self) -> Artefacts {
+    /// What its folder gets, with what its replicates left behind.
+    pub(super) fn artefacts(&self, sums: Vec<u8>) -> Artefacts {
         let mut artefacts = Artefacts::default();
         artefacts.add(PART_FILE, label_text(&self.label));
         artefacts.add(self.label.scenario.as_str(), self.text.as_str());
-        artefacts.add(KEPT_FILE, self.sums.as_slice());
+        artefacts.add(KEPT_FILE, sums);
         artefacts
     }
 
-    /// Reads the folder of a part.
+    /// Reads the folder of a part, but for what its replicates left behind: of all parts that may be more than the memory holds.
     pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
-        let no_part = || MergeError::NoPart { folder: folder.display().to_string() };
         let label: Label = label(folder)?;
         let text = read_text(&folder.join(&label.scenario))?;
-        let sums = std::fs::read(folder.join(KEPT_FILE)).map_err(|_| no_part())?;
-        Ok(Self { folder: folder.to_owned(), label, text, sums })
+        Ok(Self { folder: folder.to_owned(), label, text })
     }
 
     /// It as a piece of the round; nothing where it is all of one.
@@ -94,8 +87,11 @@ impl Part {
     /// Its replicates, as a part of the round that `round` stands at.
     pub(super) fn standing_in(&self, round: &Standing, study: &Study<'_>) -> Result<Standing, MergeError> {
         let origin = study.origin().of_part(self.label.shard, round);
-        let strange = |why| MergeError::Unusable { folder: self.folder.display().to_string(), why };
-        round.emptied().read(&self.sums, &origin).map_err(strange)
+        let folder = || self.folder.display().to_string();
+        let sums = std::fs::read(self.folder.join(KEPT_FILE));
+        let sums = sums.map_err(|_| MergeError::NoPart { folder: folder() })?;
+        let strange = |why| MergeError::Unusable { folder: folder(), why };
+        round.emptied().read(&sums, &origin).map_err(strange)
     }
 
     /// How far the study had come that a folder without a shard holds.

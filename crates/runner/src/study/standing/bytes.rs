@@ -1,4 +1,4 @@
-//! A [`Standing`] as a file: a line of JSON that tells what it is of and how it is laid out, then the sums as little-endian numbers of 64 bits,
+//! A [`Standing`] as a file: a line of JSON that tells what it is of and how it is laid out, then the sums as little-endian numbers of 64 bits, counts of 32,
 //! then the SHA-256 of all before.
 
 use super::{Round, Snapshot, Standing};
@@ -71,9 +71,9 @@ impl Snapshot<'_> {
         let mut bytes = serde_json::to_vec(&head).expect("names and numbers are JSON");
         bytes.push(b'\n');
         for cell in tally.nodes().iter().flat_map(|node| &node.cells) {
-            bytes.extend(cell.halves().iter().flat_map(LaneSums::numbers).flat_map(f64::to_le_bytes));
+            cell.halves().iter().for_each(|half| half.write(&mut bytes));
             let counts = cell.intervals().iter().flat_map(|counts| counts.below.iter().chain(&counts.above));
-            bytes.extend(counts.flat_map(|count| f64::from(*count).to_le_bytes()));
+            bytes.extend(counts.flat_map(|count| count.to_le_bytes()));
         }
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
@@ -117,7 +117,7 @@ impl Standing {
     /// # Errors
     /// [`Unusable`] if the file is of another origin, or not as it was written.
     pub fn read(self, bytes: &[u8], origin: &Origin) -> Result<Self, Unusable> {
-        let (head, numbers) = parts(bytes)?;
+        let (head, mut sums) = parts(bytes)?;
         if (&head.origin.scenario, &head.origin.part) != (&origin.scenario, &origin.part) {
             return Err(Unusable::OtherScenario);
         }
@@ -125,16 +125,12 @@ impl Standing {
         if head.origin != *origin || head.batch != tally.batches().size() || head.shape != tally.shape() {
             return Err(Unusable::OtherProgram);
         }
-        let mut numbers = numbers.chunks_exact(8).map(|number| {
-            let number = number.try_into().expect("eight bytes");
-            f64::from_le_bytes(number)
-        });
         let mut filled = Tally::new(tally.batches(), head.shape);
         for NodeHead { replicates, runs } in head.nodes {
             let cell = |(runs, &parameters): (Runs, &usize)| {
-                let mut half = || LaneSums::from_numbers(parameters, &mut numbers);
+                let mut half = || LaneSums::read(parameters, &mut sums);
                 let halves = [half()?, half()?];
-                let intervals = (0..parameters).map(|_| counts(&mut numbers)).collect::<Option<_>>()?;
+                let intervals = (0..parameters).map(|_| counts(&mut sums)).collect::<Option<_>>()?;
                 Some(CellSums::of(halves, intervals, runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
@@ -153,16 +149,17 @@ impl Standing {
     }
 }
 
-/// Where the truth lies in the intervals of a parameter; `None` where numbers are missing.
-fn counts(numbers: &mut impl Iterator<Item = f64>) -> Option<IntervalCounts> {
+/// Where the truth lies in the intervals of a parameter, from the beginning of `bytes`; `None` where there is too little.
+fn counts(bytes: &mut &[u8]) -> Option<IntervalCounts> {
     let mut counts = IntervalCounts::default();
     for count in counts.below.iter_mut().chain(&mut counts.above) {
-        *count = numbers.next()? as u32;
+        let (own, rest) = bytes.split_first_chunk()?;
+        (*count, *bytes) = (u32::from_le_bytes(*own), rest);
     }
     Some(counts)
 }
 
-/// The head of a file, and its numbers, if it is as it was written.
+/// The head of a file, and its sums, if it is as it was written.
 fn parts(bytes: &[u8]) -> Result<(Head, &[u8]), Unusable> {
     if !bytes.starts_with(BEGINNING) {
         return Err(Unusable::Foreign);

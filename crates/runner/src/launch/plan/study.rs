@@ -1,0 +1,129 @@
+//! What a consistency study costs.
+
+use super::clock::{most_memory, processor, timed};
+use super::{Costs, Ingredient, Plan, Share};
+use crate::output::sha256;
+use crate::pages::PageError;
+use crate::report;
+use crate::scenario::Scenario;
+use crate::study::{Keeper, Progress, ShareSize, Snapshot, Standing, Study};
+use miette::IntoDiagnostic;
+use std::fs::{self, File};
+use std::io::Write;
+use std::ops::ControlFlow;
+
+/// Seconds of processor time after which enough batches have been run, and the least number of them.
+const ENOUGH: (f64, usize) = (3.0, 4);
+
+/// Sums are kept once a second while a study runs, and never in more than a twentieth of its time.
+const KEPT_EVERY: f64 = 1.0;
+
+/// Lays a study out on one thread, runs a few batches, writes and reads what they leave, makes a report of them. Call it on one thread.
+///
+/// # Errors
+/// A study that cannot be laid out, or a system without room for a temporary file.
+pub fn measure<'s>(scenario: &'s Scenario) -> miette::Result<Plan<'s>> {
+    let study = Study::plan(scenario).into_diagnostic()?;
+    let start = processor();
+    let mut standing = study.begin();
+    let per_batch = run_batches(&study, &mut standing);
+    let alone = run_batches(&study, &mut study.with_one_cell_each());
+
+    let origin = study.origin();
+    let (bytes, making) = timed(|| standing.snapshot().to_bytes(&origin));
+    let (written, writing) = timed(|| write(&bytes));
+    written.into_diagnostic()?;
+    let memory = most_memory().unwrap_or(2.0 * bytes.len() as f64);
+    let per_byte_out = (making + writing) / bytes.len() as f64;
+    let ((), reading) = timed(|| {
+        let read = study.begin().read(&bytes, &origin).expect("it was just written");
+        let mut merged = study.begin();
+        merged.add(read);
+    });
+    let (hashes, report) = timed(|| {
+        let results = study.results(&standing, String::new());
+        let files = report::artefacts(&results)?;
+        Ok::<_, PageError>(files.iter().map(|(_, contents)| sha256(contents)).collect::<Vec<_>>())
+    });
+    hashes?;
+
+    let of_a_node = bytes.len() as f64 / standing.nodes() as f64;
+    let keeping = (making + writing) / KEPT_EVERY.max(20.0 * (making + writing));
+    let kept = per_batch * keeping;
+    let cells = study.cells() as f64;
+    let replicates = study.batch() as f64;
+    let samples = replicates * study.samples_of_a_replicate();
+    // One cell of each workload is in both.
+    let of_cells =
+        ((per_batch - alone) * cells / (cells - study.workloads() as f64).max(1.0)).clamp(0.0, per_batch);
+    let noise = per_batch - of_cells;
+    let ingredient = |name, count: f64, seconds: f64| Ingredient { name, count, seconds: seconds / count };
+    let costs = Costs {
+        piece: "batch",
+        pieces: study.shares(1).iter().map(|share| share.batches).sum(),
+        start,
+        per_piece: per_batch + kept,
+        per_piece_error: 0.0,
+        of_a_piece: vec![
+            ingredient("noise sample", samples, noise),
+            ingredient("estimate of a cell", replicates * cells, of_cells),
+            ingredient("keeping what is finished", 1.0, kept),
+        ],
+        per_byte_out,
+        per_byte_in: reading / bytes.len() as f64,
+        report,
+        memory,
+    };
+    let shares = move |tasks: usize| {
+        let share =
+            |share: &ShareSize| Share { pieces: share.batches, bytes: share.nodes as f64 * of_a_node };
+        study.shares(tasks).iter().map(share).collect()
+    };
+    Ok(Plan { costs, shares: Box::new(shares) })
+}
+
+/// Seconds of a batch; the first is not counted, which finds no memory that another has left.
+fn run_batches(study: &Study<'_>, standing: &mut Standing) -> f64 {
+    let mut watch = Watch { times: vec![processor()] };
+    let _stopped = study.run_part(standing, None, (&Silent, &mut watch));
+    let spans: Vec<f64> = watch.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let counted = if spans.len() > 1 { &spans[1..] } else { &spans[..] };
+    counted.iter().sum::<f64>() / counted.len().max(1) as f64
+}
+
+/// Writes a file as the folder of a part gets it, which lasts no longer than this.
+fn write(bytes: &[u8]) -> std::io::Result<()> {
+    let _hash = sha256(bytes);
+    let place = std::env::temp_dir().join(format!("switchback-plan-{}", std::process::id()));
+    let mut file = File::create_new(&place)?;
+    let written = file.write_all(bytes).and_then(|()| file.sync_all());
+    fs::remove_file(&place)?;
+    written
+}
+
+/// When batches were done.
+struct Watch {
+    times: Vec<f64>,
+}
+
+impl Keeper for Watch {
+    fn keep(&mut self, _: &Snapshot<'_>) -> ControlFlow<()> {
+        self.times.push(processor());
+        let (seconds, batches) = ENOUGH;
+        let is_enough =
+            self.times.len() > batches && self.times[self.times.len() - 1] - self.times[0] > seconds;
+        if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn is_stopped(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody is told.
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: u64) {}
+    fn advanced(&self, _: u64) {}
+}

@@ -1,0 +1,231 @@
+//! A study that takes a while, and what becomes of it in parts.
+
+use crate::Cluster;
+use crate::common::{BLIND, Folder, STUDY};
+use crate::faults::{Files, files, run};
+use std::cell::OnceCell;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+pub(crate) const PARTS: usize = 24;
+
+/// Whether parts are long, and nothing is left out.
+pub(crate) fn is_full() -> bool {
+    std::env::var("SWITCHBACK_CLUSTER").is_ok_and(|value| value == "full")
+}
+
+pub(crate) struct Study {
+    pub(crate) folder: Folder,
+    whole: OnceCell<Files>,
+}
+
+impl Study {
+    /// Each part takes about `length` times a third of a second of one processor, ten times as long in the full test.
+    pub(crate) fn new(length: usize) -> Self {
+        let length = if is_full() { 10 * length } else { length };
+        Self::of(&format!("replicates = {}", PARTS * length * 1024), "300_000")
+    }
+
+    /// The first of its rounds is not enough.
+    pub(crate) fn with_precision() -> Self {
+        Self::of(
+            "replicates = 3000\nprecision = { sd_relative_mcse = 0.01 }\nmax_replicates = 30_000",
+            "2000",
+        )
+    }
+
+    /// A blind examination of two rigs.
+    pub(crate) fn of_two_rigs() -> Self {
+        let folder = Folder::with_good_rig();
+        folder.write("study.toml", BLIND);
+        Self { folder, whole: OnceCell::new() }
+    }
+
+    /// The leaf spring of `scenarios`, so many thousand replicates.
+    pub(crate) fn of_many_cells(thousands: usize) -> Self {
+        let folder = Folder::with_good_rig();
+        let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/leafspring.toml");
+        let text = fs::read_to_string(scenario).expect("a scenario of the repository");
+        let changed = text.replace("replicates = 500", &format!("replicates = {}", 1024 * thousands));
+        assert_ne!(text, changed);
+        folder.write("study.toml", &changed);
+        Self { folder, whole: OnceCell::new() }
+    }
+
+    /// What `--plan` says of so many parts, with the time of one run.
+    pub(crate) fn plan(&self, parts: usize) -> serde_json::Value {
+        let arguments = ["launch", "study.toml", "--plan", "--json", "--tasks", &parts.to_string()];
+        let told = self.folder.switchback(&arguments).output().expect("it runs");
+        assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+        let plan: serde_json::Value = serde_json::from_slice(&told.stdout).expect("JSON");
+        let forecasts = plan["forecasts"].as_array().expect("a list");
+        let mut forecast = forecasts.iter().find(|f| f["tasks"] == parts).expect("that many").clone();
+        forecast["one_run"] = plan["one_run"].clone();
+        forecast
+    }
+
+    pub(crate) fn seconds_of_part(&self, number: usize, parts: usize) -> f64 {
+        let (shard, out) = (format!("{number}/{parts}"), format!("part-{number}"));
+        self.seconds(&[
+            "study.toml",
+            "--shard",
+            &shard,
+            "--threads",
+            "1",
+            "--force",
+            "--quiet",
+            "--out",
+            &out,
+        ])
+    }
+
+    pub(crate) fn seconds_of_merge(&self, parts: usize) -> f64 {
+        let folders: Vec<String> = (1..=parts).map(|number| format!("part-{number}")).collect();
+        let folders = folders.iter().map(String::as_str);
+        let arguments = ["merge"].into_iter().chain(folders).chain(["--force", "--quiet", "--out", "merged"]);
+        self.seconds(&arguments.collect::<Vec<_>>())
+    }
+
+    pub(crate) fn seconds_of_one_run(&self) -> f64 {
+        self.seconds(&["study.toml", "--threads", "1", "--force", "--quiet", "--out", "one-run"])
+    }
+
+    /// Seconds of processor time, as bash tells them.
+    fn seconds(&self, arguments: &[&str]) -> f64 {
+        let mut command = Command::new("bash");
+        command.args([
+            "-c",
+            "TIMEFORMAT='%3U %3S'; time \"$@\" 2> /dev/null",
+            "bash",
+            env!("CARGO_BIN_EXE_switchback"),
+        ]);
+        let output = command.args(arguments).current_dir(self.folder.path(".")).output().expect("bash");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{told}");
+        told.split_whitespace().map(|seconds| seconds.parse::<f64>().expect("seconds")).sum()
+    }
+
+    fn of(replicates: &str, samples: &str) -> Self {
+        let folder = Folder::with_good_rig();
+        let text =
+            STUDY.replace("replicates = 40", replicates).replace("[200, 1000]", &format!("[200, {samples}]"));
+        folder.write("study.toml", &text);
+        Self { folder, whole: OnceCell::new() }
+    }
+
+    /// The report of one run.
+    pub(crate) fn whole(&self) -> &Files {
+        self.whole.get_or_init(|| {
+            let (code, told) = run(&self.folder, &["study.toml", "--quiet", "--out", "whole"], "");
+            assert_eq!(code, Some(0), "{told}");
+            files(&self.folder.path("whole"))
+        })
+    }
+
+    /// `switchback launch`, submitted or kept for later.
+    pub(crate) fn launch<C: Cluster>(&self, cluster: &C, more: &[&str]) -> Launched {
+        let (out, work) = (self.folder.path("out"), self.folder.path("out-parts"));
+        fs::create_dir_all(&work).expect("a folder");
+        let mut launched = Launched { out, work, script: None };
+        let tasks = PARTS.to_string();
+        let arguments = ["launch", "study.toml", C::OPTION, "--tasks", &tasks, "--out", "out"];
+        let mut command = Command::new(env!("CARGO_BIN_EXE_switchback"));
+        command.current_dir(self.folder.path(".")).args(arguments).args(more);
+        if more.contains(&"--submit") {
+            launched.start(&mut command, cluster);
+        } else {
+            let printed = command.output().expect("it runs");
+            assert!(printed.status.success(), "{}", String::from_utf8_lossy(&printed.stderr));
+            fs::write(launched.work.join("launch.sh"), printed.stdout).expect("it can be written");
+        }
+        launched
+    }
+}
+
+/// A study that is under way.
+pub(crate) struct Launched {
+    pub(crate) out: PathBuf,
+    pub(crate) work: PathBuf,
+    script: Option<Child>,
+}
+
+impl Launched {
+    pub(crate) fn start_script<C: Cluster>(&mut self, cluster: &C) {
+        let mut command = Command::new("bash");
+        command.arg(self.work.join("launch.sh"));
+        self.start(&mut command, cluster);
+    }
+
+    pub(crate) fn edit_script(&self, change: impl Fn(&str) -> String) {
+        let place = self.work.join("launch.sh");
+        let text = change(&fs::read_to_string(&place).expect("a script"));
+        fs::write(place, text).expect("it can be written");
+    }
+
+    fn start<C: Cluster>(&mut self, command: &mut Command, cluster: &C) {
+        let told =
+            File::options().create(true).append(true).open(self.work.join("told")).expect("a new file");
+        command.envs(cluster.environment()).stdin(Stdio::null());
+        command.stderr(told.try_clone().expect("a second handle")).stdout(told);
+        self.script = Some(command.spawn().expect("it starts"));
+    }
+
+    pub(crate) fn wait_for_the_script(&mut self) {
+        if let Some(mut script) = self.script.take() {
+            script.wait().expect("it ends");
+        }
+    }
+
+    /// Waits until something has come about.
+    #[track_caller]
+    pub(crate) fn wait(&mut self, what: &str, mut has_come: impl FnMut(&Self) -> bool) {
+        let begun = Instant::now();
+        while !has_come(self) {
+            let patience = Duration::from_secs(if is_full() { 1800 } else { 300 });
+            assert!(begun.elapsed() < patience, "not seen: {what}\n{}", self.told());
+            sleep(Duration::from_millis(50));
+        }
+    }
+
+    pub(crate) fn part(&self, number: usize) -> PathBuf {
+        self.work.join(format!("round-1/part-{number}"))
+    }
+
+    /// Parts of the first round that are finished.
+    pub(crate) fn finished(&self) -> Vec<usize> {
+        (1..=PARTS).filter(|&number| self.part(number).join("part.json").exists()).collect()
+    }
+
+    pub(crate) fn has_report(&self) -> bool {
+        self.out.join("results.json").exists()
+    }
+
+    /// How often a part of the first round was begun.
+    pub(crate) fn turns(&self, number: usize) -> usize {
+        let begun = format!("part {number} of {PARTS} on ");
+        self.logs().iter().map(|text| text.lines().filter(|line| line.starts_with(&begun)).count()).sum()
+    }
+
+    /// What script, parts and merge have said.
+    pub(crate) fn told(&self) -> String {
+        let told = fs::read_to_string(self.work.join("told")).unwrap_or_default();
+        [vec![told], self.logs()].concat().concat()
+    }
+
+    fn logs(&self) -> Vec<String> {
+        let logs = fs::read_dir(self.work.join("round-1/log")).into_iter().flatten().flatten();
+        logs.map(|log| fs::read_to_string(log.path()).unwrap_or_default()).collect()
+    }
+}
+
+impl Drop for Launched {
+    fn drop(&mut self) {
+        if let Some(script) = &mut self.script {
+            let _ = script.kill();
+            let _ = script.wait();
+        }
+    }
+}
