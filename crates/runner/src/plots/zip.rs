@@ -52,8 +52,7 @@ pub(super) fn figure(case: &CaseSelection<'_>, results: &Results) -> Option<Stri
     sheet.legend = vec![
         Entry::line(GOOD, "holds the truth"),
         Entry::line(BAD, "misses it"),
-        Entry::new(Sample::Arrow(Towards::Right, BAD), "misses it beyond the frame"),
-        Entry::new(Sample::Arrow(Towards::Down, INK), "coverage below the frame"),
+        Entry::new(Sample::Arrow(Towards::Right, BAD), "beyond the frame"),
         Entry::new(Sample::Dashes(Pen::data(GREY), Dash::Dashes), "nominal"),
     ];
     let groups = case.groups();
