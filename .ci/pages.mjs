@@ -13,6 +13,8 @@ const profile = mkdtempSync(join(tmpdir(), "profile-"));
 const browser = await puppeteer.launch({
   executablePath,
   userDataDir: profile,
+  // A machine that does other work, too, may take its time.
+  protocolTimeout: 600_000,
   args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage"],
 });
@@ -111,6 +113,7 @@ for (const name of readdirSync(folder).filter(name => existsSync(join(folder, na
   if (size > 5e6) faults.push(`${name}: ${size} bytes`);
   for (const scheme of ["light", "dark"]) {
     const page = await browser.newPage();
+    page.setDefaultTimeout(300_000);
     const told = fault => faults.push(`${name}, ${scheme}: ${fault}`);
     page.on("console", message => { if (["error", "warn"].includes(message.type())) told(`console: ${message.text()}`); });
     page.on("pageerror", error => told(`script: ${error.message}`));

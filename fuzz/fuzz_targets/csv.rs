@@ -1,9 +1,4 @@
 //! Files of measurements that end in .csv.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use switchback_fuzz::{Scratch, one_file};
-
-thread_local!(static FOLDER: Scratch = Scratch::new());
-
-fuzz_target!(|bytes: &[u8]| FOLDER.with(|folder| one_file(folder, "fuzz.csv", bytes)));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| switchback_fuzz::csv::run(bytes));

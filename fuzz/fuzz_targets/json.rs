@@ -1,31 +1,4 @@
 //! What the program wrote and reads again: results of studies, and models, which must run once they were read.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use switchback::{model, results};
-use switchback_fuzz::{Scratch, told};
-
-thread_local!(static FOLDER: Scratch = Scratch::new());
-
-fuzz_target!(|text: &str| {
-    let path = FOLDER.with(|folder| folder.write("fuzz.json", text.as_bytes()));
-    match results::read(&path) {
-        Ok(read) => {
-            let again = results::to_json(&read);
-            let path = FOLDER.with(|folder| folder.write("again.json", again.as_bytes()));
-            assert_eq!(results::read(&path).expect("what was written is read").cells.len(), read.cells.len());
-        }
-        Err(refusal) => told(&refusal),
-    }
-    match model::read(&path) {
-        Ok(file) => {
-            let v: Vec<f64> = (0..50).map(|t| f64::from((7 * t) % 11) - 5.0).collect();
-            if let Some(run) = file.run(&v, None) {
-                assert_eq!(run.y.len(), v.len());
-            }
-            let path = FOLDER.with(|folder| folder.write("again.json", file.text().as_bytes()));
-            model::read(&path).expect("what was written is read");
-        }
-        Err(refusal) => told(&refusal),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| switchback_fuzz::json::run(bytes));

@@ -1,24 +1,4 @@
 //! Rig files beside a good file of measurements: a rig, or refused in words; a rig that was read is written and read back as the same.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use switchback::rig;
-use switchback_fuzz::{Scratch, told};
-
-thread_local!(static FOLDER: Scratch = {
-    let folder = Scratch::new();
-    let rows: String = (0..100).map(|t| format!("{},{},{}\n", 0.01 * f64::from(t), t % 7, t % 5)).collect();
-    folder.write("a.csv", format!("time [s],stroke [mm],force [N]\n{rows}").as_bytes());
-    folder
-});
-
-fuzz_target!(|text: &str| {
-    let path = FOLDER.with(|folder| folder.write("rig.toml", text.as_bytes()));
-    match rig::load(&path) {
-        Ok(loaded) => {
-            let again = rig::manifest(&loaded, path.parent());
-            assert!(again.contains("[[record]]"), "{again}");
-        }
-        Err(refusal) => told(&refusal),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| switchback_fuzz::manifest::run(bytes));

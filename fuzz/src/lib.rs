@@ -1,9 +1,22 @@
-//! What the targets share: a file to be read, in memory where the system offers that.
+//! What is fuzzed: a function from bytes that panics where something is wrong, one for each target.
+//!
+//! `fuzz_targets` hands them to libFuzzer; `crates/runner/tests/fuzz.rs`, which takes this file in, to an ordinary test.
 
+#[path = "targets/csv.rs"]
+pub mod csv;
+#[path = "targets/gap.rs"]
+pub mod gap;
+#[path = "targets/json.rs"]
+pub mod json;
+#[path = "targets/manifest.rs"]
+pub mod manifest;
+#[path = "targets/mat.rs"]
+pub mod mat;
 mod one_file;
+#[path = "targets/scenario.rs"]
+pub mod scenario;
 
-pub use one_file::one_file;
-
+use one_file::one_file;
 use std::path::{Path, PathBuf};
 
 /// A folder of this process, in memory under Linux.
@@ -14,7 +27,8 @@ impl Scratch {
     pub fn new() -> Self {
         let memory = Path::new("/dev/shm");
         let root = if memory.is_dir() { memory.to_owned() } else { std::env::temp_dir() };
-        let folder = root.join(format!("switchback-fuzz-{}", std::process::id()));
+        let folder =
+            root.join(format!("switchback-fuzz-{}-{:?}", std::process::id(), std::thread::current().id()));
         std::fs::create_dir_all(&folder).expect("a writable temporary folder");
         Self(folder)
     }
@@ -44,4 +58,9 @@ impl Drop for Scratch {
 pub fn told(refusal: &dyn miette::Diagnostic) {
     let words = switchback::failure::plain(refusal);
     assert!(words.starts_with("error: ") && words.len() < 1 << 16, "a refusal of {} bytes", words.len());
+}
+
+/// The text that bytes are, if they are one.
+fn text_of(bytes: &[u8]) -> Option<&str> {
+    std::str::from_utf8(bytes).ok()
 }

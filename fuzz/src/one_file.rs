@@ -1,6 +1,6 @@
 //! A single file of measurements, read as `switchback gap FILE` reads it.
 
-use crate::{Scratch, told};
+use super::{Scratch, told};
 use switchback::rig::{self, ColumnNames, HELD_OUT, Plan, PlannedRecord, Sampling, Voice};
 use switchback_estimator::rig::{Role, Usage};
 

@@ -4,6 +4,7 @@ use crate::effect::{Effect, Stage};
 use crate::evidence::Compared;
 use crate::export::PortableModel;
 use crate::verdict::fitted::SecondOpinion;
+use std::fmt;
 
 /// How far the verdict goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -59,6 +60,26 @@ pub struct Verdict {
     /// How many times as much, in root mean square, the model errs on the held-out records as on those it was fitted to, where these show
     /// nothing missing and that is beyond chance (status `unexplained`): the records were taken under other conditions.
     pub held_out_error_ratio: Option<f64>,
+}
+
+impl fmt::Display for Verdict {
+    /// One line: `named: backlash (operator), probability 0.97`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.status.name())?;
+        let told = if self.status == Status::Named { &self.effects } else { &self.class };
+        let names: Vec<&str> = told.iter().map(|effect| effect.name()).collect();
+        if let Some((last, others)) = names.split_last() {
+            let joint = if self.status == Status::Named { "and" } else { "or" };
+            let others =
+                if others.is_empty() { String::new() } else { format!("{} {joint} ", others.join(", ")) };
+            write!(f, ": {others}{last}")?;
+        }
+        if let Some(stage) = self.stage {
+            write!(f, " ({stage})")?;
+        }
+        write!(f, ", probability {:.2}", self.probability)?;
+        if self.calibrated { Ok(()) } else { f.write_str(", not calibrated for such records") }
+    }
 }
 
 /// A model of the same kind, identified anew, that closes the gap without any cause.
@@ -394,4 +415,38 @@ pub struct Diagnosis {
     pub limitations: Vec<String>,
     /// The models to take along; absent in a diagnosis that was put together by hand.
     pub models: Option<Models>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_is_one_line() {
+        let verdict = Verdict {
+            status: Status::Named,
+            effects: vec![Effect::Backlash, Effect::Creep],
+            class: Vec::new(),
+            stage: Some(Stage::Operator),
+            probability: 0.974,
+            calibrated: true,
+            corrected_by: None,
+            refit: None,
+            held_out_error_ratio: None,
+        };
+        assert_eq!(verdict.to_string(), "named: backlash and creep (operator), probability 0.97");
+        let class = vec![Effect::Backlash, Effect::Creep, Effect::InputDelay];
+        let rivals = Verdict {
+            status: Status::Class,
+            effects: vec![Effect::Backlash],
+            class,
+            calibrated: false,
+            stage: None,
+            ..verdict
+        };
+        let told = "class: backlash, creep or input_delay, probability 0.97, not calibrated for such records";
+        assert_eq!(rivals.to_string(), told);
+        let none = Verdict { status: Status::None, class: Vec::new(), calibrated: true, ..rivals };
+        assert_eq!(none.to_string(), "none, probability 0.97");
+    }
 }

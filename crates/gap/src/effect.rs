@@ -57,7 +57,7 @@ impl Effect {
         self.card().twins
     }
 
-    /// Whether the effect's laws are supple enough to imitate others.
+    /// Whether the effect's laws are flexible enough to imitate others almost exactly.
     pub(crate) fn is_supple(self) -> bool {
         self.card().supple
     }

@@ -79,13 +79,34 @@ fn without_tip(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// The command line as clap reads it: `-1` is a value wherever one is expected, so that its own parser says what is wrong with it.
+/// The command line as clap reads it.
 fn command() -> clap::Command {
-    fn valued(argument: clap::Arg) -> clap::Arg {
-        let takes_value = argument.get_action().takes_values() && argument.get_long().is_some();
-        if takes_value { argument.allow_negative_numbers(true) } else { argument }
-    }
     Cli::command().mut_args(valued).mut_subcommands(|verb| verb.mut_args(valued))
+}
+
+/// `-1` is a value wherever one is expected, so that its own parser says what is wrong with it.
+fn valued(argument: clap::Arg) -> clap::Arg {
+    let takes_value = argument.get_action().takes_values() && argument.get_long().is_some();
+    if takes_value { argument.allow_negative_numbers(true) } else { argument }
+}
+
+/// Options of a verb from words, for those who call the library: what they may be, and what is told where they may not, is as on the command
+/// line.
+///
+/// ```
+/// # use switchback::cmd::identify::Asked;
+/// let words = |words: &[&str]| words.iter().map(Into::into).collect();
+/// assert!(switchback::cli::options::<Asked>(words(&["--method", "free"])).is_ok());
+/// let refused = switchback::cli::options::<Asked>(words(&["--method", "best"])).unwrap_err();
+/// assert!(refused.to_string().contains("invalid value 'best' for '--method <METHOD>'"));
+/// ```
+///
+/// # Errors
+/// What the command line would tell.
+pub fn options<A: clap::Args>(words: Vec<OsString>) -> Result<A, clap::Error> {
+    let options = A::augment_args(clap::Command::new("switchback").no_binary_name(true)).mut_args(valued);
+    let parsed = options.try_get_matches_from(words).and_then(|matches| A::from_arg_matches(&matches));
+    parsed.map_err(without_tip)
 }
 
 /// The first word is neither a verb nor a file.

@@ -24,18 +24,23 @@ pub const STOPPED: u8 = 3;
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
 pub type CommandResult = Result<Outcome, miette::Report>;
 
-/// Tells a failure on stderr and turns the result into the process's exit code: 0, 1, 2 or 3.
+/// Tells a failure on stderr and turns the result into the process's exit code.
 pub fn exit_code(result: CommandResult) -> ExitCode {
+    code(result).into()
+}
+
+/// The same as a number: 0, 1, 2 or 3.
+pub fn code(result: CommandResult) -> u8 {
     match result {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::Unmet) => ExitCode::from(1),
-        Ok(Outcome::Stopped) => ExitCode::from(STOPPED),
+        Ok(Outcome::Done) => 0,
+        Ok(Outcome::Unmet) => 1,
+        Ok(Outcome::Stopped) => STOPPED,
         Err(report) => {
             let diagnostic: &dyn Diagnostic = report.as_ref();
             let told =
                 if std::io::stderr().is_terminal() { on_terminal(diagnostic) } else { plain(diagnostic) };
             let _nobody_listens = writeln!(std::io::stderr(), "{}", told.trim_end());
-            ExitCode::from(2)
+            2
         }
     }
 }

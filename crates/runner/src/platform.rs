@@ -1,7 +1,8 @@
-//! What, beside the sources, the last digit of a result depends on.
+//! What, beside the sources, the last digit of a result depends on; and how memory is kept.
 
 use crate::output::sha256;
 use std::fmt::Write;
+use std::hint::black_box;
 
 /// Processor, system, and a hash of what the mathematical library gives: `x86_64-unknown-linux-gnu 1f3a…`.
 ///
@@ -35,4 +36,13 @@ fn mathematics() -> String {
         }
     }
     sha256(bits)
+}
+
+/// A diagnosis takes and leaves thousands of blocks of some ten thousand bytes. The GNU C library hands them back to the system and
+/// asks for them again, at a cost of a tenth of the time, until it has seen a large block come back: from then on it keeps up to twice
+/// as much. Call it once, early. Elsewhere this does nothing.
+pub fn keep_memory() {
+    /// Of larger blocks it learns nothing.
+    const LARGE: usize = 31 << 20;
+    drop(black_box(Vec::<u8>::with_capacity(LARGE)));
 }

@@ -2,7 +2,7 @@
 
 mod watch;
 
-pub use watch::Watch;
+pub use watch::{Listener, Step, Watch};
 
 use crate::options::Quiet;
 use crate::output::note;

@@ -69,7 +69,7 @@ impl Provenance {
         self
     }
 
-    /// In what this program, here, differs from the one that made the results of a folder, or of a file in it: a line each.
+    /// How this program and machine differ from those that made the results of a folder, or of a file in it: a line each.
     pub fn differences(&self, results: &Path, version: &str) -> Vec<String> {
         let folder = if results.is_dir() { results } else { results.parent().unwrap_or(Path::new("")) };
         let text = fs::read_to_string(folder.join(PROVENANCE_FILE)).ok();

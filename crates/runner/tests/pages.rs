@@ -177,7 +177,7 @@ fn other_formats_and_foreign_figures_are_refused() {
         "<script>alert(1)</script><rect",
         &["where.svg: is no drawing of this program"],
     );
-    changed("study/results.json", "\"schema\": 1", "\"schema\": 99", &["results layout 99"]);
+    changed("study/results.json", "\"schema\":1", "\"schema\":99", &["results layout 99"]);
     fs::remove_file(folder.path("gap/series.csv")).expect("it was there");
     refused(&folder, &["report", "gap"], &["gap: series.csv is missing"]);
     // A page of somebody else stays.

@@ -31,12 +31,12 @@ pub(crate) struct Attribution<'a, W> {
 /// How far the search for two effects goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PairEffort {
-    /// As far as anything may be gained.
+    /// Until nothing more is gained.
     Full,
     /// The dynamics are not identified anew where the forward steps leave most of the gap: models may be compared as simulators instead.
     WhileHopeful,
-    /// Forward steps only. The errors of simulators never become white, so that the tests of what is left would ask for every step; what
-    /// further ones gain is small against what any model misses.
+    /// Forward steps only. Errors of simulations never become white, so that the tests would always ask for another step; what further steps gain is
+    /// small against the error of any model.
     Forward,
 }
 

@@ -73,7 +73,7 @@ impl Plan {
         evidence
     }
 
-    /// Lets the held-out records speak, drops what cannot be the cause and tests what the best leaves.
+    /// Compares the explanations on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
     fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
         singles.retain(Explanation::may_be_a_cause);
         self.hear_the_held_out(workers, &mut singles);

@@ -14,8 +14,8 @@ const EXACT: f64 = 1e-6;
 impl Plan {
     /// The conclusion that nothing is missing, where the simulations of the judged records and the predictions of the fit records are exact.
     ///
-    /// What is left of records without noise is rounding, and what straight lines between knots miss. Likelihoods that compare effects by how far
-    /// they press it down would find one in it.
+    /// In records without noise the remaining error is rounding, and the curvature of borders between knots. Likelihoods would find an effect in
+    /// such errors, however small.
     pub(super) fn nothing_to_explain(&self) -> Option<Conclusion> {
         let plain = &self.nominal.plain;
         let missed = mean_square(&self.errors(|number| self.run_before(number)));

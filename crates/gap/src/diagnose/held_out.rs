@@ -135,8 +135,8 @@ impl Plan {
 
     /// Whether there is a gap on the judged records that an explanation does not close, though a cause would.
     ///
-    /// What follows a clock or has a phase in every record is excused, and so is what is random but makes errors that last; and
-    /// noise that leaves nothing, `left` being the deviance that it does: its colour makes a gap where there is none.
+    /// Effects that depend on time, or on a phase that differs from record to record, need not close it. Nor do random effects whose errors last, and
+    /// noise that leaves no deviance (`left`): coloured noise alone makes a simulation differ from the record.
     pub(super) fn hardly_closes(&self, explanation: &Explanation, left: f64) -> bool {
         let excused = |e: &Effect| e.is_of_its_record() || e.card().errors_last;
         let effects = explanation.effects();
@@ -148,8 +148,8 @@ impl Plan {
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
-    /// Whether an explanation makes the simulation of the held-out records worse beyond chance. What is all noise is excused, and what
-    /// follows a clock beside what does not.
+    /// Whether an explanation makes the simulation of the held-out records worse beyond chance. Explanations that consist of noise are exempt, and so
+    /// are effects that depend on time beside others that do not.
     pub(super) fn worsens(&self, explanation: &Explanation) -> bool {
         let effects = explanation.effects();
         let of_its_record = effects.iter().any(|e| e.is_of_its_record());

@@ -11,7 +11,7 @@ use crate::records::campaign::Campaign;
 use crate::simulation::simulate::free_run;
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
-/// Whether a verdict tells an effect that a higher order or another delay has room for, be it as one of several.
+/// Whether a verdict names, alone or among others, an effect that a higher order or another delay could describe as well.
 pub(super) fn tells_dynamics(verdict: &Verdict) -> bool {
     verdict.effects.iter().chain(&verdict.class).any(|effect| effect.card().room.is_some())
 }

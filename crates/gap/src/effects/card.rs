@@ -14,71 +14,72 @@ pub(crate) struct Card {
     pub(crate) stage: Stage,
     /// The laws that make sense on a scene's records, each with its starts and bounds; none where the records rule the effect out.
     pub(crate) laws: fn(&Scene<'_>) -> Vec<Variant>,
-    /// The effects that leave nearly the same trace in ordinary records: no second beside it, told with it as one class
-    /// (`attribution`, `verdict`).
+    /// The effects that leave nearly the same trace in ordinary records. They are never looked for beside it, and the verdict names them
+    /// together with it, as one class (`attribution`, `verdict`).
     pub(crate) twins: &'static [Effect],
 
-    /// It changes only what is random: it moves no simulation error, and no candidate of a simulator (`attribution`, `diagnose`, `verdict`).
+    /// It changes the noise only, and so no simulation; where models are compared by their simulations it is no candidate (`attribution`,
+    /// `diagnose`, `verdict`).
     pub(crate) noise: bool,
-    /// It gives the noise a spectrum of any shape: behind it may hide whatever else rules the dynamics, and where it leaves something it stands
-    /// in for another cause (`attribution::pairs`, `diagnose`, `verdict::odds`).
+    /// It gives the noise a spectrum of any shape. Another effect of the dynamics may hide behind such noise; where a gap remains with it,
+    /// another cause is likely (`attribution::pairs`, `diagnose`, `verdict::odds`).
     pub(crate) colours_noise: bool,
-    /// It makes rare large errors: they take what any inexact law misses now and then, and are a cause only where they come at no
-    /// particular place of the input (`attribution::pairs`, `diagnose`).
+    /// It makes rare large errors. Such errors also describe what any inexact law misses occasionally, so that they are a cause only where they
+    /// do not depend on the input (`attribution::pairs`, `diagnose`).
     pub(crate) heavy_tails: bool,
-    /// The errors that it makes last in the output, and a simulation by the right model keeps them: it need not close a gap on held-out
-    /// records (`diagnose::held_out`).
+    /// Its errors pass through the dynamics and last. Even the simulation of the right model then misses the output, so that the effect need
+    /// not close the gap on held-out records (`diagnose::held_out`).
     pub(crate) errors_last: bool,
-    /// The sensor makes it of an output that is right: its laws are never exact, so a second effect beside it must show on held-out records
-    /// (`diagnose::harm`).
+    /// The sensor distorts an output that the model has right. No law of a sensor is exact, so that a second effect beside it must improve
+    /// held-out records (`diagnose::harm`).
     pub(crate) misreads: bool,
-    /// The sensor rounds: to what else there is the tests are blind where steps are coarse, and a simulation is as good without it (`diagnose`).
+    /// The sensor rounds. Where its steps are coarse the tests see nothing else, and simulations are as good without it (`diagnose`).
     pub(crate) rounds: bool,
-    /// It follows a clock or has a phase of its own in every record: what was fitted need not hold in other records (`diagnose`, `verdict::odds`).
+    /// It depends on time, or on a phase that differs from record to record: its fitted parameters need not hold in other records (`diagnose`,
+    /// `verdict::odds`).
     pub(crate) of_its_record: bool,
 
-    /// Its laws are supple enough to imitate others but for a little (`verdict::odds`).
+    /// Its laws are flexible enough to imitate other effects almost exactly (`verdict::odds`).
     pub(crate) supple: bool,
-    /// It may leave nothing of what the dynamics are identified from, so that they are identified anew with it
-    /// (`attribution::successive_halving`).
+    /// It may hide the dynamics altogether, so that they are identified anew together with it (`attribution::successive_halving`).
     pub(crate) dominates_dynamics: bool,
-    /// It takes what an inexact law of another effect leaves: small beside that one, it is a correction and no cause
-    /// (`attribution::pairs`).
+    /// It may describe the remaining error of another effect whose law is inexact. Where it gains little beside that effect it is a correction
+    /// and no cause (`attribution::pairs`).
     pub(crate) follows: Option<Follows>,
-    /// It takes what any inexact law leaves: it is not looked for as a second effect like others (`attribution::pairs`).
+    /// It describes the remaining error of any inexact law, so that it is not looked for as a second effect (`attribution::pairs`).
     pub(crate) stopgap: bool,
-    /// It is the border grid itself: knots placed from the data are its law, and where it is no candidate none follow details
+    /// It is a property of the border grid: its law is to place knots from the data. Where it is no candidate no knots are placed
     /// (`attribution`, `diagnose::nominal`).
     pub(crate) lies_in_the_grid: bool,
-    /// Which larger nominal model has room for it: told, that one is tried before the effect is believed (`diagnose::refit`).
+    /// Which larger nominal model can describe it. That model is tried before the effect is named (`diagnose::refit`).
     pub(crate) room: Option<Room>,
-    /// Fraction of the gap, one step ahead, that it leaves at most where it is the cause, whatever rivals are behind it. Fitted to made rigs with
-    /// known causes, law mismatch included (`verdict::odds`).
+    /// Largest fraction of the one-step gap that remains where it is the cause. Fitted to simulated rigs with known causes, some of which follow
+    /// other laws than the candidates (`verdict::odds`).
     pub(crate) most_left: f64,
 
-    /// Whether a fit of it is but the colour of the noise under another name (`attribution::explain`).
+    /// Whether a fit of it describes coloured noise and nothing else (`attribution::explain`).
     pub(crate) is_noise_in_disguise: fn(&Fit) -> bool,
     /// A law with more freedom, from where a fit by one of [`Self::laws`] ended (`attribution::search`).
     pub(crate) freed: fn(&Campaign, &Fit) -> Option<Variant>,
 
-    /// Nonlinear parameters that a user is told by another name, that of the law and the one told (`diagnose::parameters`).
+    /// Nonlinear parameters that reports call otherwise: their name in the law, and in reports (`diagnose::parameters`).
     pub(crate) renamed: &'static [(&'static str, &'static str)],
-    /// What a user would measure, told before the parameters that were searched for: read off the data or the fit, or
-    /// derived from them (`diagnose::parameters`).
+    /// Quantities that a user would measure, reported before the fitted parameters: taken from the data or the fit, or derived from the
+    /// parameters (`diagnose::parameters`).
     pub(crate) told_first: fn(&Reading<'_>) -> Vec<FittedParameter>,
 }
 
-/// What an effect takes beside an inexact law.
+/// Which remaining error of another effect an effect may describe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Follows {
-    /// Whatever that misses.
+    /// That of any law.
     Anything,
-    /// The steps of a rounding so coarse that the tests are blind. On sixty made rigs that only round, these effects gain up to 0.7 of deviance
-    /// a sample, all others 0.013 at most.
+    /// The steps of a sensor that rounds so coarsely that the tests see nothing else. On sixty simulated rigs that only round, these effects gain
+    /// up to 0.7 of deviance a sample, all others 0.013 at most.
     Steps,
 }
 
-/// What of a nominal model would be larger.
+/// In what a larger nominal model is larger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Room {
     /// Its order.
@@ -87,7 +88,7 @@ pub(crate) enum Room {
     Delay,
 }
 
-/// Fraction of the gap that causes in general leave at most.
+/// Largest fraction of the gap that remains with the right cause, unless its card says otherwise.
 const MOST_LEFT: f64 = 0.45;
 
 impl Card {

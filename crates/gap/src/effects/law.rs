@@ -39,7 +39,7 @@ pub(crate) struct Variant {
     pub(crate) search: Search,
     /// Starts from which everything is fitted together, where the nonlinear parameters are conditions of the rest.
     pub(crate) climbs: usize,
-    /// Which valley a start lies in, where only the likeliest of each is climbed from.
+    /// Near which local minimum a start lies, where only the likeliest start of each is refined.
     pub(crate) valley: Option<fn(&[NonlinearParameter]) -> i64>,
     pub(crate) apply: Apply,
     pub(crate) sound: Sound,
@@ -51,7 +51,7 @@ pub(crate) struct Variant {
     pub(crate) handicap: f64,
 }
 
-/// Climbs of a law whose starts are stages of one valley.
+/// Refines a law whose starts lie along one valley of the likelihood.
 const CLIMBS: usize = 3;
 
 impl Search {

@@ -11,7 +11,7 @@ use crate::model::assembly::{NoiseLaw, convolve};
 pub(crate) struct Weights {
     /// Factor on each innovation that makes them equally distributed; absent where all are 1.
     pub(crate) scale: Option<Vec<Vec<f64>>>,
-    /// What takes from the innovations what the past foretells, and holds the factors, where noise on the input colours them.
+    /// Whitens the innovations and holds the factors, where noise on the input gives them a colour.
     pub(crate) predictors: Option<Vec<Predictor>>,
     /// Samples left out.
     pub(crate) left_out: usize,

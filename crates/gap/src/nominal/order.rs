@@ -100,7 +100,7 @@ impl Structure {
         format!("the rig declares no order: order {}{lead}", self.order)
     }
 
-    /// Structures with room for what an effect of the dynamics or a delay does, simpler ones first; `is_late` where it is a delay.
+    /// Structures that could describe an effect of the dynamics, or with `is_late` a delay, simpler ones first.
     pub(crate) fn wider(self, is_late: bool) -> Vec<Self> {
         let later = (1..=LATER).map(|by| Self { lead: self.lead - by, ..self });
         let higher = (1..=HIGHER).map(|by| Self { order: self.order + by, ..self });

@@ -225,8 +225,8 @@ pub(crate) fn set_by_first_samples(
 const MOST_HELD: f64 = 4.0;
 const CERTAIN: f64 = 10.0;
 
-/// Whether what dies away with a pole at the beginnings of the records is what a filter may hold when they begin: not more than a past
-/// input between the borders leaves there.
+/// Whether the transients with a given pole at the beginnings of the records may be the initial states of a filter: no larger than a past input between
+/// the borders can have left.
 ///
 /// ```text
 /// ũ = … + κ·(1−p)/(1−p q⁻¹) u,   A y = B ũ + d·pᵗ   ⟹   |d| ≤ |B(1/p)·κ|·2·max|u|

@@ -31,12 +31,12 @@ pub(crate) fn naming_nothing(status: Status, stage: Option<Stage>, probability: 
     }
 }
 
-/// The verdict where the judged records resolve no gap and no candidate explains what is left: whatever it is, it shows nowhere.
+/// The verdict where no gap is resolved on the judged records and no candidate explains what remains of the error.
 pub(crate) fn unresolved(odds: &Odds) -> Verdict {
     naming_nothing(Status::None, None, odds.none + odds.unexplained)
 }
 
-/// The verdict where the fit records lack nothing and the held-out records are missed all the same: none of the candidates is the cause.
+/// The verdict where the model describes the fit records but not the held-out ones: none of the candidates is the cause.
 /// `ratio` is how many times as much the model errs there, in root mean square.
 pub(crate) fn held_out_differs(odds: &Odds, ratio: f64) -> Verdict {
     let unexplained = naming_nothing(Status::Unexplained, None, odds.none + odds.unexplained);

@@ -1,4 +1,4 @@
-//! Calibrated probabilities of explanations, of none and of none of these.
+//! Calibrated probabilities: of each explanation, of `none` (nothing is missing), and of `unexplained` (the cause is no candidate).
 
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::pairs::{Causes, Pair};
@@ -11,7 +11,7 @@ pub(crate) const UNEXPLAINED: f64 = 0.5 * calibration::ALL_FAIL;
 /// standard deviation.
 pub(crate) const IMMATERIAL: f64 = 100.0;
 
-/// Probabilities of the explanations, of none and of none of these.
+/// Probabilities of the explanations, that nothing is missing, and that the cause is no candidate.
 #[derive(Debug, Clone)]
 pub(crate) struct Odds {
     /// One per explanation, in the order given.
@@ -71,7 +71,7 @@ mod calibration {
     pub(super) const NO_CLAIM: f64 = 0.18;
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
     pub(super) const NOTHING: (f64, f64) = (0.05, 0.01);
-    /// The same where the best is supple enough to imitate others but for a little.
+    /// The same where the best is flexible enough to imitate others almost exactly.
     pub(super) const NOTHING_BY_SUPPLE: (f64, f64) = (0.004, 0.0008);
     /// Deviance a sample that a second effect must gain.
     pub(super) const SECOND: f64 = 0.06;

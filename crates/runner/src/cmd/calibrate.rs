@@ -5,6 +5,7 @@ use crate::examination::{Part, read_cases};
 use crate::failure::{CommandResult, Outcome};
 use crate::field::{self, Case};
 use crate::options::{Force, Quiet};
+use crate::output::stamped;
 use crate::parts::{PART_FILE, scenario_of};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -30,6 +31,9 @@ pub struct Args {
     #[command(flatten)]
     force: Force,
 }
+
+/// Name and version of the layout of a fitted verdict.
+const SCHEMA: &str = "switchback/verdict/1";
 
 /// Rigs that no verdict can be fitted to.
 #[derive(Debug, Error, Diagnostic)]
@@ -94,8 +98,7 @@ pub fn run(args: &Args) -> CommandResult {
         source,
     })?;
     if let Some(out) = out {
-        let text = serde_json::to_string_pretty(&calibrated.verdict).expect("names and numbers are JSON");
-        out.commit(text + "\n")?;
+        out.commit(stamped(SCHEMA, &calibrated.verdict))?;
     }
     args.quiet.tell(&calibrated.summary())?;
     Ok(Outcome::Done)

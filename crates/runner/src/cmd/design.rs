@@ -17,6 +17,27 @@ use thiserror::Error;
 /// the system and the noise found on that rig.
 #[derive(Debug, clap::Args)]
 pub struct Args {
+    #[command(flatten)]
+    asked: Asked,
+
+    /// Folder for the records and rig.toml.
+    #[arg(long, value_name = "DIR", required_unless_present = "from")]
+    out: Option<PathBuf>,
+
+    /// Print one JSON object instead of words.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// The experiments that are asked for.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
     /// Order of the linear part [default with --from: that of the rig].
     #[arg(long, value_name = "N", required_unless_present = "from", value_parser = whole::<u8>(1..=20))]
     order: Option<u8>,
@@ -80,20 +101,6 @@ pub struct Args {
     /// Name of the rig to be measured [default: that of the folder].
     #[arg(long)]
     name: Option<String>,
-
-    /// Folder for the records and rig.toml.
-    #[arg(long, value_name = "DIR", required_unless_present = "from")]
-    out: Option<PathBuf>,
-
-    /// Print one JSON object instead of words.
-    #[arg(long)]
-    json: bool,
-
-    #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
 }
 
 /// A precision was asked for without a rig.
@@ -107,28 +114,57 @@ pub struct PrecisionOfWhat;
 /// # Errors
 /// Experiments that cannot be, a rig that cannot be planned from, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    // Clap does not ask for an argument that conflicts with one given, as --from does with --interval.
-    if args.precision.is_some() && args.from.is_none() {
-        return Err(PrecisionOfWhat.into());
-    }
-    let source = args.from.as_deref().map(|file| Source::read(args, file)).transpose()?;
-    let request = request(args, source.as_ref())?;
-    let inputs: Vec<&Path> =
-        source.iter().flat_map(|source| &source.files).chain(&args.from).map(PathBuf::as_path).collect();
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &inputs)?;
+    let out = args.out.as_deref();
+    let source = args.asked.source()?;
+    let request = request((&args.asked, out), source.as_ref())?;
+    let inputs: Vec<&Path> = source
+        .iter()
+        .flat_map(|source| &source.files)
+        .chain(&args.asked.from)
+        .map(PathBuf::as_path)
+        .collect();
+    let folder = args.force.claim_if_asked(out, &[rig::RIG_FILE], &inputs)?;
     // What a former plan without `--free-only` left, if nothing was measured into it.
     let folder = folder.map(|folder| folder.clearing(&["descendant.csv", "ascendant.csv"]));
-    let (plan, outlook) = match source {
-        Some(source) => foresee(args, request, source.truth)?,
-        None => (Plan::new(request, length(args))?, None),
-    };
+    let report = report((&args.asked, out), request, source)?;
     if let Some(folder) = folder {
-        folder.commit(&design::artefacts(&plan))?;
+        folder.commit(&design::artefacts(&report.plan))?;
     }
-    let folder = args.out.as_ref().map(|folder| folder.display().to_string());
-    let report = Report { plan, outlook, folder };
     args.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
     Ok(Outcome::Done)
+}
+
+/// The plan alone: nothing is printed or written. `out` is the folder that it is meant for.
+///
+/// # Errors
+/// Experiments that cannot be, or a rig that cannot be planned from.
+pub fn planned(asked: &Asked, out: Option<&Path>) -> miette::Result<Report> {
+    let source = asked.source()?;
+    let request = request((asked, out), source.as_ref())?;
+    Ok(report((asked, out), request, source)?)
+}
+
+fn report(
+    (asked, out): (&Asked, Option<&Path>),
+    request: Request,
+    source: Option<Source>,
+) -> Result<Report, DesignError> {
+    let (plan, outlook) = match source {
+        Some(source) => foresee(asked, request, source.truth)?,
+        None => (Plan::new(request, length(asked))?, None),
+    };
+    Ok(Report { plan, outlook, folder: out.map(|folder| folder.display().to_string()) })
+}
+
+impl Asked {
+    /// The rig to plan from, where one is given.
+    fn source(&self) -> miette::Result<Option<Source>> {
+        // Clap does not ask for an argument that conflicts with one given, as --from does with --interval.
+        if self.precision.is_some() && self.from.is_none() {
+            return Err(PrecisionOfWhat.into());
+        }
+        Ok(self.from.as_deref().map(|file| Source::read(self, file)).transpose()?)
+    }
 }
 
 /// The rig to plan from, and what it says of the system.
@@ -140,7 +176,7 @@ struct Source {
 }
 
 impl Source {
-    fn read(args: &Args, file: &Path) -> Result<Self, DesignError> {
+    fn read(args: &Asked, file: &Path) -> Result<Self, DesignError> {
         let rig::Loaded { mut rig, plan, .. } = rig::load(file)?;
         let files = plan.records.into_iter().map(|record| record.path).collect();
         rig.order = args.order.map(usize::from).or(rig.order);
@@ -150,7 +186,7 @@ impl Source {
 }
 
 /// What is asked for, completed from the rig.
-fn request(args: &Args, source: Option<&Source>) -> Result<Request, miette::Report> {
+fn request((args, out): (&Asked, Option<&Path>), source: Option<&Source>) -> Result<Request, miette::Report> {
     let known = source.map(|s| (s.truth.hysteresis.interval(), s.rig.sample_time, s.truth.system.order()));
     let given = args.interval.zip(args.rate).zip(args.order);
     let (interval, sample_time, order) = known
@@ -159,8 +195,7 @@ fn request(args: &Args, source: Option<&Source>) -> Result<Request, miette::Repo
     let label = |given: &Option<String>, of_rig: fn(&Rig) -> &str, default: &str| {
         given.clone().unwrap_or_else(|| source.map_or(default, |s| of_rig(&s.rig)).to_owned())
     };
-    let folder =
-        args.out.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+    let folder = out.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
     Ok(Request {
         name: args.name.clone().or(folder).unwrap_or_else(|| "planned".to_owned()),
         order,
@@ -179,7 +214,7 @@ fn request(args: &Args, source: Option<&Source>) -> Result<Request, miette::Repo
 }
 
 /// Where no length is given, the default one.
-fn length(args: &Args) -> Length {
+fn length(args: &Asked) -> Length {
     match (args.duration, args.periods) {
         (Some(seconds), _) => Length::Duration(seconds),
         (None, Some(periods)) => Length::Periods(periods as usize),
@@ -188,7 +223,7 @@ fn length(args: &Args) -> Length {
 }
 
 /// The plan, as long as the precision wanted needs, and what is predicted of it.
-fn foresee(args: &Args, request: Request, truth: Truth) -> Result<(Plan, Option<Outlook>), DesignError> {
+fn foresee(args: &Asked, request: Request, truth: Truth) -> Result<(Plan, Option<Outlook>), DesignError> {
     let sketch = Campaign::new(request.interval, request.order, request.points, Campaign::FEWEST_PERIODS)?;
     let forecast = Forecast::new(&truth, sketch.pulses(), args.method)?;
     let length = args.precision.map_or_else(|| length(args), |p| Length::Periods(forecast.periods_for(p)));

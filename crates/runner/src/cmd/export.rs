@@ -2,9 +2,9 @@
 
 use crate::export::{self, Target, heading, name_from};
 use crate::failure::{CommandResult, Outcome};
-use crate::model;
+use crate::model::{self, ModelFile};
 use crate::options::{Force, Quiet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Take a model with you: as a Python file, a C header or an FMU that simulators open.
 #[derive(Debug, clap::Args)]
@@ -12,21 +12,12 @@ pub struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
-    /// What to make of it.
-    #[arg(long, value_name = "TARGET")]
-    to: Target,
+    #[command(flatten)]
+    asked: Asked,
 
     /// The file to write [default: the model's name with .py, .h or .fmu, in this folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-
-    /// What the model is called in the file [default: the name of the file, else of the rig]
-    #[arg(long, value_name = "NAME")]
-    name: Option<String>,
-
-    /// The library that goes into an FMU [default: the one beside this program]
-    #[arg(long, value_name = "LIBRARY")]
-    library: Option<PathBuf>,
 
     #[command(flatten)]
     quiet: Quiet,
@@ -35,29 +26,60 @@ pub struct Args {
     force: Force,
 }
 
+/// What to make of a model.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// What to make of it.
+    #[arg(long, value_name = "TARGET")]
+    to: Target,
+
+    /// What the model is called in the file [default: the name of the file, else of the rig]
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+
+    /// The library that goes into an FMU [default: the one beside this program]
+    #[arg(long, value_name = "LIBRARY")]
+    library: Option<PathBuf>,
+}
+
 /// Reads, translates, writes.
 ///
 /// # Errors
 /// A file that is no model, a model that looks ahead, or a file that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
-    let causal = file.causal().map_err(|error| error.in_file(&args.model))?;
-    let stem = args.out.as_deref().and_then(|out| out.file_stem()).and_then(|stem| stem.to_str());
-    let name = name_from(args.name.as_deref().or(stem).unwrap_or(&file.header.rig));
-    let out = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.{}", args.to.ending())));
+    let name = args.asked.name(&file, args.out.as_deref());
+    let out = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.{}", args.asked.to.ending())));
     // What is missing is told before anything is claimed.
-    let library = match args.to {
-        Target::Fmu => export::library(args.library.as_deref())?,
-        Target::Python | Target::C => Vec::new(),
-    };
+    let made = made(&file, &args.asked, (&args.model, &name))?;
     let target = args.force.claim_file(Some(&out), &[&args.model])?.expect("a file was named");
-    let program = causal.program();
-    let heading = heading(&file, &name);
-    match args.to {
-        Target::Python => target.commit(switchback_step::python(&program, &heading))?,
-        Target::C => target.commit(switchback_step::c(&program, &heading))?,
-        Target::Fmu => target.commit(export::fmu(&file, (program, &heading), &library)?)?,
-    }
+    target.commit(made)?;
     args.quiet.tell(&format!("{}\n", out.display()))?;
     Ok(Outcome::Done)
+}
+
+impl Asked {
+    /// What the model is called, in a file of that path if there is one.
+    pub fn name(&self, file: &ModelFile, out: Option<&Path>) -> String {
+        let stem = out.and_then(Path::file_stem).and_then(|stem| stem.to_str());
+        name_from(self.name.as_deref().or(stem).unwrap_or(&file.header.rig))
+    }
+}
+
+/// The bytes of the file alone: nothing is read or written but the library of an FMU. `place` is what messages call the model, `name` what it is
+/// called in the file.
+///
+/// # Errors
+/// A model that looks ahead, or a library that is missing.
+pub fn made(file: &ModelFile, asked: &Asked, (place, name): (&Path, &str)) -> miette::Result<Vec<u8>> {
+    let program = file.causal().map_err(|error| error.in_file(place))?.program();
+    let heading = heading(file, name);
+    Ok(match asked.to {
+        Target::Python => switchback_step::python(&program, &heading).into(),
+        Target::C => switchback_step::c(&program, &heading).into(),
+        Target::Fmu => {
+            let library = export::library(asked.library.as_deref())?;
+            export::fmu(file, (program, &heading), &library)?
+        }
+    })
 }

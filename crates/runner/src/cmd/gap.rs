@@ -1,7 +1,7 @@
 //! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
 use super::data_args::DataArgs;
-use super::power::{self, Asked, DataPlace, PowerArgs};
+use super::power::{self, DataPlace, PowerArgs};
 use crate::diagnosis::{self, Checked, Expectation, Report, Subject};
 use crate::failure::{CommandResult, Outcome};
 use crate::fmu::{self, FmuError, Map, Simulator};
@@ -13,7 +13,7 @@ use crate::plots;
 use crate::progress::Watch;
 use crate::rig::Loaded;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 use switchback_estimator::rig::Rig;
 use switchback_gap::fitted::Shares;
@@ -25,10 +25,8 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
-    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
-    #[arg(long, value_name = "MODEL.json")]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    asked: Asked,
 
     /// Diagnose a simulator: run this co-simulation FMU (FMI 2.0) over the records, and take its outputs for y_sim.
     #[arg(long, value_name = "MODEL.fmu", conflicts_with_all = ["model", "power"])]
@@ -48,27 +46,8 @@ pub struct Args {
     #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
     expect: Vec<Expectation>,
 
-    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    without: Vec<Effect>,
-
-    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
-    /// than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    ask: Vec<Effect>,
-
-    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
-    /// confirmed.
-    #[arg(long)]
-    causal: bool,
-
-    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
-    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
-    #[arg(long, value_name = "SHARES", value_parser = prior)]
-    prior: Option<Shares>,
-
     /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "power")]
     explain: bool,
 
     /// Print one JSON object instead of words.
@@ -91,6 +70,50 @@ pub struct Args {
 
     #[command(flatten)]
     force: Force,
+}
+
+/// What is asked of the records.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
+    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    without: Vec<Effect>,
+
+    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    ask: Vec<Effect>,
+
+    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
+    /// confirmed.
+    #[arg(long)]
+    causal: bool,
+
+    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
+    #[arg(long, value_name = "SHARES", value_parser = prior)]
+    prior: Option<Shares>,
+}
+
+impl Asked {
+    /// The file of the model under diagnosis, where one is given.
+    pub fn model(&self) -> Option<&Path> {
+        self.model.as_deref()
+    }
+
+    /// How the records are diagnosed.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            prior: self.prior,
+            causal: self.causal,
+            ..Settings::default().without(&self.without).asking(&self.ask)
+        }
+    }
 }
 
 /// What the folder gets.
@@ -120,11 +143,10 @@ pub fn run(args: &Args) -> CommandResult {
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.told.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
-    let subject = Subject::choose(rig, args.model.as_deref())?.noting(notes);
+    let subject = Subject::choose(rig, args.asked.model())?.noting(notes);
     let watch = Watch::new(args.quiet);
-    let report = args.threads.install(|| diagnosis::examine_watched(subject, &settings(args), &watch))?;
+    let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
-    let report = report.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report)?)?;
     }
@@ -161,10 +183,23 @@ fn patience(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64).ok_or_else(|| "give a positive number of seconds".to_owned())
 }
 
+/// The diagnosis alone: nothing is read, printed or written. `place` is what messages call the records.
+///
+/// # Errors
+/// Records that cannot be diagnosed.
+pub fn diagnosed(
+    subject: Subject,
+    asked: &Asked,
+    (place, threads, watch): (&Path, Threads, &Watch),
+) -> miette::Result<Report> {
+    let report = threads.install(|| diagnosis::examine_watched(subject, &asked.settings(), watch))?;
+    Ok(report.map_err(|error| error.in_file(place))?)
+}
+
 fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
-    let asked = Asked {
-        model: args.model.as_deref(),
-        settings: settings(args),
+    let asked = power::Order {
+        model: args.asked.model(),
+        settings: args.asked.settings(),
         out: args.out.as_ref(),
         json: args.json,
         options: (args.threads, args.quiet, args.force),
@@ -173,20 +208,16 @@ fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
     power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))
 }
 
-fn settings(args: &Args) -> Settings {
-    Settings {
-        prior: args.prior,
-        causal: args.causal,
-        ..Settings::default().without(&args.without).asking(&args.ask)
-    }
-}
-
 fn effect() -> impl TypedValueParser<Value = Effect> {
     PossibleValuesParser::new(Effect::ALL.map(Effect::name))
         .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
 }
 
-fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
+/// The files of a diagnosis.
+///
+/// # Errors
+/// A page that cannot be made.
+pub fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
     let mut artefacts = Artefacts::default();
     artefacts.add("gap.json", diagnosis::json(report));
     for (name, file) in model::diagnosed(report) {

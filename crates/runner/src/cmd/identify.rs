@@ -10,7 +10,7 @@ use crate::pages::{self, INDEX};
 use crate::plots;
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use switchback_estimator::rig::Rig;
 
 /// Identify the linear part and both borders from a rig's records.
@@ -19,14 +19,8 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
-    /// records allow]
-    #[arg(long, value_parser = method(), hide_possible_values = true)]
-    method: Option<Method>,
-
-    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
-    #[arg(long)]
-    causal: bool,
+    #[command(flatten)]
+    asked: Asked,
 
     /// Print one JSON object instead of tables.
     #[arg(long)]
@@ -46,6 +40,19 @@ pub struct Args {
     force: Force,
 }
 
+/// What is asked of the records.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
+    /// records allow]
+    #[arg(long, value_parser = method(), hide_possible_values = true)]
+    method: Option<Method>,
+
+    /// Only models that could run in real time: no look ahead, and a reversal takes effect once it is confirmed.
+    #[arg(long)]
+    causal: bool,
+}
+
 /// What the folder gets.
 const FILES: [&str; 6] =
     [INDEX, "estimate.json", "model.json", "series.csv", "borders.svg", "measured_and_simulated_*.svg"];
@@ -58,12 +65,9 @@ pub fn run(args: &Args) -> CommandResult {
     let loaded = args.data.load("identify", args.quiet)?;
     let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let rig = loaded.rig;
-    let method = args.method.unwrap_or_else(|| identification::default_method(&rig));
-    let request = Request { method, causal: args.causal };
     let watch = Watch::new(args.quiet);
-    let identification = args.threads.install(|| identification::examined_watched(&rig, request, &watch))?;
+    let identification = identified(&rig, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
-    let identification = identification.map_err(|error| error.in_file(args.data.path()))?;
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
@@ -72,12 +76,31 @@ pub fn run(args: &Args) -> CommandResult {
     Ok(Outcome::Done)
 }
 
+/// The identification alone: nothing is read, printed or written. `place` is what messages call the records.
+///
+/// # Errors
+/// Records that nothing can be identified from.
+pub fn identified(
+    rig: &Rig,
+    asked: &Asked,
+    (place, threads, watch): (&Path, Threads, &Watch),
+) -> miette::Result<Identification> {
+    let method = asked.method.unwrap_or_else(|| identification::default_method(rig));
+    let request = Request { method, causal: asked.causal };
+    let identification = threads.install(|| identification::examined_watched(rig, request, watch))?;
+    Ok(identification.map_err(|error| error.in_file(place))?)
+}
+
 fn method() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name))
         .map(|name| Method::from_name(&name).expect("only names of methods are possible values"))
 }
 
-fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
+/// The files of an identification.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<Artefacts> {
     let mut artefacts = Artefacts::default();
     artefacts.add("estimate.json", identification::json(rig, identification));
     if let Some(model) = model::identified(rig, identification) {

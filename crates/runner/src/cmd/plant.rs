@@ -25,6 +25,27 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
+    #[command(flatten)]
+    asked: Asked,
+
+    /// Folder for rig.toml and the records; what was put in is printed, not written there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+
+    /// Print what was put in as JSON.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// The fault that is asked for.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
     /// Effect to put in; `switchback rig --list` shows all.
     #[arg(long, value_name = "EFFECT")]
     effect: String,
@@ -45,20 +66,17 @@ pub struct Args {
     /// to spare]
     #[arg(long, value_name = "MODEL.json")]
     model: Option<PathBuf>,
+}
 
-    /// Folder for rig.toml and the records; what was put in is printed, not written there.
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+impl Asked {
+    /// The file of the model that carries the effect, where one is given.
+    pub fn model(&self) -> Option<&Path> {
+        self.model.as_deref()
+    }
 
-    /// Print what was put in as JSON.
-    #[arg(long)]
-    json: bool,
-
-    #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    fn ingredient(&self) -> Result<Ingredient, RigCommandError> {
+        Ok(Ingredient::with_law(&self.effect, self.law, self.size)?)
+    }
 }
 
 /// Why nothing was planted.
@@ -111,31 +129,37 @@ const FILES: [&str; 2] = [rig::RIG_FILE, "*.csv"];
 /// # Errors
 /// Data that cannot be read or carry nothing, an unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let ingredient =
-        Ingredient::with_law(&args.effect, args.law, args.size).map_err(RigCommandError::from)?;
-    let carrier = args.model.as_deref().map(model::read).transpose()?;
+    args.asked.ingredient()?;
+    let carrier = args.asked.model().map(model::read).transpose()?;
+    let carrier = carrier.as_ref().zip(args.asked.model());
     let loaded = args.data.load("plant", args.quiet)?;
     let folder = args.force.claim_if_asked(Some(&args.out), &FILES, &args.data.inputs(&loaded))?;
-    let planted = planted(&loaded.rig, (args, carrier.as_ref()), &ingredient)?;
+    let planted = planted(&loaded.rig, &args.asked, (args.data.path(), carrier))?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&planted.rig))?;
     }
     let words = || told(&planted.fault, &Units::of(&planted.rig).output);
-    args.quiet.tell_or(args.json, || stamped(SCHEMA, &json(&planted.fault)), words)?;
+    args.quiet.tell_or(args.json, || page(&planted.fault), words)?;
     Ok(Outcome::Done)
 }
 
-fn planted(
+/// The records with the fault alone: nothing is read, printed or written. `place` is what messages call the records; the carrier is a model and
+/// what messages call that.
+///
+/// # Errors
+/// An unknown effect or law, or records or a model that cannot carry it.
+pub fn planted(
     rig: &Rig,
-    (args, carrier): (&Args, Option<&ModelFile>),
-    ingredient: &Ingredient,
+    asked: &Asked,
+    (place, carrier): (&Path, Option<(&ModelFile, &Path)>),
 ) -> miette::Result<PlantedRig> {
-    let refused = |error| PlantError::Ground { data: name(args.data.path()), error };
-    let ground = match (carrier, args.model.as_deref()) {
-        (Some(file), Some(path)) => PlantingGround::carried_by(rig, carrying(rig, file, path)?),
-        _ => PlantingGround::new(rig),
+    let ingredient = asked.ingredient()?;
+    let refused = |error| PlantError::Ground { data: name(place), error };
+    let ground = match carrier {
+        Some((file, path)) => PlantingGround::carried_by(rig, carrying(rig, file, path)?),
+        None => PlantingGround::new(rig),
     };
-    Ok(ground.and_then(|ground| ground.plant(ingredient, args.seed)).map_err(refused)?)
+    Ok(ground.and_then(|ground| ground.plant(&ingredient, asked.seed)).map_err(refused)?)
 }
 
 /// The model of a file, where it can carry a fault into the records of a rig.
@@ -161,7 +185,8 @@ fn name(path: &Path) -> String {
 /// Name and version of the layout of what was put in.
 const SCHEMA: &str = "switchback/plant/1";
 
-fn told(fault: &PlantedFault, unit: &str) -> String {
+/// What was put in, in words; `unit` is that of the output.
+pub fn told(fault: &PlantedFault, unit: &str) -> String {
     let how = if fault.planting.is_exact() {
         "changed in the records themselves"
     } else {
@@ -190,11 +215,13 @@ fn told(fault: &PlantedFault, unit: &str) -> String {
     text
 }
 
-fn json(fault: &PlantedFault) -> serde_json::Value {
-    serde_json::json!({
+/// The same as one JSON object.
+pub fn page(fault: &PlantedFault) -> String {
+    let page = serde_json::json!({
         "effect": fault.effect, "law": fault.law, "stage": fault.stage.name(), "planting": fault.planting.name(),
         "exact": fault.planting.is_exact(), "magnitude": fault.magnitude, "unit": fault.unit,
         "wanted_size": fault.wanted, "size": fault.size, "raw_size": fault.raw, "residual": fault.residual,
         "observable": fault.is_observable(),
-    })
+    });
+    stamped(SCHEMA, &page)
 }

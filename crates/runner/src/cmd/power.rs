@@ -19,7 +19,7 @@ use switchback_maker::EFFECTS;
 pub struct PowerArgs {
     /// Instead of a diagnosis: put known faults of every effect into these records, diagnose each, and tell from which size on nine in ten are
     /// found. Takes about ten minutes on two cores for a few thousand samples.
-    #[arg(long, help_heading = "Power", conflicts_with = "explain")]
+    #[arg(long, help_heading = "Power")]
     pub power: bool,
 
     /// Put in only these effects [default: all, but those of --without]
@@ -41,7 +41,7 @@ fn effect() -> impl TypedValueParser<Value = &'static str> {
 }
 
 /// The rest of the command line that matters.
-pub(super) struct Asked<'a> {
+pub(super) struct Order<'a> {
     /// File of the model to diagnose.
     pub(super) model: Option<&'a Path>,
     /// How each rig is diagnosed.
@@ -60,17 +60,17 @@ const FILES: [&str; 4] = ["power.json", "power.csv", "power.txt", "power.svg"];
 /// Records or a model that no power can be measured with, or a folder that cannot be written.
 pub(super) fn run(
     args: &PowerArgs,
-    asked: Asked<'_>,
+    order: Order<'_>,
     (loaded, data): (&Loaded, &DataPlace<'_>),
 ) -> CommandResult {
-    let (threads, quiet, force) = asked.options;
-    let plan = plan(args, &asked.settings)?;
-    let folder = force.claim_if_asked(asked.out.map(PathBuf::as_path), &FILES, data.inputs)?;
-    let model = asked.model.map(GivenModel::read).transpose()?;
+    let (threads, quiet, force) = order.options;
+    let plan = plan(args, &order.settings)?;
+    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, data.inputs)?;
+    let model = order.model.map(GivenModel::read).transpose()?;
     let name = data.path.display().to_string();
     let meter = Meter::counting("diagnoses", quiet);
     let (ground, power) = threads.install(|| {
-        let ground = Ground::new(&loaded.rig, model, asked.settings, &name)?;
+        let ground = Ground::new(&loaded.rig, model, order.settings, &name)?;
         let power = power::measure(&ground, &plan, &meter, |first| announce(&plan, first, quiet))?;
         Ok::<_, PowerError>((ground, power))
     })??;
@@ -78,7 +78,7 @@ pub(super) fn run(
     if let Some(folder) = folder {
         folder.commit(&artefacts(&power, &ground))?;
     }
-    quiet.tell_or(asked.json, || power::json(&power, &ground), || power::words(&power, &ground))?;
+    quiet.tell_or(order.json, || power::json(&power, &ground), || power::words(&power, &ground))?;
     Ok(Outcome::Done)
 }
 
@@ -88,7 +88,11 @@ pub(super) struct DataPlace<'a> {
     pub(super) inputs: &'a [&'a Path],
 }
 
-fn plan(args: &PowerArgs, settings: &Settings) -> Result<Plan, PowerError> {
+/// Which effects are put in how often, where the candidates are those of the settings.
+///
+/// # Errors
+/// [`PowerError::NoEffect`] where none is left.
+pub fn plan(args: &PowerArgs, settings: &Settings) -> Result<Plan, PowerError> {
     let is_candidate = |name: &&'static str| settings.effects.iter().any(|effect| effect.name() == *name);
     let mut effects: Vec<&'static str> = match &args.effects[..] {
         [] => EFFECTS.into_iter().filter(is_candidate).collect(),
@@ -123,7 +127,8 @@ fn announce(plan: &Plan, first: Duration, quiet: Quiet) {
     );
 }
 
-fn artefacts(power: &Power, ground: &Ground<'_>) -> Artefacts {
+/// The files of what was found.
+pub fn artefacts(power: &Power, ground: &Ground<'_>) -> Artefacts {
     let mut artefacts = Artefacts::default();
     artefacts.add("power.json", power::json(power, ground));
     artefacts.add("power.csv", power::csv(power));

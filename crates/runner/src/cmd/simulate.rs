@@ -10,7 +10,7 @@ use crate::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_
 use miette::Diagnostic;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
@@ -19,6 +19,27 @@ pub struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
+    #[command(flatten)]
+    asked: Asked,
+
+    /// Write the columns t,v,y,y_low,y_high, t as it stands in the input's file, into this file instead of printing them.
+    #[arg(long, value_name = "CSV")]
+    out: Option<PathBuf>,
+
+    /// Print one JSON object instead: the fit figure, the share within the band, warnings and notes.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// The input that a model is to run on.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
     /// The input to play: CSV in any dialect, one column at least. With a measured output beside it the run begins where the record does,
     /// and the fit is told; where that is missing at the beginning, the run begins at rest.
     #[arg(value_name = "INPUT.csv")]
@@ -39,20 +60,13 @@ pub struct Args {
     /// Interpolate the rows linearly to the model's sample time.
     #[arg(long)]
     resample: bool,
+}
 
-    /// Write the columns t,v,y,y_low,y_high, t as it stands in the input's file, into this file instead of printing them.
-    #[arg(long, value_name = "CSV")]
-    out: Option<PathBuf>,
-
-    /// Print one JSON object instead: the fit figure, the share within the band, warnings and notes.
-    #[arg(long)]
-    json: bool,
-
-    #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+impl Asked {
+    /// The file that holds the input.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
 }
 
 /// Why a model did not run.
@@ -85,28 +99,76 @@ pub enum SimulateError {
 /// A file that is no model or no input, an input that cannot be run, or an output that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
-    let input = played(args, file.header.sample_time)?;
-    let target = args.force.claim_file(args.out.as_deref(), &[&args.file, &args.model])?;
-    let labels = [input.input_label.as_str(), input.output_label.as_deref().unwrap_or_default()];
-    file.header.check_units(labels, (&args.file, "file"))?;
-    let run = free_run(&file, &input)
-        .ok_or_else(|| SimulateError::NoRun { input: args.file.display().to_string() })?;
-    let page = Page::of(&file, &input, &run);
-    let csv = table(&input, &run);
+    let place = args.asked.file.as_path();
+    let input = played(&args.asked, (&file, &args.model))?;
+    let target = args.force.claim_file(args.out.as_deref(), &[place, &args.model])?;
+    let simulation = Simulation::new(file, input, place)?;
     match target {
         Some(file) => {
-            file.commit(csv)?;
-            args.quiet.tell_or(args.json, || page.json(), || page.words())?;
+            file.commit(simulation.csv())?;
+            args.quiet.tell_or(args.json, || simulation.json(), || simulation.words())?;
         }
-        None if args.json => print(&page.json())?,
+        None if args.json => print(&simulation.json())?,
         None => {
             if !args.quiet.quiet {
-                note(&page.words());
+                note(&simulation.words());
             }
-            print(&csv)?;
+            print(&simulation.csv())?;
         }
     }
     Ok(Outcome::Done)
+}
+
+/// A model that ran on an input.
+#[derive(Debug)]
+pub struct Simulation {
+    file: ModelFile,
+    input: InputSeries,
+    run: Run,
+}
+
+impl Simulation {
+    /// Runs a model on an input, which messages call by its `place`.
+    ///
+    /// # Errors
+    /// An input in other units, or one that runs along a border that the model does not know.
+    pub fn new(file: ModelFile, input: InputSeries, place: &Path) -> miette::Result<Self> {
+        let labels = [input.input_label.as_str(), input.output_label.as_deref().unwrap_or_default()];
+        file.header.check_units(labels, (place, "file"))?;
+        match free_run(&file, &input) {
+            Some(run) => Ok(Self { file, input, run }),
+            None => Err(SimulateError::NoRun { input: place.display().to_string() }.into()),
+        }
+    }
+
+    /// The input, input units.
+    pub fn input(&self) -> &[f64] {
+        &self.input.v
+    }
+
+    /// The run.
+    pub fn run(&self) -> &Run {
+        &self.run
+    }
+
+    /// The columns `t,v,y,y_low,y_high`.
+    pub fn csv(&self) -> String {
+        table(&self.input, &self.run)
+    }
+
+    /// What ran and how well as one JSON object.
+    pub fn json(&self) -> String {
+        self.page().json()
+    }
+
+    /// The same in words.
+    pub fn words(&self) -> String {
+        self.page().words()
+    }
+
+    fn page(&self) -> Page<'_> {
+        Page::of(&self.file, &self.input, &self.run)
+    }
 }
 
 /// The run from the measured initial state, or from rest where none was measured or the input begins with nothing to simulate.
@@ -143,12 +205,16 @@ fn filled(y: &[f64]) -> Vec<f64> {
     held.collect()
 }
 
-/// The input, at the model's sample time.
-fn played(args: &Args, sample_time: f64) -> miette::Result<InputSeries> {
+/// Reads the input, at the sample time of a model, which messages call by its path.
+///
+/// # Errors
+/// A file that is no input, or one that is sampled otherwise.
+pub fn played(args: &Asked, (file, model): (&ModelFile, &Path)) -> miette::Result<InputSeries> {
+    let sample_time = file.header.sample_time;
     let names =
         ColumnNames { time: args.time.clone(), input: args.input.clone(), output: args.output.clone() };
     let sampling = Sampling { sample_time: Some(sample_time), resample: args.resample };
-    let command = format!("switchback simulate {} {}", args.model.display(), args.file.display());
+    let command = format!("switchback simulate {} {}", model.display(), args.file.display());
     let other = |error: &RigError| {
         error.problems().find_map(|problem| match problem {
             RigProblem::Data(DataError {

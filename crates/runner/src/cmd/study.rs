@@ -28,9 +28,8 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
-    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
-    engine: Option<Engine>,
+    #[command(flatten)]
+    engine: EngineArgs,
 
     /// Run one of N equal parts, counted from 1; `switchback merge` makes the report of all of them
     #[arg(long, value_name = "K/N")]
@@ -57,6 +56,47 @@ pub struct Args {
     force: Force,
 }
 
+/// By which engine.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct EngineArgs {
+    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
+    engine: Option<Engine>,
+}
+
+impl EngineArgs {
+    /// A scenario on the engine asked for.
+    pub fn of(self, scenario: Scenario) -> Scenario {
+        match self.engine {
+            Some(engine) => scenario.on(engine),
+            None => scenario,
+        }
+    }
+
+    /// The command that makes the results of a scenario file again, without the place where this machine keeps it.
+    pub fn command(self, file: &Path) -> String {
+        let name = stream::file_name(file);
+        let engine = self.engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
+        format!("switchback {name}{engine}")
+    }
+}
+
+/// Refuses a file that describes no consistency study, for those who call the library: examinations keep their rigs sealed in a folder.
+///
+/// # Errors
+/// What it is, and the command that takes it.
+pub fn refuse_all_but_consistency(file: &Path) -> miette::Result<()> {
+    refuse_other_kinds(file)?;
+    let kind = match (blind::is_blind(file), field::is_field(file)) {
+        (true, _) => "a blind study",
+        (_, true) => "a field examination",
+        _ => return Ok(()),
+    };
+    let path = file.display().to_string();
+    let remedy = format!("it seals its rigs in a folder: run it with `switchback {}`", in_shell(&path));
+    Err(miette!(help = remedy, "{path}: this is {kind}, which only the command line runs"))
+}
+
 /// Reads, claims the folder, runs, writes, prints.
 ///
 /// # Errors
@@ -76,16 +116,12 @@ pub fn run(args: &Args) -> CommandResult {
         let bases = field::Bases::load(&study, args.quiet)?;
         return examined(args, file, &Field::new(study, &bases));
     }
-    let read = Scenario::read(file)?;
-    let scenario = match args.engine {
-        Some(engine) => read.on(engine),
-        None => read,
-    };
+    let scenario = args.engine.of(Scenario::read(file)?);
     let parts = args.shard.map_or(1.0, |shard| shard.of as f64);
     args.yes.permit(study::least_seconds(&scenario) / parts, args.threads, args.quiet)?;
     let order = Order {
         file,
-        command: &command(file, args.engine),
+        command: &args.engine.command(file),
         out: args.out.as_deref(),
         shard: args.shard,
         from: args.from.as_deref(),
@@ -112,7 +148,8 @@ fn examined<E: Examination>(args: &Args, file: &Path, examination: &E) -> Comman
 
 /// Only a consistency study has engines and rounds.
 fn refuse_engine_and_rounds(args: &Args, kind: &str) -> miette::Result<()> {
-    let given = [(args.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
+    let given =
+        [(args.engine.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
     match (&args.scenario, given.into_iter().find(|(is_given, ..)| *is_given)) {
         (Some(path), Some((_, what, option))) => {
             Err(miette!("{} is {kind}, which has no {what}; leave out {option}", path.display()))
@@ -143,13 +180,6 @@ pub(super) fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
         Some(FileKind::Scenario) | None => return Ok(()),
     };
     Err(OtherKind { path, kind, remedy })
-}
-
-/// The command that makes the results again, without the place where this machine keeps the file.
-fn command(file: &Path, engine: Option<Engine>) -> String {
-    let name = stream::file_name(file);
-    let engine = engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
-    format!("switchback {name}{engine}")
 }
 
 /// The engine of a name that is one of them.

@@ -1,14 +1,17 @@
 //! The comparison as one JSON object.
 
 use super::{Comparison, Difference};
+use crate::output::stamped;
 use crate::results::{Measured, Results};
 use serde_json::{Value, json};
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/compare/1";
 
 /// One JSON object, indented, with a newline at its end. A `z` that is infinite, both figures being exact and different, is null.
 pub fn json(comparison: &Comparison, baseline: &Results, new: &Results) -> String {
     let largest = comparison.differences.iter().map(|d| d.z.abs()).fold(0.0, f64::max);
     let page = json!({
-        "schema": 1,
         "baseline": origin(baseline),
         "new": origin(new),
         "agrees": comparison.agrees(),
@@ -21,7 +24,7 @@ pub fn json(comparison: &Comparison, baseline: &Results, new: &Results) -> Strin
         "only_new": comparison.only_new,
         "known": comparison.known,
     });
-    format!("{page:#}\n")
+    stamped(SCHEMA, &page)
 }
 
 fn origin(results: &Results) -> Value {

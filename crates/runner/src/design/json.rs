@@ -2,11 +2,12 @@
 
 use super::words::lengths;
 use super::{Outlook, Plan, Prediction, Report};
+use crate::output::stamped;
 use serde_json::{Value, json};
 use switchback_estimator::excitation::Direction;
 
-/// Version of the object's layout.
-const SCHEMA: u32 = 1;
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/design/1";
 
 /// One JSON object, indented, with a newline at its end.
 ///
@@ -24,7 +25,6 @@ pub fn json(report: &Report) -> String {
         .fold(0.0, f64::max);
     let outlook = report.outlook.as_ref();
     let page = json!({
-        "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),
         "name": request.name,
         "order": request.order,
@@ -62,7 +62,7 @@ pub fn json(report: &Report) -> String {
         }),
         "out": report.folder,
     });
-    serde_json::to_string_pretty(&page).expect("numbers, strings and lists of them are JSON") + "\n"
+    stamped(SCHEMA, &page)
 }
 
 fn direction(direction: Direction) -> usize {

@@ -4,6 +4,7 @@ use super::Subject;
 use super::model_file::{self, Given};
 use super::subject::{Source, SubjectError, judged, with_predictions};
 use crate::identification::EstimatedSystem;
+use crate::input::read_text;
 use crate::model::{ModelError, ModelFile, System};
 use std::path::{Path, PathBuf};
 use switchback_estimator::Record;
@@ -25,7 +26,15 @@ impl GivenModel {
     /// # Errors
     /// [`SubjectError`] if the file is neither.
     pub fn read(file: &Path) -> Result<Self, SubjectError> {
-        Ok(Self { given: model_file::read(file)?, file: file.to_owned() })
+        Self::of_text(file, &read_text(file).map_err(ModelError::from)?)
+    }
+
+    /// The same from a text; `file` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn of_text(file: &Path, text: &str) -> Result<Self, SubjectError> {
+        Ok(Self { given: model_file::parse(file, text)?, file: file.to_owned() })
     }
 
     /// The records with the model that is to be diagnosed on them.

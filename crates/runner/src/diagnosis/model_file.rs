@@ -1,7 +1,6 @@
 //! The model that a diagnosis is given: a model file, or the output of `switchback identify --json`.
 
 use crate::input::json_file::{self, JsonError};
-use crate::input::read_text;
 use crate::model::{self, ModelError, ModelFile};
 use serde::Deserialize;
 use std::path::Path;
@@ -17,11 +16,11 @@ pub(super) enum Given {
     Page(Estimate),
 }
 
-/// Reads a model: a file with a `schema`, else a page of `identify --json`.
+/// The model of a text: a file with a `schema`, else a page of `identify --json`. `path` is what messages call it.
 ///
 /// # Errors
-/// [`ModelError`] if the file is neither.
-pub(super) fn read(path: &Path) -> Result<Given, ModelError> {
+/// [`ModelError`] if the text is neither.
+pub(super) fn parse(path: &Path, text: &str) -> Result<Given, ModelError> {
     #[derive(Deserialize)]
     struct Peek {
         #[serde(default)]
@@ -29,11 +28,11 @@ pub(super) fn read(path: &Path) -> Result<Given, ModelError> {
         #[serde(default)]
         schema: Option<serde::de::IgnoredAny>,
     }
-    let peek: Option<Peek> = serde_json::from_str(&read_text(path)?).ok();
+    let peek: Option<Peek> = serde_json::from_str(text).ok();
     // Pages of commands carry a schema, too, but no kind.
     match peek.is_some_and(|peek| peek.schema.is_some() && peek.kind.is_some()) {
-        true => Ok(Given::File(Box::new(model::read(path)?))),
-        false => page(path).map(Given::Page),
+        true => Ok(Given::File(Box::new(model::of_text(path, text)?))),
+        false => page(path, text).map(Given::Page),
     }
 }
 
@@ -63,9 +62,8 @@ struct WirePoint {
 ///
 /// # Errors
 /// [`ModelError`] if the file is no JSON, lacks a field, or its numbers contradict each other.
-fn page(path: &Path) -> Result<Estimate, ModelError> {
-    let text = read_text(path)?;
-    let other = json_file::kind(&text).filter(|kind| *kind != "an identification");
+fn page(path: &Path, text: &str) -> Result<Estimate, ModelError> {
+    let other = json_file::kind(text).filter(|kind| *kind != "an identification");
     if let Some(kind) = other {
         return Err(ModelError::Content {
             place: path.display().to_string(),
@@ -73,7 +71,7 @@ fn page(path: &Path) -> Result<Estimate, ModelError> {
             remedy: MAKE_ONE.to_owned(),
         });
     }
-    let wire: WireModel = json_file::parse(path, &text).map_err(refused)?;
+    let wire: WireModel = json_file::parse(path, text).map_err(refused)?;
     check(&wire).map_err(|(message, remedy)| ModelError::Content {
         place: path.display().to_string(),
         message,

@@ -122,12 +122,20 @@ impl Subject {
     /// # Errors
     /// [`SubjectError`] if the file is no model, is one of another order, or hold-out records lack their predictions.
     pub fn choose(rig: Rig, model: Option<&Path>) -> Result<Self, SubjectError> {
+        Self::of(rig, model.map(GivenModel::read).transpose()?.as_ref())
+    }
+
+    /// The same with a model that was read before.
+    ///
+    /// # Errors
+    /// [`SubjectError`] if it is of another order, or hold-out records lack their predictions.
+    pub fn of(rig: Rig, model: Option<&GivenModel>) -> Result<Self, SubjectError> {
         let predicted = rig.records.iter().find(|record| record.predicted.is_some());
         match (model, predicted) {
-            (Some(file), other) => {
+            (Some(given), other) => {
                 let notes = other
                     .map(|_| "the columns y_sim were left aside, since a model file was given".to_owned());
-                GivenModel::read(file)?.meet(rig, notes.into_iter().collect())
+                given.meet(rig, notes.into_iter().collect())
             }
             (None, Some(other)) => {
                 let other = other.name.clone();

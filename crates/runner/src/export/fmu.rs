@@ -71,13 +71,15 @@ pub fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
     }
 }
 
-/// Where the library is: beside the program, or in `deps` there, where cargo leaves it that builds it for this program alone.
+/// Where the library is: beside the program, or in `deps` there, where cargo leaves it that builds it for this program alone; the newer one
+/// where it is in both.
 fn beside_program() -> PathBuf {
     let program = std::env::current_exe().unwrap_or_default();
     let folder = program.parent().unwrap_or(Path::new(""));
     let places = [folder.join(library_name()), folder.join("deps").join(library_name())];
-    let [first, _] = &places;
-    places.iter().find(|place| place.is_file()).unwrap_or(first).clone()
+    let written = |place: &&PathBuf| std::fs::metadata(place).and_then(|found| found.modified()).ok();
+    let newest = places.iter().filter(|place| place.is_file()).max_by_key(written);
+    newest.unwrap_or(&places[0]).clone()
 }
 
 /// The bytes of an FMU: the same model and library give the same.

@@ -260,3 +260,16 @@ fn without_a_hold_out_the_fit_is_said_to_prove_nothing() {
     assert_eq!(kinds(&found)[0], "no_holdout");
     assert!(found.examination.yardsticks.is_empty());
 }
+
+#[test]
+fn the_figure_of_a_record_stays_on_its_page_and_repeats() {
+    let rig = wave(Usage::Holdout);
+    let mut errors = noise(3, SAMPLES);
+    errors[600] = -1e7;
+    let identification = missing_by(&rig, Method::Free, &errors);
+    let run = identification.runs[0].as_ref().expect("the record was simulated");
+    let svg = crate::plots::identify::outputs(&rig, &rig.records[0], run);
+    assert_eq!(crate::plots::inspect::check(&svg), Ok(()));
+    assert_eq!(svg, crate::plots::identify::outputs(&rig, &rig.records[0], run));
+    assert!(svg.contains("force [N]") && svg.contains("held out"));
+}

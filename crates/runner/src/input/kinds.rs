@@ -52,18 +52,21 @@ pub(super) fn of_json(value: &Value) -> Option<&'static str> {
         ("switchback/blind/", "the results of a blind study"),
         ("switchback/field/", "the results of a field examination"),
         ("switchback/rig-list/", "a list of effects"),
+        ("switchback/design/", "a plan of experiments"),
+        ("switchback/compare/", "a comparison"),
+        ("switchback/power/", "the power of some records"),
+        ("switchback/verdict/", "a fitted verdict"),
+        ("switchback/plant/", "what was planted into records"),
+        ("switchback/selftest/", "the outcome of a self-test"),
+        ("switchback/provenance/", "the provenance of some results"),
+        ("switchback/part/", "the label of a part of a study"),
         ("switchback/rig/", "what was put into a made rig"),
-    ];
-    let keys = [
-        ("cells", "the results of a study"),
-        ("actuator", "a plan of experiments"),
-        ("threshold", "a comparison"),
     ];
     match value.get("schema")? {
         Value::String(schema) => {
             written.into_iter().find(|(start, _)| schema.starts_with(start)).map(|(_, told)| told)
         }
-        Value::Number(_) => keys.into_iter().find(|(key, _)| value.get(key).is_some()).map(|(_, told)| told),
+        Value::Number(_) => value.get("cells").map(|_| "the results of a study"),
         _ => None,
     }
 }

@@ -15,8 +15,8 @@ mod two_numbers;
 
 pub(crate) use closest::closest;
 pub(crate) use kinds::FileKind;
+pub use table::{Cells, DataError, DataProblem, Place, Step};
 pub(crate) use table::{Column, Kind, Table, TableError, unit};
-pub use table::{DataError, DataProblem, Place, Step};
 pub use text_file::{FileError, read_text};
 pub use toml_file::{TomlError, TomlFile};
 pub use two_numbers::TwoNumbers;

@@ -344,7 +344,7 @@ mod tests {
         let svg = draw((200.0, 200.0), "one diagram", |canvas| {
             paint(&Panel::new(canvas, (50.0, 50.0), (100.0, 100.0), axes));
         });
-        (svg.matches("<circle").count(), svg.matches("<polygon").count())
+        (svg.matches("<circle cx").count(), svg.matches("<polygon").count())
     }
 
     #[test]

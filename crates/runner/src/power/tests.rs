@@ -129,7 +129,7 @@ fn the_figure_shows_every_fault_and_depends_on_nothing_else() {
     let svg = crate::plots::power::figure(&power, "bench");
     assert_eq!(svg, crate::plots::power::figure(&power, "bench"));
     // The legend has a disc of each kind, of which the hollow one is two circles, and an arrow. Sizes without a place are arrows at the edge.
-    assert_eq!(svg.matches("<circle").count(), 8 + 3);
+    assert_eq!(svg.matches("<circle cx").count(), 8 + 3);
     assert_eq!(svg.matches("<polygon").count(), 2 + 1);
     assert_eq!(crate::plots::inspect::check(&svg), Ok(()));
     assert_eq!(svg.matches("cannot be planted").count(), 1);

@@ -2,7 +2,9 @@
 
 use crate::options::Quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::fmt;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::Duration;
 use switchback_estimator::estimators::free::Progress;
 
@@ -14,9 +16,32 @@ use switchback_estimator::estimators::free::Progress;
 ///
 /// Pieces become known as the work goes on, so that the bar may fall back when a stage finds more to do. A stage that is one piece
 /// has no bar.
+///
+/// A [`Listener`] hears the same, for those who call the library.
 #[derive(Debug)]
 pub struct Watch {
     bar: ProgressBar,
+    listener: Option<Arc<dyn Listener>>,
+}
+
+/// Hears how a diagnosis or an identification goes on, from several threads.
+///
+/// It may give the work up by unwinding with [`std::panic::resume_unwind`]: whoever began the work then catches that, and pieces under way end
+/// first.
+pub trait Listener: fmt::Debug + Send + Sync {
+    /// Something was done or became known.
+    fn heard(&self, step: Step);
+}
+
+/// How the work goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// A stage of this name begins.
+    Stage(&'static str),
+    /// So many more pieces of the stage have become known.
+    Found(usize),
+    /// A piece is done.
+    Done,
 }
 
 /// How often the time is told where no piece is done for long.
@@ -33,7 +58,7 @@ impl Watch {
         if !hidden {
             bar.enable_steady_tick(TICK);
         }
-        Self { bar }
+        Self { bar, listener: None }
     }
 
     /// A line that nobody sees.
@@ -41,8 +66,22 @@ impl Watch {
         Self::new(Quiet { quiet: true })
     }
 
+    /// A listener instead of a line.
+    pub fn heard_by(listener: Arc<dyn Listener>) -> Self {
+        let mut watch = Self::silent();
+        watch.listener = Some(listener);
+        watch
+    }
+
+    fn tell(&self, step: Step) {
+        if let Some(listener) = &self.listener {
+            listener.heard(step);
+        }
+    }
+
     /// A stage begins.
     pub fn begin(&self, stage: &'static str) {
+        self.tell(Step::Stage(stage));
         self.bar.set_style(style(ONE_PIECE));
         self.bar.set_message(stage);
         self.bar.set_length(0);
@@ -51,12 +90,14 @@ impl Watch {
 
     /// More pieces of the stage have become known.
     pub fn found(&self, pieces: usize) {
+        self.tell(Step::Found(pieces));
         self.bar.set_style(style(MANY_PIECES));
         self.bar.inc_length(pieces as u64);
     }
 
     /// A piece is done.
     pub fn did_one(&self) {
+        self.tell(Step::Done);
         self.bar.inc(1);
     }
 

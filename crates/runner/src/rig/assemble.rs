@@ -6,7 +6,7 @@ use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
 use super::told::{self, Told};
 use super::voice::Voice;
-use crate::input::{Column, DataError, DataProblem, stream};
+use crate::input::{Column, DataError, DataProblem, Table, stream};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
@@ -42,14 +42,28 @@ pub(super) struct Divided {
 /// # Errors
 /// All that is wrong with them.
 pub(super) fn assemble(plan: &Plan) -> Result<Loaded, Vec<Located>> {
-    let measured = read_all(plan)?;
+    assemble_measured(plan, read_all(plan)?)
+}
+
+/// The same where the records are tables in memory, one each.
+///
+/// # Errors
+/// All that is wrong with them.
+pub(super) fn assemble_tables(plan: &Plan, tables: Vec<Table>) -> Result<Loaded, Vec<Located>> {
+    let measured = each(plan.records.iter().zip(tables), |(record, table)| {
+        Measured::of(table, request(plan, &record.columns.or(&plan.columns)))
+    });
+    assemble_measured(plan, measured?)
+}
+
+fn assemble_measured(plan: &Plan, measured: Vec<Measured>) -> Result<Loaded, Vec<Located>> {
     check_agreement(plan, &measured)?;
     let needed = samples_needed(plan.order);
     let divided = each(plan.records.iter().zip(measured), |(record, measured)| {
         let parts = divide(record, &measured, (needed, &plan.voice)).map_err(|error| vec![error.into()])?;
         Ok(Divided { measured, parts })
     })?;
-    let names = record_names(&plan.records);
+    let names = record_names(plan);
     let records = each(divided.iter().zip(&plan.records).zip(names), |((divided, record), name)| {
         rig_records(divided, record, &name).map_err(|error| vec![error.into()])
     })?;
@@ -89,10 +103,12 @@ fn each<I, R>(
 
 fn read_all(plan: &Plan) -> Result<Vec<Measured>, Vec<Located>> {
     each(plan.records.iter(), |record| {
-        let names = &record.columns.or(&plan.columns);
-        let Plan { sampling, voice, .. } = plan;
-        Measured::read(&record.path, Request { names, sampling: *sampling, voice, needs_output: true })
+        Measured::read(&record.path, request(plan, &record.columns.or(&plan.columns)))
     })
+}
+
+fn request<'a>(plan: &'a Plan, names: &'a ColumnNames) -> Request<'a> {
+    Request { names, sampling: plan.sampling, voice: &plan.voice, needs_output: true }
 }
 
 /// What is wrong with the records of a plan that is wrong itself, as far as that does not follow from its own faults.
@@ -265,8 +281,14 @@ fn named(measured: &Measured) -> ColumnNames {
 
 /// The file's name without its ending; where two records would share it, with the folders before it, and where even
 /// these are alike, with a number after it. Names become parts of file names, so they hold no separators nor control characters.
-fn record_names(records: &[PlannedRecord]) -> Vec<String> {
+///
+/// A record in memory has no file: it keeps its name, as far as that can be part of one.
+fn record_names(Plan { records, voice, .. }: &Plan) -> Vec<String> {
     let parts = |record: &PlannedRecord| -> Vec<String> {
+        if *voice == Voice::Arguments {
+            let is_kept = |c: char| !c.is_control() && c != '/' && c != '\\';
+            return vec![record.named.chars().map(|c| if is_kept(c) { c } else { '_' }).collect()];
+        }
         if stream::is_stream(&record.path) {
             return stream::stem(&record.path).into_iter().collect();
         }

@@ -62,6 +62,14 @@ impl Measured {
     pub(super) fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
         let table = Table::read(path, if request.needs_output { 2 } else { 1 })
             .map_err(|error| vec![error.into()])?;
+        Self::of(table, request)
+    }
+
+    /// Takes a table that was read.
+    ///
+    /// # Errors
+    /// All that is wrong with it.
+    pub(super) fn of(table: Table, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
         let at = |place, problem| RigProblem::Data(DataError { path: table.path.clone(), place, problem });
         let mut problems: Vec<RigProblem> = table.faults.iter().cloned().map(RigProblem::Data).collect();
         let selection = match Selection::of(&table, request.names, request.voice, request.needs_output) {

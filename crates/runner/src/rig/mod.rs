@@ -24,6 +24,7 @@ mod clock;
 mod cut;
 mod doubts;
 mod faults;
+mod frame;
 mod guess;
 mod manifest;
 mod measured;
@@ -41,7 +42,9 @@ mod voice;
 mod wire;
 mod write;
 
+pub use crate::input::Cells;
 pub use assemble::Loaded;
+pub use frame::{Frame, load_frames};
 pub use manifest::manifest;
 pub use plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling};
 pub use problem::{RigError, RigProblem};

@@ -202,7 +202,7 @@ fn held_out(plan: &Plan, divided: &[Divided]) -> String {
     }
     match told.is_empty() {
         true => "nothing".to_owned(),
-        false => format!("{}; `--holdout 0.3` or `--holdout FILE` changes it", told.join(", ")),
+        false => format!("{}; {} changes it", told.join(", "), plan.voice.other_holdout()),
     }
 }
 

@@ -7,6 +7,8 @@ pub enum Voice {
     Manifest,
     /// On the command line, which so far reads as this.
     CommandLine(String),
+    /// By the arguments of a function.
+    Arguments,
     /// As the input of a model, which has a sample time of its own, on the command line that so far reads as this.
     Simulation(String),
 }
@@ -18,6 +20,10 @@ impl Voice {
             Self::Manifest => {
                 let keys: Vec<_> = wanted.iter().map(|(key, name)| format!("{key} = {name:?}")).collect();
                 format!("name them in the rig file: `columns = {{ {} }}`", keys.join(", "))
+            }
+            Self::Arguments => {
+                let named: Vec<_> = wanted.iter().map(|(key, name)| format!("{key}={name:?}")).collect();
+                format!("name them, for instance: `{}`", named.join(", "))
             }
             Self::CommandLine(command) | Self::Simulation(command) => {
                 let flags: Vec<_> =
@@ -31,6 +37,7 @@ impl Voice {
     pub(super) fn other_column(&self) -> &'static str {
         match self {
             Self::Manifest => "`columns = { input = …, output = … }`",
+            Self::Arguments => "`input=NAME` or `output=NAME`",
             Self::CommandLine(_) | Self::Simulation(_) => "`--input NAME` or `--output NAME`",
         }
     }
@@ -40,6 +47,7 @@ impl Voice {
         match self {
             Self::Manifest => "`columns = { time = \"none\" }` with `sample_time = SECONDS`",
             Self::CommandLine(_) => "`--time none --rate HZ`",
+            Self::Arguments => "`time=\"none\", sample_time=SECONDS`",
             Self::Simulation(_) => "`--time none`, which makes every row a sample of the model's sample time",
         }
     }
@@ -59,6 +67,7 @@ impl Voice {
         let interpolate = match self {
             Self::Manifest => "write `resample = true` to interpolate linearly to the mean step",
             Self::CommandLine(_) => "add `--resample` to interpolate linearly to the mean step",
+            Self::Arguments => "give `resample=True` to interpolate linearly to the mean step",
             Self::Simulation(_) => "add `--resample` to interpolate linearly to the model's sample time",
         };
         format!("{interpolate}, or take {} if the stamps, not the samples, are uneven", self.without_time())
@@ -84,6 +93,9 @@ impl Voice {
                 short(1.0 / step),
                 self.without_time()
             ),
+            Self::Arguments => {
+                format!("give `sample_time={step}`, or leave it out: the time column tells it")
+            }
             Self::Simulation(_) => {
                 "sample the input as the model was, or add `--resample` to interpolate it linearly".to_owned()
             }
@@ -96,7 +108,10 @@ impl Voice {
             Self::Manifest => format!(
                 "interpolate all of them to one: `resample = true` with `sample_time = {first}`; or diagnose them one by one"
             ),
-            _ => format!(
+            Self::Arguments => format!(
+                "interpolate all of them to one: `resample=True, sample_time={first}`; or diagnose them one by one"
+            ),
+            Self::CommandLine(_) | Self::Simulation(_) => format!(
                 "interpolate all of them to one: `--resample --rate {}`; or diagnose them one by one",
                 short(1.0 / first)
             ),
@@ -107,7 +122,10 @@ impl Voice {
     pub(super) fn shattered(&self) -> String {
         match self {
             Self::Manifest => "check the time column, or write `resample = true` to interpolate".to_owned(),
-            _ => "check the time column, or add `--resample` to interpolate".to_owned(),
+            Self::Arguments => "check the time column, or give `resample=True` to interpolate".to_owned(),
+            Self::CommandLine(_) | Self::Simulation(_) => {
+                "check the time column, or add `--resample` to interpolate".to_owned()
+            }
         }
     }
 
@@ -117,7 +135,10 @@ impl Voice {
             Self::Manifest => {
                 "take a longer record, or hold out another file by `use = \"holdout\"`".to_owned()
             }
-            _ => "take a longer record, or hold out another file (`--holdout FILE`)".to_owned(),
+            Self::Arguments => "take a longer record, or hold out another one (`holdout=NAME`)".to_owned(),
+            Self::CommandLine(_) | Self::Simulation(_) => {
+                "take a longer record, or hold out another file (`--holdout FILE`)".to_owned()
+            }
         }
     }
 
@@ -128,9 +149,20 @@ impl Voice {
                 "write `sample_time = SECONDS`, or name the time column in `columns`".to_owned()
             }
             Self::Simulation(_) => format!("take {}", self.without_time()),
+            Self::Arguments => {
+                "give it in seconds, `sample_time=0.01`, or name the time column, `time=NAME`".to_owned()
+            }
             Self::CommandLine(command) => format!(
                 "give it in seconds, `{command} --sample-time 0.01`, or as a rate in hertz, `{command} --rate 100`"
             ),
+        }
+    }
+
+    /// How to hold out something else.
+    pub(super) fn other_holdout(&self) -> &'static str {
+        match self {
+            Self::Arguments => "`holdout=0.3` or `holdout=NAME`",
+            _ => "`--holdout 0.3` or `--holdout FILE`",
         }
     }
 

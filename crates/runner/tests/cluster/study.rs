@@ -184,7 +184,7 @@ impl Launched {
     pub(crate) fn wait(&mut self, what: &str, mut has_come: impl FnMut(&Self) -> bool) {
         let begun = Instant::now();
         while !has_come(self) {
-            let patience = Duration::from_secs(if is_full() { 1800 } else { 300 });
+            let patience = Duration::from_secs(1800);
             assert!(begun.elapsed() < patience, "not seen: {what}\n{}", self.told());
             sleep(Duration::from_millis(50));
         }

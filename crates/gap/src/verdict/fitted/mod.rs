@@ -1,4 +1,5 @@
-//! A verdict that is fitted: probabilities of every effect, of nothing and of none of these, from the evidence of a diagnosis.
+//! A verdict that is fitted: from the evidence of a diagnosis, the probabilities of every effect, that nothing is missing, and that the cause is no
+//! candidate.
 //!
 //! A [conditional logit](choice) on a few [features](features) that know no effect's name, fitted by [`calibrate`] to rigs whose cause is
 //! known. What it says holds for rigs drawn as those were, and their [shares](Shares) of faults, of none and of foreign ones: for others the

@@ -1,6 +1,6 @@
 //! The rows of a table.
 
-use super::cell::{self, Cell};
+use super::cell::{self, Cell, Decimal};
 use super::dialect::Dialect;
 use super::error::{DataError, DataProblem, Place};
 use super::lines::is_idle;
@@ -8,6 +8,16 @@ use super::{Column, Fault, Kind, Table};
 
 /// Faults kept of a column or of the rows; of others only the count is told.
 pub(super) const KEPT: usize = 3;
+
+impl Column {
+    /// Adds a cell that is neither a value nor missing.
+    pub(super) fn add_fault(&mut self, fault: Fault) {
+        self.fault_count += 1;
+        if self.faults.len() < KEPT {
+            self.faults.push(fault);
+        }
+    }
+}
 
 /// Rows on their way into the columns of a table.
 pub(super) struct Rows<'t> {
@@ -46,7 +56,7 @@ impl<'t> Rows<'t> {
         }
         let row = self.table.places.len();
         for ((column, reader), text) in self.table.columns.iter_mut().zip(&mut self.readers).zip(&cells) {
-            reader.push(column, row, text, &self.dialect);
+            reader.push(column, row, text, self.dialect.decimal);
         }
         self.table.places.push(Place::Line(line));
     }
@@ -80,7 +90,7 @@ impl<'t> Rows<'t> {
 
 /// What the cells so far make of a column.
 #[derive(Default)]
-struct Reader {
+pub(super) struct Reader {
     is_decided: bool,
     /// Whether stamps are times of day.
     is_clock: bool,
@@ -94,11 +104,12 @@ struct Reader {
 const DAY: i128 = 86_400_000_000_000;
 
 impl Reader {
-    fn push(&mut self, column: &mut Column, row: usize, text: &str, dialect: &Dialect) {
-        let cell = cell::read(text, dialect.decimal);
+    /// Takes the next cell of a column.
+    pub(super) fn push(&mut self, column: &mut Column, row: usize, text: &str, decimal: Decimal) {
+        let cell = cell::read(text, decimal);
         if !self.is_decided && cell != Cell::Missing {
             self.is_decided = true;
-            column.kind = self.kind(cell, text, dialect);
+            column.kind = self.kind(cell, text, decimal);
         }
         let value = match (column.kind, cell) {
             (Kind::Stamp, Cell::Stamp(now)) if !self.is_clock => Some(self.since_first(now)),
@@ -113,22 +124,19 @@ impl Reader {
             column.stamps.push(text.to_owned());
         }
         if value.is_none() {
-            column.fault_count += 1;
-            if column.faults.len() < KEPT {
-                column.faults.push(Fault { row, cell: text.to_owned() });
-            }
+            column.add_fault(Fault { row, cell: text.to_owned() });
         }
     }
 
     /// What the first cell that says something makes of a column. A number with the other decimal sign is meant as one.
-    fn kind(&mut self, cell: Cell, text: &str, dialect: &Dialect) -> Kind {
+    fn kind(&mut self, cell: Cell, text: &str, decimal: Decimal) -> Kind {
         match cell {
             Cell::Stamp(first) | Cell::Clock(first) => {
                 (self.first_stamp, self.last_stamp) = (first, first);
                 self.is_clock = matches!(cell, Cell::Clock(_));
                 Kind::Stamp
             }
-            Cell::Text if !matches!(cell::read(text, dialect.decimal.other()), Cell::Number(_)) => Kind::Text,
+            Cell::Text if !matches!(cell::read(text, decimal.other()), Cell::Number(_)) => Kind::Text,
             _ => Kind::Number,
         }
     }

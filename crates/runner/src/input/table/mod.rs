@@ -9,10 +9,12 @@ mod dialect;
 mod error;
 mod head;
 mod lines;
+mod memory;
 mod places;
 pub(crate) mod unit;
 
 pub use error::{DataError, DataProblem, Place, Step};
+pub use memory::Cells;
 pub(crate) use places::Places;
 
 use super::mat;
@@ -245,7 +247,11 @@ fn columns(head: &Head, width: usize) -> Vec<Column> {
         Some((name, unit)) => (name.clone(), unit.clone()),
         None => (format!("column {}", k + 1), None),
     });
-    let empty = |(name, unit)| Column {
+    named.map(|(name, unit)| empty_column(name, unit)).collect()
+}
+
+fn empty_column(name: String, unit: Option<String>) -> Column {
+    Column {
         name,
         unit,
         kind: Kind::Number,
@@ -253,8 +259,7 @@ fn columns(head: &Head, width: usize) -> Vec<Column> {
         stamps: Vec::new(),
         faults: Vec::new(),
         fault_count: 0,
-    };
-    named.map(empty).collect()
+    }
 }
 
 fn notes(head: &Head, dialect: &Dialect) -> Vec<String> {

@@ -109,7 +109,7 @@ mod tests {
     fn closures_beyond_the_frame_are_arrows() {
         let svg = &drawn()[4];
         // One inside, two in the legend; three beyond, one in the legend.
-        assert_eq!(svg.matches("<circle").count(), 1 + 2);
+        assert_eq!(svg.matches("<circle cx").count(), 1 + 2);
         assert_eq!(svg.matches("<polygon").count(), 3 + 1);
         assert!(svg.contains("3 of 4"));
     }

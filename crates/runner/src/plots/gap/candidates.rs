@@ -31,8 +31,8 @@ pub(super) fn figure(report: &Report) -> String {
     let notes = vec![
         "Evidence is the drop of the Bayesian information criterion from the nominal model to the augmented one, on a square-root scale."
             .to_owned(),
-        "A probability compares: it falls exponentially with how far the evidence lies behind the best, so a candidate with much \
-         evidence may have none. What the best leaves unexplained counts for “none of these”."
+        "A probability is not in proportion to the evidence: it compares candidates. One far behind the best has next to none, however \
+         much it improves on the nominal model; what the best leaves unexplained and the held-out records count, too."
             .to_owned(),
         "Closure is on the records judged; left of the line the effect makes the gap larger there; unstable: with it the model's free \
          run leaves every range."

@@ -25,6 +25,12 @@ pub(super) fn figure(report: &Report) -> String {
         Entry::disc(AFTER, "augmented model"),
     ];
     let diagnosis = &report.diagnosis;
+    if [&diagnosis.residuals_before, &diagnosis.residuals_after].iter().all(|p| p.autocorrelation.is_empty())
+    {
+        return sheet.empty(
+            "No errors one step ahead are known: the fit records are too short, or there is no model.",
+        );
+    }
     let pictures = [(&diagnosis.residuals_before, BEFORE, false), (&diagnosis.residuals_after, AFTER, true)];
     sheet.render(|canvas, frames| {
         autocorrelation(canvas, frames, &pictures);

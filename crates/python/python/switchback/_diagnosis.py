@@ -1,0 +1,251 @@
+"""Diagnosis of the gap between a model and a rig."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
+
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._model import Model, model_of
+from ._progress import shown
+from ._result import PathLike, Result
+from ._rig import Rig, records_of, rig_of
+from ._table import Estimate, Row, Table
+from ._words import number, several, words
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True)
+class Verdict(Row):
+    """What causes the gap."""
+
+    #: ``none``, ``refit``, ``named``, ``class`` (twins that no record here separates), ``ambiguous``, or ``unexplained``.
+    status: str
+    #: The effects found.
+    effects: list[str]
+    #: The twins, one of which it is.
+    class_: list[str]
+    #: ``input``, ``operator``, ``dynamics``, ``disturbance`` or ``sensor``.
+    stage: Optional[str]
+    probability: float
+    #: Whether the probability is a frequency on records like these.
+    calibrated: bool
+    #: The effect that takes what the first one's law leaves.
+    corrected_by: Optional[str]
+    #: Order, delay and closure of a model identified anew.
+    refit: Optional[dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class RecordGap(Row):
+    """The gap on one record, as a share of the output's variance beyond the noise."""
+
+    record: str
+    before: float
+    after: Optional[float]
+    fit_before: Optional[float]
+    fit_after: Optional[float]
+
+
+@dataclass(frozen=True)
+class Gap:
+    """How large the gap is, as a share of the output's variance beyond the noise, with 90 % intervals."""
+
+    before: Estimate
+    after: Estimate
+    #: Share of it that adding the effects closes on held-out records.
+    closure: Estimate
+    #: Standard deviation of the noise, output units.
+    noise_floor: float
+    per_record: Table[RecordGap]
+
+
+@dataclass(frozen=True)
+class Parameter(Row):
+    """A parameter of an effect in the user's units."""
+
+    name: str
+    value: Optional[float]
+    ci90: Optional[list[Optional[float]]]
+    unit: str
+
+    def __str__(self) -> str:
+        told = "–" if self.value is None else f"{self.value:.4g}"
+        return f"{self.name} {told} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True)
+class Candidate(Row):
+    """An explanation of the gap."""
+
+    effect: str
+    stage: str
+    probability: float
+    #: Share of the gap that it closes on held-out records.
+    closure: Optional[float]
+    #: Drop of the Bayesian information criterion.
+    delta_bic: Optional[float]
+    heldout_log_score: Optional[float]
+    parameters: Table[Parameter]
+
+    @classmethod
+    def of(cls, found: Mapping[str, Any]) -> Candidate:
+        """That of an object in the program's JSON."""
+        parameters = Table(Parameter.of(parameter) for parameter in found["parameters"])
+        return super().of({**found, "parameters": parameters})
+
+    def cells(self) -> dict[str, Any]:
+        """The row as cells of a data frame; parameters in words."""
+        return {**super().cells(), "parameters": ", ".join(map(str, self.parameters))}
+
+
+@dataclass(frozen=True)
+class Place(Row):
+    """A part of the records, and how much of the gap lies there."""
+
+    axis: str
+    cell: str
+    low: Optional[float]
+    high: Optional[float]
+    unit: Optional[str]
+    #: Share of the gap's energy.
+    share: float
+    #: Share of the samples.
+    exposure: float
+    #: ``share / exposure``.
+    enrichment: Optional[float]
+    #: False discovery rate at which the gap there is significant.
+    q_value: Optional[float]
+
+
+class Diagnosis(Result):
+    """Where a model misses measured data, which effect causes it, and how far adding that closes the gap."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """What causes the gap."""
+        return Verdict.of(self._data["verdict"])
+
+    @property
+    def gap(self) -> Gap:
+        """How large it is, before and after the effects found are added."""
+        found = self._data["gap"]
+        before, after, closure = (Estimate.of(found[name]) for name in ("before", "after", "closure"))
+        per_record = Table(RecordGap.of(record) for record in found["per_record"])
+        return Gap(before, after, closure, float(found["noise_floor"]), per_record)
+
+    @property
+    def closure(self) -> Estimate:
+        """Share of the gap that adding the effects closes on held-out records, with its 90 % interval."""
+        return self.gap.closure
+
+    @cached_property
+    def candidates(self) -> Table[Candidate]:
+        """The explanations, best first."""
+        return Table(Candidate.of(candidate) for candidate in self._data["candidates"])
+
+    @cached_property
+    def where(self) -> Table[Place]:
+        """Where the gap lies."""
+        return Table(Place.of(place) for place in self._data["where"])
+
+    @property
+    def limitations(self) -> list[str]:
+        """What the reader must know."""
+        return list(self._data["limitations"])
+
+    @property
+    def next_experiment(self) -> Optional[dict[str, Any]]:
+        """What to measure to tell the explanations apart; none where that is not needed."""
+        experiment: Optional[dict[str, Any]] = self._data["next_experiment"]
+        return experiment
+
+    @cached_property
+    def nominal(self) -> Optional[Model]:
+        """The model under diagnosis, where more than its predictions are known."""
+        return self._model("nominal.json")
+
+    @cached_property
+    def augmented(self) -> Optional[Model]:
+        """The same with what was found added: the repaired model."""
+        return self._model("augmented.json")
+
+    def _model(self, name: str) -> Optional[Model]:
+        text = self._texts.get(name)
+        return None if text is None else Model(text, name)
+
+    def explain(self) -> str:
+        """Why the first explanation comes first: the errors that each saves, by how far ahead it predicts."""
+        return self._texts["why"]
+
+    def plot(self, kind: Literal["where", "candidates", "loop", "borders"] = "where", ax: Optional[Axes] = None) -> Axes:
+        """``where`` the gap lies, the ``candidates``, the ``loop`` of a held-out record beside the models', or the ``borders`` of the repaired
+        model; needs matplotlib. Returns the axes."""
+        from . import _plots
+
+        return _plots.diagnosis(self, kind, ax)
+
+    def __repr__(self) -> str:
+        verdict = self.verdict
+        cause = " and ".join(verdict.effects or verdict.class_ or []) or verdict.status
+        return f"Diagnosis({cause}, probability {verdict.probability:.2f}; closes {self.closure})"
+
+
+def diagnose(
+    rig: Union[Rig, PathLike],
+    model: Union[Model, Any, PathLike, None] = None,
+    y_sim: Union[ArrayLike, Mapping[str, ArrayLike], None] = None,
+    *,
+    without: Union[str, Iterable[str], None] = None,
+    ask: Union[str, Iterable[str], None] = None,
+    causal: bool = False,
+    prior: Optional[Mapping[str, float]] = None,
+    threads: Optional[int] = None,
+    progress: Optional[bool] = None,
+) -> Diagnosis:
+    """Says where a model misses a rig's held-out records, which of the known effects causes it, and how far the gap closes.
+
+    Parameters
+    ----------
+    rig
+        The records, or a file to read them from.
+    model
+        The model to diagnose: a :class:`Model`, what :func:`identify` gave, or a model file; else that of the predictions ``y_sim``
+        where the records have them, else the one identified from the fit records.
+    y_sim
+        Another simulator's predictions of the output, to be diagnosed: see :meth:`Rig.with_y_sim`.
+    without
+        Effects that the rig is known not to have.
+    ask
+        Effects to tell as a cause where else they belong to the model: ``coloured_noise``.
+    causal
+        Only nominal models that could run in real time, so that they can be exported.
+    prior
+        How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+        ``{"none": 0.2, "unexplained": 0.1}``: for the second opinion on records that nobody designed.
+    threads, progress
+        As in :func:`identify`.
+
+    Raises
+    ------
+    SwitchbackError
+        In the words of ``switchback gap``.
+    """
+    rig = rig_of(rig)
+    if y_sim is not None:
+        rig = rig.with_y_sim(y_sim)
+    options = words(without=several(without), ask=several(ask), causal=causal, prior=shares(prior), threads=threads)
+    given = None if model is None else model_of(model)
+    with shown(progress) as heard:
+        return Diagnosis(_native.diagnose(records_of(rig), options, given, heard))
+
+
+def shares(prior: Optional[Mapping[str, float]]) -> Optional[str]:
+    """``none=0.2,unexplained=0.1``"""
+    return None if prior is None else ",".join(f"{name}={number(share)}" for name, share in prior.items())

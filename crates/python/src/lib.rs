@@ -1,0 +1,55 @@
+//! `switchback._native`: what the Python package calls. Everything that is computed is computed by the library of the program `switchback`;
+//! here are threads, signals and the way from one language to the other.
+//!
+//! | file | what it is for |
+//! |---|---|
+//! | `call` | one call from Python: a thread that computes, signals that stop it, what is told meanwhile |
+//! | `records` | a rig in memory, however it was read |
+//! | `answer` | what a verb found: JSON, words, files |
+//! | `verbs` | the verbs |
+//! | `estimator` | the fit behind `SwitchedHysteresis` |
+//! | `numbers`, `refusal` | arrays and exceptions |
+
+mod answer;
+mod call;
+mod estimator;
+mod numbers;
+mod records;
+mod refusal;
+mod verbs;
+
+use pyo3::prelude::*;
+use std::ffi::OsString;
+use switchback::{cli, failure, interrupt};
+
+/// Runs the command line; gives the exit code of the program. From here on signals are the program's.
+#[pyfunction]
+fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| {
+        interrupt::install();
+        failure::code(cli::run(words))
+    })
+}
+
+/// The native part of the package `switchback`.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    switchback::platform::keep_memory();
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("SwitchbackError", module.py().get_type::<refusal::SwitchbackError>())?;
+    module.add_class::<answer::Answer>()?;
+    module.add_class::<records::Records>()?;
+    module.add_function(wrap_pyfunction!(verbs::identify::identify, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::diagnose::diagnose, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::power::power, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::plant::plant, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::design::design, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::simulate::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::simulate::simulate_file, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::export::export, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::study::study, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::study::study_of_json, module)?)?;
+    module.add_function(wrap_pyfunction!(run, module)?)?;
+    module.add_function(wrap_pyfunction!(estimator::fit, module)?)?;
+    Ok(())
+}

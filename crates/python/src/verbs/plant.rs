@@ -1,0 +1,40 @@
+//! `switchback plant`
+
+use super::{Model, options};
+use crate::answer::{Answer, Stored};
+use crate::call::{Call, Heard};
+use crate::records::Records;
+use pyo3::prelude::*;
+use std::ffi::OsString;
+use std::sync::Arc;
+use switchback::cmd;
+use switchback::diagnosis::Units;
+use switchback::{model, rig};
+
+/// Puts a known fault into records; gives what was put in, and the records with it.
+#[pyfunction]
+#[pyo3(signature = (records, words, model=None, heard=None))]
+pub(crate) fn plant(
+    py: Python<'_>,
+    records: &Records,
+    words: Vec<OsString>,
+    model: Option<Model>,
+    heard: Heard<'_>,
+) -> PyResult<(Answer, Records)> {
+    let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
+    Call::run(py, &heard, move |_| {
+        let asked: cmd::plant::Asked = options(words)?;
+        let carrier = match (model, asked.model()) {
+            (Some((path, text)), _) => Some((model::of_text(&path, &text)?, path)),
+            (None, Some(path)) => Some((model::read(path)?, path.to_owned())),
+            (None, None) => None,
+        };
+        let carrier = carrier.as_ref().map(|(file, path)| (file, path.as_path()));
+        let planted = cmd::plant::planted(&rig, &asked, (&about.place, carrier))?;
+        let words = cmd::plant::told(&planted.fault, &Units::of(&planted.rig).output);
+        let (json, files) = (cmd::plant::page(&planted.fault), rig::artefacts(&planted.rig));
+        let name = planted.rig.name.clone();
+        let answer = Answer::new(Stored::new(json, words, files).reading(about.inputs));
+        Ok((answer, Records::made(planted.rig, &name)))
+    })
+}

@@ -1,0 +1,95 @@
+//! `switchback simulate`
+
+use super::{Model, options};
+use crate::answer::{Answer, Page};
+use crate::call::{Call, Heard};
+use crate::numbers::{bytes, numbers};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::ffi::OsString;
+use std::path::Path;
+use switchback::cmd::simulate::{Asked, Simulation, played};
+use switchback::model;
+use switchback::output::Artefacts;
+use switchback::rig::InputSeries;
+
+/// A free run: the answer, then the outputs, both ends of the band, and the first simulated sample.
+type Simulated<'py> = (Answer, [Bound<'py, PyBytes>; 4], usize);
+
+/// Runs a model on an input, from measured outputs on if there are some.
+#[pyfunction]
+#[pyo3(signature = (model, v, y=None, heard=None))]
+pub(crate) fn simulate<'py>(
+    py: Python<'py>,
+    model: Model,
+    v: Bound<'py, PyBytes>,
+    y: Option<Bound<'py, PyBytes>>,
+    heard: Heard<'py>,
+) -> PyResult<Simulated<'py>> {
+    let v = numbers(v.as_bytes())?;
+    let y = y.map(|y| numbers(y.as_bytes())).transpose()?;
+    let run = Call::run(py, &heard, move |_| {
+        let (path, text) = model;
+        let file = model::of_text(&path, &text)?;
+        let header = &file.header;
+        let input = InputSeries {
+            sample_time: header.sample_time,
+            start: 0.0,
+            v,
+            times: None,
+            time_unit: None,
+            input_label: header.input.clone(),
+            output_label: y.as_ref().map(|_| header.output.clone()),
+            y,
+            warnings: Vec::new(),
+            notes: Vec::new(),
+        };
+        Ok(Simulation::new(file, input, Path::new("v"))?)
+    })?;
+    Ok(simulated(py, run))
+}
+
+/// The same on an input in a file: `words` are those after the model on the command line.
+#[pyfunction]
+#[pyo3(signature = (model, words, heard=None))]
+pub(crate) fn simulate_file<'py>(
+    py: Python<'py>,
+    model: Model,
+    words: Vec<OsString>,
+    heard: Heard<'py>,
+) -> PyResult<Simulated<'py>> {
+    let run = Call::run(py, &heard, move |_| {
+        let (path, text) = model;
+        let asked: Asked = options(words)?;
+        let file = model::of_text(&path, &text)?;
+        let input = played(&asked, (&file, &path))?;
+        Ok(Simulation::new(file, input, asked.file())?)
+    })?;
+    Ok(simulated(py, run))
+}
+
+fn simulated(py: Python<'_>, simulation: Simulation) -> Simulated<'_> {
+    let run = simulation.run();
+    let arrays = [simulation.input(), &run.y, &run.low, &run.high].map(|values| bytes(py, values));
+    let start = run.start;
+    (Answer::new(Ran(simulation)), arrays, start)
+}
+
+#[derive(Debug)]
+struct Ran(Simulation);
+
+impl Page for Ran {
+    fn json(&self) -> String {
+        self.0.json()
+    }
+
+    fn words(&self) -> String {
+        self.0.words()
+    }
+
+    fn files(&self) -> miette::Result<Artefacts> {
+        let mut files = Artefacts::default();
+        files.add("simulated.csv", self.0.csv());
+        Ok(files)
+    }
+}

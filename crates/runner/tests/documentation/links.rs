@@ -1,0 +1,71 @@
+//! Links between pages.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Pages whose links are followed, besides those of `docs/`.
+const OTHERS: [&str; 8] = [
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "benches/peers/README.md",
+    "fuzz/README.md",
+    "crates/estimator/README.md",
+    "crates/gap/README.md",
+    "crates/maker/README.md",
+];
+
+/// Every link to a file or heading that is not there.
+pub(crate) fn dead(root: &Path) -> Vec<String> {
+    let docs = root.join("docs").read_dir().expect("docs/");
+    let docs = docs.map(|entry| entry.expect("a readable entry").path());
+    let pages = docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    pages.chain(OTHERS.iter().map(|name| root.join(name))).flat_map(|page| of_page(&page)).collect()
+}
+
+fn of_page(page: &Path) -> Vec<String> {
+    let text = fs::read_to_string(page).unwrap_or_else(|error| panic!("{}: {error}", page.display()));
+    let folder = page.parent().expect("a folder");
+    let complaint = |target: &str| {
+        let (file, heading) = target.split_once('#').map_or((target, None), |(file, h)| (file, Some(h)));
+        let path: PathBuf = if file.is_empty() { page.to_owned() } else { folder.join(file) };
+        let is_there = path.exists()
+            && heading.is_none_or(|heading| headings(&path).contains(heading) || !is_markdown(&path));
+        (!is_there).then(|| format!("{}: `{target}` leads nowhere", page.display()))
+    };
+    targets(&text).into_iter().filter(|target| !target.contains("://")).filter_map(complaint).collect()
+}
+
+fn is_markdown(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "md")
+}
+
+/// Where the links and pictures of a page lead, code left out.
+fn targets(text: &str) -> Vec<&str> {
+    let prose = text.split("```").step_by(2);
+    prose
+        .flat_map(|part| part.split("](").skip(1))
+        .filter_map(|rest| rest.split_once(')').map(|(target, _)| target))
+        .collect()
+}
+
+/// The anchors of a page: headings in lower case, their punctuation left out, blanks as hyphens.
+fn headings(page: &Path) -> HashSet<String> {
+    let text = fs::read_to_string(page).unwrap_or_default();
+    let is_kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
+    let anchor = |title: &str| title.trim().to_lowercase().chars().filter(is_kept).collect::<String>();
+    let titles = text.split("```").step_by(2).flat_map(str::lines).filter(|line| line.starts_with('#'));
+    titles.map(|line| anchor(line.trim_start_matches('#')).replace(' ', "-")).collect()
+}
+
+#[test]
+fn links_and_headings_are_found() {
+    let page = "[a](b.md#c-d) ![e](f.svg)\n```text\n[g](h)\n```\n[i](#j)";
+    assert_eq!(targets(page), ["b.md#c-d", "f.svg", "#j"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.md");
+    fs::write(&path, "# What `x` is, and why\n[b](#what-x-is-and-why) [c](#d) [e](f.md)\n").expect("a file");
+    assert!(headings(&path).contains("what-x-is-and-why"));
+    assert_eq!(of_page(&path).len(), 2);
+}

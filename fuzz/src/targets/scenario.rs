@@ -1,0 +1,26 @@
+//! Scenario files of all three kinds: a text is a scenario, or refused in words.
+
+use super::{Scratch, text_of, told};
+use switchback::scenario::Scenario;
+use switchback::{blind, field};
+
+thread_local!(static FOLDER: Scratch = Scratch::new());
+
+/// Runs it on an input.
+pub fn run(bytes: &[u8]) {
+    let Some(text) = text_of(bytes) else { return };
+    if let Err(refusal) = Scenario::parse("fuzz.toml", text) {
+        told(&refusal);
+    }
+    let path = FOLDER.with(|folder| folder.write("fuzz.toml", bytes));
+    if blind::is_blind(&path)
+        && let Err(refusal) = blind::read(&path)
+    {
+        told(&refusal);
+    }
+    if field::is_field(&path)
+        && let Err(refusal) = field::read(&path)
+    {
+        told(&refusal);
+    }
+}
