@@ -124,7 +124,7 @@ impl<'a> Study<'a> {
 
 /// The page with another text between the markers of a name.
 fn spliced(page: &str, name: &str, section: &str) -> miette::Result<String> {
-    let (begin, end) = (format!("<!-- begin {name} -->\n"), format!("<!-- end {name} -->"));
+    let (begin, end) = (format!("<!-- scaling: {name} -->\n"), format!("<!-- end of {name} -->"));
     let missing = || miette!("{PAGE} has no section between {} and {end}", begin.trim_end());
     let from = page.find(&begin).ok_or_else(missing)? + begin.len();
     let to = from + page[from..].find(&end).ok_or_else(missing)?;

@@ -136,6 +136,12 @@ fn assert_same(study: &Study, run: &Launched) {
 /// A study like those that are launched: hundreds of cells, whose sums are written and read.
 #[test]
 fn a_plan_is_what_comes_within_a_fifth() {
+    if !is_full() {
+        eprintln!(
+            "SKIPPED: seconds are compared, which takes a machine that does nothing else; SWITCHBACK_CLUSTER=full does it"
+        );
+        return;
+    }
     let attempts: Vec<String> = (0..3).map_while(|_| plan_against_measurement().err()).collect();
     // What else runs on the machine at the same time makes processors slower, or caches smaller.
     assert!(attempts.len() < 3, "{attempts:#?}");
@@ -143,7 +149,7 @@ fn a_plan_is_what_comes_within_a_fifth() {
 
 fn plan_against_measurement() -> Result<(), String> {
     let parts = 4;
-    let study = Study::of_many_cells(if is_full() { 16 } else { 4 });
+    let study = Study::of_many_cells(16);
     let plan = study.plan(parts);
     let told = |name: &str| plan[name].as_f64().expect("a number");
     let shards: f64 = (1..=parts).map(|number| study.seconds_of_part(number, parts)).sum();

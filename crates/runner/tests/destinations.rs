@@ -82,7 +82,7 @@ impl<'f> Small<'f> {
     fn mounted(place: &'f Path) -> Option<Self> {
         fs::create_dir(place).expect("a new folder");
         let mount = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", "size=512k", "none"])
+            .args(["-t", "tmpfs", "-o", "size=4m", "none"])
             .arg(place)
             .stderr(Stdio::null())
             .status();
@@ -115,7 +115,7 @@ fn a_full_disk_leaves_the_old_report() {
         change.folder.write("study.toml", &STUDY.replace("seed = 3", "seed = 4"));
         // Without a byte to spare, and with a part of what is needed.
         for spare in [0, 16 << 10] {
-            let (ballast, mut size) = (place.join("ballast"), 512 << 10);
+            let (ballast, mut size) = (place.join("ballast"), 4 << 20);
             while fs::write(&ballast, vec![1; size]).is_err() {
                 size -= 4 << 10;
             }

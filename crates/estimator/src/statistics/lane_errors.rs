@@ -245,7 +245,8 @@ mod tests {
             prop_assert!(LaneSums::read(2, &mut &written[1..]).is_none());
             written.push(7);
             let mut rest = written.as_slice();
-            prop_assert_eq!(LaneSums::read(2, &mut rest).as_ref(), Some(&together));
+            let read = LaneSums::read(2, &mut rest);
+            prop_assert_eq!(read.as_ref(), Some(&together));
             prop_assert_eq!(rest, [7]);
             let mut moved = LaneSums::new(2);
             (0..LANES).for_each(|l| moved.set_lane(l, &together.lane(l)));

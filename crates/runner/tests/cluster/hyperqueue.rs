@@ -3,6 +3,7 @@
 
 use crate::Cluster;
 use crate::processes::{descendants, kill};
+use crate::study::is_asked;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -52,6 +53,9 @@ impl Cluster for HyperQueue {
     const FORGETS: bool = true;
 
     fn start(scratch: &Path) -> Option<Self> {
+        if !is_asked() {
+            return None;
+        }
         let folder = scratch.to_owned();
         fs::create_dir_all(folder.join("bin")).expect("a folder");
         if Command::new("hq").arg("--version").output().is_err() {

@@ -12,6 +12,15 @@ use std::time::{Duration, Instant};
 
 pub(crate) const PARTS: usize = 24;
 
+/// Whether engines are to be started at all: they take minutes, and have tests of their own in `.ci/cluster`.
+pub(crate) fn is_asked() -> bool {
+    let is_asked = std::env::var_os("SWITCHBACK_CLUSTER").is_some();
+    if !is_asked {
+        eprintln!("SKIPPED: SWITCHBACK_CLUSTER is not set; .ci/cluster runs parts on Slurm and HyperQueue");
+    }
+    is_asked
+}
+
 /// Whether parts are long, and nothing is left out.
 pub(crate) fn is_full() -> bool {
     std::env::var("SWITCHBACK_CLUSTER").is_ok_and(|value| value == "full")
