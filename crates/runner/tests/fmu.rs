@@ -102,6 +102,11 @@ fn fmpy_runs_an_exported_model_as_simulate_does() {
         let mut model: serde_json::Value = serde_json::from_str(text).expect("a model");
         model["model"]["delay"] = (-1).into();
         model["model"]["b"].as_array_mut().expect("a list").push(0.05.into());
+        let sum = |of: &str| {
+            model["model"][of].as_array().expect("a list").iter().filter_map(|x| x.as_f64()).sum::<f64>()
+        };
+        // Where it rests follows from all coefficients.
+        model["model"]["gain"] = (sum("b") / (1.0 + sum("a"))).into();
         model["model"]["covariance"] = serde_json::Value::Null;
         model.to_string()
     });
