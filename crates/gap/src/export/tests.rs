@@ -183,13 +183,14 @@ fn what_leaves_runs_as_the_diagnosis_does_to_the_last_bit() {
     }
 }
 
-/// The largest difference of a run sample by sample from the free run from rest, in standard deviations of the output.
-fn largest_difference(model: &PortableModel, v: &[f64], scale: f64) -> f64 {
+/// The largest difference of a run sample by sample from the free run from rest, relative to the largest output.
+fn largest_difference(model: &PortableModel, v: &[f64]) -> f64 {
     let program = model.causal().expect("a causal model").program();
     let mut machine = Machine::new(Arc::new(program)).expect("a whole program");
     machine.start(v[0], 0.0);
     let run = model.simulate(v, None).y;
-    let differences = v.iter().zip(&run).map(|(v, y)| (machine.step(*v) - y).abs() / scale);
+    let size = run.iter().fold(f64::MIN_POSITIVE, |most, y| most.max(y.abs()));
+    let differences = v.iter().zip(&run).map(|(v, y)| (machine.step(*v) - y).abs() / size);
     differences.fold(0.0, f64::max)
 }
 
@@ -203,8 +204,9 @@ fn sample_by_sample_it_runs_as_from_rest() {
         for assembly in assemblies() {
             let model = exporter.given(&led, &fitted(&led, &grid(), &assembly));
             for v in [input(150, 0.4), input(150, 3.6), [vec![4.0; 9], input(80, 1.1)].concat()] {
-                let difference = largest_difference(&model, &v, led.y_scale);
-                assert!(difference < 1e-12, "{difference}: {assembly:?}");
+                let difference = largest_difference(&model, &v);
+                // Slow effects and noisy inputs sum in another order, over the whole run.
+                assert!(difference < 1e-10, "{difference}: {assembly:?}");
             }
         }
     }
