@@ -82,15 +82,23 @@ fn disturbed(columns: Vec<EquationColumn>) -> Assembly {
     Assembly { equation_columns: columns, ..Assembly::default() }
 }
 
+/// A slow change as effects make it: a path between samples by the clock in samples, polynomials and waves by the others, which end at one.
 fn slow(clock: Clock) -> Slow {
-    let bends = vec![(0.2, 0.0), (0.6, 0.1)];
-    Slow { coefficients: vec![0.05, -0.02], wave: Some((3.0, 0.02, 0.01)), bends, ..Slow::on(clock) }
+    let path = |scale: f64| vec![(0.2 * scale, 0.0), (0.6 * scale, 0.1)];
+    match clock {
+        Clock::Samples => Slow { bends: path(3.0 * SAMPLES as f64), ..Slow::on(clock) },
+        _ => Slow {
+            coefficients: vec![0.05, -0.02],
+            wave: Some((3.0, 0.02, 0.01)),
+            bends: path(1.0),
+            ..Slow::on(clock)
+        },
+    }
 }
 
 /// One assembly for every part that an effect may add.
 fn assemblies() -> Vec<Assembly> {
     let none = Assembly::default;
-    let clocks = [Clock::Campaign, Clock::Samples, Clock::Record, Clock::Travel, Clock::Pauses];
     let laws = [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing];
     let mut filtered = none();
     filtered.filter(&[0.3, 0.1], &[1.0, -0.6]);
@@ -141,11 +149,15 @@ fn assemblies() -> Vec<Assembly> {
     all.extend(
         laws.map(|law| Assembly { transition: Some(Transition { length: 0.05, shape: 1.0, law }), ..none() }),
     );
-    for clock in clocks {
+    for clock in [Clock::Campaign, Clock::Samples, Clock::Record, Clock::Travel] {
         all.push(Assembly { wear: Some(slow(clock)), ..none() });
         all.push(Assembly { gain: Some(slow(clock)), ..none() });
+    }
+    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
         all.push(column(BorderColumn::BranchSlow { clock }));
         all.push(column(BorderColumn::SideSlow { clock, branch: 1.0 }));
+    }
+    for clock in [Clock::Campaign, Clock::Record, Clock::Pauses] {
         all.push(disturbed(vec![EquationColumn::Trend { clock, degree: 2 }]));
     }
     all
@@ -183,14 +195,13 @@ fn what_leaves_runs_as_the_diagnosis_does_to_the_last_bit() {
     }
 }
 
-/// The largest difference of a run sample by sample from the free run from rest, relative to the largest output.
-fn largest_difference(model: &PortableModel, v: &[f64]) -> f64 {
+/// The largest difference of a run sample by sample from the free run from rest, in standard deviations of the output.
+fn largest_difference(model: &PortableModel, v: &[f64], scale: f64) -> f64 {
     let program = model.causal().expect("a causal model").program();
     let mut machine = Machine::new(Arc::new(program)).expect("a whole program");
     machine.start(v[0], 0.0);
     let run = model.simulate(v, None).y;
-    let size = run.iter().fold(f64::MIN_POSITIVE, |most, y| most.max(y.abs()));
-    let differences = v.iter().zip(&run).map(|(v, y)| (machine.step(*v) - y).abs() / size);
+    let differences = v.iter().zip(&run).map(|(v, y)| (machine.step(*v) - y).abs() / scale);
     differences.fold(0.0, f64::max)
 }
 
@@ -200,13 +211,17 @@ fn sample_by_sample_it_runs_as_from_rest() {
     let campaign = Campaign::new(&rig).expect("a usable rig");
     let exporter = Exporter::new(&rig);
     let simulated = campaign.judged_by(Criterion::Simulation { share: 0.2 });
-    for led in [campaign.clone(), campaign.led_by(1), campaign.led_by(-2), simulated] {
-        for assembly in assemblies() {
-            let model = exporter.given(&led, &fitted(&led, &grid(), &assembly));
+    for assembly in assemblies() {
+        let fit = fitted(&campaign, &grid(), &assembly);
+        // Fitted to inputs of the wrong time a model of these records is unstable, and rounding grows with its output.
+        let led = [0, 1, -2].map(|lead| exporter.given(&campaign.led_by(lead), &fit));
+        let simulated = exporter.given(&simulated, &fitted(&simulated, &grid(), &assembly));
+        for model in led.iter().chain([&simulated]) {
             for v in [input(150, 0.4), input(150, 3.6), [vec![4.0; 9], input(80, 1.1)].concat()] {
-                let difference = largest_difference(&model, &v);
-                // Slow effects and noisy inputs sum in another order, over the whole run.
-                assert!(difference < 1e-10, "{difference}: {assembly:?}");
+                let largest = model.simulate(&v, None).y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+                assert!(largest < 20.0 * campaign.y_scale, "{largest}: {assembly:?}");
+                let difference = largest_difference(model, &v, campaign.y_scale);
+                assert!(difference < 1e-12, "{difference}: {assembly:?}");
             }
         }
     }
