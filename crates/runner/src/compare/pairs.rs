@@ -128,9 +128,10 @@ fn lacking(one: &Results, other: &Results) -> Vec<String> {
 
 type Known = fn(&Parameter) -> Option<f64>;
 
-const KNOWN: [(&str, Known); 4] = [
+const KNOWN: [(&str, Known); 5] = [
     ("truth", |p| Some(p.truth)),
     ("position", |p| p.v),
+    ("bias by theory", |p| p.theory_bias),
     ("standard deviation by theory", |p| p.theory_sd),
     ("bound of the standard deviation", |p| p.bound_sd),
 ];

@@ -86,6 +86,7 @@ pub(super) fn figure(
             match measure {
                 Measure::Bias => {
                     design.each(selection, group, |curve| curve.draw_floor(&panel));
+                    design.each(selection, group, |curve| curve.draw_theory(&panel));
                     design.each(selection, group, |curve| curve.draw_bias(&panel));
                 }
                 Measure::Sd => {
@@ -132,8 +133,13 @@ impl Design {
                 let hollow = Sample::Mark(Shape::Disc, Pen::data(INK), false);
                 entries.push(Entry::new(hollow, "hollow: not told from zero"));
                 entries.push(Entry::new(Sample::Arrow(Towards::Down, INK), "the bar includes zero"));
-                let slope = Sample::Dashes(Pen::data(GREY), Dash::Dots);
-                entries.push(Entry::new(slope, "law 1/N through the first point told from zero"));
+                if has(|p| p.theory_bias.is_some()) {
+                    let broad = Sample::Line(Pen::broad(tint(INK, PALE)));
+                    entries.push(Entry::new(broad, "theory"));
+                } else {
+                    let slope = Sample::Dashes(Pen::data(GREY), Dash::Dots);
+                    entries.push(Entry::new(slope, "law 1/N through the first point told from zero"));
+                }
                 if has(|p| p.bias_controlled.is_some()) {
                     let floor = Sample::Dashes(Pen::data(tint(INK, PALE)), Dash::Dashes);
                     entries.push(Entry::new(floor, "least bias told from zero without control variate"));
@@ -141,7 +147,7 @@ impl Design {
             }
             Measure::Sd => {
                 if has(|p| p.theory_sd.is_some()) {
-                    entries.push(Entry::line(INK, "asymptotic theory"));
+                    entries.push(Entry::line(INK, "theory"));
                 }
                 if has(|p| p.bound_sd.is_some()) {
                     let broad = Sample::Line(Pen::broad(tint(INK, PALE)));
@@ -209,10 +215,16 @@ impl<'r> Curve<'r> {
         if is_drawn { self.exact(|p| p.bias.map(|b| ERRORS * b.mcse())) } else { Vec::new() }
     }
 
+    /// Broadly behind the marks, so that both show where they agree.
+    fn draw_theory(&self, panel: &Panel<'_, '_>) {
+        panel.line(&self.exact(|p| p.theory_bias), Pen::broad(tint(self.colour, PALE)));
+    }
+
     fn draw_bias(&self, panel: &Panel<'_, '_>) {
         let marks = self.pooled(Parameter::best_bias);
         let told = |n: f64| self.at(n).all(|cell| self.is_told_from_zero(cell));
-        if let Some((n0, first)) = marks.iter().find(|(n, _)| told(*n)) {
+        let law = !self.has(|p| p.theory_bias.is_some());
+        if let Some((n0, first)) = marks.iter().find(|(n, _)| law && told(*n)) {
             let last = marks.last().map_or(*n0, |(n, _)| *n);
             let law = [(*n0, first.middle), (last, first.middle * n0 / last)];
             panel.dashes(&law, Dash::Dots, Pen::data(tint(self.colour, 0.7)));
@@ -262,14 +274,21 @@ impl<'r> Curve<'r> {
     }
 
     fn is_controlled(&self) -> bool {
-        let of_group = |p: &Parameter| p.group == self.group && p.bias_controlled.is_some();
+        self.has(|p| p.bias_controlled.is_some())
+    }
+
+    /// Whether any parameter that is drawn does.
+    fn has(&self, does: impl Fn(&Parameter) -> bool) -> bool {
+        let of_group = |p: &Parameter| p.group == self.group && does(p);
         self.cells.iter().any(|cell| cell.parameters.iter().any(of_group))
     }
 
     /// All that the curve draws.
     fn values(&self, measure: Measure) -> Vec<f64> {
         let (marks, lines) = match measure {
-            Measure::Bias => (self.pooled(Parameter::best_bias), self.floor()),
+            Measure::Bias => {
+                (self.pooled(Parameter::best_bias), [self.floor(), self.exact(|p| p.theory_bias)].concat())
+            }
             Measure::Sd => (
                 self.pooled(Parameter::best_sd),
                 [self.exact(|p| p.theory_sd), self.exact(|p| p.bound_sd)].concat(),

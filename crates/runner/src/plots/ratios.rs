@@ -16,7 +16,7 @@ const APART: f64 = 5.0;
 /// A row of diagrams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Row {
-    /// Standard deviation over the asymptotic one.
+    /// Standard deviation over that of theory.
     Sd,
     /// Bias over the standard deviation.
     Bias,
@@ -58,7 +58,7 @@ pub(super) fn figure(case: &CaseSelection<'_>, results: &Results) -> String {
         .map(|s| s.method.to_string())
         .collect();
     let mut notes = vec![format!(
-        "sd over theory: 1 where the scatter is what asymptotic theory says. |bias| over sd: a consistent estimate's bias vanishes against its \
+        "sd over theory: 1 where the scatter is what theory says. |bias| over sd: a consistent estimate's bias vanishes against its \
          scatter, as 1/√N; that of an inconsistent one grows as √N. Root mean squares over a group; median over border shapes, m and \
          noise levels; bars: from the least to the greatest, with {ERRORS} Monte-Carlo standard errors; {}.",
         replicates(case.cells())

@@ -34,7 +34,7 @@ pub fn table(results: &Results) -> String {
 
 const LEGEND: &str = "\
 A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N.
-sd/theory: empirical over asymptotic sd. var/CRB: variance over the Cramér–Rao bound. A bias that stays: the largest.
+sd/theory: empirical sd over that of theory. var/CRB: variance over the Cramér–Rao bound. A bias that stays: the largest.
 ";
 
 /// Over which N slopes are fitted.

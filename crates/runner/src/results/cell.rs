@@ -87,7 +87,10 @@ pub struct Parameter {
     pub model_sd: Option<Measured>,
     /// `model_sd / sd − 1`.
     pub model_sd_relative_error: Option<Measured>,
-    /// Asymptotic standard deviation of this method.
+    /// Bias of this method at this `N` by theory, to second order in the noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub theory_bias: Option<f64>,
+    /// Standard deviation of this method at this `N` by theory: from the information of the very samples, to first order in the noise.
     pub theory_sd: Option<f64>,
     /// The Cramér–Rao bound, as a standard deviation.
     pub bound_sd: Option<f64>,

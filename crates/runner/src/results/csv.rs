@@ -11,9 +11,10 @@ const PLACE: [&str; 10] =
 type Column<T, Of = Parameter> = (&'static str, fn(&Of) -> Option<T>);
 
 /// Measures without an error.
-const EXACT: [Column<f64>; 4] = [
+const EXACT: [Column<f64>; 5] = [
     ("truth", |p| Some(p.truth)),
     ("mean_estimate", |p| p.mean_estimate),
+    ("theory_bias", |p| p.theory_bias),
     ("theory_sd", |p| p.theory_sd),
     ("bound_sd", |p| p.bound_sd),
 ];

@@ -12,10 +12,16 @@ pub struct Summary {
     pub series: Series,
     /// The parameters.
     pub group: Group,
-    /// Slope of log sd against log N, fitted over [`Results::slope_samples`](super::Results::slope_samples); theory says −1/2.
+    /// Slope of log sd against log N, fitted over [`Results::slope_samples`](super::Results::slope_samples); −1/2 as N grows.
     pub sd_slope: Option<Fitted>,
-    /// Slope of log |bias| against log N, fitted over those of them where it is resolved; theory says −1.
+    /// The same slope of the standard deviations that theory gives for these N; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sd_slope_theory: Option<f64>,
+    /// Slope of log |bias| against log N, fitted over those of them where it is resolved; −1 as N grows.
     pub bias_slope: Option<Fitted>,
+    /// The same slope of the biases that theory gives for these N; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bias_slope_theory: Option<f64>,
     /// Where that is.
     #[serde(default)]
     pub bias_slope_samples: Vec<usize>,
@@ -23,7 +29,7 @@ pub struct Summary {
     pub plateau: Option<Fitted>,
     /// Mean coverage of the 95 % intervals at the largest `N`.
     pub coverage: Option<Measured>,
-    /// Empirical over asymptotic sd at the largest `N`, root mean square over the group.
+    /// Empirical sd over that of theory at the largest `N`, root mean square over the group.
     pub sd_over_theory: Option<Measured>,
     /// Variance over the Cramér–Rao bound at the largest `N`, mean over the group; 1 at the bound, more above it.
     pub variance_over_bound: Option<Measured>,

@@ -164,6 +164,7 @@ fn parameter(
         coverage: Measured::new(coverage, (coverage * (1.0 - coverage) / REPLICATES).sqrt()),
         model_sd: Measured::new(theory, theory / 300.0),
         model_sd_relative_error: Measured::new(theory / sd - 1.0, 1.0 / (2.0 * REPLICATES).sqrt()),
+        theory_bias: (plateau == 0.0).then_some(true_bias),
         theory_sd: (plateau == 0.0).then_some(theory),
         bound_sd: Some(theory * 0.8),
     }
@@ -240,6 +241,8 @@ fn summaries(series: &Series) -> Vec<Summary> {
         series: series.clone(),
         group,
         sd_slope: Fitted::new(-0.5, (-0.512, -0.487)),
+        sd_slope_theory: consistent.then_some(-0.5),
+        bias_slope_theory: consistent.then_some(-1.0),
         bias_slope: if consistent { Fitted::new(-0.99, (-1.08, -0.9)) } else { None },
         bias_slope_samples: if consistent { vec![1_000, 3_000, 10_000] } else { Vec::new() },
         plateau: Fitted::new(if consistent { 0.0 } else { 0.04 }, (-0.001, 0.041)),

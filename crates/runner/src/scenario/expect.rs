@@ -48,11 +48,11 @@ impl Expect {
 /// A measure that theory predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Check {
-    /// The standard deviation falls as `N^(−1/2)`.
+    /// The standard deviation falls with the slope that theory has over the same `N`, to 0.01 and Monte-Carlo error.
     SdSlope,
-    /// The bias falls as `N⁻¹` where it can be resolved.
+    /// The bias falls with the slope that theory has over the same `N`, where it can be resolved, to 0.01 and Monte-Carlo error.
     BiasSlope,
-    /// Empirical over asymptotic standard deviation is 1 at the largest `N`.
+    /// Standard deviation over that of theory is 1 at the largest `N`.
     SdOverTheory,
     /// 95 % intervals cover the truth 95 % of the time at the largest `N`.
     Coverage,

@@ -5,20 +5,18 @@ use super::pulse_kind::PulseKind;
 use crate::scenario::{Border, Case, Disturbance};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
 use switchback_estimator::estimators::pulse::{
-    ErrorTerms, Limit, PulseData, PulseFitError, PulseMethod, StepMean,
+    EquationNoise, ErrorTerms, ExpectedRecord, FiniteSampleTheory, Limit, PulseData, PulseFitError,
+    PulseMethod, StepMean,
 };
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::Branch;
-use switchback_estimator::linear::settling_samples;
+use switchback_estimator::linear::{NoiseMemory, settling_samples};
 use switchback_estimator::simulation::{
     Grouping, LaneSuperposition, NoiseMoments, PeriodicDesign, SumCovariance, periodic_response, superpose,
 };
 
 /// Descendant and ascendant experiment, in this order wherever there are two of anything.
 pub(super) const DIRECTIONS: [Direction; 2] = [Direction::Descendant, Direction::Ascendant];
-
-/// Samples of the expected statistics that stand for endless data: terms of order 1/N vanish beside 1e-9.
-const ENDLESS: f64 = 1e12;
 
 /// Both experiments on one hysteresis, unrolled.
 #[derive(Debug, Clone)]
@@ -165,10 +163,32 @@ impl Bench {
         truth
     }
 
-    /// A method's limit with endless data.
-    pub(super) fn limit(&self, method: PulseKind, sigma: f64) -> Result<Limit, PulseFitError> {
-        let data = self.expected(sigma);
-        method.with_input(&data, self.steps(sigma, [0.0; 2], ENDLESS), Limit::of)
+    /// What a method makes of the expected statistics of records of `samples` samples.
+    pub(super) fn limit(
+        &self,
+        method: PulseKind,
+        sigma: f64,
+        samples: usize,
+    ) -> Result<Limit, PulseFitError> {
+        let data = self.expected(sigma, samples);
+        method.with_input(&data, self.steps(sigma, [0.0; 2], samples as f64), Limit::of)
+    }
+
+    /// What a method's estimate from records of `samples` samples will be off, `limit` being that of such records.
+    pub(super) fn theory(
+        &self,
+        method: PulseKind,
+        limit: &Limit,
+        (sigma, memory): (f64, &NoiseMemory),
+        samples: usize,
+    ) -> FiniteSampleTheory {
+        let record = |&k: &usize| ExpectedRecord {
+            groups: &self.designs[k].groups,
+            response: &self.responses[k],
+            samples,
+        };
+        let records: Vec<ExpectedRecord<'_>> = method.experiments().iter().map(record).collect();
+        limit.finite_sample(&records, EquationNoise { sigma, memory })
     }
 
     /// The exact means of the error terms at a method's limit, for records of `samples` samples.
@@ -180,8 +200,7 @@ impl Bench {
         samples: usize,
     ) -> ErrorTerms {
         let NoiseFilter { ar, ma } = &self.noise;
-        let noise = NoiseMoments::expected_over(ar, ma, self.designs[0].order, self.period(), samples);
-        let data = self.data(sigma, [&noise, &noise]);
+        let data = self.expected(sigma, samples);
         let designs: Vec<&PeriodicDesign> = method.experiments().iter().map(|&k| &self.designs[k]).collect();
         let covariance = SumCovariance::new(&designs, (ar, ma), sigma, samples);
         method.with_input(&data, self.steps(sigma, [0.0; 2], samples as f64), |expected| {
@@ -191,8 +210,8 @@ impl Bench {
 
     /// A method for these experiments, eight replicates at a time.
     pub(super) fn lanes(&self, method: PulseKind) -> LaneMethod {
-        let data = self.expected(1.0);
-        method.with_input(&data, self.steps(1.0, [0.0; 2], ENDLESS), |method| LaneMethod::of(&method))
+        let data = self.expected(1.0, self.period());
+        method.with_input(&data, self.steps(1.0, [0.0; 2], 1.0), |method| LaneMethod::of(&method))
     }
 
     /// How both experiments sort `samples` samples into groups: it depends on the number of points alone.
@@ -216,44 +235,37 @@ impl Bench {
     /// The Cramér–Rao bound, as standard deviations, for the data a method uses: the theory of the efficient estimate on them.
     ///
     /// The paper's methods use a step experiment of as many samples besides; they join those that see the satellite.
-    pub(super) fn bound(&self, method: PulseKind, sigma: f64) -> Result<Bound, PulseFitError> {
-        let data = self.expected(sigma);
-        match method.experiments() {
+    pub(super) fn bound(
+        &self,
+        method: PulseKind,
+        sigma: f64,
+        samples: usize,
+    ) -> Result<Vec<f64>, PulseFitError> {
+        let data = self.expected(sigma, samples);
+        let limit = match method.experiments() {
             &[k] => {
-                let statistics = data[k].statistics.merged(&self.expected_step(k, sigma).statistics);
+                let statistics = data[k].statistics.merged(&self.expected_step(k, sigma, samples).statistics);
                 let PulseData { branch, satellite, ref levels, .. } = data[k];
                 let with_step = PulseData::from_statistics(branch, levels.clone(), satellite, statistics);
-                Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&with_step]))?, records: 2.0 })
+                Limit::of(PulseMethod::Efficient(&[&with_step]))?
             }
-            _ => Ok(Bound { limit: Limit::of(PulseMethod::Efficient(&[&data[0], &data[1]]))?, records: 1.0 }),
-        }
+            _ => Limit::of(PulseMethod::Efficient(&[&data[0], &data[1]]))?,
+        };
+        Ok(limit.first_order_sd(sigma, 0.0))
     }
 
-    fn expected(&self, sigma: f64) -> [PulseData; 2] {
-        let order = self.designs[0].order;
-        let noise = NoiseMoments::expected(&self.noise.ar, &self.noise.ma, order, self.period(), ENDLESS);
+    /// The mean of both experiments' statistics over records of `samples` samples.
+    fn expected(&self, sigma: f64, samples: usize) -> [PulseData; 2] {
+        let NoiseFilter { ar, ma } = &self.noise;
+        let noise = NoiseMoments::expected_over(ar, ma, self.designs[0].order, self.period(), samples);
         self.data(sigma, [&noise, &noise])
     }
 
     /// The step experiment at the satellite of experiment `k` as one more pulse experiment without pulses.
-    fn expected_step(&self, k: usize, sigma: f64) -> PulseData {
+    fn expected_step(&self, k: usize, sigma: f64, samples: usize) -> PulseData {
         let design = PeriodicDesign { u: vec![0.0], groups: vec![0], ..self.designs[k].clone() };
-        let noise = NoiseMoments::expected(&self.noise.ar, &self.noise.ma, design.order, 1, ENDLESS);
+        let NoiseFilter { ar, ma } = &self.noise;
+        let noise = NoiseMoments::expected_over(ar, ma, design.order, 1, samples);
         superpose(&design, &[self.satellites[k]], sigma, &noise)
-    }
-}
-
-/// The Cramér–Rao bound at any number of samples.
-#[derive(Debug, Clone)]
-pub(super) struct Bound {
-    limit: Limit,
-    /// Records of `N` samples that were taken for one experiment.
-    records: f64,
-}
-
-impl Bound {
-    /// The bound for `samples` samples of each experiment, a value a parameter.
-    pub(super) fn sd(&self, samples: f64) -> Vec<f64> {
-        self.limit.theory_se(self.records * samples)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::sections::CellSums;
 use crate::results::{Group, Series};
+use switchback_estimator::estimators::pulse::FiniteSampleTheory;
 
 /// One cell of a sweep: a curve at one number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,10 +13,25 @@ pub(super) struct CellSpec {
     pub(super) parameters: Vec<ParameterName>,
     /// One a parameter.
     pub(super) truth: Vec<f64>,
-    /// Asymptotic standard deviations at `N`, one a parameter; `None` where the method's model does not hold.
-    pub(super) theory: Option<Vec<f64>>,
+}
+
+/// What theory says of a cell, one entry a parameter; nothing where the method's model does not hold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct CellTheory {
+    /// Standard deviations at `N`.
+    pub(super) sd: Option<Vec<f64>>,
+    /// Biases at `N`, to second order in the noise; nothing where that is not worked out.
+    pub(super) bias: Option<Vec<f64>>,
     /// The Cramér–Rao bound at `N`, as standard deviations.
     pub(super) bound: Option<Vec<f64>>,
+}
+
+impl CellTheory {
+    /// Of a method for pulse experiments.
+    pub(super) fn of_pulses(theory: FiniteSampleTheory, bound: Vec<f64>) -> Self {
+        let FiniteSampleTheory { sd, bias } = theory;
+        Self { sd: Some(sd), bias: Some(bias), bound: Some(bound) }
+    }
 }
 
 /// What a parameter is called, and with whom it is judged.

@@ -1,12 +1,16 @@
 //! Whether what the scenario promises came out.
 
 use super::intervals;
-use crate::results::{Cell, Expectation, Summary, Verdict};
+use crate::results::{Cell, Expectation, Fitted, Summary, Verdict};
 use crate::scenario::{Check, Method, Scenario};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Chance that a true promise is found broken, over all the rows it is checked on.
 const FALSE_ALARM: f64 = 0.01;
+
+/// A slope this far from that of theory is as good as the same: theory is exact to the second order in the noise only, so that enough
+/// replicates tell any two slopes apart.
+const SAME_SLOPE: f64 = 0.01;
 
 /// Degrees of freedom behind the errors of summaries (sections of replicates less one).
 const FREEDOM: f64 = (super::sections::SECTIONS - 1) as f64;
@@ -67,10 +71,14 @@ fn found_inconsistent(prefix: &str, method: Method, rows: &[&Summary]) -> Expect
     }
 }
 
-/// The row farthest from what theory says must be no farther than chance explains among so many rows.
+/// The row farthest from what theory says must be no farther than the margin of the check and what chance explains among so many rows.
 fn within_error(prefix: &str, check: Check, rows: &[&Summary]) -> Expectation {
     let distances: Vec<(f64, &Summary)> =
         rows.iter().filter_map(|s| Some((distance(check, s)?, *s))).collect();
+    let margin = match check {
+        Check::SdSlope | Check::BiasSlope => format!(" beyond {SAME_SLOPE}"),
+        Check::SdOverTheory | Check::Coverage | Check::Efficiency => String::new(),
+    };
     let limit = StudentsT::new(0.0, 1.0, FREEDOM)
         .map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - FALSE_ALARM / (2.0 * distances.len().max(1) as f64)));
     let worst = distances.iter().max_by(|x, y| x.0.abs().total_cmp(&y.0.abs()));
@@ -79,7 +87,7 @@ fn within_error(prefix: &str, check: Check, rows: &[&Summary]) -> Expectation {
         held: worst.is_some_and(|w| w.0.abs() <= limit),
         detail: match worst {
             Some((z, s)) => format!(
-                "largest of {} distances is {z:+.1} standard errors (limit {limit:.1}): {}, {}",
+                "largest of {} distances is {z:+.1} standard errors{margin} (limit {limit:.1}): {}, {}",
                 distances.len(),
                 s.series,
                 s.group.label()
@@ -89,17 +97,20 @@ fn within_error(prefix: &str, check: Check, rows: &[&Summary]) -> Expectation {
     }
 }
 
-/// How many standard errors a row lies from what theory says; `None` where the figure does not exist or does not apply.
+/// How many standard errors a row lies from what theory says, for a slope beyond [`SAME_SLOPE`]; `None` where the figure does not exist or
+/// does not apply.
 fn distance(check: Check, summary: &Summary) -> Option<f64> {
-    let slope = |fitted: Option<crate::results::Fitted>, target: f64| {
+    let slope = |fitted: Option<Fitted>, target: f64| {
         let fitted = fitted?;
         let half_width = 0.5 * (fitted.ci.1 - fitted.ci.0);
         let t = StudentsT::new(0.0, 1.0, FREEDOM).ok()?.inverse_cdf(0.975);
-        (half_width > 0.0).then(|| (fitted.estimate - target) / (half_width / t))
+        let apart = fitted.estimate - target;
+        let beyond = (apart.abs() - SAME_SLOPE).max(0.0).copysign(apart);
+        (half_width > 0.0).then(|| beyond / (half_width / t))
     };
     match check {
-        Check::SdSlope => slope(summary.sd_slope, -0.5),
-        Check::BiasSlope => slope(summary.bias_slope, -1.0),
+        Check::SdSlope => slope(summary.sd_slope, summary.sd_slope_theory.unwrap_or(-0.5)),
+        Check::BiasSlope => slope(summary.bias_slope, summary.bias_slope_theory.unwrap_or(-1.0)),
         Check::SdOverTheory => summary.sd_over_theory?.z(1.0),
         Check::Coverage => summary.coverage?.z(0.95),
         Check::Efficiency if summary.series.method == Method::Efficient => {

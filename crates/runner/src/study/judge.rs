@@ -1,6 +1,6 @@
 //! What the curves over N amount to: slopes, plateaus and a verdict, with jackknifed errors.
 
-use super::cell::CellSpec;
+use super::cell::{CellSpec, CellTheory};
 use super::sections::SECTIONS;
 use super::views::{CellViews, Figures, Jackknifed, View, mean, quantile};
 use crate::results::{Group, Summary, Verdict};
@@ -18,10 +18,15 @@ const IMMATERIAL: f64 = 0.3;
 const SLOWEST_DECAY: f64 = -0.35;
 
 /// One entry a series and group of parameters; slopes are fitted over the samples from `slope_from` on.
-pub(super) fn summaries(specs: &[CellSpec], views: &[CellViews], slope_from: usize) -> Vec<Summary> {
+pub(super) fn summaries(
+    specs: &[CellSpec],
+    theories: &[CellTheory],
+    views: &[CellViews],
+    slope_from: usize,
+) -> Vec<Summary> {
     let mut curves: Vec<Curve<'_>> = Vec::new();
-    for (spec, views) in specs.iter().zip(views) {
-        let point = Point { spec, samples: spec.samples as f64, views };
+    for ((spec, theory), views) in specs.iter().zip(theories).zip(views) {
+        let point = Point { spec, theory, samples: spec.samples as f64, views };
         match curves.iter_mut().find(|c| c.spec.series == spec.series) {
             Some(curve) => curve.points.push(point),
             None => curves.push(Curve { spec, points: vec![point], slope_from }),
@@ -42,6 +47,7 @@ struct Curve<'a> {
 /// One cell.
 struct Point<'a> {
     spec: &'a CellSpec,
+    theory: &'a CellTheory,
     samples: f64,
     views: &'a CellViews,
 }
@@ -72,18 +78,20 @@ impl Curve<'_> {
             series: self.spec.series.clone(),
             group,
             sd_slope: sd_slope.and_then(|s| s.interval(usual)),
+            sd_slope_theory: self.sd_slope_theory(parameters),
+            bias_slope_theory: bias_slope_theory(&resolved, parameters),
             bias_slope: bias_slope.and_then(|s| s.interval(usual)),
             bias_slope_samples: resolved.iter().map(|p| p.spec.samples).collect(),
             plateau: plateau.and_then(|p| p.jackknifed.interval(usual)),
             coverage: Jackknifed::of(|view| self.last_mean(view, parameters, |p, _| Some(p.coverage)))
                 .and_then(Jackknifed::measured),
             sd_over_theory: Jackknifed::of(|view| {
-                let theory = self.last()?.spec.theory.as_ref()?;
+                let theory = self.last()?.theory.sd.as_ref()?;
                 self.last_mean(view, parameters, |p, k| Some(p.variance / theory[k].powi(2))).map(f64::sqrt)
             })
             .and_then(Jackknifed::measured),
             variance_over_bound: Jackknifed::of(|view| {
-                let bound = self.last()?.spec.bound.as_ref()?;
+                let bound = self.last()?.theory.bound.as_ref()?;
                 self.last_mean(view, parameters, |p, k| Some(p.variance / bound[k].powi(2)))
             })
             .and_then(Jackknifed::measured),
@@ -122,6 +130,18 @@ impl Curve<'_> {
                 let variances: Option<Vec<f64>> =
                     parameters.iter().map(|&k| Some(point.views.at(view, k)?.variance)).collect();
                 Some((point.samples.ln(), mean(&variances?)?.sqrt().ln(), 1.0))
+            })
+            .collect();
+        weighted_line(&points?).map(|line| line.slope)
+    }
+
+    /// The same slope of the standard deviations that theory gives for the same N.
+    fn sd_slope_theory(&self, parameters: &[usize]) -> Option<f64> {
+        let points: Option<Vec<_>> = self
+            .sloping()
+            .map(|point| {
+                let sd = root_mean_square(point.theory.sd.as_ref()?, parameters);
+                Some((point.samples.ln(), sd.ln(), 1.0))
             })
             .collect();
         weighted_line(&points?).map(|line| line.slope)
@@ -220,6 +240,25 @@ impl Point<'_> {
         let errors = mean(&biases.iter().map(|b| b.1 * b.1).collect::<Vec<_>>())?;
         Some((squares.sqrt(), errors.sqrt()))
     }
+}
+
+/// Root mean square of known values over the parameters of a group.
+fn root_mean_square(values: &[f64], parameters: &[usize]) -> f64 {
+    let squares: Vec<f64> = parameters.iter().map(|&k| values[k] * values[k]).collect();
+    mean(&squares).unwrap_or_default().sqrt()
+}
+
+/// The slope that [`bias_slope`] would find of the biases that theory gives for the same N, points weighted alike.
+fn bias_slope_theory(resolved: &[&Point<'_>], parameters: &[usize]) -> Option<f64> {
+    let points: Option<Vec<_>> = resolved
+        .iter()
+        .map(|point| {
+            let (size, error) = point.size_of_bias(None, parameters)?;
+            let bias = root_mean_square(point.theory.bias.as_ref()?, parameters);
+            Some((point.samples.ln(), bias.ln(), (size / error).powi(2)))
+        })
+        .collect();
+    weighted_line(&points?).map(|line| line.slope)
 }
 
 /// Slope of log root-mean-square bias against log N over points where it is resolved; needs two of them.

@@ -75,7 +75,8 @@ impl Place<'_> {
         });
         let samples = &samples[..noise.len()];
         contender.lanes.fit(samples, fits);
-        contender.control.terms(samples, &contender.means[self.plan.checkpoint], terms);
+        let expansion = &contender.expansions[self.plan.checkpoint];
+        expansion.control.terms(samples, &expansion.means, terms);
         let errors: [LaneErrors<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneErrors {
             values: &fits[i].values,
             variances: &fits[i].variances,

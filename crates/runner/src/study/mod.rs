@@ -41,7 +41,7 @@ use crate::output::sha256;
 use crate::platform::platform;
 use crate::results::{BorderCurve, Partial, Results, SCHEMA};
 use crate::scenario::{Coupling, Engine, Scenario};
-use cell::CellSpec;
+use cell::{CellSpec, CellTheory};
 use direct::DirectGroup;
 use execute::Work;
 use free::FreeNoiseGroup;
@@ -213,9 +213,10 @@ impl<'s> Study<'s> {
         let Self { scenario, specs, .. } = self;
         let totals = standing.tally.totals();
         let precise = standing.precise(self.rule);
-        let cells = tabulate::cells(specs, &totals, precise.as_deref());
-        let views = views::of_cells(specs, &totals);
-        let summaries = judge::summaries(specs, &views, scenario.sweep().slope_from);
+        let theories = self.theories();
+        let cells = tabulate::cells(specs, &theories, &totals, precise.as_deref());
+        let views = views::of_cells(&theories, &totals);
+        let summaries = judge::summaries(specs, &theories, &views, scenario.sweep().slope_from);
         let paired = (scenario.coupling() == Coupling::Shared)
             .then(|| paired::pairing(specs, &views, &self.cells_of_worlds()));
         let expectations = expectations::check(scenario, &summaries, &cells);
@@ -241,6 +242,12 @@ impl<'s> Study<'s> {
             paired,
             cells,
         }
+    }
+
+    /// What theory says of each cell. Only results need it: a part of a study does without.
+    fn theories(&self) -> Vec<CellTheory> {
+        let of_pulses = self.pulses.iter().flat_map(NoiseGroup::theories);
+        of_pulses.chain(self.free.iter().flat_map(FreeNoiseGroup::theories)).collect()
     }
 
     /// Where the cells of each workload stand among all cells.

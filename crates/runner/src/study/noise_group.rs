@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use super::bench::NoiseFilter;
-use super::cell::{ActiveCells, CellSpec};
+use super::cell::{ActiveCells, CellSpec, CellTheory};
 use super::family::Family;
 use super::family_plan::FamilyPlan;
 use super::noise::{LaneNoise, NoiseSource, STREAMS, draw_lanes, eights};
@@ -13,6 +13,7 @@ use crate::scenario::{Case, Coupling, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
 use switchback_estimator::estimators::pulse::lanes::LANES;
+use switchback_estimator::linear::NoiseMemory;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 
 /// Replicates of one noise pass: a whole number of lanes at every width.
@@ -37,7 +38,7 @@ pub(super) fn plan(scenario: &Scenario) -> Result<Vec<NoiseGroup>, StudyError> {
     for (index, case) in scenario.cases().iter().enumerate() {
         let settings = setting::all(scenario, index, case)?;
         match scenario.coupling() {
-            Coupling::Shared => groups.push(NoiseGroup::new(case, 0, samples, settings)),
+            Coupling::Shared => groups.push(NoiseGroup::new(case, 0, samples, settings)?),
             Coupling::Independent => {
                 for setting in settings {
                     for (n, method) in
@@ -45,7 +46,7 @@ pub(super) fn plan(scenario: &Scenario) -> Result<Vec<NoiseGroup>, StudyError> {
                     {
                         let stream = STREAMS * groups.len() as u32;
                         let alone = Setting { methods: vec![method.clone()], ..setting.clone() };
-                        groups.push(NoiseGroup::new(case, stream, &[*n], vec![alone]));
+                        groups.push(NoiseGroup::new(case, stream, &[*n], vec![alone])?);
                     }
                 }
             }
@@ -55,18 +56,22 @@ pub(super) fn plan(scenario: &Scenario) -> Result<Vec<NoiseGroup>, StudyError> {
 }
 
 impl NoiseGroup {
-    fn new(case: &Case, stream: u32, checkpoints: &[usize], mut settings: Vec<Setting>) -> Self {
+    fn new(
+        case: &Case,
+        stream: u32,
+        checkpoints: &[usize],
+        mut settings: Vec<Setting>,
+    ) -> Result<Self, StudyError> {
         let mut periods: Vec<usize> = settings.iter().map(|s| s.bench.period()).collect();
         periods.sort_unstable();
         periods.dedup();
-        settings.par_iter_mut().for_each(|setting| {
+        let expand = |setting: &mut Setting| {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
-            for contender in &mut setting.methods {
-                let mean =
-                    |&n: &usize| setting.bench.mean_terms(contender.kind, &contender.limit, setting.sigma, n);
-                contender.means = checkpoints.iter().map(mean).collect();
-            }
-        });
+            setting.expand(case, checkpoints)
+        };
+        // The first error in the order of the scenario, whichever thread was first.
+        let expanded: Vec<_> = settings.par_iter_mut().map(expand).collect();
+        expanded.into_iter().collect::<Result<(), _>>()?;
         let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
@@ -86,7 +91,7 @@ impl NoiseGroup {
             .collect();
         let families = FamilyPlan::all(&settings, checkpoints);
         let noise = NoiseSource { stream, pulses, steps, experiments, groupings };
-        Self { noise, settings, families }
+        Ok(Self { noise, settings, families })
     }
 
     /// The cells, in the order in which their sums are kept: setting, number of samples, method.
@@ -108,10 +113,31 @@ impl NoiseGroup {
                 samples,
                 parameters: contender.parameters.clone(),
                 truth: contender.truth.clone(),
-                theory: contender.theory.then(|| contender.limit.theory_se(samples as f64)),
-                bound: contender.bound.as_ref().map(|b| b.sd(samples as f64)),
             })
             .collect()
+    }
+
+    /// What theory says of the cells, in the same order.
+    pub(super) fn theories(&self) -> Vec<CellTheory> {
+        let memory = NoiseMemory::of(&self.noise.pulses.ar);
+        let checkpoints = &self.noise.pulses.checkpoints;
+        let of = |setting: &Setting, (checkpoint, samples): (usize, usize), contender: &Contender| {
+            let Contender { kind, theory: true, ref expansions, .. } = *contender else {
+                return CellTheory::default();
+            };
+            let (bench, limit) = (&setting.bench, &expansions[checkpoint].limit);
+            let theory = bench.theory(kind, limit, (setting.sigma, &memory), samples);
+            let bound = bench.bound(kind, setting.sigma, samples);
+            CellTheory::of_pulses(theory, bound.expect("determined, as the method's own limit is"))
+        };
+        let of_setting = |setting: &Setting| -> Vec<CellTheory> {
+            let at = |(checkpoint, &samples)| {
+                setting.methods.iter().map(move |c| of(setting, (checkpoint, samples), c))
+            };
+            checkpoints.iter().enumerate().flat_map(at).collect()
+        };
+        let of_settings: Vec<_> = self.settings.par_iter().map(of_setting).collect();
+        of_settings.into_iter().flatten().collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Benches at a noise level, and the methods that are tried there.
 
 use super::StudyError;
-use super::bench::{Bench, Bound};
+use super::bench::Bench;
 use super::cell::ParameterName;
 use super::pulse_kind::PulseKind;
 use crate::results::{Group, Series};
@@ -29,16 +29,30 @@ pub(super) struct Contender {
     pub(super) kind: PulseKind,
     pub(super) parameters: Vec<ParameterName>,
     pub(super) truth: Vec<f64>,
-    /// The method's limit: control variate of every case, asymptotic theory where `theory` says so.
-    pub(super) limit: Limit,
-    /// Means of the error terms at the limit, one entry a number of samples of the noise group.
-    pub(super) means: Vec<ErrorTerms>,
-    /// The method, and the control variate, for eight replicates at a time.
+    /// The method for eight replicates at a time.
     pub(super) lanes: LaneMethod,
-    pub(super) control: LaneControl,
-    /// Whether the model holds: the limit is then the truth, its theory the asymptotic one, and the bound applies.
+    /// Whether the model holds: the limit is then the truth, and theory and bound apply.
     pub(super) theory: bool,
-    pub(super) bound: Option<Bound>,
+    /// One entry a number of samples of the noise group.
+    pub(super) expansions: Vec<Expansion>,
+}
+
+/// A method expanded about its limit at one number of samples.
+#[derive(Debug, Clone)]
+pub(super) struct Expansion {
+    pub(super) limit: Limit,
+    /// The control variate, for eight replicates at a time.
+    pub(super) control: LaneControl,
+    /// Means of the error terms.
+    pub(super) means: ErrorTerms,
+}
+
+impl Expansion {
+    fn new(bench: &Bench, kind: PulseKind, sigma: f64, samples: usize) -> Result<Self, PulseFitError> {
+        let limit = bench.limit(kind, sigma, samples)?;
+        let means = bench.mean_terms(kind, &limit, sigma, samples);
+        Ok(Self { control: limit.lanes(), limit, means })
+    }
 }
 
 impl Setting {
@@ -53,12 +67,34 @@ impl Setting {
             noise: self.sigma,
         }
     }
+
+    /// Expands its methods about their limits at these numbers of samples.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a method has no limit.
+    pub(super) fn expand(&mut self, case: &Case, samples: &[usize]) -> Result<(), StudyError> {
+        let Self { bench, sigma, border, methods, .. } = self;
+        for Contender { method, kind, expansions, .. } in methods {
+            let expansion = |&n: &usize| Expansion::new(bench, *kind, *sigma, n);
+            *expansions = samples.iter().map(expansion).collect::<Result<_, _>>().map_err(|source| {
+                let (case_name, border) = (case.name.clone(), case.borders[*border].name.clone());
+                StudyError::NoLimit {
+                    method: method.name(),
+                    case: case_name,
+                    border,
+                    points: bench.points,
+                    source,
+                }
+            })?;
+        }
+        Ok(())
+    }
 }
 
-/// The settings of a case: borders, numbers of points, noise levels.
+/// The settings of a case: borders, numbers of points, noise levels; their methods are not expanded yet.
 ///
 /// # Errors
-/// [`StudyError`] where a method or an experiment does not exist for some cell.
+/// [`StudyError`] where an experiment does not exist for some cell.
 pub(super) fn all(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<Setting>, StudyError> {
     let sweep = scenario.sweep();
     let benches: Vec<(usize, usize)> =
@@ -66,22 +102,18 @@ pub(super) fn all(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<
     let of_bench = |&(b, points): &(usize, usize)| {
         let border = &case.borders[b];
         let bench = Bench::new(case, border, points)?;
-        let contender = |method: Method, kind, sigma| {
-            Contender::new(case, &bench, sigma, method, kind).map_err(|source| StudyError::NoLimit {
-                method: method.name(),
-                case: case.name.clone(),
-                border: border.name.clone(),
-                points,
-                source,
-            })
+        let kinds = sweep.methods.iter().filter_map(|&method| Some((method, PulseKind::of(method)?)));
+        let methods: Vec<Contender> =
+            kinds.map(|(method, kind)| Contender::new(case, &bench, method, kind)).collect();
+        let setting = |&sigma: &f64| Setting {
+            case: index,
+            border: b,
+            bench: bench.clone(),
+            sigma,
+            period: 0,
+            methods: methods.clone(),
         };
-        let setting = |&sigma: &f64| {
-            let kinds = sweep.methods.iter().filter_map(|&method| Some((method, PulseKind::of(method)?)));
-            let methods =
-                kinds.map(|(method, kind)| contender(method, kind, sigma)).collect::<Result<_, _>>()?;
-            Ok(Setting { case: index, border: b, bench: bench.clone(), sigma, period: 0, methods })
-        };
-        sweep.noise.iter().map(setting).collect::<Result<Vec<_>, StudyError>>()
+        Ok(sweep.noise.iter().map(setting).collect::<Vec<_>>())
     };
     let settings: Vec<Result<Vec<Setting>, StudyError>> = benches.par_iter().map(of_bench).collect();
     // The first error in the order of the scenario, whichever thread was first.
@@ -89,32 +121,23 @@ pub(super) fn all(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<
 }
 
 impl Contender {
-    fn new(
-        case: &Case,
-        bench: &Bench,
-        sigma: f64,
-        method: Method,
-        kind: PulseKind,
-    ) -> Result<Self, PulseFitError> {
-        let limit = bench.limit(kind, sigma)?;
-        let theory = kind.models_hysteresis() && keeps_assumptions(case, bench);
-        Ok(Self {
+    /// A method, not expanded yet.
+    fn new(case: &Case, bench: &Bench, method: Method, kind: PulseKind) -> Self {
+        Self {
             method,
             kind,
             parameters: parameters(case.order, bench, kind),
             truth: bench.truth(kind),
             lanes: bench.lanes(kind),
-            control: limit.lanes(),
-            limit,
-            means: Vec::new(),
-            theory,
-            bound: if theory { Some(bench.bound(kind, sigma)?) } else { None },
-        })
+            theory: kind.models_hysteresis() && keeps_assumptions(case, bench),
+            expansions: Vec::new(),
+        }
     }
 
     /// The leading terms of one replicate's error, less their means.
     pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> ErrorTerms {
-        self.limit.terms(sample).less(&self.means[checkpoint])
+        let Expansion { limit, means, .. } = &self.expansions[checkpoint];
+        limit.terms(sample).less(means)
     }
 }
 

@@ -1,20 +1,26 @@
 //! From sums to the result table.
 
-use super::cell::CellSpec;
+use super::cell::{CellSpec, CellTheory};
 use super::sections::{CellSums, Runs};
 use crate::results::{Cell, Failures, Group, Intervals, Measured, Parameter};
 use rayon::prelude::*;
 use switchback_estimator::statistics::{self, ErrorSums, IntervalCounts};
 
 /// One entry a cell, in their order.
-pub(super) fn cells(specs: &[CellSpec], totals: &[CellSums], precise: Option<&[bool]>) -> Vec<Cell> {
+pub(super) fn cells(
+    specs: &[CellSpec],
+    theories: &[CellTheory],
+    totals: &[CellSums],
+    precise: Option<&[bool]>,
+) -> Vec<Cell> {
     specs
         .par_iter()
         .enumerate()
         .map(|(index, spec)| {
             let sums = totals[index].parameters(None);
             let runs = &totals[index].runs;
-            let parameters = sums.iter().enumerate().map(|(k, sums)| parameter(spec, k, sums));
+            let parameters =
+                sums.iter().enumerate().map(|(k, sums)| parameter((spec, &theories[index]), k, sums));
             Cell {
                 series: spec.series.clone(),
                 samples: spec.samples,
@@ -52,9 +58,9 @@ fn failures(runs: &Runs) -> Failures {
     }
 }
 
-fn parameter(spec: &CellSpec, k: usize, sums: &ErrorSums) -> Parameter {
+fn parameter((spec, theory): (&CellSpec, &CellTheory), k: usize, sums: &ErrorSums) -> Parameter {
     let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
-    let (theory_sd, bound_sd) = (at(&spec.theory), at(&spec.bound));
+    let theory_sd = at(&theory.sd);
     let name = &spec.parameters[k];
     let performance = sums.performance(theory_sd.map(|sd| sd * sd));
     let measured = |m: statistics::Measured| Measured::new(m.value, m.mcse);
@@ -72,7 +78,8 @@ fn parameter(spec: &CellSpec, k: usize, sums: &ErrorSums) -> Parameter {
         coverage: performance.and_then(|p| measured(p.coverage)),
         model_sd: performance.and_then(|p| measured(p.model_sd)),
         model_sd_relative_error: performance.and_then(|p| measured(p.model_sd_relative_error)),
+        theory_bias: at(&theory.bias),
         theory_sd,
-        bound_sd,
+        bound_sd: at(&theory.bound),
     }
 }

@@ -3,7 +3,7 @@
 //! A section holds the same replicates in every cell, and cells of a sweep share their noise: a figure that joins cells (a slope, a ratio of
 //! two methods' variances) leaves the same noise out of all of them at once, so its error knows how they go together.
 
-use super::cell::CellSpec;
+use super::cell::CellTheory;
 use super::sections::{CellSums, SECTIONS};
 use crate::results::{Fitted, Measured};
 use rayon::prelude::*;
@@ -34,16 +34,16 @@ pub(super) struct CellViews {
 }
 
 /// One entry a cell.
-pub(super) fn of_cells(specs: &[CellSpec], totals: &[CellSums]) -> Vec<CellViews> {
-    specs.par_iter().zip(totals).map(|(spec, total)| CellViews::new(spec, total)).collect()
+pub(super) fn of_cells(theories: &[CellTheory], totals: &[CellSums]) -> Vec<CellViews> {
+    theories.par_iter().zip(totals).map(|(theory, total)| CellViews::new(theory, total)).collect()
 }
 
 impl CellViews {
-    fn new(spec: &CellSpec, total: &CellSums) -> Self {
+    fn new(theory: &CellTheory, total: &CellSums) -> Self {
         let figures = |view: View| {
             let sums = total.parameters(view);
             let of = |(k, sums): (usize, &ErrorSums)| {
-                let known = spec.theory.as_ref().map(|sd| sd[k] * sd[k]);
+                let known = theory.sd.as_ref().map(|sd| sd[k] * sd[k]);
                 sums.performance(known).map(Figures::from)
             };
             sums.iter().enumerate().map(of).collect::<Vec<_>>()

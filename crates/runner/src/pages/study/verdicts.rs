@@ -14,7 +14,9 @@ pub(super) fn verdicts(results: &Results) -> Markup {
         "method",
         "of",
         "sd slope",
+        "… by theory",
         "bias slope",
+        "that by theory",
         "coverage",
         "sd / theory",
         "variance / bound",
@@ -27,12 +29,17 @@ pub(super) fn verdicts(results: &Results) -> Markup {
             continue;
         };
         let number = |text: &String, value: Option<f64>| Cell::number(text.clone(), value);
+        let by_theory = |slope: Option<f64>, decimals: usize| {
+            Cell::number(slope.map_or_else(|| "–".to_owned(), |s| format!("{s:.decimals$}")), slope)
+        };
         table.row([
             Cell::word(row.case),
             Cell::word(method.clone()),
             Cell::word(of.clone()),
             number(sd_slope, row.slope(|s| s.sd_slope).map(|f| f.estimate)),
+            by_theory(row.median(|s| s.sd_slope_theory), 3),
             number(bias_slope, row.slope(|s| s.bias_slope).map(|f| f.estimate)),
+            by_theory(row.median(|s| s.bias_slope_theory), 2),
             number(coverage, row.median(|s| s.coverage.map(|c| c.value()))),
             number(theory, row.median(|s| s.sd_over_theory.map(|r| r.value()))),
             number(bound, row.median(|s| s.variance_over_bound.map(|r| r.value()))),
@@ -43,8 +50,9 @@ pub(super) fn verdicts(results: &Results) -> Markup {
         (table.without_constant().html())
         p class="note" {
             "A row: medians over its border shapes, m and noise levels; intervals are 95 %; coverage and ratios at the largest N. "
-            "The standard deviation of a consistent estimate falls as N to the power −½ and its bias as N to the power −1. "
-            "sd / theory: empirical over asymptotic standard deviation. variance / bound: over the Cramér–Rao bound."
+            "The standard deviation of a consistent estimate falls as N to the power −½ and its bias as N to the power −1 where N is large; "
+            "what theory gives at the very N of the study falls with the slopes beside them. "
+            "sd / theory: empirical standard deviation over that of theory. variance / bound: over the Cramér–Rao bound."
         }
     }
 }

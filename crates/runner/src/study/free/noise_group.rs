@@ -6,7 +6,7 @@ use super::simulate::Simulator;
 use crate::scenario::{Case, Engine, Knots, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
-use crate::study::cell::{ActiveCells, CellSpec};
+use crate::study::cell::{ActiveCells, CellSpec, CellTheory};
 use crate::study::sections::SectionSums;
 use crate::study::workload::{Chunk, Task, Workload, one_by_one};
 use nalgebra::DMatrix;
@@ -112,6 +112,11 @@ impl FreeNoiseGroup {
     /// What tables and verdicts need of the cells: settings in order, each by increasing `N`.
     pub(in crate::study) fn specs(&self) -> impl Iterator<Item = CellSpec> {
         self.settings.iter().flat_map(|setting| setting.specs.iter().cloned())
+    }
+
+    /// What theory says of the cells, in the same order.
+    pub(in crate::study) fn theories(&self) -> impl Iterator<Item = CellTheory> {
+        self.settings.iter().flat_map(|setting| setting.theories.iter().cloned())
     }
 
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [SectionSums]) {

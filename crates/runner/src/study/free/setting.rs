@@ -5,7 +5,7 @@ use crate::results::{Group, Series};
 use crate::scenario::{Border, Case, Disturbance, Knots, Method};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
-use crate::study::cell::{CellSpec, ParameterName};
+use crate::study::cell::{CellSpec, CellTheory, ParameterName};
 use nalgebra::DMatrix;
 use switchback_estimator::estimators::free::{Grid, Limit, Moments, NestedRegressions, Regression};
 use switchback_estimator::linear::autocovariance;
@@ -69,6 +69,8 @@ pub(super) struct Setting {
     pub(super) ways: Vec<Way>,
     /// One a checkpoint.
     pub(super) specs: Vec<CellSpec>,
+    /// One a checkpoint.
+    pub(super) theories: Vec<CellTheory>,
 }
 
 /// What a setting is made of.
@@ -106,6 +108,7 @@ impl Setting {
             input: on.regressions.all().iter().map(|r| r.input_products(&response.z)).collect(),
             ways: Vec::new(),
             specs: Vec::new(),
+            theories: Vec::new(),
         };
         let holds = keeps_assumptions(of.case) && drive::lies_on(&of.border.hysteresis, &on.grid, of.v);
         for (checkpoint, &samples) in of.samples.iter().enumerate() {
@@ -128,9 +131,8 @@ impl Setting {
                 samples,
                 parameters: names(of.case.order, &on.grid),
                 truth: truth(of.case, of.border, &on.grid),
-                bound: theory.clone(),
-                theory,
             });
+            setting.theories.push(CellTheory { sd: theory.clone(), bias: None, bound: theory });
         }
         Ok(setting)
     }
