@@ -8,7 +8,8 @@ mod faults;
 use common::{BLIND, Folder, STUDY};
 use faults::{files, run};
 use std::fs;
-use std::process::Command;
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -71,6 +72,66 @@ fn a_script_for_hyperqueue_is_printed_for_a_person_to_read() {
         fs::write(part.join("part.json"), "").expect("a file");
     }
     missing("2-3,5\n");
+}
+
+/// Slurm tells a part of its end, then again with all others of the job; what stands in for programs takes its time.
+#[test]
+fn a_part_told_twice_that_its_time_is_up_goes_back_into_the_queue() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", STUDY);
+    let output =
+        folder.switchback(&["launch", "study.toml", "--slurm", "--tasks", "2"]).output().expect("it runs");
+    let script = String::from_utf8(output.stdout).expect("UTF-8");
+    let stand_in = |name: &str, text: &str| {
+        folder.write(name, &format!("#!/bin/bash\n{text}\n"));
+        fs::set_permissions(folder.path(name), fs::Permissions::from_mode(0o755)).expect("it is ours");
+    };
+    stand_in(
+        "part",
+        "trap 'echo told >> part-told; sleep 0.3; exit 3' TERM; touch part-begun; while :; do sleep 0.02; done",
+    );
+    stand_in("scontrol", "touch asked; sleep 0.3; echo \"$@\" > requeued");
+    let ours = script.lines().map(|line| match line.starts_with("switchback=") {
+        true => format!("switchback={}", folder.path("part").display()),
+        false => line.to_owned(),
+    });
+    folder.write("launch.sh", &ours.collect::<Vec<_>>().join("\n"));
+    let path = format!("{}:{}", folder.path(".").display(), std::env::var("PATH").expect("a path"));
+    let mut job = Command::new("bash");
+    job.args(["launch.sh", "part", "1", "0"]).current_dir(folder.path(".")).env("PATH", path);
+    job.envs([("SLURM_ARRAY_TASK_ID", "1"), ("SLURM_JOB_ID", "77")]).stdout(Stdio::null());
+    let mut job = job.spawn().expect("bash");
+    let id = job.id().to_string();
+    let wait_for = |name: &str| {
+        let begun = Instant::now();
+        while !folder.path(name).exists() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "{name} is not there");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    };
+    let tell = || {
+        let told = Command::new("kill").args(["-TERM", &id]).status().expect("kill");
+        assert!(told.success());
+    };
+    wait_for("part-begun");
+    tell();
+    wait_for("part-told");
+    tell();
+    wait_for("asked");
+    tell();
+    wait_for("requeued");
+    assert_eq!(fs::read_to_string(folder.path("requeued")).expect("a file"), "requeue 77\n");
+    // Slurm ends the job once it is back in the queue.
+    let begun = Instant::now();
+    let ended = loop {
+        tell();
+        match job.try_wait().expect("a child") {
+            Some(status) => break status,
+            None => assert!(begun.elapsed() < Duration::from_secs(30), "it does not end"),
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    assert!(!ended.success());
 }
 
 #[test]

@@ -27,21 +27,31 @@ missing() {
 # Runs a part on so many threads. Told that its time is up, it keeps what is finished and returns 3; it goes on when it is run again.
 # With SECONDS, it is told after them.
 run_part() {
-  local number=$1 threads=$2 seconds=${3:-} from=() with=() child clock='' code
+  local number=$1 threads=$2 seconds=${3:-} from=() with=() clock='' code=0 status
   [ "$round" -eq 1 ] || from=(--from "$before")
   # Where only this shell is killed, the part must not go on: it is run elsewhere.
   ! command -v setpriv > /dev/null || with=(setpriv --pdeathsig KILL --)
   echo "part $number of $parts on $(hostname) at $(date +%FT%T)"
+  running='' told=''
+  trap 'told=yes; [ -z "$running" ] || kill -TERM "$running" 2> /dev/null || true' TERM
   "${with[@]}" "$switchback" "$scenario" --shard "$number/$parts" "${from[@]}" --threads "$threads" --yes --quiet \
     --out "$place/part-$number" &
-  child=$!
+  running=$!
+  # Told before it ran.
+  [ -z "$told" ] || kill -TERM "$running" 2> /dev/null || true
   if [ -n "$seconds" ]; then
-    (trap 'kill "$!"' TERM; sleep "$seconds" & wait "$!" && kill -TERM "$child") > /dev/null 2>&1 &
+    (trap 'kill "$!"' TERM; sleep "$seconds" & wait "$!" && kill -TERM "$running") > /dev/null 2>&1 &
     clock=$!
   fi
-  trap 'kill -TERM "$child" 2> /dev/null || true' TERM
-  # A signal ends the wait, not the part.
-  while code=0; wait "$child" || code=$?; kill -0 "$child" 2> /dev/null; do :; done
+  # A signal ends the wait, not the part: it is waited for once more, and may be known to have ended by then (127).
+  while
+    told='' status=0
+    wait "$running" || status=$?
+    [ "$status" -eq 127 ] || code=$status
+    [ -n "$told" ]
+  do :; done
+  # What is told from here on must not cut off what follows: that the part goes on in another turn.
+  trap '' TERM
   [ -z "$clock" ] || kill "$clock" 2> /dev/null || true
   return "$code"
 }

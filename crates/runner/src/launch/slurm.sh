@@ -34,6 +34,8 @@ part() {
   if [ "$code" -eq 3 ]; then
     echo "part $number is stopped, and goes on later"
     scontrol requeue "$SLURM_JOB_ID"
+    # Slurm ends this job, by SIGTERM.
+    trap - TERM
     sleep 60
   fi
   return "$code"
