@@ -63,4 +63,9 @@ impl Standing {
     pub fn nodes(&self) -> usize {
         self.tally.nodes().len()
     }
+
+    /// Adds to each set of sums the one of the other standing at its place, as if they were neighbours in the tree of batches: what merging takes.
+    pub fn add_to_each(&mut self, other: &Self) {
+        self.tally.add_to_each(&other.tally);
+    }
 }

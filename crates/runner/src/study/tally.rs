@@ -82,6 +82,11 @@ impl Tally {
         self.nodes.push(last);
     }
 
+    /// Adds to each node the one of another tally at its place.
+    pub(super) fn add_to_each(&mut self, other: &Self) {
+        self.nodes.iter_mut().zip(&other.nodes).for_each(|(into, from)| into.merge(from));
+    }
+
     /// The first gap or overlap between the nodes, and up to `end`: where the next should begin, and where it does.
     pub(super) fn first_break(&self, end: usize) -> Option<(usize, usize)> {
         let starts = self.nodes.iter().map(|node| node.range.start).chain([end]);

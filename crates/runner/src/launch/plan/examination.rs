@@ -55,6 +55,7 @@ pub fn measure<E: Examination>(examination: &E) -> miette::Result<Plan<'static>>
         of_a_piece: vec![Ingredient { name: "rig made and judged", count: 1.0, seconds: per_piece }],
         per_byte_out: per_byte,
         per_byte_in: per_byte,
+        per_byte_added: 0.0,
         report,
         memory,
     };
@@ -63,5 +64,5 @@ pub fn measure<E: Examination>(examination: &E) -> miette::Result<Plan<'static>>
         let share = |pieces: usize| Share { pieces, bytes: pieces as f64 * bytes_of_a_rig };
         (0..tasks).map(|k| share(of(k))).collect()
     };
-    Ok(Plan { costs, shares: Box::new(shares) })
+    Ok(Plan { costs, shares: Box::new(shares), whole: rigs as f64 * bytes_of_a_rig })
 }

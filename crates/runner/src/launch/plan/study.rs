@@ -2,15 +2,17 @@
 
 use super::clock::{most_memory, processor, timed};
 use super::{Costs, Ingredient, Plan, Share};
+use crate::kept::is_worth_keeping;
 use crate::output::sha256;
 use crate::pages::PageError;
 use crate::report;
 use crate::scenario::Scenario;
-use crate::study::{Keeper, Progress, ShareSize, Snapshot, Standing, Study};
+use crate::study::{Keeper, Progress, ShareSize, Snapshot, Standing, Study, least_seconds};
 use miette::IntoDiagnostic;
 use std::fs::{self, File};
 use std::io::Write;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 /// Seconds of processor time after which enough batches have been run, and the least number of them.
 const ENOUGH: (f64, usize) = (3.0, 4);
@@ -31,23 +33,28 @@ pub fn measure<'s>(scenario: &'s Scenario) -> miette::Result<Plan<'s>> {
 
     let origin = study.origin();
     let (bytes, making) = timed(|| standing.snapshot().to_bytes(&origin));
-    let (written, writing) = timed(|| write(&bytes));
+    let place = Place::new();
+    let (written, writing) = timed(|| place.write(&bytes));
     written.into_diagnostic()?;
     let memory = most_memory().unwrap_or(2.0 * bytes.len() as f64);
     let per_byte_out = (making + writing) / bytes.len() as f64;
-    let ((), reading) = timed(|| {
-        let read = study.begin().read(&bytes, &origin).expect("it was just written");
-        let mut merged = study.begin();
-        merged.add(read);
-    });
+    let (read, reading) = timed(|| fs::read(&place.0).map(|bytes| study.begin().read(&bytes, &origin)));
+    let mut read = read.into_diagnostic()?.expect("it was just written");
+    let ((), adding) = timed(|| read.add_to_each(&standing));
+    let per_byte_added = adding / bytes.len() as f64;
+    let of_a_node = bytes.len() as f64 / standing.nodes() as f64;
+    let whole = of_a_node * study.shares(1).iter().map(|share| share.nodes).sum::<usize>() as f64;
     let (hashes, report) = timed(|| {
         let results = study.results(&standing, String::new());
         let files = report::artefacts(&results)?;
         Ok::<_, PageError>(files.iter().map(|(_, contents)| sha256(contents)).collect::<Vec<_>>())
     });
     hashes?;
+    // The whole has more sets of sums to add up than the few batches have, and they are kept beside the report where they were dear.
+    let totals = per_byte_added * (whole - bytes.len() as f64).max(0.0);
+    let is_kept = is_worth_keeping(least_seconds(scenario));
+    let beside = if is_kept { per_byte_out * whole } else { 0.0 };
 
-    let of_a_node = bytes.len() as f64 / standing.nodes() as f64;
     let keeping = (making + writing) / KEPT_EVERY.max(20.0 * (making + writing));
     let kept = per_batch * keeping;
     let cells = study.cells() as f64;
@@ -71,7 +78,8 @@ pub fn measure<'s>(scenario: &'s Scenario) -> miette::Result<Plan<'s>> {
         ],
         per_byte_out,
         per_byte_in: reading / bytes.len() as f64,
-        report,
+        per_byte_added,
+        report: report + totals + beside,
         memory,
     };
     let shares = move |tasks: usize| {
@@ -79,7 +87,7 @@ pub fn measure<'s>(scenario: &'s Scenario) -> miette::Result<Plan<'s>> {
             |share: &ShareSize| Share { pieces: share.batches, bytes: share.nodes as f64 * of_a_node };
         study.shares(tasks).iter().map(share).collect()
     };
-    Ok(Plan { costs, shares: Box::new(shares) })
+    Ok(Plan { costs, shares: Box::new(shares), whole })
 }
 
 /// Seconds of a batch; the first is not counted, which finds no memory that another has left.
@@ -91,14 +99,26 @@ fn run_batches(study: &Study<'_>, standing: &mut Standing) -> f64 {
     counted.iter().sum::<f64>() / counted.len().max(1) as f64
 }
 
-/// Writes a file as the folder of a part gets it, which lasts no longer than this.
-fn write(bytes: &[u8]) -> std::io::Result<()> {
-    let _hash = sha256(bytes);
-    let place = std::env::temp_dir().join(format!("switchback-plan-{}", std::process::id()));
-    let mut file = File::create_new(&place)?;
-    let written = file.write_all(bytes).and_then(|()| file.sync_all());
-    fs::remove_file(&place)?;
-    written
+/// A file that lasts no longer than this.
+struct Place(PathBuf);
+
+impl Place {
+    fn new() -> Self {
+        Self(std::env::temp_dir().join(format!("switchback-plan-{}", std::process::id())))
+    }
+
+    /// Writes as the folder of a part gets it.
+    fn write(&self, bytes: &[u8]) -> std::io::Result<()> {
+        let _hash = sha256(bytes);
+        let mut file = File::create_new(&self.0)?;
+        file.write_all(bytes).and_then(|()| file.sync_all())
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
 }
 
 /// When batches were done.

@@ -94,6 +94,9 @@ fn constants(costs: &Costs) -> Vec<[String; 3]> {
     }
     rows.push(["a megabyte out".to_owned(), time(1e6 * costs.per_byte_out), String::new()]);
     rows.push(["a megabyte in".to_owned(), time(1e6 * costs.per_byte_in), String::new()]);
+    if costs.per_byte_added > 0.0 {
+        rows.push(["a megabyte added".to_owned(), time(1e6 * costs.per_byte_added), String::new()]);
+    }
     rows.push(["report".to_owned(), time(costs.report), String::new()]);
     rows
 }
