@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import overhead
 import pytest
 import switchback as sb
 from conftest import BENCH, QUICK, Program
@@ -125,23 +126,9 @@ def test_what_a_listener_raises_stops_the_call(bench: sb.Rig) -> None:
         _native.identify(bench._records, [], refuse)
 
 
-def processor_seconds() -> float:
-    times = os.times()
-    return times.user + times.system
-
-
-def test_a_call_costs_no_more_than_the_program(program: Program, bench: sb.Rig) -> None:
-    """Processor seconds, alternately and the best of each: other work on the machine takes wall time, but hardly these."""
-    ours, theirs = [], []
-    for _ in range(2):
-        before = processor_seconds()
-        sb.diagnose(bench, threads=1).to_json()
-        ours.append(processor_seconds() - before)
-        before = os.times()
-        program.json("gap", BENCH, "--threads", 1)
-        after = os.times()
-        theirs.append(after.children_user + after.children_system - before.children_user - before.children_system)
-    assert min(ours) <= max(1.02 * min(theirs), min(theirs) + 0.010), (ours, theirs)
+def test_a_call_costs_no_more_than_the_program(program: Program) -> None:
+    ours, theirs = overhead.measure(program, 3)
+    assert overhead.is_little(ours, theirs), (ours, theirs)
 
 
 def test_the_package_brings_the_command_line(program: Program, tmp_path: Path) -> None:
