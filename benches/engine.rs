@@ -13,12 +13,12 @@ use switchback_benches::{experiment, noise, settings, spring, system};
 use switchback_estimator::estimators::pulse::lanes::{
     LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
 };
-use switchback_estimator::estimators::pulse::{Limit, PulseMethod, StepMean};
+use switchback_estimator::estimators::pulse::{Limit, PulseMethod, SecondOrder, StepMean};
 use switchback_estimator::excitation::Direction;
 use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
 use switchback_estimator::simulation::{
     Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign,
-    SumCovariance, periodic_response, superpose,
+    periodic_response, superpose,
 };
 
 /// Points `m`.
@@ -88,21 +88,13 @@ fn cell(c: &mut Criterion) {
     superposition.cross(&grouped, &mut cross);
     let mut statistics: [_; ABREAST] = std::array::from_fn(|_| superposition.statistics());
 
-    let endless = NoiseMoments::expected(system().a(), &[], design.order, design.period(), 1e12);
-    let expected = superpose(&design, &response, SIGMA, &endless);
-    let mean = system().static_gain() * spring().u_high();
-    let paper = PulseMethod::Paper { experiment: &expected, step: StepMean { mean, samples: 1e12 } };
-    let limit = Limit::of(paper).expect("a solvable regression");
-    let control = limit.lanes();
     let finite = NoiseMoments::expected_over(system().a(), &[], design.order, design.period(), SAMPLES);
-    let covariance = SumCovariance::new(&[&design], (system().a(), &[]), SIGMA, SAMPLES);
-    let means = limit.mean_terms(
-        &PulseMethod::Paper {
-            experiment: &superpose(&design, &response, SIGMA, &finite),
-            step: StepMean { mean, samples: SAMPLES as f64 },
-        },
-        |x, y| covariance.at(x, y),
-    );
+    let expected = superpose(&design, &response, SIGMA, &finite);
+    let mean = system().static_gain() * spring().u_high();
+    let paper =
+        PulseMethod::Paper { experiment: &expected, step: StepMean { mean, samples: SAMPLES as f64 } };
+    let limit = Limit::of(paper).expect("a solvable regression");
+    let control = limit.lanes(SecondOrder::Whole);
     let method = LaneMethod::of(&paper);
     let step = LaneStep { mean: Lane::splat(mean), samples: SAMPLES as f64 };
     let mut fits: [LaneFit; ABREAST] = Default::default();
@@ -127,7 +119,7 @@ fn cell(c: &mut Criterion) {
             let samples: [_; ABREAST] =
                 std::array::from_fn(|k| LaneSample { parts: &parts[k], step: Some(step) });
             method.fit(&samples, &mut fits);
-            control.terms(&samples, &means, &mut terms);
+            control.terms(&samples, &mut terms);
             black_box((&fits, &terms));
         })
     });

@@ -5,7 +5,7 @@ mod sweep;
 use nalgebra::{Cholesky, DMatrix};
 use proptest::prelude::*;
 use sweep::{Bench, methods, systems};
-use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, StepMean};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, SecondOrder};
 use switchback_estimator::linear::autocovariance;
 use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, SumCovariance, superpose};
 
@@ -48,26 +48,25 @@ proptest! {
         bench.samples = period + beyond;
         let (ar, ma) = (bench.system.a().to_vec(), Vec::from_iter(colour));
         let both = |moments: NoiseMoments| data(&bench, sigma, [moments.clone(), moments]);
-        let endless = both(NoiseMoments::expected(&ar, &ma, order, period, 1e12));
         let finite = both(NoiseMoments::expected_over(&ar, &ma, order, period, bench.samples));
-        let steps = [0, 1].map(|k| StepMean { samples: 1e12, ..bench.step(k, sigma, 0.0) });
+        let steps = [0, 1].map(|k| bench.step(k, sigma, 0.0));
+        let finite = [&finite[0], &finite[1]];
         let gamma = autocovariance(&ar, &ma, order + bench.samples - 1);
         let replicates: Vec<[PulseData; 2]> = sigma_points(&gamma)
             .iter()
             .map(|e| data(&bench, sigma, [0, 1].map(|k| NoiseMoments::from_samples(&e[k], order, period))))
             .collect();
-        for (m, (method, experiments)) in methods(&[&endless[0], &endless[1]], steps).into_iter().enumerate() {
+        for (m, (method, experiments)) in methods(&finite, steps).into_iter().enumerate() {
             let Ok(limit) = Limit::of(method) else { continue };
             let designs: Vec<&PeriodicDesign> = experiments.iter().map(|k| &bench.designs[*k]).collect();
             let covariance = SumCovariance::new(&designs, (&ar, &ma), sigma, bench.samples);
-            let finite = [&finite[0], &finite[1]];
             let means = limit.mean_terms(&methods(&finite, steps)[m].0, |x, y| covariance.at(x, y));
             let mut sums = [vec![0.0; means.first.len()], vec![0.0; means.first.len()]];
             let mut sizes = [0.0_f64; 2];
             for replicate in &replicates {
                 let replicate = [&replicate[0], &replicate[1]];
                 let sample = &methods(&replicate, steps)[m].0;
-                let ErrorTerms { first, second } = limit.terms(sample);
+                let ErrorTerms { first, second } = limit.terms(sample, SecondOrder::Profile);
                 for (k, terms) in [first, second].iter().enumerate() {
                     for (sum, term) in sums[k].iter_mut().zip(terms) {
                         *sum += term / replicates.len() as f64;

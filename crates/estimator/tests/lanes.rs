@@ -7,7 +7,9 @@ use sweep::{Bench, methods, noise, systems};
 use switchback_estimator::estimators::pulse::lanes::{
     LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
 };
-use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, PulseMethod, StepMean};
+use switchback_estimator::estimators::pulse::{
+    ErrorTerms, Limit, PulseData, PulseMethod, SecondOrder, StepMean,
+};
 use switchback_estimator::simulation::{
     Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition, NoiseMoments, superpose,
 };
@@ -64,13 +66,15 @@ proptest! {
             statistics
         });
         let expected: [PulseData; 2] = std::array::from_fn(|k| {
-            let m = NoiseMoments::expected(bench.system.a(), &[], order, bench.designs[k].period(), 1e9);
+            let m =
+                NoiseMoments::expected_over(bench.system.a(), &[], order, bench.designs[k].period(), bench.samples);
             superpose(&bench.designs[k], &bench.responses[k], sigma, &m)
         });
         let expected = [&expected[0], &expected[1]];
-        let endless = [0, 1].map(|k| StepMean { samples: 1e9, ..bench.step(k, sigma, 0.0) });
-        let (mut fits, mut terms) = ([LaneFit::default()], [LaneTerms::default()]);
-        for (m, (example, experiments)) in methods(&expected, endless).into_iter().enumerate() {
+        let settled = [0, 1].map(|k| bench.step(k, sigma, 0.0));
+        let mut fits = [LaneFit::default()];
+        let orders = [SecondOrder::Whole, SecondOrder::Profile];
+        for (m, (example, experiments)) in methods(&expected, settled).into_iter().enumerate() {
             let method = LaneMethod::of(&example);
             let parts: Vec<_> = experiments.iter().map(|k| &lanes[*k]).collect();
             let step = step_of(&example).map(|_| LaneStep {
@@ -82,10 +86,13 @@ proptest! {
             let [fit] = &fits;
             several_give_the_bits_of_one(&method, sample[0], fit)?;
             let limit = Limit::of(example).ok();
-            let means = ErrorTerms { first: vec![0.0; fit.values.len()], second: vec![0.0; fit.values.len()] };
-            if let Some(limit) = &limit {
-                limit.lanes().terms(&sample, &means, &mut terms);
-            }
+            let terms = limit.as_ref().map(|limit| {
+                orders.map(|second| {
+                    let mut terms = [LaneTerms::default()];
+                    limit.lanes(second).terms(&sample, &mut terms);
+                    terms
+                })
+            });
             for l in 0..LANES {
                 let data: [PulseData; 2] =
                     std::array::from_fn(|k| superpose(&bench.designs[k], &bench.responses[k], sigma, &moments[l][k]));
@@ -104,13 +111,15 @@ proptest! {
                     near(&format!("method {m}, parameter {k}"), fit.values[k].0[l], p.value, tolerance)?;
                     near(&format!("method {m}, se {k}"), fit.variances[k].0[l].sqrt(), p.se, tolerance)?;
                 }
-                if let Some(limit) = &limit {
-                    let ErrorTerms { first, second } = limit.terms(&slow_method);
-                    for (k, slow) in first.into_iter().enumerate() {
-                        near(&format!("method {m}, first-order {k}"), terms[0].first[k].0[l], slow, tolerance)?;
-                    }
-                    for (k, slow) in second.into_iter().enumerate() {
-                        near(&format!("method {m}, second-order {k}"), terms[0].second[k].0[l], slow, tolerance)?;
+                for (limit, terms) in limit.iter().zip(&terms) {
+                    for (order, [fast]) in orders.into_iter().zip(terms) {
+                        let ErrorTerms { first, second } = limit.terms(&slow_method, order);
+                        for (k, slow) in first.into_iter().enumerate() {
+                            near(&format!("method {m}, {order:?}, first order {k}"), fast.first[k].0[l], slow, tolerance)?;
+                        }
+                        for (k, slow) in second.into_iter().enumerate() {
+                            near(&format!("method {m}, {order:?}, second order {k}"), fast.second[k].0[l], slow, tolerance)?;
+                        }
                     }
                 }
             }

@@ -15,7 +15,7 @@
 //! moment, which is not published; that of the model standard error is the one taken over. Both are tried by their definitions beside
 //! the code, and by repetition in `switchback selftest`.
 
-use switchback_estimator::statistics::{ErrorSums, Measured, Performance, ReplicateError};
+use switchback_estimator::statistics::{ErrorSums, KnownControl, Measured, Performance, ReplicateError};
 
 /// A figure as printed: it stands for all that round to it.
 #[derive(Debug, Clone, Copy)]
@@ -133,9 +133,10 @@ impl Study {
                 se,
                 first_order: None,
                 second_order: 0.0,
+                first_order_variance: None,
             });
         }
-        sums.performance(None).expect("replicates enough")
+        sums.performance(KnownControl::default()).expect("replicates enough")
     }
 
     /// A measure must round to what is printed, for some of the numbers that round to the figures it follows from.

@@ -4,7 +4,9 @@ mod oracle;
 
 use proptest::prelude::*;
 use switchback_estimator::Record;
-use switchback_estimator::estimators::pulse::{Estimated, Limit, PulseData, PulseFit, PulseMethod, StepMean};
+use switchback_estimator::estimators::pulse::{
+    Estimated, Limit, PulseData, PulseFit, PulseMethod, SecondOrder, StepMean,
+};
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::*;
 use switchback_estimator::linear::{LinearSystem, filter};
@@ -329,7 +331,7 @@ fn the_first_order_part_takes_an_order_of_n_out_of_the_error() {
                 .zip(flat(limit.fit()))
                 .map(|(e, t)| e - t)
                 .collect();
-            for (error, first) in error.iter().zip(limit.terms(&sample).first) {
+            for (error, first) in error.iter().zip(limit.terms(&sample, SecondOrder::Profile).first) {
                 worst[0] = worst[0].max(error.abs());
                 worst[1] = worst[1].max((error - first).abs());
             }

@@ -47,4 +47,19 @@ fn plain_and_controlled_agree_in_every_cell_and_the_error_shrinks_a_hundredfold(
     }
     // 2 borders, 3 numbers of points, 3 noise levels, 6 methods, 4 parameters.
     assert_eq!(judged, 2 * 3 * 3 * 6 * 4);
+    let mut ratios = Vec::new();
+    for (name, samples, p) in parameters(&results) {
+        let (Some(plain), Some(controlled)) = (p.coverage, p.coverage_controlled) else { continue };
+        let apart = (plain.value() - controlled.value()).abs() / plain.mcse().hypot(controlled.mcse());
+        assert!(apart < 5.0, "{name}: plain and controlled coverage are {apart} errors apart");
+        if samples == 100_000 && controlled.mcse() > 0.0 {
+            ratios.push(plain.mcse() / controlled.mcse());
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    assert!(
+        ratios[ratios.len() / 2] >= 2.0,
+        "half the errors of coverage shrink {} times or less",
+        ratios[ratios.len() / 2]
+    );
 }

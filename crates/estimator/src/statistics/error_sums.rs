@@ -11,10 +11,23 @@ pub struct ReplicateError {
     pub error: f64,
     /// Standard error that the method reports.
     pub se: f64,
-    /// First-order part of the error, less its exact mean (see [`crate::estimators::pulse::Limit`]): the control variate.
+    /// First-order part of the error (see [`crate::estimators::pulse::Limit`]): the control variate.
     pub first_order: Option<f64>,
-    /// What is known of the second-order part, less its exact mean: it joins the control variate of the bias.
+    /// What is known of the second-order part: it joins the control variate of the bias.
     pub second_order: f64,
+    /// The exact variance of the first-order part, where it is known.
+    pub first_order_variance: Option<f64>,
+}
+
+/// What is known of the control variate of a parameter without any replicate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KnownControl {
+    /// The mean of its first- and second-order parts together.
+    pub mean: f64,
+    /// The variance of the first-order part, whose mean is then zero.
+    pub first_order_variance: Option<f64>,
+    /// The chance that the first-order part lies within 1.96 of its standard deviations.
+    pub first_order_coverage: Option<f64>,
 }
 
 /// Sums over replicates, from which every measure follows. Constant memory; [`ErrorSums::merge`] adds two.
@@ -30,6 +43,7 @@ pub struct ErrorSums {
     controlled: f64,
     remainder: [f64; 2],
     square_remainder: [f64; 2],
+    coverage_remainder: [f64; 2],
 }
 
 /// Performance of an estimator of one parameter, after Morris, White and Crowther, "Using simulation studies to evaluate
@@ -38,7 +52,7 @@ pub struct ErrorSums {
 pub struct Performance {
     /// Mean error; MCSE `sd/√R`.
     pub bias: Measured,
-    /// Mean error with the first-order part, and what is known of the second, taken out; MCSE the remainder's `sd/√R`.
+    /// Mean error with the control variate taken out and its mean put in; MCSE the remainder's `sd/√R`.
     pub bias_controlled: Option<Measured>,
     /// Empirical standard deviation; MCSE `sd/√(2(R−1))`.
     pub sd: Measured,
@@ -48,6 +62,10 @@ pub struct Performance {
     pub mse: Measured,
     /// Share of nominal 95 % intervals that hold the truth; MCSE binomial.
     pub coverage: Measured,
+    /// The same with the share of first-order parts within 1.96 of their standard deviations taken out and its expectation put in
+    /// (R. Davidson and J. G. MacKinnon, "Regression-based methods for using control variates in Monte Carlo experiments", Journal of
+    /// Econometrics 54 (1992), 203–222, with their coefficient at its asymptotic value 1, so that it has no error); MCSE the remainder's.
+    pub coverage_controlled: Option<Measured>,
     /// Root mean square of the reported standard errors; MCSE by the delta method.
     pub model_sd: Measured,
     /// `model_sd/sd − 1`; MCSE by the delta method.
@@ -57,7 +75,7 @@ pub struct Performance {
 impl ErrorSums {
     /// Adds one replicate.
     pub fn push(&mut self, replicate: ReplicateError) {
-        let ReplicateError { error, se, first_order, second_order } = replicate;
+        let ReplicateError { error, se, first_order, second_order, first_order_variance } = replicate;
         let square = error * error;
         self.count += 1.0;
         for (sum, power) in self.error.iter_mut().zip([error, square, square * error, square * square]) {
@@ -65,7 +83,14 @@ impl ErrorSums {
         }
         self.variance[0] += se * se;
         self.variance[1] += se * se * se * se;
-        self.covered += f64::from(error.abs() <= normal_quantile_975() * se);
+        let covered = f64::from(error.abs() <= normal_quantile_975() * se);
+        self.covered += covered;
+        if let (Some(first), Some(variance)) = (first_order, first_order_variance) {
+            let within = normal_quantile_975() * normal_quantile_975() * variance;
+            let remainder = covered - f64::from(first * first <= within);
+            self.coverage_remainder[0] += remainder;
+            self.coverage_remainder[1] += remainder * remainder;
+        }
         if let Some(first) = first_order {
             let remainder = error - first - second_order;
             let square_remainder = (error - first) * (error + first);
@@ -79,7 +104,7 @@ impl ErrorSums {
 
     /// Sums of so many replicates, of which the first-order part of so many is known, given what their [terms](TERMS) add up to.
     pub(super) fn from_totals(count: f64, controlled: f64, totals: [f64; TERMS]) -> Self {
-        let [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2] = totals;
+        let [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2, c1, c2] = totals;
         Self {
             count,
             error: [e1, e2, e3, e4],
@@ -88,14 +113,15 @@ impl ErrorSums {
             controlled,
             remainder: [r1, r2],
             square_remainder: [s1, s2],
+            coverage_remainder: [c1, c2],
         }
     }
 
     /// What [`from_totals`](Self::from_totals) takes.
     pub(super) fn totals(&self) -> (f64, f64, [f64; TERMS]) {
         let Self { error: [e1, e2, e3, e4], variance: [v1, v2], covered, .. } = *self;
-        let ([r1, r2], [s1, s2]) = (self.remainder, self.square_remainder);
-        (self.count, self.controlled, [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2])
+        let ([r1, r2], [s1, s2], [c1, c2]) = (self.remainder, self.square_remainder, self.coverage_remainder);
+        (self.count, self.controlled, [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2, c1, c2])
     }
 
     /// Adds the sums of other replicates.
@@ -108,6 +134,7 @@ impl ErrorSums {
         add(&mut self.variance, &other.variance);
         add(&mut self.remainder, &other.remainder);
         add(&mut self.square_remainder, &other.square_remainder);
+        add(&mut self.coverage_remainder, &other.coverage_remainder);
     }
 
     /// Error and reported standard error of the one replicate that was added; `None` if there is none, or more.
@@ -121,9 +148,7 @@ impl ErrorSums {
     }
 
     /// The measures; `None` for fewer than two replicates.
-    ///
-    /// `first_order_variance` is `E[c²]`, the exact variance of the first-order part, where it is known.
-    pub fn performance(&self, first_order_variance: Option<f64>) -> Option<Performance> {
+    pub fn performance(&self, known: KnownControl) -> Option<Performance> {
         let r = self.count;
         if r < 2.0 {
             return None;
@@ -145,9 +170,16 @@ impl ErrorSums {
             (0.0, 0.0, 0.0)
         };
         let is_controlled = self.controlled == r;
-        let bias_controlled = is_controlled
-            .then(|| Measured { value: self.remainder[0] / r, mcse: spread(self.remainder, r).sqrt() });
-        let sd_controlled = bias_controlled.zip(first_order_variance).and_then(|(bias, known)| {
+        let bias_controlled = is_controlled.then(|| Measured {
+            value: self.remainder[0] / r + known.mean,
+            mcse: spread(self.remainder, r).sqrt(),
+        });
+        let coverage_controlled =
+            known.first_order_coverage.filter(|_| is_controlled).map(|expected| Measured {
+                value: expected + self.coverage_remainder[0] / r,
+                mcse: spread(self.coverage_remainder, r).sqrt(),
+            });
+        let sd_controlled = bias_controlled.zip(known.first_order_variance).and_then(|(bias, known)| {
             let variance = known + self.square_remainder[0] / r - bias.value * bias.value;
             let mcse = spread(self.square_remainder, r).sqrt();
             (variance > 0.0)
@@ -160,6 +192,7 @@ impl ErrorSums {
             sd_controlled,
             mse: Measured { value: mse, mcse: spread([self.error[1], self.error[3]], r).sqrt() },
             coverage: Measured { value: coverage, mcse: (coverage * (1.0 - coverage) / r).sqrt() },
+            coverage_controlled,
             model_sd: Measured { value: model_sd, mcse: model_mcse },
             model_sd_relative_error: Measured { value: ratio, mcse: ratio_mcse },
         })
@@ -173,7 +206,7 @@ fn spread(sums: [f64; 2], r: f64) -> f64 {
 }
 
 /// `Φ⁻¹(0.975)`, the half width of a 95 % interval in standard errors.
-pub(super) fn normal_quantile_975() -> f64 {
+pub fn normal_quantile_975() -> f64 {
     static VALUE: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
     *VALUE.get_or_init(|| Normal::standard().inverse_cdf(0.975))
 }
@@ -213,27 +246,38 @@ mod tests {
             let mut parts = vec![ErrorSums::default(); cut + 1];
             for (k, (error, se)) in errors.iter().zip(&ses).enumerate() {
                 let replicate = ReplicateError {
-                    error: *error, se: *se, first_order: Some(0.5 * error), second_order: 0.4 * error,
+                    error: *error, se: *se, first_order: Some(0.5 * error), second_order: 0.4 * error, first_order_variance: Some(0.04),
                 };
                 parts[k % (cut + 1)].push(replicate);
             }
             let mut sums = ErrorSums::default();
             parts.iter().for_each(|part| sums.merge(part));
-            let fast = sums.performance(None).expect("replicates enough");
+            let known = KnownControl { mean: 0.25, first_order_variance: None, first_order_coverage: Some(0.9) };
+            let fast = sums.performance(known).expect("replicates enough");
             let slow = by_definition(&errors, &ses);
             for (fast, slow) in [fast.bias, fast.mse, fast.coverage, fast.model_sd_relative_error].iter().zip(slow) {
                 prop_assert!((fast.value - slow.value).abs() < 1e-12, "{:?} {:?}", fast, slow);
                 prop_assert!((fast.mcse - slow.mcse).abs() < 1e-9, "{:?} {:?}", fast, slow);
             }
             let controlled = fast.bias_controlled.expect("every replicate has a first-order part");
-            prop_assert!((controlled.value - 0.1 * fast.bias.value).abs() < 1e-12);
+            prop_assert!((controlled.value - 0.25 - 0.1 * fast.bias.value).abs() < 1e-12);
+            let within = errors.iter().filter(|e| (0.5 * **e).abs() <= 1.959963984540054 * 0.2).count() as f64 / errors.len() as f64;
+            let controlled = fast.coverage_controlled.expect("its expectation is known");
+            prop_assert!((controlled.value - 0.9 - (fast.coverage.value - within)).abs() < 1e-12);
         }
     }
 
     #[test]
     fn one_replicate_measures_nothing() {
         let mut sums = ErrorSums::default();
-        sums.push(ReplicateError { error: 1.0, se: 1.0, first_order: None, second_order: 0.0 });
-        assert_eq!(sums.performance(None), None);
+        let alone = ReplicateError {
+            error: 1.0,
+            se: 1.0,
+            first_order: None,
+            second_order: 0.0,
+            first_order_variance: None,
+        };
+        sums.push(alone);
+        assert_eq!(sums.performance(KnownControl::default()), None);
     }
 }

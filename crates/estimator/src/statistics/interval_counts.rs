@@ -105,7 +105,7 @@ mod tests {
             let values = [lane(&|l| truth + errors[l].0)];
             let variances = [lane(&|l| errors[l].1 * errors[l].1)];
             let zero = [Lane::ZERO];
-            let lanes = LaneErrors { values: &values, variances: &variances, first_order: &zero, second_order: &zero };
+            let lanes = LaneErrors { values: &values, variances: &variances, first_order: &zero, second_order: &zero, first_variances: None };
             let mut counts = [IntervalCounts::default()];
             IntervalCounts::add(&mut counts, &[truth], &lanes, &chosen);
             let picked: Vec<_> = (0..LANES).filter(|&l| chosen[l]).map(|l| errors[l]).collect();

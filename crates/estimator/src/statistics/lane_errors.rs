@@ -14,11 +14,13 @@ pub struct LaneErrors<'a> {
     pub first_order: &'a [Lane],
     /// What is known of the second.
     pub second_order: &'a [Lane],
+    /// Exact variances of the first-order parts, where they are known.
+    pub first_variances: Option<&'a [f64]>,
 }
 
 /// Sums of a replicate's terms: error and its powers, variance and its square, coverage, remainder and its square, remainder of the
-/// square and its square.
-pub(super) const TERMS: usize = 11;
+/// square and its square, remainder of the coverage and its square.
+pub(super) const TERMS: usize = 13;
 
 /// Sums over the replicates of eight sections, a lane each, of every parameter of a cell.
 ///
@@ -166,6 +168,11 @@ impl LaneErrors<'_> {
         let beyond_first = error - first;
         let remainder = beyond_first - self.second_order[k];
         let square_remainder = beyond_first * (error + first);
+        let is_covered = square.at_most(variance * covered);
+        let coverage_remainder = match self.first_variances {
+            Some(variances) => is_covered - (first * first).at_most(Lane::splat(variances[k] * covered)),
+            None => Lane::ZERO,
+        };
         [
             error,
             square,
@@ -173,11 +180,13 @@ impl LaneErrors<'_> {
             square * square,
             variance,
             variance * variance,
-            square.at_most(variance * covered),
+            is_covered,
             remainder,
             remainder * remainder,
             square_remainder,
             square_remainder * square_remainder,
+            coverage_remainder,
+            coverage_remainder * coverage_remainder,
         ]
     }
 }
@@ -185,7 +194,7 @@ impl LaneErrors<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::ReplicateError;
+    use crate::statistics::{KnownControl, ReplicateError};
     use proptest::prelude::*;
 
     proptest! {
@@ -201,13 +210,16 @@ mod tests {
                 variances: &[left_out(variances)],
                 first_order: &[left_out(first)],
                 second_order: &[left_out(second)],
+                first_variances: Some(&[0.04]),
             };
             let mut fast = LaneSums::new(1);
             fast.add(&[0.3], errors, &chosen);
             fast.add(&[0.3], errors, &chosen);
-            let all = |sums: &ErrorSums| sums.performance(Some(0.1)).map(|p| {
-                let controlled = [p.bias_controlled, p.sd_controlled].map(|x| x.map_or(0.0, |x| x.value + x.mcse));
-                [p.bias.value, p.bias.mcse, p.mse.value, p.mse.mcse, p.coverage.value, p.model_sd.value, p.model_sd.mcse, controlled[0], controlled[1]]
+            let known = KnownControl { mean: 0.0, first_order_variance: Some(0.1), first_order_coverage: Some(0.9) };
+            let all = |sums: &ErrorSums| sums.performance(known).map(|p| {
+                let controlled = [p.bias_controlled, p.sd_controlled, p.coverage_controlled];
+                let [bias, sd, coverage] = controlled.map(|x| x.map_or(0.0, |x| x.value + x.mcse));
+                [p.bias.value, p.bias.mcse, p.mse.value, p.mse.mcse, p.coverage.value, p.model_sd.value, p.model_sd.mcse, bias, sd, coverage]
             });
             for l in 0..LANES {
                 let mut slow = ErrorSums::default();
@@ -217,6 +229,7 @@ mod tests {
                         se: variances[l].sqrt(),
                         first_order: Some(first[l]),
                         second_order: second[l],
+                        first_order_variance: Some(0.04),
                     });
                 }
                 let fast = fast.lane(l);
@@ -234,7 +247,11 @@ mod tests {
             let lanes: Vec<Lane> = numbers.into_iter().map(Lane).collect();
             let errors: Vec<LaneErrors<'_>> = lanes
                 .chunks_exact(8)
-                .map(|x| LaneErrors { values: &x[..2], variances: &x[2..4], first_order: &x[4..6], second_order: &x[6..] })
+                .map(|x| {
+                    let (values, variances) = x[..4].split_at(2);
+                    let first_variances = Some(&[0.1, 0.2][..]);
+                    LaneErrors { values, variances, first_order: &x[4..6], second_order: &x[6..], first_variances }
+                })
                 .collect();
             let (mut together, mut apart) = (LaneSums::new(2), LaneSums::new(2));
             together.add_all(&truth, &errors);

@@ -12,7 +12,7 @@ mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
 pub use correlation::correlation;
-pub use error_sums::{ErrorSums, Performance, ReplicateError};
+pub use error_sums::{ErrorSums, KnownControl, Performance, ReplicateError, normal_quantile_975};
 pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
 pub use jackknife::jackknife_se;
 pub use lane_errors::{LaneErrors, LaneSums};

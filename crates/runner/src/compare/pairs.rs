@@ -153,13 +153,14 @@ fn changed(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<String> {
 
 type Getter = fn(&Parameter) -> Option<Measured>;
 
-const MEASURES: [(&str, Getter); 7] = [
+const MEASURES: [(&str, Getter); 8] = [
     ("bias", |p| p.bias),
     ("bias_controlled", |p| p.bias_controlled),
     ("sd", |p| p.sd),
     ("sd_controlled", |p| p.sd_controlled),
     ("mse", |p| p.mse),
     ("coverage", |p| p.coverage),
+    ("coverage_controlled", |p| p.coverage_controlled),
     ("model_sd", |p| p.model_sd),
 ];
 
@@ -256,7 +257,7 @@ mod tests {
         // Where both lost everything nothing was compared.
         for p in new.cells.iter_mut().flat_map(|cell| &mut cell.parameters) {
             (p.bias, p.bias_controlled, p.sd, p.sd_controlled) = (None, None, None, None);
-            (p.mse, p.coverage, p.model_sd) = (None, None, None);
+            (p.mse, p.coverage, p.coverage_controlled, p.model_sd) = (None, None, None, None);
         }
         let comparison = compare(&new, &new);
         assert!(!comparison.agrees() && !comparison.identical());

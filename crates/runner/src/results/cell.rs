@@ -73,7 +73,7 @@ pub struct Parameter {
     pub mean_estimate: Option<f64>,
     /// Mean of the estimates less the truth.
     pub bias: Option<Measured>,
-    /// The same with the leading terms of the error, less their exact means, taken out (control variate).
+    /// The same with the first- and second-order terms of the error, less their exact means, taken out (control variate).
     pub bias_controlled: Option<Measured>,
     /// Standard deviation of the estimates.
     pub sd: Option<Measured>,
@@ -83,6 +83,9 @@ pub struct Parameter {
     pub mse: Option<Measured>,
     /// Share of the 95 % intervals that hold the truth.
     pub coverage: Option<Measured>,
+    /// The same with the coverage of the first-order term, less its expectation, taken out (control variate).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage_controlled: Option<Measured>,
     /// Root mean square of the standard errors the method reports.
     pub model_sd: Option<Measured>,
     /// `model_sd / sd − 1`.

@@ -20,13 +20,14 @@ const EXACT: [Column<f64>; 5] = [
 ];
 
 /// Measures with their Monte-Carlo standard errors, a column each.
-const MEASURED: [Column<Measured>; 8] = [
+const MEASURED: [Column<Measured>; 9] = [
     ("bias", |p| p.bias),
     ("bias_controlled", |p| p.bias_controlled),
     ("sd", |p| p.sd),
     ("sd_controlled", |p| p.sd_controlled),
     ("mse", |p| p.mse),
     ("coverage", |p| p.coverage),
+    ("coverage_controlled", |p| p.coverage_controlled),
     ("model_sd", |p| p.model_sd),
     ("model_sd_relative_error", |p| p.model_sd_relative_error),
 ];

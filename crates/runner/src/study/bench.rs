@@ -5,8 +5,8 @@ use super::pulse_kind::PulseKind;
 use crate::scenario::{Border, Case, Disturbance};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
 use switchback_estimator::estimators::pulse::{
-    EquationNoise, ErrorTerms, ExpectedRecord, FiniteSampleTheory, Limit, PulseData, PulseFitError,
-    PulseMethod, StepMean,
+    Cumulants, EquationNoise, ErrorTerms, ExpectedRecord, FiniteSampleTheory, Limit, PulseData,
+    PulseFitError, PulseMethod, StepMean,
 };
 use switchback_estimator::excitation::{Direction, PulseExperiment};
 use switchback_estimator::hysteresis::Branch;
@@ -174,21 +174,23 @@ impl Bench {
         method.with_input(&data, self.steps(sigma, [0.0; 2], samples as f64), Limit::of)
     }
 
-    /// What a method's estimate from records of `samples` samples will be off, `limit` being that of such records.
+    /// What a method's estimate from records of `samples` samples will be off, `limit` being that of such records; and the cumulants of its
+    /// first-order part.
     pub(super) fn theory(
         &self,
         method: PulseKind,
         limit: &Limit,
         (sigma, memory): (f64, &NoiseMemory),
         samples: usize,
-    ) -> FiniteSampleTheory {
+    ) -> (FiniteSampleTheory, Vec<Cumulants>) {
         let record = |&k: &usize| ExpectedRecord {
             groups: &self.designs[k].groups,
             response: &self.responses[k],
             samples,
         };
         let records: Vec<ExpectedRecord<'_>> = method.experiments().iter().map(record).collect();
-        limit.finite_sample(&records, EquationNoise { sigma, memory })
+        let noise = EquationNoise { sigma, memory };
+        (limit.finite_sample(&records, noise), limit.cumulants(&records, noise))
     }
 
     /// The exact means of the error terms at a method's limit, for records of `samples` samples.

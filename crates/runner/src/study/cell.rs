@@ -2,7 +2,7 @@
 
 use super::sections::CellSums;
 use crate::results::{Group, Series};
-use switchback_estimator::estimators::pulse::FiniteSampleTheory;
+use switchback_estimator::statistics::KnownControl;
 
 /// One cell of a sweep: a curve at one number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,13 +24,21 @@ pub(super) struct CellTheory {
     pub(super) bias: Option<Vec<f64>>,
     /// The Cramér–Rao bound at `N`, as standard deviations.
     pub(super) bound: Option<Vec<f64>>,
+    /// The mean of the control variate, where it is not zero.
+    pub(super) control: Option<Vec<f64>>,
+    /// The chance that the first-order part of an error lies within 1.96 of its standard deviations.
+    pub(super) coverage: Option<Vec<f64>>,
 }
 
 impl CellTheory {
-    /// Of a method for pulse experiments.
-    pub(super) fn of_pulses(theory: FiniteSampleTheory, bound: Vec<f64>) -> Self {
-        let FiniteSampleTheory { sd, bias } = theory;
-        Self { sd: Some(sd), bias: Some(bias), bound: Some(bound) }
+    /// What is known of the control variate of a parameter.
+    pub(super) fn known(&self, k: usize) -> KnownControl {
+        let at = |values: &Option<Vec<f64>>| values.as_ref().map(|values| values[k]);
+        KnownControl {
+            mean: at(&self.control).unwrap_or(0.0),
+            first_order_variance: at(&self.sd).map(|sd| sd * sd),
+            first_order_coverage: at(&self.coverage),
+        }
     }
 }
 

@@ -76,12 +76,13 @@ impl Place<'_> {
         let samples = &samples[..noise.len()];
         contender.lanes.fit(samples, fits);
         let expansion = &contender.expansions[self.plan.checkpoint];
-        expansion.control.terms(samples, &expansion.means, terms);
+        expansion.control.terms(samples, terms);
         let errors: [LaneErrors<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneErrors {
             values: &fits[i].values,
             variances: &fits[i].variances,
             first_order: &terms[i].first,
             second_order: &terms[i].second,
+            first_variances: expansion.variances.as_deref(),
         });
         sums.runs.replicates += noise.iter().map(LaneNoise::replicates).sum::<usize>();
         let plain = |(noise, fit): (&LaneNoise, &LaneFit)| noise.is_whole() && fit.sound == [true; LANES];
@@ -117,7 +118,8 @@ impl Place<'_> {
         contender.kind.with_input(data, steps, |method| match method.fit() {
             Ok(fit) => {
                 let errors = fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
-                sums.push(errors, &contender.terms(self.plan.checkpoint, &method));
+                let variances = contender.expansions[self.plan.checkpoint].variances.as_deref();
+                sums.push(errors, &contender.terms(self.plan.checkpoint, &method), variances);
             }
             Err(error) => sums.runs.fail(replicate, error.to_string()),
         });

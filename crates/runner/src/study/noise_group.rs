@@ -12,9 +12,11 @@ use super::workload::{Chunk, Task, Workload};
 use crate::scenario::{Case, Coupling, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
+use switchback_estimator::estimators::pulse::ErrorTerms;
 use switchback_estimator::estimators::pulse::lanes::LANES;
 use switchback_estimator::linear::NoiseMemory;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
+use switchback_estimator::statistics::normal_quantile_975;
 
 /// Replicates of one noise pass: a whole number of lanes at every width.
 const PASS: usize = 16;
@@ -65,14 +67,15 @@ impl NoiseGroup {
         let mut periods: Vec<usize> = settings.iter().map(|s| s.bench.period()).collect();
         periods.sort_unstable();
         periods.dedup();
+        let filter = NoiseFilter::of(case);
+        let memory = NoiseMemory::of(&filter.ar);
         let expand = |setting: &mut Setting| {
             setting.period = periods.iter().position(|p| *p == setting.bench.period()).unwrap_or_default();
-            setting.expand(case, checkpoints)
+            setting.expand(case, (checkpoints, &memory))
         };
         // The first error in the order of the scenario, whichever thread was first.
         let expanded: Vec<_> = settings.par_iter_mut().map(expand).collect();
         expanded.into_iter().collect::<Result<(), _>>()?;
-        let filter = NoiseFilter::of(case);
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
         let needs_steps = settings.iter().flat_map(|s| &s.methods).any(|c| c.kind.needs_step());
@@ -122,13 +125,22 @@ impl NoiseGroup {
         let memory = NoiseMemory::of(&self.noise.pulses.ar);
         let checkpoints = &self.noise.pulses.checkpoints;
         let of = |setting: &Setting, (checkpoint, samples): (usize, usize), contender: &Contender| {
-            let Contender { kind, theory: true, ref expansions, .. } = *contender else {
-                return CellTheory::default();
-            };
+            let Contender { kind, theory, ref expansions, .. } = *contender;
             let (bench, limit) = (&setting.bench, &expansions[checkpoint].limit);
-            let theory = bench.theory(kind, limit, (setting.sigma, &memory), samples);
+            if !theory {
+                let ErrorTerms { first, second } = bench.mean_terms(kind, limit, setting.sigma, samples);
+                let control = first.iter().zip(second).map(|(first, second)| first + second).collect();
+                return CellTheory { control: Some(control), ..CellTheory::default() };
+            }
+            let (theory, cumulants) = bench.theory(kind, limit, (setting.sigma, &memory), samples);
             let bound = bench.bound(kind, setting.sigma, samples);
-            CellTheory::of_pulses(theory, bound.expect("determined, as the method's own limit is"))
+            CellTheory {
+                sd: Some(theory.sd),
+                control: Some(theory.bias.clone()),
+                bias: Some(theory.bias),
+                bound: Some(bound.expect("determined, as the method's own limit is")),
+                coverage: Some(cumulants.iter().map(|c| c.chance_within(normal_quantile_975())).collect()),
+            }
         };
         let of_setting = |setting: &Setting| -> Vec<CellTheory> {
             let at = |(checkpoint, &samples)| {

@@ -62,11 +62,20 @@ pub(super) struct SectionSums {
 }
 
 impl SectionSums {
-    /// Adds a replicate: the errors with the standard errors that the method reports, and their leading terms.
-    pub(super) fn push(&mut self, errors: impl Iterator<Item = (f64, f64)>, terms: &ErrorTerms) {
+    /// Adds a replicate: the errors with the standard errors that the method reports, and their leading terms with the variances of the first.
+    pub(super) fn push(
+        &mut self,
+        errors: impl Iterator<Item = (f64, f64)>,
+        terms: &ErrorTerms,
+        variances: Option<&[f64]>,
+    ) {
         let terms = terms.first.iter().zip(&terms.second);
         for (k, ((error, se), (&first, &second_order))) in errors.zip(terms).enumerate() {
-            self.push_parameter(k, ReplicateError { error, se, first_order: Some(first), second_order });
+            let first_order_variance = variances.map(|variances| variances[k]);
+            self.push_parameter(
+                k,
+                ReplicateError { error, se, first_order: Some(first), second_order, first_order_variance },
+            );
         }
     }
 

@@ -8,7 +8,8 @@ use crate::results::{Group, Series};
 use crate::scenario::{Case, Disturbance, Method, Scenario};
 use rayon::prelude::*;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
-use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod};
+use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod, SecondOrder};
+use switchback_estimator::linear::NoiseMemory;
 
 /// One bench at one noise level: the cells over N and methods.
 #[derive(Debug, Clone)]
@@ -43,15 +44,22 @@ pub(super) struct Expansion {
     pub(super) limit: Limit,
     /// The control variate, for eight replicates at a time.
     pub(super) control: LaneControl,
-    /// Means of the error terms.
-    pub(super) means: ErrorTerms,
+    /// Variances of the first-order terms, where the model holds.
+    pub(super) variances: Option<Vec<f64>>,
 }
 
 impl Expansion {
-    fn new(bench: &Bench, kind: PulseKind, sigma: f64, samples: usize) -> Result<Self, PulseFitError> {
+    fn new(
+        bench: &Bench,
+        (kind, second): (PulseKind, SecondOrder),
+        (sigma, memory): (f64, &NoiseMemory),
+        samples: usize,
+    ) -> Result<Self, PulseFitError> {
         let limit = bench.limit(kind, sigma, samples)?;
-        let means = bench.mean_terms(kind, &limit, sigma, samples);
-        Ok(Self { control: limit.lanes(), limit, means })
+        let step = if kind.needs_step() { sigma * sigma * memory.mean_variance(samples) } else { 0.0 };
+        let variances = || limit.first_order_sd(sigma, step).iter().map(|sd| sd * sd).collect();
+        let variances = (second == SecondOrder::Whole).then(variances);
+        Ok(Self { control: limit.lanes(second), limit, variances })
     }
 }
 
@@ -72,10 +80,16 @@ impl Setting {
     ///
     /// # Errors
     /// [`StudyError`] where a method has no limit.
-    pub(super) fn expand(&mut self, case: &Case, samples: &[usize]) -> Result<(), StudyError> {
+    pub(super) fn expand(
+        &mut self,
+        case: &Case,
+        (samples, memory): (&[usize], &NoiseMemory),
+    ) -> Result<(), StudyError> {
         let Self { bench, sigma, border, methods, .. } = self;
-        for Contender { method, kind, expansions, .. } in methods {
-            let expansion = |&n: &usize| Expansion::new(bench, *kind, *sigma, n);
+        for contender in methods {
+            let of = (contender.kind, contender.second());
+            let expansion = |&n: &usize| Expansion::new(bench, of, (*sigma, memory), n);
+            let Contender { method, expansions, .. } = contender;
             *expansions = samples.iter().map(expansion).collect::<Result<_, _>>().map_err(|source| {
                 let (case_name, border) = (case.name.clone(), case.borders[*border].name.clone());
                 StudyError::NoLimit {
@@ -134,10 +148,14 @@ impl Contender {
         }
     }
 
-    /// The leading terms of one replicate's error, less their means.
+    /// How much of the second order is the control variate: all of it where its mean is known.
+    pub(super) fn second(&self) -> SecondOrder {
+        if self.theory { SecondOrder::Whole } else { SecondOrder::Profile }
+    }
+
+    /// The leading terms of one replicate's error.
     pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> ErrorTerms {
-        let Expansion { limit, means, .. } = &self.expansions[checkpoint];
-        limit.terms(sample).less(means)
+        self.expansions[checkpoint].limit.terms(sample, self.second())
     }
 }
 

@@ -12,7 +12,7 @@ use super::tally::Tally;
 use crate::options::Shard;
 use crate::scenario::{Replication, Scenario, Stopping};
 use std::ops::{ControlFlow, Range};
-use switchback_estimator::statistics::Performance;
+use switchback_estimator::statistics::{KnownControl, Performance};
 
 /// What the replicates so far left behind, and the round under way.
 #[derive(Debug, Clone, PartialEq)]
@@ -234,7 +234,7 @@ const MORE: usize = 256;
 /// The cell's largest Monte-Carlo error over the one allowed.
 fn excess(stopping: &Stopping, total: &CellSums) -> f64 {
     let performances: Vec<Performance> =
-        total.parameters(None).iter().filter_map(|sums| sums.performance(None)).collect();
+        total.parameters(None).iter().filter_map(|sums| sums.performance(KnownControl::default())).collect();
     let worst = |ratio: &dyn Fn(&Performance) -> f64| {
         performances.iter().map(ratio).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
@@ -263,7 +263,8 @@ mod tests {
         let mut sums = CellSums::new(1);
         let mut errors = ErrorSums::default();
         for error in (0..400).map(|r| f64::from(r % 2) - 0.5) {
-            errors.push(ReplicateError { error, se: 0.5, first_order: None, second_order: 0.0 });
+            let (first_order, second_order, first_order_variance) = (None, 0.0, None);
+            errors.push(ReplicateError { error, se: 0.5, first_order, second_order, first_order_variance });
         }
         let mut section = sums.section(0);
         section.parameters = vec![errors];

@@ -62,7 +62,7 @@ fn parameter((spec, theory): (&CellSpec, &CellTheory), k: usize, sums: &ErrorSum
     let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
     let theory_sd = at(&theory.sd);
     let name = &spec.parameters[k];
-    let performance = sums.performance(theory_sd.map(|sd| sd * sd));
+    let performance = sums.performance(theory.known(k));
     let measured = |m: statistics::Measured| Measured::new(m.value, m.mcse);
     Parameter {
         name: name.name.clone(),
@@ -76,6 +76,7 @@ fn parameter((spec, theory): (&CellSpec, &CellTheory), k: usize, sums: &ErrorSum
         sd_controlled: performance.and_then(|p| p.sd_controlled).and_then(measured),
         mse: performance.and_then(|p| measured(p.mse)),
         coverage: performance.and_then(|p| measured(p.coverage)),
+        coverage_controlled: performance.and_then(|p| p.coverage_controlled).and_then(measured),
         model_sd: performance.and_then(|p| measured(p.model_sd)),
         model_sd_relative_error: performance.and_then(|p| measured(p.model_sd_relative_error)),
         theory_bias: at(&theory.bias),

@@ -143,8 +143,13 @@ mod tests {
                 let section = super::super::sections::section(replicate);
                 let mut sums = node.cells[0].section(section);
                 let error = (replicate as f64 * 0.7).sin();
-                let of =
-                    ReplicateError { error, se: 0.7, first_order: Some(error * 0.9), second_order: 0.01 };
+                let of = ReplicateError {
+                    error,
+                    se: 0.7,
+                    first_order: Some(error * 0.9),
+                    second_order: 0.01,
+                    first_order_variance: Some(0.4),
+                };
                 sums.parameters[0].push(of);
                 sums.runs.replicates = 1;
                 if replicate.is_multiple_of(97) {

@@ -42,10 +42,7 @@ impl CellViews {
     fn new(theory: &CellTheory, total: &CellSums) -> Self {
         let figures = |view: View| {
             let sums = total.parameters(view);
-            let of = |(k, sums): (usize, &ErrorSums)| {
-                let known = theory.sd.as_ref().map(|sd| sd[k] * sd[k]);
-                sums.performance(known).map(Figures::from)
-            };
+            let of = |(k, sums): (usize, &ErrorSums)| sums.performance(theory.known(k)).map(Figures::from);
             sums.iter().enumerate().map(of).collect::<Vec<_>>()
         };
         let whole = figures(None);

@@ -2,6 +2,7 @@
 
 use super::data::{PulseData, StepMean};
 use super::fit::{PulseFit, PulseFitError};
+use super::grouped::GroupedStatistics;
 use super::lanes::LaneControl;
 use super::score::{ErrorTerms, GroupSum};
 use super::solution::Solution;
@@ -76,21 +77,35 @@ impl PulseMethod<'_> {
     }
 }
 
-/// A method expanded about its limit: the asymptotic theory, and the control variate of a Monte-Carlo study.
+/// How much of the second order of an estimate's error is worked out: see [`Limit`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SecondOrder {
+    /// All of it. Its mean is known where the model holds ([`Limit::finite_sample`]).
+    Whole,
+    /// What the elimination of the free means makes. Its mean is known for any noise and model ([`Limit::mean_terms`]).
+    Profile,
+}
+
+/// A method expanded about its limit: theory at a number of samples, and the control variate of a Monte-Carlo study.
 ///
-/// Made from expected statistics ([`crate::simulation::NoiseMoments::expected`]), where the method returns what it converges to. For a
-/// record's statistics, [`Limit::terms`] are the leading terms of the estimate's error,
+/// Made from the expected statistics of records of `N` samples ([`crate::simulation::NoiseMoments::expected_over`]), where the method
+/// returns what it converges to. For the statistics of such a record, [`Limit::terms`] are the leading terms of the estimate's error,
 ///
 /// ```text
-/// first    ∇g · M⁻¹s,         s = S_{Φy} − Sθ₀,   M = E[S]
-/// second   ∇g · M⁻¹(p − s),   p the profile score: s with every free mean eliminated by the record's own statistics
+/// first             ∇g · M⁻¹s,         s = S_{Φy} − Sθ₀,   M = E[S]
+/// second, whole     half the second derivative of the estimate along the deviation of the statistics from their means
+/// second, profile   ∇g · M⁻¹(p − s),   p the profile score: s with every free mean eliminated by the record's own statistics
 /// ```
 ///
-/// Both have means that are known exactly at every `N` ([`Limit::mean_terms`]); the first's is zero where the model holds. Taken out of
-/// the error with their means left in, they take the noise out of its mean, the bias. After the first the rest is `O(1/N)`; what is
-/// largest in it grows with the number `Q` of free means as `√Q/N`: products `Σ_q K_q ē_q,i ξ̄_q` of the noise of a group's mean output and
-/// of its mean equation error. These the profile score holds, and it is quadratic in the noise, so that its mean is one of products of two
-/// group sums. Where the model holds and the equation error is white, the variance of the first is [`Limit::theory_se`] squared, exactly.
+/// All have means that are known exactly at every `N`. Taken out of the error with their means left in, they take the noise out of its
+/// mean, the bias. Where the model holds and the equation error is white, the first has mean zero and the variance of
+/// [`Limit::first_order_sd`], exactly; the mean of the whole second is [`FiniteSampleTheory::bias`](super::FiniteSampleTheory), and
+/// after both the rest is `O(N^(−3/2))`.
+///
+/// Where the model does not hold, the mean of the whole second order would ask for fourth moments of coloured noise. After the first the
+/// rest is then `O(1/N)`; what is largest in it grows with the number `Q` of free means as `√Q/N`: products `Σ_q K_q ē_q,i ξ̄_q` of the noise
+/// of a group's mean output and of its mean equation error. These the profile score holds, and it is quadratic in the noise, so that its
+/// mean is one of products of two group sums.
 ///
 /// The free means are nuisance parameters, and the profile score has a mean because of them: McCullagh and Tibshirani, "A simple method for
 /// the adjustment of profile likelihoods", Journal of the Royal Statistical Society B 52 (1990), 325–344, subtract it too.
@@ -99,6 +114,8 @@ impl PulseMethod<'_> {
 pub struct Limit {
     pub(super) solution: Solution,
     fit: PulseFit,
+    /// What it was made from, about the solution's reference.
+    expected: GroupedStatistics,
     samples: f64,
 }
 
@@ -110,8 +127,10 @@ impl Limit {
     pub fn of(expected: PulseMethod<'_>) -> Result<Self, PulseFitError> {
         let solution = expected.solve()?;
         let fit = solution.fit();
-        let samples = expected.experiments()[0].statistics.samples();
-        Ok(Self { solution, fit, samples })
+        let experiments = expected.experiments();
+        let samples = experiments[0].statistics.samples();
+        let expected = solution.about_own(&experiments);
+        Ok(Self { solution, fit, expected, samples })
     }
 
     /// What the method converges to; standard errors are for as many samples as the expected statistics had.
@@ -127,17 +146,23 @@ impl Limit {
     }
 
     /// [`Limit::terms`] for eight replicates at a time.
-    pub fn lanes(&self) -> LaneControl {
-        self.solution.control(self.samples)
+    pub fn lanes(&self, second: SecondOrder) -> LaneControl {
+        match second {
+            SecondOrder::Whole => LaneControl::whole(&self.solution, &self.expected),
+            SecondOrder::Profile => LaneControl::profile(&self.solution),
+        }
     }
 
-    /// The leading terms of the error of the same method's estimate from `sample`.
-    pub fn terms(&self, sample: &PulseMethod<'_>) -> ErrorTerms {
-        let experiments = sample.experiments();
-        self.solution.terms(&experiments, sample.step(), self.scale(&experiments))
+    /// The leading terms of the error of the same method's estimate from `sample`, a record of as many samples as the expected statistics.
+    pub fn terms(&self, sample: &PulseMethod<'_>, second: SecondOrder) -> ErrorTerms {
+        let whole = match second {
+            SecondOrder::Whole => Some(&self.expected),
+            SecondOrder::Profile => None,
+        };
+        self.solution.terms(&sample.experiments(), sample.step(), whole)
     }
 
-    /// The exact means of [`Limit::terms`] over all noise, Gaussian or not.
+    /// The exact means of [`Limit::terms`] with [`SecondOrder::Profile`] over all noise, Gaussian or not.
     ///
     /// `expected` holds the expectations of the statistics over as many samples as a record has
     /// ([`crate::simulation::NoiseMoments::expected_over`]), and `covariance` is that of two of their group sums
@@ -147,12 +172,6 @@ impl Limit {
         expected: &PulseMethod<'_>,
         covariance: impl Fn(GroupSum, GroupSum) -> f64,
     ) -> ErrorTerms {
-        let experiments = expected.experiments();
-        self.solution.mean_terms(&experiments, expected.step(), self.scale(&experiments), &covariance)
-    }
-
-    /// How many of these records the expected statistics hold.
-    fn scale(&self, experiments: &[&PulseData]) -> f64 {
-        self.samples / experiments[0].statistics.samples()
+        self.solution.mean_terms(&expected.experiments(), expected.step(), &covariance)
     }
 }

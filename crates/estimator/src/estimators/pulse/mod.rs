@@ -4,9 +4,11 @@
 //! in its columns only; see each method for its own reference.
 
 mod arrow;
+mod cumulants;
 mod data;
 mod efficient;
 mod excitation;
+mod expansion;
 mod experiments;
 mod finite_sample;
 mod fit;
@@ -21,11 +23,12 @@ mod score;
 mod second_order;
 mod solution;
 
+pub use cumulants::Cumulants;
 pub use data::{PulseData, PulseDataError, StepMean};
 pub use excitation::excitation;
 pub use finite_sample::FiniteSampleTheory;
 pub use fit::{Estimated, PulseFit, PulseFitError};
 pub use grouped::GroupedStatistics;
-pub use method::{Limit, PulseMethod};
+pub use method::{Limit, PulseMethod, SecondOrder};
 pub use score::{ErrorTerms, GroupSum};
 pub use second_order::{EquationNoise, ExpectedRecord};

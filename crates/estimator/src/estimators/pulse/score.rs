@@ -9,18 +9,8 @@ use nalgebra::DVector;
 pub struct ErrorTerms {
     /// First order in the noise.
     pub first: Vec<f64>,
-    /// Of the second order, what the elimination of the local columns makes.
+    /// Of the second order, as much as was [asked for](super::SecondOrder).
     pub second: Vec<f64>,
-}
-
-impl ErrorTerms {
-    /// The terms less others, such as their means.
-    pub fn less(mut self, other: &Self) -> Self {
-        let subtract = |x: &mut [f64], y: &[f64]| x.iter_mut().zip(y).for_each(|(x, y)| *x -= y);
-        subtract(&mut self.first, &other.first);
-        subtract(&mut self.second, &other.second);
-        self
-    }
 }
 
 /// A group sum `S_q,l = Σ_{t∈q} y(t−l)`: groups counted through all experiments of a method.
@@ -54,7 +44,7 @@ impl ArrowFit {
     }
 
     /// `Σ_{t∈q} r(t)` of other statistics, `r` the residual at this regression's parameters.
-    fn residual_sums(&self, statistics: &GroupedStatistics, columns: &Columns) -> Vec<f64> {
+    pub(super) fn residual_sums(&self, statistics: &GroupedStatistics, columns: &Columns) -> Vec<f64> {
         let residual = |(q, mean): (usize, f64)| {
             let past: f64 = (0..statistics.order()).map(|l| self.core[l] * statistics.sum(q, l + 1)).sum();
             statistics.sum(q, 0) + past - mean * statistics.count(q)

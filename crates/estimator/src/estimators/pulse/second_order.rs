@@ -54,6 +54,11 @@ impl<'a> InverseForm<'a> {
         own + self.through_core(x).dot(&(&self.core * self.through_core(y)))
     }
 
+    /// `M⁻¹x` on the core.
+    pub(super) fn core_of(&self, x: &Gradient) -> DVector<f64> {
+        &self.core * self.through_core(x)
+    }
+
     /// What a derivative amounts to in the core, where the local columns follow it.
     fn through_core(&self, x: &Gradient) -> DVector<f64> {
         let mut core = x.core.clone();
@@ -152,7 +157,7 @@ impl ArrowFit {
 }
 
 /// The regressors of an experiment without the noise, phase for phase.
-struct Phases<'a> {
+pub(super) struct Phases<'a> {
     record: &'a ExpectedRecord<'a>,
     /// Its first group among those of all experiments.
     first: usize,
@@ -167,7 +172,7 @@ struct Phases<'a> {
 }
 
 impl<'a> Phases<'a> {
-    fn of(
+    pub(super) fn of(
         fit: &ArrowFit,
         columns: &Columns,
         (record, first, reference): (&'a ExpectedRecord<'a>, usize, f64),
@@ -225,6 +230,15 @@ impl<'a> Phases<'a> {
             }
         }
         product
+    }
+
+    /// `xᵀM⁻¹φ̄_p` of every phase, given `M⁻¹x` on the core and the derivative's local part.
+    pub(super) fn along(&self, core: &DVector<f64>, local: &[(usize, f64)]) -> Vec<f64> {
+        let own = |p: usize| {
+            let Some((l, w)) = self.local[p] else { return 0.0 };
+            local.iter().filter(|(k, _)| *k == l).map(|(_, weight)| weight * w / self.own[l]).sum::<f64>()
+        };
+        (0..self.period()).map(|p| self.reduced.column(p).dot(core) + own(p)).collect()
     }
 
     /// `Σ w φ̄_tᵀM⁻¹φ̄_s`, added to the lags; returns `Σ wᵀM⁻¹φ̄_s` of each phase of `t`.

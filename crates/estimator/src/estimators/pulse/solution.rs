@@ -5,7 +5,6 @@ use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
-use super::lanes::{Answer, LaneControl, ProfilePlan};
 use super::score::{Covariance, ErrorTerms};
 use crate::estimators::LevelErrors;
 use crate::hysteresis::Branch;
@@ -190,53 +189,23 @@ impl Solution {
         }
     }
 
-    /// [`Self::terms`] as a constant map of the score and the profile score.
-    pub(crate) fn control(&self, scale: f64) -> LaneControl {
-        let means = self.fit.group_means(&self.columns);
-        let lags = vec![0.0; self.order];
-        let to_core = |group: usize| {
-            let probe: Vec<f64> = (0..means.len()).map(|q| f64::from(q == group)).collect();
-            self.fit.core_side(&self.columns, &probe, &lags)
-        };
-        let answers: Vec<_> =
-            self.quantities.iter().map(|q| self.fit.answer(&self.columns, &q.gradient)).collect();
-        let own = answers.iter().flat_map(|(_, own)| own).map(|(q, weight)| (*q, scale * weight)).collect();
-        let mut own_end = 0;
-        LaneControl {
-            reference: self.reference,
-            a: self.fit.core.rows(0, self.order).iter().copied().collect(),
-            to_core: (0..means.len()).flat_map(|q| to_core(q).iter().copied().collect::<Vec<_>>()).collect(),
-            from_core: answers
-                .iter()
-                .flat_map(|(core, _)| core.iter().map(|weight| scale * weight))
-                .collect(),
-            parameters: answers
-                .iter()
-                .zip(&self.quantities)
-                .map(|((_, own), q)| {
-                    own_end += own.len();
-                    Answer { own_end, step_slope: q.step_slope }
-                })
-                .collect(),
-            own,
-            means,
-            profile: ProfilePlan::of(&self.fit, &self.columns, self.order),
-            step_mean: match self.level {
-                Level::Constant => 0.0,
-                Level::Step(step) => step.mean,
-            },
-        }
-    }
-
-    /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved, and what their profile
-    /// score adds to it.
+    /// First-order change of every quantity (`a`, `b`, borders) when these experiments replace those that were solved, and of the second order
+    /// the whole, given what was solved, or else what their profile score adds.
     ///
-    /// `M⁻¹s` carried through the derivatives; `M` (divided by `scale`) and the parameters are this solution's, the score `s` is that of the
-    /// experiments given.
-    pub(crate) fn terms(&self, experiments: &[&PulseData], step: Option<StepMean>, scale: f64) -> ErrorTerms {
+    /// `M⁻¹s` carried through the derivatives; `M` and the parameters are this solution's, the score `s` is that of the experiments given.
+    pub(crate) fn terms(
+        &self,
+        experiments: &[&PulseData],
+        step: Option<StepMean>,
+        solved: Option<&GroupedStatistics>,
+    ) -> ErrorTerms {
         let statistics = self.about_own(experiments);
-        let shift = self.fit.profile_shift(&statistics, &self.columns);
-        self.terms_from(&statistics, &shift, step, scale)
+        let change = self.step_change(step);
+        let second = match solved {
+            Some(expected) => self.second_order_term(&statistics, expected, change),
+            None => self.along_quantities(&self.fit.profile_shift(&statistics, &self.columns)),
+        };
+        ErrorTerms { first: self.first_order_term(&statistics, change), second }
     }
 
     /// The means of [`Self::terms`] over all noise, given the means of the statistics and how their group sums vary together.
@@ -244,39 +213,37 @@ impl Solution {
         &self,
         expected: &[&PulseData],
         step: Option<StepMean>,
-        scale: f64,
         covariance: Covariance<'_>,
     ) -> ErrorTerms {
         let statistics = self.about_own(expected);
         let shift = self.fit.mean_profile_shift(&statistics, &self.columns, covariance);
-        self.terms_from(&statistics, &shift, step, scale)
+        ErrorTerms {
+            first: self.first_order_term(&statistics, self.step_change(step)),
+            second: self.along_quantities(&shift),
+        }
     }
 
-    fn terms_from(
-        &self,
-        statistics: &GroupedStatistics,
-        shift: &DVector<f64>,
-        step: Option<StepMean>,
-        scale: f64,
-    ) -> ErrorTerms {
-        let (first, second) =
-            (self.fit.response_to_score(statistics, &self.columns), self.fit.respond_to_core(shift));
-        let step_change = match (&self.level, step) {
+    fn first_order_term(&self, statistics: &GroupedStatistics, step_change: f64) -> Vec<f64> {
+        let first = self.fit.response_to_score(statistics, &self.columns);
+        self.quantities.iter().map(|q| first.along(&q.gradient) + q.step_slope * step_change).collect()
+    }
+
+    /// What a right-hand side of the core makes of every quantity.
+    fn along_quantities(&self, right: &DVector<f64>) -> Vec<f64> {
+        let response = self.fit.respond_to_core(right);
+        self.quantities.iter().map(|q| response.along(&q.gradient)).collect()
+    }
+
+    /// How far another mean of a step experiment is from the one that was used.
+    fn step_change(&self, step: Option<StepMean>) -> f64 {
+        match (&self.level, step) {
             (Level::Step(own), Some(other)) => other.mean - own.mean,
             _ => 0.0,
-        };
-        ErrorTerms {
-            first: self
-                .quantities
-                .iter()
-                .map(|q| scale * first.along(&q.gradient) + q.step_slope * step_change)
-                .collect(),
-            second: self.quantities.iter().map(|q| scale * second.along(&q.gradient)).collect(),
         }
     }
 
     /// The experiments side by side, about the reference of this solution.
-    fn about_own(&self, experiments: &[&PulseData]) -> GroupedStatistics {
+    pub(super) fn about_own(&self, experiments: &[&PulseData]) -> GroupedStatistics {
         let about: Vec<GroupedStatistics> =
             experiments.iter().map(|data| data.about(self.reference).statistics).collect();
         GroupedStatistics::stacked(&about.iter().collect::<Vec<_>>())
@@ -284,14 +251,14 @@ impl Solution {
 }
 
 /// The base of the levels: `u` where the relative level is zero, with its derivatives in the core and in `ŷ₀`.
-struct Base {
-    value: f64,
-    core: DVector<f64>,
-    step: f64,
+pub(super) struct Base {
+    pub(super) value: f64,
+    pub(super) core: DVector<f64>,
+    pub(super) step: f64,
 }
 
 impl Base {
-    fn of(fit: &ArrowFit, n: usize, reference: f64, level: &Level) -> Self {
+    pub(super) fn of(fit: &ArrowFit, n: usize, reference: f64, level: &Level) -> Self {
         let a_at_one = 1.0 + fit.core.rows(0, n).sum();
         let b_at_one: f64 = fit.core.rows(n, n).sum();
         let mut core = DVector::zeros(fit.core.len());

@@ -107,7 +107,7 @@ impl Simulated {
         let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));
         let errors =
             estimates.into_iter().zip(&contender.truth).map(|((value, se), truth)| (value - truth, se));
-        sums.push(errors, &terms);
+        sums.push(errors, &terms, contender.expansions[checkpoint].variances.as_deref());
     }
 
     /// What the control variate is made of.

@@ -186,7 +186,11 @@ impl FreeNoiseGroup {
                 for (k, (value, se)) in parameters(&estimate).enumerate() {
                     let first_order = first_order.as_ref().map(|first| first[k]);
                     let error = value - truth[k];
-                    sums.push_parameter(k, ReplicateError { error, se, first_order, second_order: 0.0 });
+                    let (second_order, first_order_variance) = (0.0, None);
+                    sums.push_parameter(
+                        k,
+                        ReplicateError { error, se, first_order, second_order, first_order_variance },
+                    );
                 }
             }
             Ok(_) => sums.runs.fail(replicate, "the record leaves a parameter open".to_owned()),

@@ -132,7 +132,7 @@ impl Setting {
                 parameters: names(of.case.order, &on.grid),
                 truth: truth(of.case, of.border, &on.grid),
             });
-            setting.theories.push(CellTheory { sd: theory.clone(), bias: None, bound: theory });
+            setting.theories.push(CellTheory { sd: theory.clone(), bound: theory, ..CellTheory::default() });
         }
         Ok(setting)
     }

@@ -12,7 +12,7 @@ use switchback_estimator::statistics::{IntervalCounts, LaneSums};
 use thiserror::Error;
 
 /// What such a file begins with.
-const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/2\",";
+const BEGINNING: &[u8] = b"{\"schema\":\"switchback/sums/3\",";
 
 /// What tells the sums of one study from those of another, or of other sources on another platform: they are never mixed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ impl Snapshot<'_> {
             runs: node.cells.iter().map(|cell| cell.runs.clone()).collect(),
         };
         let head = Head {
-            schema: "switchback/sums/2".to_owned(),
+            schema: "switchback/sums/3".to_owned(),
             origin: origin.clone(),
             batch: tally.batches().size(),
             round: round.replicates.clone(),

@@ -11,13 +11,13 @@ mod factor;
 mod levels;
 mod method;
 mod profile;
+mod profile_control;
 mod sized;
 mod statistics;
+mod whole;
 
-pub(crate) use control::Answer;
 pub use control::{LaneControl, LaneTerms};
 pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
-pub(crate) use profile::ProfilePlan;
 pub use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;
 
