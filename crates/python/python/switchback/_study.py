@@ -78,7 +78,7 @@ class Cell(Row):
     #: Share of the 95 % intervals that hold the truth.
     coverage: Optional[float]
     coverage_error: Optional[float]
-    #: Asymptotic standard deviation.
+    #: Standard deviation by theory.
     theory_sd: Optional[float]
     #: The Cramér–Rao bound, as a standard deviation.
     bound_sd: Optional[float]
