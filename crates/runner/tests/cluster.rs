@@ -35,7 +35,7 @@ trait Cluster {
     fn environment(&self) -> Vec<(&'static str, String)>;
     /// Ends a worker that runs a part, with all that it runs, as a power cut does; false while it runs none.
     fn kill_a_busy_worker(&mut self) -> bool;
-    /// Ends what shares the work out, at once, and starts it again, with workers where it has lost them.
+    /// Ends what shares the work out, and starts it again, with workers where it has lost them.
     fn restart_coordinator(&mut self);
     /// Whether the script must be started again after that.
     const FORGETS: bool;

@@ -103,8 +103,17 @@ impl Cluster for Slurm {
     }
 
     fn restart_coordinator(&mut self) {
-        let controller = number_in(&self.folder.join("slurmctld.pid")).expect("it runs");
-        kill(controller);
+        // As a system's services are ended. Killed outright, slurmctld forgets what it has begun in the seconds before, gives the same numbers to
+        // other jobs, and then drains the nodes that know them.
+        let file = self.folder.join("slurmctld.pid");
+        let controller = number_in(&file).expect("it runs");
+        let told = Command::new("kill").args(["-TERM", &controller.to_string()]).status().expect("kill");
+        assert!(told.success());
+        let begun = Instant::now();
+        while parent(controller).is_some() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "slurmctld does not end");
+            sleep(Duration::from_millis(50));
+        }
         // Away long enough for parts to end meanwhile.
         sleep(Duration::from_secs(3));
         let started =
