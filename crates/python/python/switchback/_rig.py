@@ -340,7 +340,7 @@ def _held_out(
         if is_designed:
             return None, []
         return (HELD_OUT, []) if len(names) == 1 else (None, names[-1:])
-    if isinstance(holdout, Real):
+    if isinstance(holdout, (float, Real)):
         return real(float(holdout), "holdout"), []
     held_out = [holdout] if isinstance(holdout, str) else [str(one) for one in holdout]
     for unknown in sorted(set(held_out) - set(names)):
