@@ -45,7 +45,13 @@ fn what_is_fitted_to_the_committed_examination_stays_the_same() {
 fn the_rules_and_the_fitted_verdict_are_told_side_by_side() {
     let output = calibrated(&Folder::with_good_rig(), &[]);
     let words = String::from_utf8(output.stdout).expect("text");
-    for expected in ["log-loss", "by rules\n", "by the fitted verdict, out of fold\n", "calibration error"] {
+    for expected in [
+        "log-loss",
+        "by rules\n",
+        "by the fitted verdict, out of fold\n",
+        "by both, as the program tells it\n",
+        "calibration error",
+    ] {
         assert!(words.contains(expected), "{expected} in\n{words}");
     }
 }

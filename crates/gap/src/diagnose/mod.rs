@@ -74,7 +74,9 @@ pub fn diagnose_with(
         told = with_room_for_dynamics(workers, told, (&records, &plan))?;
     }
     match held {
-        Some(held) if counts && !held.is_outdone_by(&told) => others.push(std::mem::replace(&mut told, held)),
+        Some(held) if counts && (told.leaves_open(&held) || !held.is_outdone_by(&told)) => {
+            others.push(std::mem::replace(&mut told, held))
+        }
         held => others.extend(held),
     }
     Ok(Ways::new(workers, told, others).report(workers))

@@ -5,11 +5,12 @@ use super::parameters::parameters;
 use super::report::Conclusion;
 use crate::attribution::explain::Explanation;
 use crate::attribution::search::profiled;
-use crate::diagnosis::{Candidate, Diagnosis, Status};
+use crate::diagnosis::{Candidate, Diagnosis, Status, Verdict};
 use crate::effect::Effect;
 use crate::evidence::{Compared, EffectEvidence};
 use crate::nominal::order::Chosen;
 use crate::phase::Phase;
+use crate::verdict::agreement::agreed;
 use crate::verdict::fitted::{FittedVerdict, SecondOpinion};
 use crate::workers::Workers;
 
@@ -34,6 +35,12 @@ impl Way {
     /// Whether a nominal model of another structure does on the judged records what the augmented model does.
     pub(super) fn does_the_same(&self, chosen: &Chosen) -> bool {
         self.plan.does_the_same(chosen, &self.conclusion.augmented.fit)
+    }
+
+    /// Whether it tells rivals among which another way names one.
+    pub(super) fn leaves_open(&self, other: &Self) -> bool {
+        let (rivals, named) = (&self.conclusion.verdict.class, &other.conclusion.verdict);
+        named.status == Status::Named && matches!(named.effects[..], [only] if rivals.contains(&only))
     }
 
     /// Whether the augmented model of another way does better on the judged records.
@@ -63,9 +70,12 @@ impl Ways {
     }
 
     /// The diagnosis that is handed out.
-    pub(super) fn report(self, workers: &impl Workers) -> Diagnosis {
-        let candidates = self.candidates(workers);
+    pub(super) fn report(mut self, workers: &impl Workers) -> Diagnosis {
         let second_opinion = self.second_opinion();
+        if let Some(opinion) = &second_opinion {
+            self.told.conclusion.verdict = self.agreed(opinion);
+        }
+        let candidates = self.candidates(workers);
         let evidence = std::iter::once(self.evidence).chain(self.others.into_iter().map(|(_, says)| says));
         let Way { plan, conclusion } = self.told;
         Diagnosis { second_opinion, ..plan.report(conclusion, candidates, evidence.collect()) }
@@ -81,9 +91,24 @@ impl Ways {
             Some(prior) => &FittedVerdict::built_in().clone().with_shares(prior),
             None => FittedVerdict::built_in(),
         };
-        let evidence: Vec<Compared> = self.all().map(|(_, says)| says.clone()).collect();
-        let is_no_cause = |effect: Effect| effect.card().colours_noise || settings.is_left_out(effect);
-        Some(fitted.opinion(&evidence, is_no_cause, settings.name_at))
+        let verdict = self.told.conclusion.verdict.clone();
+        Some(fitted.opinion(&self.compared(), |effect| self.is_no_cause(effect), (settings.name_at, verdict)))
+    }
+
+    /// The verdict, where the other readings of the records put the same cause first.
+    fn agreed(&self, opinion: &SecondOpinion) -> Verdict {
+        let likeliest = opinion.effects.first().map(|(effect, ..)| *effect);
+        agreed(opinion.by_rules.clone(), &self.compared(), likeliest, |effect| self.is_no_cause(effect))
+    }
+
+    /// What each way says.
+    fn compared(&self) -> Vec<Compared> {
+        self.all().map(|(_, says)| says.clone()).collect()
+    }
+
+    /// Whether an effect belongs to the model of records that nobody designed, or was left out.
+    fn is_no_cause(&self, effect: Effect) -> bool {
+        effect.card().colours_noise || self.told.plan.settings.is_left_out(effect)
     }
 
     /// All ways with what they say, that of the verdict first.

@@ -22,7 +22,7 @@ pub fn examples(cases: &[Case]) -> Vec<(Place, Example)> {
 
 /// The example of an answer; none where rules keep the word, or nothing was diagnosed.
 fn example(case: &Case, answer: &Answered) -> Option<Example> {
-    let by_rules = &answer.reply;
+    let by_rules = answer.rules();
     if answer.evidence.compared.is_empty() || by_rules.status == "refit" || by_rules.effects.len() > 1 {
         return None;
     }

@@ -58,6 +58,7 @@ pub(crate) struct SecondOpinion {
     pub(crate) examples: usize,
     pub(crate) prior: Prior,
     pub(crate) verdict: Verdict,
+    pub(crate) by_rules: Verdict,
     pub(crate) effects: Vec<Weighed>,
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub(crate) probability_none: f64,
@@ -252,7 +253,7 @@ pub(crate) struct Next {
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
 /// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
 /// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
-/// designed: `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
+/// designed; `by_rules` is what the rules say before that is asked. `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -301,6 +302,7 @@ fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
         examples: told.examples,
         prior: Prior { effect, none, unexplained: none_of_these },
         verdict: verdict(&told.verdict),
+        by_rules: verdict(&told.by_rules),
         effects: told.effects.iter().map(weighed).collect(),
         probability_none: told.none,
         probability_unexplained: told.none_of_these,

@@ -59,7 +59,18 @@ fn second(opinion: &SecondOpinion) -> String {
             rows.push(row(feature.words, &|k| format!("{:+.1}", adds(k))));
         }
     }
-    format!("\n{}{}", wrapped(&head, ""), columns(&rows))
+    format!("\n{}{}{}", wrapped(&head, ""), columns(&rows), wrapped(&by_rules(opinion), ""))
+}
+
+/// What the rules name, which is told as a rival where the others put another cause first.
+fn by_rules(opinion: &SecondOpinion) -> String {
+    let first = match opinion.by_rules.effects[..] {
+        [only] => format!("The rules put {only} first. "),
+        _ => String::new(),
+    };
+    format!(
+        "{first}In records that nobody designed a cause is named only where the rules and this model put it first and no simulator with another one does better."
+    )
 }
 
 fn table(listed: &[Candidate]) -> Vec<[String; 6]> {

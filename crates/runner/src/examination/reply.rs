@@ -36,12 +36,37 @@ impl Reply {
         }
     }
 
+    /// The one effect that it names, if it names one.
+    pub fn named(&self) -> Option<&'static str> {
+        match self.effects[..] {
+            [only] if self.status == "named" => Some(only),
+            _ => None,
+        }
+    }
+
+    /// Tells what it names among rivals, where there are any.
+    pub fn rivalled(&mut self, rivals: impl Iterator<Item = &'static str>) {
+        let rivals: Vec<&'static str> = rivals.collect();
+        if !rivals.is_empty() {
+            self.class = self.effects.drain(..).chain(rivals).collect();
+            self.status = Status::Ambiguous.name();
+        }
+    }
+
     /// What a diagnosis said.
     pub fn of(d: &Diagnosis) -> Self {
+        Self::told(&d.verdict, Self::top(d))
+    }
+
+    /// What rules said, where the other readings of the records were asked.
+    pub fn by_rules(d: &Diagnosis) -> Option<Self> {
+        d.second_opinion.as_ref().map(|opinion| Self::told(&opinion.by_rules, Self::top(d)))
+    }
+
+    fn top(d: &Diagnosis) -> (&'static str, f64) {
         let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
         let effects = d.candidates.iter().map(|c| (c.effect.name(), c.probability));
-        let top = effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best });
-        Self::told(&d.verdict, top)
+        effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
     }
 
     /// A verdict, with the likeliest explanation.

@@ -47,11 +47,21 @@ pub struct Answered {
     pub with_model: bool,
     /// What was said.
     pub reply: Reply,
+    /// What rules said before the other readings of the records were asked, where that was done.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_rules: Option<Reply>,
     /// What it rests on.
     pub evidence: Evidence,
     /// How far the gap of the model given closes, where that was stated and the fault moves the simulation. What really closes is
     /// `1 − E(base)/E(with the fault)`, `E` the mean square of the model's simulation error over the held-out records.
     pub closure: Option<ClosureCheck>,
+}
+
+impl Answered {
+    /// What rules alone say.
+    pub fn rules(&self) -> &Reply {
+        self.by_rules.as_ref().unwrap_or(&self.reply)
+    }
 }
 
 /// One rig, judged.
@@ -98,6 +108,7 @@ impl Case {
             Answered {
                 with_model,
                 reply: diagnosis.as_ref().map_or_else(Reply::refused, Reply::of),
+                by_rules: diagnosis.as_ref().and_then(Reply::by_rules),
                 evidence: diagnosis.as_ref().map_or_else(Evidence::default, Evidence::of),
                 closure: stated.zip(actual).map(check),
             }

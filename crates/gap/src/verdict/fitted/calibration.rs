@@ -12,6 +12,7 @@ use super::{Coefficient, FittedVerdict, Provenance, Shares, Weighed, harms};
 use crate::diagnosis::Verdict;
 use crate::effect::Effect;
 use crate::evidence::Compared;
+use crate::verdict::agreement::rivals;
 use crate::verdict::by_fit;
 
 /// Folds of the base rigs, and of the laws.
@@ -63,6 +64,12 @@ impl OutOfFold {
     /// The verdict with a threshold of naming; `example` is what was predicted.
     pub fn verdict(&self, example: &Example, name_at: f64) -> Verdict {
         by_fit::verdict(&self.0, (name_at, harms(&example.evidence, &self.0)))
+    }
+
+    /// The effects that this, or simulators, put before a cause that rules name; without any the cause stays named.
+    pub fn rivals(&self, example: &Example, cause: Effect) -> Vec<Effect> {
+        let likeliest = self.0.effects.first().map(|(effect, _)| *effect);
+        rivals(cause, &example.evidence, likeliest, |effect| example.excluded.contains(&effect))
     }
 
     /// The likeliest explanation: an effect, or `none` or `unexplained`.

@@ -7,7 +7,7 @@ use crate::evidence::{Compared, Comparison, EffectEvidence};
 use crate::testing::white;
 
 /// What is said of an effect of two parameters that gains the same at all horizons.
-pub(super) fn says(effect: Effect, delta_bic: f64, share: f64, certainty: f64) -> EffectEvidence {
+pub(in crate::verdict) fn says(effect: Effect, delta_bic: f64, share: f64, certainty: f64) -> EffectEvidence {
     let gain = |horizon| HorizonGain { horizon, share, certainty };
     EffectEvidence {
         effect,
@@ -21,7 +21,7 @@ pub(super) fn says(effect: Effect, delta_bic: f64, share: f64, certainty: f64) -
     }
 }
 
-pub(super) fn compared(comparison: Comparison, effects: Vec<EffectEvidence>) -> Compared {
+pub(in crate::verdict) fn compared(comparison: Comparison, effects: Vec<EffectEvidence>) -> Compared {
     Compared {
         comparison,
         samples: 1000,
@@ -34,7 +34,7 @@ pub(super) fn compared(comparison: Comparison, effects: Vec<EffectEvidence>) -> 
 }
 
 /// Rigs on eight bases with one of four effects, or none of them, or nothing: the true one has the larger gain as a rule.
-pub(super) fn rigs(count: usize) -> Vec<Example> {
+pub(in crate::verdict) fn rigs(count: usize) -> Vec<Example> {
     let effects = [Effect::Creep, Effect::Backlash, Effect::GainDrift, Effect::Stribeck];
     let mut noise = white();
     let one = |k: usize| {

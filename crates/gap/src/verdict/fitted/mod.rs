@@ -8,7 +8,7 @@
 mod calibration;
 mod choice;
 #[cfg(test)]
-mod examples;
+pub(super) mod examples;
 mod features;
 
 use std::sync::LazyLock;
@@ -140,6 +140,8 @@ pub struct SecondOpinion {
     pub shares: Shares,
     /// What it would tell; its `calibrated` says whether evidence like this was met when it was fitted.
     pub verdict: Verdict,
+    /// What the rules say, before the other readings of the records are asked whether they agree.
+    pub by_rules: Verdict,
     /// Every effect with a fit, the likeliest first: its probability, and what each feature says of it.
     pub effects: Vec<(Effect, f64, Vec<Contribution>)>,
     /// Probability that nothing is missing.
@@ -213,12 +215,12 @@ impl FittedVerdict {
         Weighed { is_met, ..weighed }
     }
 
-    /// What it says of what was compared; `excluded` effects are none, and one is named from a probability on.
+    /// What it says of what was compared, beside what the rules say; `excluded` effects are none, and one is named from a probability on.
     pub(crate) fn opinion(
         &self,
         evidence: &[Compared],
         excluded: impl Fn(Effect) -> bool,
-        name_at: f64,
+        (name_at, by_rules): (f64, Verdict),
     ) -> SecondOpinion {
         let alternatives = Alternatives::of(evidence, excluded);
         let weighed = self.weigh(&alternatives);
@@ -230,6 +232,7 @@ impl FittedVerdict {
             examples: self.provenance.examples,
             shares: self.shares,
             verdict: by_fit::verdict(&weighed, (name_at, harms(evidence, &weighed))),
+            by_rules,
             effects: weighed.effects.iter().map(with_features).collect(),
             none: weighed.none,
             none_of_these: weighed.none_of_these,

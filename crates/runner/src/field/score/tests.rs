@@ -15,7 +15,7 @@ fn answered(status: &'static str, effects: &[&'static str]) -> Answered {
         probability: 0.9,
         top: ("none", 0.9),
     };
-    Answered { with_model: false, reply, evidence: Evidence::default(), closure: None }
+    Answered { with_model: false, reply, by_rules: None, evidence: Evidence::default(), closure: None }
 }
 
 fn case(kind: Kind, base: &str, effect: Option<&'static str>, answer: Answered) -> Case {

@@ -177,7 +177,11 @@ fn second(opinion: &SecondOpinion) -> Markup {
         p {
             "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
             (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
-            ". It does not tell the verdict."
+            ". A cause is named only where it is the first of these, too, and no simulator with another one does better"
+            @if opinion.by_rules.status == "named" && opinion.by_rules.effects.len() == 1 {
+                "; the rules put " (opinion.by_rules.effects[0].replace('_', " ")) " first"
+            }
+            "."
         }
         (table.html())
     }
