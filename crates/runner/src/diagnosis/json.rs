@@ -58,7 +58,9 @@ pub(crate) struct SecondOpinion {
     pub(crate) examples: usize,
     pub(crate) prior: Prior,
     pub(crate) verdict: Verdict,
-    pub(crate) by_rules: Verdict,
+    /// Absent in files of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) by_rules: Option<Verdict>,
     pub(crate) effects: Vec<Weighed>,
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub(crate) probability_none: f64,
@@ -302,7 +304,7 @@ fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
         examples: told.examples,
         prior: Prior { effect, none, unexplained: none_of_these },
         verdict: verdict(&told.verdict),
-        by_rules: verdict(&told.by_rules),
+        by_rules: Some(verdict(&told.by_rules)),
         effects: told.effects.iter().map(weighed).collect(),
         probability_none: told.none,
         probability_unexplained: told.none_of_these,

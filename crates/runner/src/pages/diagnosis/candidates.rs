@@ -178,8 +178,8 @@ fn second(opinion: &SecondOpinion) -> Markup {
             "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
             (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
             ". A cause is named only where it is the first of these, too, and no simulator with another one does better"
-            @if opinion.by_rules.status == "named" && opinion.by_rules.effects.len() == 1 {
-                "; the rules put " (opinion.by_rules.effects[0].replace('_', " ")) " first"
+            @if let Some([only]) = opinion.by_rules.as_ref().map(|rules| &rules.effects[..]) {
+                "; the rules put " (only.replace('_', " ")) " first"
             }
             "."
         }
