@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Optional, TypedDict, final
 
+__all__: list[str]
 __version__: str
 
 class SwitchbackError(ValueError): ...
