@@ -106,7 +106,7 @@ spacing = 1
 noise = [0.05, 0.3]
 samples = [200, 777]
 points = [4, 5]
-methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "linear-arx", "memoryless"]
+methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "instrumental", "linear-arx", "memoryless"]
 "#;
     both_agree(&Scenario::parse("direct.toml", text).expect("a valid scenario"));
 }
@@ -162,7 +162,7 @@ friction = {}
 noise = [{noise}]
 samples = [{samples}, {}]
 points = [{points}]
-methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "linear-arx", "memoryless"]
+methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "instrumental", "linear-arx", "memoryless"]
 "#,
             -2.0 * pole * angle.cos(), pole * pole, b.0, b.1, spring.0, spring.1, spring.2, samples + more,
         );

@@ -30,7 +30,7 @@ friction = 2.0
 noise = [0.05, 0.8]
 samples = [150, 333]
 points = [2, 5]
-methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "linear-arx", "memoryless"]
+methods = ["paper-descendant", "paper-ascendant", "joint", "efficient", "instrumental", "linear-arx", "memoryless"]
 "#;
 
 /// The first `samples` samples of a simulated record, read as a user's record would be.
@@ -39,7 +39,7 @@ fn data(experiment: &ReplayedExperiment, order: usize, samples: usize) -> PulseD
     // The first sample of a record loads the border and is left out.
     let with_loading = |x: &[f64]| [&x[..1], &x[..length]].concat();
     let record = Record::new(with_loading(&experiment.v), with_loading(&experiment.y)).expect("finite");
-    PulseData::from_record(&record, experiment.direction.visited_branch(), order, order)
+    PulseData::from_record(&record, experiment.direction.visited_branch(), order, experiment.lead)
         .expect("a pulse experiment")
 }
 
@@ -66,6 +66,7 @@ fn superposition_gives_the_estimates_of_the_simulated_records() {
                         Method::PaperAscendant => PulseMethod::Paper { experiment: both[1], step: step(1) },
                         Method::Joint => PulseMethod::Joint { descendant: both[0], ascendant: both[1] },
                         Method::Efficient => PulseMethod::Efficient(&both),
+                        Method::Instrumental => PulseMethod::Instrumental(&both),
                         Method::LinearArx => PulseMethod::LinearArx(&both),
                         Method::Memoryless => PulseMethod::Memoryless(&both),
                         Method::Free => unreachable!("not in the scenario"),

@@ -53,6 +53,14 @@ impl PeriodicDesign {
         self.u.len()
     }
 
+    /// The level (from 0) that the input visits at each phase; `None` where it rests.
+    pub fn visits(&self) -> Vec<Option<usize>> {
+        let seen_first = |group: usize| {
+            (group > 0 && (group - 1).is_multiple_of(self.order)).then(|| (group - 1) / self.order)
+        };
+        (0..self.period()).map(|p| seen_first(self.groups[(p + 1) % self.period()])).collect()
+    }
+
     /// Groups of the regression, `1 + nm`.
     pub fn group_count(&self) -> usize {
         1 + self.levels.len() * self.order

@@ -72,6 +72,18 @@ impl SumCovariance {
         }
     }
 
+    /// For the sums over single phases of one experiment: group `p` is phase `p`.
+    pub fn of_single_phases(period: usize, (ar, ma): (&[f64], &[f64]), sigma: f64, samples: usize) -> Self {
+        let group = |p| Group { experiment: 0, phases: vec![(p, visits(samples, period, p))] };
+        let memory = (settling_samples(ar, FORGOTTEN) + ma.len()).min(samples);
+        Self {
+            groups: (0..period).map(group).collect(),
+            period,
+            variance: sigma * sigma,
+            gamma: autocovariance(ar, ma, memory),
+        }
+    }
+
     /// The covariance of two sums.
     pub fn at(&self, x: GroupSum, y: GroupSum) -> f64 {
         let (of_x, of_y) = (&self.groups[x.group], &self.groups[y.group]);

@@ -84,7 +84,7 @@ impl Bench {
 pub(crate) fn methods<'a>(
     both: &'a [&'a PulseData; 2],
     steps: [StepMean; 2],
-) -> [(PulseMethod<'a>, &'static [usize]); 6] {
+) -> [(PulseMethod<'a>, &'static [usize]); 7] {
     [
         (PulseMethod::Paper { experiment: both[0], step: steps[0] }, &[0]),
         (PulseMethod::Paper { experiment: both[1], step: steps[1] }, &[1]),
@@ -92,5 +92,6 @@ pub(crate) fn methods<'a>(
         (PulseMethod::Efficient(both), &[0, 1]),
         (PulseMethod::LinearArx(both), &[0, 1]),
         (PulseMethod::Memoryless(both), &[0, 1]),
+        (PulseMethod::Instrumental(both), &[0, 1]),
     ]
 }

@@ -22,7 +22,7 @@ from ._words import words
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Method = Literal["paper-descendant", "paper-ascendant", "joint", "efficient", "free", "linear-arx", "memoryless"]
+Method = Literal["paper-descendant", "paper-ascendant", "joint", "efficient", "instrumental", "free", "linear-arx", "memoryless"]
 
 
 @dataclass(frozen=True)
@@ -175,8 +175,8 @@ def identify(
     rig
         The records, or a file to read them from.
     method
-        ``paper-descendant``, ``paper-ascendant``, ``joint`` and ``efficient`` need designed experiments; ``free`` takes any record;
-        ``linear-arx`` and ``memoryless`` are what to compare with. Else the best that the records allow.
+        ``paper-descendant``, ``paper-ascendant``, ``joint``, ``efficient`` and ``instrumental`` need designed experiments;
+        ``free`` takes any record; ``linear-arx`` and ``memoryless`` are what to compare with. Else the best that the records allow.
     causal
         Only models that could run in real time.
     threads

@@ -43,8 +43,8 @@ pub struct Args {
 /// What is asked of the records.
 #[derive(Debug, clap::Args)]
 pub struct Asked {
-    /// paper-descendant, paper-ascendant, joint, efficient, free, linear-arx or memoryless [default: the best that the
-    /// records allow]
+    /// paper-descendant, paper-ascendant, joint, efficient, instrumental, free, linear-arx or memoryless [default:
+    /// the best that the records allow]
     #[arg(long, value_parser = method(), hide_possible_values = true)]
     method: Option<Method>,
 

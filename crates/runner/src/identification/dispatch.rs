@@ -28,6 +28,7 @@ pub fn identify_watched(
         Method::PaperAscendant => pulse::identify(rig, Designed::PaperAscendant),
         Method::Joint => pulse::identify(rig, Designed::Joint),
         Method::Efficient => pulse::identify(rig, Designed::Efficient),
+        Method::Instrumental => pulse::identify(rig, Designed::Instrumental),
         Method::Free => free::identify(rig, request, InputMap::Borders, progress),
         Method::LinearArx => free::identify(rig, request, InputMap::Linear, progress),
         Method::Memoryless => free::identify(rig, request, InputMap::Static, progress),

@@ -93,6 +93,7 @@ fn others(
         | Method::PaperAscendant
         | Method::Joint
         | Method::Efficient
+        | Method::Instrumental
         | Method::Free => &[Method::Memoryless, Method::LinearArx],
     };
     let mut requests: Vec<Request> = simpler.iter().map(|&method| Request { method, ..request }).collect();

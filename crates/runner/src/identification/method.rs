@@ -23,7 +23,9 @@ impl Method {
         match self {
             Self::PaperDescendant => role == Role::Descendant,
             Self::PaperAscendant => role == Role::Ascendant,
-            Self::Joint | Self::Efficient => matches!(role, Role::Descendant | Role::Ascendant),
+            Self::Joint | Self::Efficient | Self::Instrumental => {
+                matches!(role, Role::Descendant | Role::Ascendant)
+            }
             Self::Free | Self::LinearArx | Self::Memoryless => true,
         }
     }

@@ -23,6 +23,7 @@ pub(super) enum Designed {
     PaperAscendant,
     Joint,
     Efficient,
+    Instrumental,
 }
 
 impl Designed {
@@ -32,6 +33,7 @@ impl Designed {
             Self::PaperAscendant => Method::PaperAscendant,
             Self::Joint => Method::Joint,
             Self::Efficient => Method::Efficient,
+            Self::Instrumental => Method::Instrumental,
         }
     }
 }
@@ -52,7 +54,11 @@ pub(super) fn identify(rig: &Rig, designed: Designed) -> Result<Identification, 
             order
         }
     };
-    let data = read(rig, method, &records, order)?;
+    let mut data = read(rig, method, &records, order, 0)?;
+    if designed == Designed::Instrumental {
+        let settling = settling(rig, method, &data)?;
+        data = read(rig, method, &records, order, settling)?;
+    }
     let data: Vec<&PulseData> = data.iter().collect();
     let (fit, covariance) = fit(rig, designed, &data)?;
     let estimate = fit.estimate(&data);
@@ -136,7 +142,7 @@ fn experiments(rig: &Rig, designed: Designed) -> Result<Vec<&RigRecord>, Identif
         Designed::PaperDescendant => Ok(vec![descendant()?]),
         Designed::PaperAscendant => Ok(vec![ascendant()?]),
         Designed::Joint => Ok(vec![descendant()?, ascendant()?]),
-        Designed::Efficient => {
+        Designed::Efficient | Designed::Instrumental => {
             let found: Vec<_> = descendant().into_iter().chain(ascendant()).collect();
             if found.is_empty() { Err(missing("a `descendant` or an `ascendant` record")) } else { Ok(found) }
         }
@@ -152,11 +158,12 @@ fn read(
     method: Method,
     records: &[&RigRecord],
     order: usize,
+    settling: usize,
 ) -> Result<Vec<PulseData>, IdentificationError> {
     records
         .iter()
         .map(|record| {
-            pulse_data(record, order).map_err(|error| IdentificationError::Refused {
+            pulse_data(record, order, settling).map_err(|error| IdentificationError::Refused {
                 rig: rig.name.clone(),
                 method,
                 reason: format!("record {}: {error}", record.name),
@@ -167,20 +174,37 @@ fn read(
         .collect()
 }
 
-/// Nothing but the lag window is left out: regression on measured lags needs no settled start.
-fn pulse_data(record: &RigRecord, order: usize) -> Result<PulseData, PulseDataError> {
+/// Beside `settling` samples nothing but the lag window is left out: regression on measured lags needs no settled start.
+fn pulse_data(record: &RigRecord, order: usize, settling: usize) -> Result<PulseData, PulseDataError> {
     let branch = match record.role {
         Role::Ascendant => Branch::Ascending,
         _ => Branch::Descending,
     };
-    PulseData::from_record(&record.record, branch, order, 0)
+    PulseData::from_record(&record.record, branch, order, settling)
+}
+
+/// Samples until the response of the estimated `A` repeats from period to period: what lies before is in no mean over periods.
+fn settling(rig: &Rig, method: Method, data: &[PulseData]) -> Result<usize, IdentificationError> {
+    let refused = |reason: String| IdentificationError::Refused {
+        rig: rig.name.clone(),
+        method,
+        reason,
+        remedy: "try a lower `order`, a longer record, or `--method efficient`".to_owned(),
+    };
+    let first = PulseMethod::Efficient(&data.iter().collect::<Vec<_>>()).fit();
+    let first = first.map_err(|error| refused(error.to_string()))?;
+    let a: Vec<f64> = first.a.iter().map(|x| x.value).collect();
+    if !is_stable(&a) {
+        return Err(refused("the estimated A is unstable, so the response never repeats".to_owned()));
+    }
+    Ok(settling_samples(&a, SETTLED))
 }
 
 /// The order of least `N ln σ² + p ln N` of the rank-one constrained fit.
 fn chosen_order(rig: &Rig, designed: Designed, records: &[&RigRecord]) -> Result<usize, IdentificationError> {
     let criterion = |order: usize| -> Option<f64> {
         let data: Vec<PulseData> =
-            records.iter().map(|record| pulse_data(record, order)).collect::<Result<_, _>>().ok()?;
+            records.iter().map(|record| pulse_data(record, order, 0)).collect::<Result<_, _>>().ok()?;
         let fit = PulseMethod::Efficient(&data.iter().collect::<Vec<_>>()).fit().ok()?;
         let samples: f64 = data.iter().map(|d| d.statistics.samples()).sum();
         let levels: usize = data.iter().map(|d| d.points() - 1).sum();
@@ -192,7 +216,7 @@ fn chosen_order(rig: &Rig, designed: Designed, records: &[&RigRecord]) -> Result
     match best {
         Some((order, _)) => Ok(order),
         // No order works: say why the simplest does not.
-        None => read(rig, designed.method(), records, *ORDERS.start())
+        None => read(rig, designed.method(), records, *ORDERS.start(), 0)
             .and_then(|data| fit(rig, designed, &data.iter().collect::<Vec<_>>()).map(|_| *ORDERS.start())),
     }
 }
@@ -220,6 +244,7 @@ fn fit(
         Designed::PaperAscendant => paper((Role::StepLow, "a `step_low` record"))?,
         Designed::Joint => PulseMethod::Joint { descendant: data[0], ascendant: data[1] },
         Designed::Efficient => PulseMethod::Efficient(data),
+        Designed::Instrumental => PulseMethod::Instrumental(data),
     }
     .fit_with_covariance();
     fitted.map_err(|error| refused(error.to_string()))

@@ -15,6 +15,8 @@ pub enum Method {
     Joint,
     /// The rank-one constrained estimate, at the Cramér–Rao bound.
     Efficient,
+    /// Refined instrumental variables on the means over periods: consistent whatever the colour of the noise.
+    Instrumental,
     /// Any record, no designed experiment.
     Free,
     /// Yardstick: a linear ARX model.
@@ -25,11 +27,12 @@ pub enum Method {
 
 impl Method {
     /// Every method, in the order of the documentation.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::PaperDescendant,
         Self::PaperAscendant,
         Self::Joint,
         Self::Efficient,
+        Self::Instrumental,
         Self::Free,
         Self::LinearArx,
         Self::Memoryless,
@@ -42,6 +45,7 @@ impl Method {
             Self::PaperAscendant => "paper-ascendant",
             Self::Joint => "joint",
             Self::Efficient => "efficient",
+            Self::Instrumental => "instrumental",
             Self::Free => "free",
             Self::LinearArx => "linear-arx",
             Self::Memoryless => "memoryless",

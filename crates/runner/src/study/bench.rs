@@ -5,7 +5,7 @@ use super::pulse_kind::PulseKind;
 use crate::scenario::{Border, Case, Disturbance};
 use switchback_estimator::estimators::pulse::lanes::{LaneMethod, LaneStatistics};
 use switchback_estimator::estimators::pulse::{
-    Cumulants, EquationNoise, ErrorTerms, ExpectedRecord, FiniteSampleTheory, Limit, PulseData,
+    Cumulants, EquationNoise, ErrorTerms, ExpectedRecord, FiniteSampleTheory, GroupSum, Limit, PulseData,
     PulseFitError, PulseMethod, StepMean,
 };
 use switchback_estimator::excitation::{Direction, PulseExperiment};
@@ -29,6 +29,8 @@ pub(super) struct Bench {
     satellites: [f64; 2],
     truth: Truth,
     noise: NoiseFilter,
+    /// Whether the equation error is white.
+    is_white: bool,
 }
 
 /// The true parameters in the normalisation `u_M − u_m = 1`, as far as a regression of the assumed order names them.
@@ -109,6 +111,7 @@ impl Bench {
             responses,
             satellites: [gain * hysteresis.u_high(), gain * hysteresis.u_low()],
             truth,
+            is_white: matches!(case.disturbance, Disturbance::White),
             noise: NoiseFilter::of(case),
             experiments,
             designs,
@@ -190,7 +193,12 @@ impl Bench {
         };
         let records: Vec<ExpectedRecord<'_>> = method.experiments().iter().map(record).collect();
         let noise = EquationNoise { sigma, memory };
-        (limit.finite_sample(&records, noise), limit.cumulants(&records, noise))
+        let theory = limit.finite_sample(&records, noise);
+        let theory = match limit.fold_sd(self.fold_covariance(sigma, samples)) {
+            Some(sd) => FiniteSampleTheory { sd, ..theory },
+            None => theory,
+        };
+        (theory, limit.cumulants(&records, noise))
     }
 
     /// The exact means of the error terms at a method's limit, for records of `samples` samples.
@@ -230,7 +238,9 @@ impl Bench {
     pub(super) fn replicate(&self, statistics: &[LaneStatistics; 2], lane: usize) -> [PulseData; 2] {
         [0, 1].map(|k| {
             let PeriodicDesign { branch, levels, satellite, .. } = &self.designs[k];
-            PulseData::from_statistics(*branch, levels.clone(), *satellite, statistics[k].replicate(lane))
+            let alone = statistics[k].replicate(lane);
+            let data = PulseData::from_statistics(*branch, levels.clone(), *satellite, alone);
+            data.with_folds(statistics[k].folds(lane))
         })
     }
 
@@ -243,6 +253,9 @@ impl Bench {
         sigma: f64,
         samples: usize,
     ) -> Result<Vec<f64>, PulseFitError> {
+        if method.folds() && !self.is_white {
+            return self.bound_of_colour(sigma, samples);
+        }
         let data = self.expected(sigma, samples);
         let limit = match method.experiments() {
             &[k] => {
@@ -254,6 +267,24 @@ impl Bench {
             _ => Limit::of(PulseMethod::Efficient(&[&data[0], &data[1]]))?,
         };
         Ok(limit.first_order_sd(sigma, 0.0))
+    }
+
+    /// The bound of the folds, as standard deviations, where the colour of the noise has nothing to do with the parameters.
+    fn bound_of_colour(&self, sigma: f64, samples: usize) -> Result<Vec<f64>, PulseFitError> {
+        let [descendant, ascendant] = self.expected(sigma, samples);
+        let law = (self.noise.ar.as_slice(), self.noise.ma.as_slice());
+        let limit = Limit::of_known_colour(&[&descendant, &ascendant], law, sigma)?;
+        Ok(limit.theory_se(samples as f64))
+    }
+
+    /// The covariance of two means over the periods of `samples` samples, by their phases.
+    pub(super) fn fold_covariance(&self, sigma: f64, samples: usize) -> impl Fn(usize, usize) -> f64 {
+        let NoiseFilter { ar, ma } = &self.noise;
+        let sums = SumCovariance::of_single_phases(self.period(), (ar, ma), sigma, samples);
+        let period = self.period();
+        let count = move |p: usize| ((samples + period - 1 - p) / period) as f64;
+        let sum = |phase| GroupSum { group: phase, lag: 0 };
+        move |p, q| sums.at(sum(p), sum(q)) / (count(p) * count(q))
     }
 
     /// The mean of both experiments' statistics over records of `samples` samples.

@@ -15,6 +15,8 @@ pub(super) struct NoiseSource {
     pub(super) stream: u32,
     /// What to record of the pulse experiments' noise.
     pub(super) pulses: NoisePlan,
+    /// Order `n` of the regressions: lags beyond it are recorded for what the folds leave.
+    pub(super) order: usize,
     /// The mean noise in a step experiment; `None` where no method asks for it.
     pub(super) steps: Option<MeanNoise>,
     /// Whether any method looks at the descendant, at the ascendant experiment.
@@ -50,7 +52,7 @@ pub(super) fn draw(source: &NoiseSource, seed: u64, replicates: Range<u32>) -> V
         NoisePass::new(source.pulses.clone(), Width::detect()).expect("a group's noise plan is valid");
     for k in 0..2 {
         pulses.run(seed, source.stream + k as u32, replicates.clone(), |r, record| {
-            noise[(r - start) as usize].pulses[k] = moments(record);
+            noise[(r - start) as usize].pulses[k] = moments(source.order, record);
         });
     }
     for k in 0..2 {
@@ -74,11 +76,13 @@ fn draw_steps(
     }
 }
 
-fn moments(record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
+fn moments(order: usize, record: &NoiseRecord) -> Vec<Vec<NoiseMoments>> {
     record
         .checkpoints
         .iter()
-        .map(|c| (0..c.folds.len()).map(|k| NoiseMoments::from_checkpoint(&record.head, c, k)).collect())
+        .map(|c| {
+            (0..c.folds.len()).map(|k| NoiseMoments::from_checkpoint(order, &record.head, c, k)).collect()
+        })
         .collect()
 }
 
@@ -120,7 +124,10 @@ pub(super) fn draw_lanes(source: &NoiseSource, seed: u64, replicates: Range<u32>
     let place = |r: u32| ((r - start) as usize / LANES, (r - start) as usize % LANES);
     let plan = &source.pulses;
     let mut pass = NoisePass::new(plan.clone(), Width::detect()).expect("a group's noise plan is valid");
-    let zeros = |period: &usize| LaneMoments::zeros(plan.lags, *period);
+    let zeros = |period: &usize| {
+        let zeros = LaneMoments::zeros(source.order, *period);
+        if plan.lags > source.order { zeros.with_left(plan.lags) } else { zeros }
+    };
     let mut moments: Vec<LaneMoments> =
         plan.checkpoints.iter().flat_map(|_| plan.periods.iter().map(zeros)).collect();
     for k in (0..2).filter(|k| source.experiments[*k]) {

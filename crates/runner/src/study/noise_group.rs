@@ -12,8 +12,8 @@ use super::workload::{Chunk, Task, Workload};
 use crate::scenario::{Case, Coupling, Scenario};
 use rayon::prelude::*;
 use std::ops::Range;
-use switchback_estimator::estimators::pulse::ErrorTerms;
 use switchback_estimator::estimators::pulse::lanes::LANES;
+use switchback_estimator::estimators::pulse::{ErrorTerms, Folds};
 use switchback_estimator::linear::NoiseMemory;
 use switchback_estimator::simulation::noise::{MeanNoise, NoisePlan};
 use switchback_estimator::statistics::normal_quantile_975;
@@ -79,11 +79,12 @@ impl NoiseGroup {
         let burn_in = filter.burn_in();
         let NoiseFilter { ar, ma } = filter;
         let needs_steps = settings.iter().flat_map(|s| &s.methods).any(|c| c.kind.needs_step());
-        let pulses =
-            NoisePlan { ar, ma, lags: case.order, periods, checkpoints: checkpoints.to_vec(), burn_in };
+        let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
+        let folds = kinds.iter().any(|kind| kind.folds());
+        let lags = if folds { Folds::lags(case.order) } else { case.order };
+        let pulses = NoisePlan { ar, ma, lags, periods, checkpoints: checkpoints.to_vec(), burn_in };
         let steps =
             needs_steps.then(|| MeanNoise::new(&pulses).expect("a scenario's filter and samples are valid"));
-        let kinds: Vec<PulseKind> = settings.iter().flat_map(|s| &s.methods).map(|c| c.kind).collect();
         let experiments = [0, 1].map(|k| kinds.iter().any(|kind| kind.experiments().contains(&k)));
         let of_period =
             |period: usize| settings.iter().find(|s| s.period == period).expect("periods are the settings'");
@@ -93,7 +94,7 @@ impl NoiseGroup {
             .map(|&n| (0..pulses.periods.len()).map(|p| grouping(p, n)).collect())
             .collect();
         let families = FamilyPlan::all(&settings, checkpoints);
-        let noise = NoiseSource { stream, pulses, steps, experiments, groupings };
+        let noise = NoiseSource { stream, pulses, order: case.order, steps, experiments, groupings };
         Ok(Self { noise, settings, families })
     }
 
@@ -136,7 +137,8 @@ impl NoiseGroup {
             let bound = bench.bound(kind, setting.sigma, samples);
             CellTheory {
                 sd: Some(theory.sd),
-                control: Some(theory.bias.clone()),
+                // The control of the folds is of first order: its mean is zero.
+                control: Some(if kind.folds() { vec![0.0; theory.bias.len()] } else { theory.bias.clone() }),
                 bias: Some(theory.bias),
                 bound: Some(bound.expect("determined, as the method's own limit is")),
                 coverage: Some(cumulants.iter().map(|c| c.chance_within(normal_quantile_975())).collect()),

@@ -10,6 +10,7 @@ pub(super) enum PulseKind {
     PaperAscendant,
     Joint,
     Efficient,
+    Instrumental,
     LinearArx,
     Memoryless,
 }
@@ -22,6 +23,7 @@ impl PulseKind {
             Method::PaperAscendant => Some(Self::PaperAscendant),
             Method::Joint => Some(Self::Joint),
             Method::Efficient => Some(Self::Efficient),
+            Method::Instrumental => Some(Self::Instrumental),
             Method::LinearArx => Some(Self::LinearArx),
             Method::Memoryless => Some(Self::Memoryless),
             Method::Free => None,
@@ -33,13 +35,20 @@ impl PulseKind {
         match self {
             Self::PaperDescendant => &[0],
             Self::PaperAscendant => &[1],
-            Self::Joint | Self::Efficient | Self::LinearArx | Self::Memoryless => &[0, 1],
+            Self::Joint | Self::Efficient | Self::Instrumental | Self::LinearArx | Self::Memoryless => {
+                &[0, 1]
+            }
         }
     }
 
     /// Whether it uses the mean of a step experiment.
     pub(super) fn needs_step(self) -> bool {
         matches!(self, Self::PaperDescendant | Self::PaperAscendant)
+    }
+
+    /// Whether it works on the folds, and holds whatever the colour of the noise.
+    pub(super) fn folds(self) -> bool {
+        self == Self::Instrumental
     }
 
     /// Whether the model it fits holds the truth, so that its asymptotic theory applies.
@@ -60,6 +69,7 @@ impl PulseKind {
             Self::PaperAscendant => PulseMethod::Paper { experiment: both[1], step: steps[1] },
             Self::Joint => PulseMethod::Joint { descendant: both[0], ascendant: both[1] },
             Self::Efficient => PulseMethod::Efficient(&both),
+            Self::Instrumental => PulseMethod::Instrumental(&both),
             Self::LinearArx => PulseMethod::LinearArx(&both),
             Self::Memoryless => PulseMethod::Memoryless(&both),
         })

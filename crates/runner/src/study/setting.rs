@@ -57,7 +57,9 @@ impl Expansion {
     ) -> Result<Self, PulseFitError> {
         let limit = bench.limit(kind, sigma, samples)?;
         let step = if kind.needs_step() { sigma * sigma * memory.mean_variance(samples) } else { 0.0 };
-        let variances = || limit.first_order_sd(sigma, step).iter().map(|sd| sd * sd).collect();
+        let exact = || limit.fold_sd(bench.fold_covariance(sigma, samples));
+        let sds = || exact().unwrap_or_else(|| limit.first_order_sd(sigma, step));
+        let variances = || sds().iter().map(|sd| sd * sd).collect();
         let variances = (second == SecondOrder::Whole).then(variances);
         Ok(Self { control: limit.lanes(second), limit, variances })
     }
@@ -137,13 +139,14 @@ pub(super) fn all(scenario: &Scenario, index: usize, case: &Case) -> Result<Vec<
 impl Contender {
     /// A method, not expanded yet.
     fn new(case: &Case, bench: &Bench, method: Method, kind: PulseKind) -> Self {
+        let white = matches!(case.disturbance, Disturbance::White);
         Self {
             method,
             kind,
             parameters: parameters(case.order, bench, kind),
             truth: bench.truth(kind),
             lanes: bench.lanes(kind),
-            theory: kind.models_hysteresis() && keeps_assumptions(case, bench),
+            theory: kind.models_hysteresis() && (white || kind.folds()) && has_the_model(case, bench),
             expansions: Vec::new(),
         }
     }
@@ -159,10 +162,9 @@ impl Contender {
     }
 }
 
-/// Whether the paper's assumptions hold: white equation error, the right order, masked memory.
-fn keeps_assumptions(case: &Case, bench: &Bench) -> bool {
-    matches!(case.disturbance, Disturbance::White)
-        && case.order == case.system.order()
+/// Whether the paper's assumptions hold but for the colour of the noise: the right order, masked memory.
+fn has_the_model(case: &Case, bench: &Bench) -> bool {
+    case.order == case.system.order()
         && case.spacing >= case.order
         && (case.spacing >= 2 || bench.points <= 2)
 }

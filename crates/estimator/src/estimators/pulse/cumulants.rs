@@ -1,7 +1,7 @@
 //! How far the first-order part of an error is from normal.
 
 use super::arrow::Gradient;
-use super::method::Limit;
+use super::method::{Limit, Solved};
 use super::second_order::{EquationNoise, ExpectedRecord, InverseForm, Phases};
 use super::solution::{Level, Quantity, Solution};
 use nalgebra::Complex;
@@ -51,12 +51,19 @@ impl Limit {
     /// # Panics
     /// If there are not as many records as the method has experiments.
     pub fn cumulants(&self, records: &[ExpectedRecord<'_>], noise: EquationNoise<'_>) -> Vec<Cumulants> {
-        let step_variance = match self.solution.level {
+        let solution = match &self.solution {
+            Solved::Regression(solution) => solution,
+            // Linear in the noise.
+            Solved::Folds(_) => {
+                let none = Cumulants { skewness: 0.0, kurtosis: 0.0 };
+                return vec![none; self.fit().parameters().count()];
+            }
+        };
+        let step_variance = match solution.level {
             Level::Constant => 0.0,
             Level::Step(_) => noise.sigma * noise.sigma * noise.memory.mean_variance(records[0].samples),
         };
         let sds = self.first_order_sd(noise.sigma, step_variance);
-        let solution = &self.solution;
         let sums = solution.third_and_fourth(records, noise);
         let standardised = |([third, fourth], sd): ([f64; 2], f64)| Cumulants {
             skewness: third / sd.powi(3),

@@ -1,5 +1,6 @@
 //! A pulse experiment as the estimators see it.
 
+use super::folds::Folds;
 use super::grouped::GroupedStatistics;
 use crate::Record;
 use crate::hysteresis::Branch;
@@ -22,6 +23,8 @@ pub struct PulseData {
     pub statistics: GroupedStatistics,
     /// What was taken from `y`, to keep digits.
     pub reference: f64,
+    /// Means of `y − reference` over the periods, where the visits repeat.
+    pub folds: Option<Folds>,
     /// The record itself, where there is one: it lets a solution be refined beyond the digits that sums of squares keep.
     pub(crate) rows: Option<Arc<Rows>>,
 }
@@ -145,7 +148,9 @@ impl PulseData {
             groups.push(group);
         }
         let rows = Some(Arc::new(Rows { y: y[first - order..].to_vec(), groups }));
-        Ok(Self { branch, levels, satellite: visits.satellite, statistics, reference, rows })
+        let lags = Folds::lags(order);
+        let folds = Folds::of_record(y, (first.max(lags), lags), reference, |t| visits.level_at(t, &levels));
+        Ok(Self { branch, levels, satellite: visits.satellite, statistics, reference, folds, rows })
     }
 
     /// Statistics computed without a record, of an output about zero.
@@ -155,7 +160,13 @@ impl PulseData {
         satellite: f64,
         statistics: GroupedStatistics,
     ) -> Self {
-        Self { branch, levels, satellite, statistics, reference: 0.0, rows: None }
+        Self { branch, levels, satellite, statistics, reference: 0.0, folds: None, rows: None }
+    }
+
+    /// The same with folds, of an output about the same reference.
+    #[must_use]
+    pub fn with_folds(self, folds: Option<Folds>) -> Self {
+        Self { folds, ..self }
     }
 
     /// Number of levels `m`.
@@ -175,8 +186,9 @@ impl PulseData {
 
     /// The same data with its statistics taken about another reference.
     pub fn about(&self, reference: f64) -> Self {
-        let statistics = self.statistics.shifted(reference - self.reference);
-        Self { statistics, reference, ..self.clone() }
+        let level = reference - self.reference;
+        let folds = self.folds.as_ref().map(|folds| folds.shifted(level));
+        Self { statistics: self.statistics.shifted(level), reference, folds, ..self.clone() }
     }
 }
 

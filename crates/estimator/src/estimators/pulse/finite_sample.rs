@@ -1,7 +1,7 @@
 //! What an estimate's bias and standard deviation are at a given number of samples.
 
 use super::arrow::Gradient;
-use super::method::Limit;
+use super::method::{Limit, Solved};
 use super::second_order::{EquationNoise, ExpectedRecord, InverseForm};
 use super::solution::{Level, Quantity, Solution};
 use nalgebra::DVector;
@@ -32,6 +32,10 @@ impl Limit {
     /// `docs/theory.md`. References: Kiviet and Phillips, "Alternative bias approximations in regressions with a lagged-dependent variable",
     /// Econometric Theory 9 (1993), 62–80; Box, "Bias in nonlinear estimation", Journal of the Royal Statistical Society B 33 (1971), 171–201.
     ///
+    /// Of [`PulseMethod::Instrumental`](super::PulseMethod::Instrumental) the standard deviations are the asymptotic ones ([`Limit::fold_sd`] has the
+    /// exact ones of the first-order term), and the bias is that of the optimum for the noise whose colour the limit's statistics have; `noise`
+    /// plays no part.
+    ///
     /// # Panics
     /// If there are not as many records as the method has experiments.
     pub fn finite_sample(
@@ -39,12 +43,22 @@ impl Limit {
         records: &[ExpectedRecord<'_>],
         noise: EquationNoise<'_>,
     ) -> FiniteSampleTheory {
-        self.solution.finite_sample(records, noise)
+        match &self.solution {
+            Solved::Regression(solution) => solution.finite_sample(records, noise),
+            Solved::Folds(solution) => {
+                let samples = records[0].samples as f64;
+                let bias = solution.second_order(self.samples, samples);
+                FiniteSampleTheory { sd: self.theory_se(samples), bias }
+            }
+        }
     }
 
     /// The standard deviations alone, given that of the equation error and the variance of a step experiment's mean (0 without one).
     pub fn first_order_sd(&self, sigma: f64, step_variance: f64) -> Vec<f64> {
-        FirstOrder::of(&self.solution, sigma * sigma, step_variance).sd()
+        match &self.solution {
+            Solved::Regression(solution) => FirstOrder::of(solution, sigma * sigma, step_variance).sd(),
+            Solved::Folds(_) => self.fit().parameters().map(|x| x.se).collect(),
+        }
     }
 }
 

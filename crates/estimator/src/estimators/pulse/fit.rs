@@ -41,6 +41,11 @@ pub enum PulseFitError {
         "the record does not excite every parameter (the information matrix is singular); lower the order, or record more periods"
     )]
     NotExcited,
+    /// Visits that do not repeat have no folds.
+    #[error(
+        "the visits do not repeat with one period, or not twice in whole, and the method `instrumental` averages over periods; play the experiment that `switchback design` writes, or use the method `efficient`"
+    )]
+    NotPeriodic,
     /// `B̂` or `B̂(1)` vanishes, so levels cannot be restored.
     #[error(
         "the estimated static gain is zero, so the borders' level cannot be found; check the input and the output"

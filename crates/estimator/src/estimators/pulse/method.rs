@@ -3,6 +3,7 @@
 use super::data::{PulseData, StepMean};
 use super::fit::{PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
+use super::instrumental::{FoldedSolution, KnownColour, instrumental};
 use super::lanes::LaneControl;
 use super::score::{ErrorTerms, GroupSum};
 use super::solution::Solution;
@@ -27,6 +28,8 @@ pub enum PulseMethod<'a> {
     },
     /// Rank-one constrained, at the Cramér–Rao bound.
     Efficient(&'a [&'a PulseData]),
+    /// Refined instrumental variables on the folds: consistent whatever the colour of the noise.
+    Instrumental(&'a [&'a PulseData]),
     /// A linear ARX model.
     LinearArx(&'a [&'a PulseData]),
     /// A Hammerstein model with one static curve.
@@ -42,7 +45,8 @@ impl PulseMethod<'_> {
         Ok(self.solve()?.fit())
     }
 
-    /// The estimate and the covariance of its [parameters](PulseFit::parameters), row by row (delta method, white equation error).
+    /// The estimate and the covariance of its [parameters](PulseFit::parameters), row by row (delta method, white equation error but for
+    /// [`Self::Instrumental`], which takes the noise's colour from the data).
     ///
     /// # Errors
     /// As [`Self::fit`].
@@ -51,28 +55,62 @@ impl PulseMethod<'_> {
         Ok((solution.fit(), solution.covariance()))
     }
 
-    pub(crate) fn solve(self) -> Result<Solution, PulseFitError> {
-        match self {
+    pub(crate) fn solve(self) -> Result<Solved, PulseFitError> {
+        let regression = match self {
             Self::Paper { experiment, step } => paper::paper(experiment, step),
             Self::Joint { descendant, ascendant } => joint::joint(descendant, ascendant),
             Self::Efficient(experiments) => efficient::efficient(experiments),
             Self::LinearArx(experiments) => linear_arx::linear_arx(experiments),
             Self::Memoryless(experiments) => memoryless::memoryless(experiments),
-        }
+            Self::Instrumental(experiments) => {
+                return instrumental(experiments, None).map(|solution| Solved::Folds(Box::new(solution)));
+            }
+        };
+        regression.map(|solution| Solved::Regression(Box::new(solution)))
     }
 
     pub(super) fn experiments(&self) -> Vec<&PulseData> {
         match *self {
             Self::Paper { experiment, .. } => vec![experiment],
             Self::Joint { descendant, ascendant } => vec![descendant, ascendant],
-            Self::Efficient(all) | Self::LinearArx(all) | Self::Memoryless(all) => all.to_vec(),
+            Self::Efficient(all) | Self::Instrumental(all) | Self::LinearArx(all) | Self::Memoryless(all) => {
+                all.to_vec()
+            }
         }
     }
 
     fn step(&self) -> Option<StepMean> {
         match *self {
             Self::Paper { step, .. } => Some(step),
-            Self::Joint { .. } | Self::Efficient(_) | Self::LinearArx(_) | Self::Memoryless(_) => None,
+            Self::Joint { .. }
+            | Self::Efficient(_)
+            | Self::Instrumental(_)
+            | Self::LinearArx(_)
+            | Self::Memoryless(_) => None,
+        }
+    }
+}
+
+/// A solved method: a regression over groups, or the folds.
+#[derive(Debug, Clone)]
+pub(crate) enum Solved {
+    Regression(Box<Solution>),
+    Folds(Box<FoldedSolution>),
+}
+
+impl Solved {
+    /// The estimate with its standard errors.
+    pub(crate) fn fit(&self) -> PulseFit {
+        match self {
+            Self::Regression(solution) => solution.fit(),
+            Self::Folds(solution) => solution.fit(),
+        }
+    }
+
+    fn covariance(&self) -> Vec<Vec<f64>> {
+        match self {
+            Self::Regression(solution) => solution.covariance(),
+            Self::Folds(solution) => solution.covariance(),
         }
     }
 }
@@ -109,14 +147,17 @@ pub enum SecondOrder {
 ///
 /// The free means are nuisance parameters, and the profile score has a mean because of them: McCullagh and Tibshirani, "A simple method for
 /// the adjustment of profile likelihoods", Journal of the Royal Statistical Society B 52 (1990), 325–344, subtract it too.
+/// [`PulseMethod::Instrumental`] is linear in the means over periods to first order, whose expectations are the noise-free response at every `N`: both
+/// its first term and its mean, zero, are exact for noise of any colour; its second is left out.
+///
 /// Control variates: Glasserman, "Monte Carlo Methods in Financial Engineering" (2003), section 4.1.
 #[derive(Debug, Clone)]
 pub struct Limit {
-    pub(super) solution: Solution,
+    pub(super) solution: Solved,
     fit: PulseFit,
     /// What it was made from, about the solution's reference.
     expected: GroupedStatistics,
-    samples: f64,
+    pub(super) samples: f64,
 }
 
 impl Limit {
@@ -129,7 +170,16 @@ impl Limit {
         let fit = solution.fit();
         let experiments = expected.experiments();
         let samples = experiments[0].statistics.samples();
-        let expected = solution.about_own(&experiments);
+        let (solution, expected) = match solution {
+            Solved::Folds(solution) => {
+                let none = GroupedStatistics::new(experiments[0].order(), 0);
+                (Solved::Folds(Box::new(solution.with_responses())), none)
+            }
+            Solved::Regression(solution) => {
+                let expected = solution.about_own(&experiments);
+                (Solved::Regression(solution), expected)
+            }
+        };
         Ok(Self { solution, fit, expected, samples })
     }
 
@@ -145,11 +195,42 @@ impl Limit {
         self.fit.parameters().map(|x| x.se * scale).collect()
     }
 
+    /// [`Limit::of`] [`PulseMethod::Instrumental`] on these experiments, had it been told the law of the output's noise, `sigma·C/D w` with `w` unit
+    /// white; `ar` holds `d₁…` and `ma` holds `c₁…`.
+    ///
+    /// Its [theory](Limit::theory_se) is the Cramér–Rao bound of Gaussian noise whose colour is known, or unknown but nothing to do with the
+    /// parameters: `(Σ_k ∂Z_k ∂Z_k* / S(ω_k))⁻¹`.
+    ///
+    /// # Errors
+    /// As [`Limit::of`].
+    pub fn of_known_colour(
+        experiments: &[&PulseData],
+        (ar, ma): (&[f64], &[f64]),
+        sigma: f64,
+    ) -> Result<Self, PulseFitError> {
+        let solution = instrumental(experiments, Some(KnownColour { ar, ma, sigma }))?;
+        let (fit, samples) = (solution.fit(), experiments[0].statistics.samples());
+        let expected = GroupedStatistics::new(experiments[0].order(), 0);
+        Ok(Self { solution: Solved::Folds(Box::new(solution.with_responses())), fit, expected, samples })
+    }
+
+    /// The exact standard deviations of the first term over records of `N` samples, given the covariance of two means over periods by their
+    /// phases; `None` of a method that is not linear in these means.
+    pub fn fold_sd(&self, covariance: impl Fn(usize, usize) -> f64) -> Option<Vec<f64>> {
+        match &self.solution {
+            Solved::Regression(_) => None,
+            Solved::Folds(solution) => Some(solution.first_order_sd(covariance)),
+        }
+    }
+
     /// [`Limit::terms`] for eight replicates at a time.
     pub fn lanes(&self, second: SecondOrder) -> LaneControl {
-        match second {
-            SecondOrder::Whole => LaneControl::whole(&self.solution, &self.expected),
-            SecondOrder::Profile => LaneControl::profile(&self.solution),
+        match (&self.solution, second) {
+            (Solved::Regression(solution), SecondOrder::Whole) => {
+                LaneControl::whole(solution, &self.expected)
+            }
+            (Solved::Regression(solution), SecondOrder::Profile) => LaneControl::profile(solution),
+            (Solved::Folds(solution), _) => LaneControl::folds(solution.control()),
         }
     }
 
@@ -159,7 +240,13 @@ impl Limit {
             SecondOrder::Whole => Some(&self.expected),
             SecondOrder::Profile => None,
         };
-        self.solution.terms(&sample.experiments(), sample.step(), whole)
+        match &self.solution {
+            Solved::Regression(solution) => solution.terms(&sample.experiments(), sample.step(), whole),
+            Solved::Folds(solution) => {
+                let first = solution.first_order(&sample.experiments());
+                ErrorTerms { second: vec![0.0; first.len()], first }
+            }
+        }
     }
 
     /// The exact means of [`Limit::terms`] with [`SecondOrder::Profile`] over all noise, Gaussian or not.
@@ -172,6 +259,11 @@ impl Limit {
         expected: &PulseMethod<'_>,
         covariance: impl Fn(GroupSum, GroupSum) -> f64,
     ) -> ErrorTerms {
-        self.solution.mean_terms(&expected.experiments(), expected.step(), &covariance)
+        match &self.solution {
+            Solved::Regression(solution) => {
+                solution.mean_terms(&expected.experiments(), expected.step(), &covariance)
+            }
+            Solved::Folds(_) => self.terms(expected, SecondOrder::Profile),
+        }
     }
 }

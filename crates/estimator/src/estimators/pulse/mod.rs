@@ -1,7 +1,7 @@
 //! Methods for the designed experiments, all on sufficient statistics: see [`PulseMethod`].
 //!
-//! Every method here is one linear (or, for the efficient one, one iterated) least squares over [`GroupedStatistics`] that differs
-//! in its columns only; see each method for its own reference.
+//! Most methods are one linear (or, for the efficient one, one iterated) least squares over [`GroupedStatistics`], and differ in its columns
+//! only; the instrumental one works on [`Folds`]. See each method for its own reference.
 
 mod arrow;
 mod cumulants;
@@ -12,7 +12,9 @@ mod expansion;
 mod experiments;
 mod finite_sample;
 mod fit;
+mod folds;
 mod grouped;
+mod instrumental;
 mod joint;
 pub mod lanes;
 mod linear_arx;
@@ -28,6 +30,7 @@ pub use data::{PulseData, PulseDataError, StepMean};
 pub use excitation::excitation;
 pub use finite_sample::FiniteSampleTheory;
 pub use fit::{Estimated, PulseFit, PulseFitError};
+pub use folds::Folds;
 pub use grouped::GroupedStatistics;
 pub use method::{Limit, PulseMethod, SecondOrder};
 pub use score::{ErrorTerms, GroupSum};

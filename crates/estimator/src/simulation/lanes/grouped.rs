@@ -18,6 +18,8 @@ pub struct Grouping {
     shares: Vec<f64>,
     /// Phases that share their group with others.
     pub(super) crowded: Vec<usize>,
+    /// `1/K_p`, zero for a phase without samples.
+    phase_shares: Vec<f64>,
 }
 
 impl Grouping {
@@ -26,14 +28,19 @@ impl Grouping {
         let period = design.period();
         let mut counts = vec![0.0; design.group_count()];
         let mut phases = vec![0; counts.len()];
+        let share = |count: f64| if count > 0.0 { 1.0 / count } else { 0.0 };
+        let mut phase_shares = Vec::with_capacity(period);
         for (p, &q) in design.groups.iter().enumerate() {
-            counts[q] += visits(samples, period, p) as f64;
+            let count = visits(samples, period, p) as f64;
+            phase_shares.push(share(count));
+            counts[q] += count;
             phases[q] += 1;
         }
         Self {
+            phase_shares,
             width: design.order + 1,
             groups: design.groups.clone(),
-            shares: counts.iter().map(|&count| if count > 0.0 { 1.0 / count } else { 0.0 }).collect(),
+            shares: counts.iter().map(|&count| share(count)).collect(),
             counts,
             crowded: (0..period).filter(|&p| phases[design.groups[p]] > 1).collect(),
         }
@@ -55,6 +62,10 @@ pub struct LaneGroupedNoise {
     pub(super) within: Vec<Lane>,
     /// `G` of the crowded phases, rows first.
     pub(super) crowded: Vec<Lane>,
+    /// `G_p,0/K_p` of every phase, where what the folds leave is asked for.
+    pub(super) folds: Vec<Lane>,
+    /// What the folds leave, lag by lag.
+    pub(super) left: Vec<Lane>,
 }
 
 impl LaneGroupedNoise {
@@ -73,7 +84,13 @@ impl LaneGroupedNoise {
             means: vec![Lane::ZERO; grouping.counts.len() * width],
             within: moments.products.clone(),
             crowded: Vec::with_capacity(grouping.crowded.len() * width),
+            folds: Vec::new(),
+            left: moments.left.clone(),
         };
+        if !moments.left.is_empty() {
+            let folds = moments.folds.iter().step_by(width).zip(&grouping.phase_shares);
+            noise.folds.extend(folds.map(|(fold, share)| *fold * *share));
+        }
         for p in &grouping.crowded {
             noise.crowded.extend_from_slice(&moments.folds[p * width..(p + 1) * width]);
         }

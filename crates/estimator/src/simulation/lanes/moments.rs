@@ -3,6 +3,7 @@
 use crate::lanes::{LANES, Lane, Work, keep_apart, widest};
 use crate::simulation::NoiseMoments;
 use crate::simulation::noise::{LaneRecords, LaneView};
+use crate::simulation::superposition::visits;
 use std::ops::Range;
 
 /// The [`NoiseMoments`] of eight replicates, for one period and number of samples.
@@ -11,27 +12,41 @@ pub struct LaneMoments {
     order: usize,
     pub(super) products: Vec<Lane>,
     pub(super) folds: Vec<Lane>,
+    /// What the folds leave, where it is asked for.
+    pub(super) left: Vec<Lane>,
 }
 
 impl LaneMoments {
     /// Zeros for this order and period, to be overwritten.
     pub fn zeros(order: usize, period: usize) -> Self {
         let width = order + 1;
-        Self { order, products: vec![Lane::ZERO; width * width], folds: vec![Lane::ZERO; period * width] }
+        let (products, folds) = (vec![Lane::ZERO; width * width], vec![Lane::ZERO; period * width]);
+        Self { order, products, folds, left: Vec::new() }
+    }
+
+    /// With what the folds leave up to lag `lags` besides, for the instrumental method.
+    #[must_use]
+    pub fn with_left(self, lags: usize) -> Self {
+        Self { left: vec![Lane::ZERO; lags + 1], ..self }
     }
 
     /// Puts a replicate into a lane.
     ///
     /// # Panics
-    /// If order or period differ.
+    /// If order or period differ, or the replicate has fewer lags.
     pub fn set(&mut self, lane: usize, moments: &NoiseMoments) {
         assert_eq!(
             (self.order, self.folds.len()),
             (moments.order, moments.folds.len()),
             "lanes share their design"
         );
-        let into = self.products.iter_mut().chain(&mut self.folds);
-        into.zip(moments.products.iter().chain(&moments.folds)).for_each(|(lane8, x)| lane8.0[lane] = *x);
+        assert!(self.left.len() <= moments.left.len(), "the replicate has the lags that are asked for");
+        let put = |into: &mut [Lane], from: &[f64]| {
+            into.iter_mut().zip(from).for_each(|(lane8, x)| lane8.0[lane] = *x);
+        };
+        put(&mut self.products, &moments.products);
+        put(&mut self.folds, &moments.folds);
+        put(&mut self.left, &moments.left);
     }
 
     /// Puts neighbouring replicates of a pass into lanes `into`: those from lane `from` of the pass on, at one of its checkpoints and
@@ -73,12 +88,21 @@ impl Work for Take<'_> {
     }
 }
 
+/// `1/K_p`, 0 of a phase without samples.
+#[inline(always)]
+fn share(samples: usize, period: usize, p: usize) -> f64 {
+    match visits(samples, period, p) {
+        0 => 0.0,
+        count => 1.0 / count as f64,
+    }
+}
+
 impl LaneMoments {
     /// Lagged folds and lag products from plain folds, autoproducts and edges.
     #[inline(always)]
     fn take_abreast<const L: usize>(&mut self, at: usize, view: LaneView<'_>) {
-        let (order, width) = (self.order, self.order + 1);
-        let LaneView { samples, head, tail, autoproducts, fold } = view;
+        let width = self.order + 1;
+        let LaneView { samples, lags, head, tail, autoproducts, fold } = view;
         let period = self.folds.len() / width;
         let place = |lane: &mut Lane, value: [f64; L]| lane.0[at..at + L].copy_from_slice(&value);
         for l in 0..width {
@@ -89,7 +113,7 @@ impl LaneMoments {
                 place(&mut self.folds[p * width + l], fold.row::<L>(phase));
             }
             for back in 1..=l {
-                let (head, tail) = (head.row::<L>(order - back), tail.row::<L>(order - back));
+                let (head, tail) = (head.row::<L>(lags - back), tail.row::<L>(lags - back));
                 let begun = &mut self.folds[(l - back) % period * width + l].0[at..at + L];
                 begun.iter_mut().zip(head).for_each(|(sum, e)| *sum += e);
                 let ended = &mut self.folds[(samples + l - back) % period * width + l].0[at..at + L];
@@ -101,8 +125,8 @@ impl LaneMoments {
             for i in 0..width - k {
                 keep_apart();
                 if i > 0 {
-                    let (e, before) = (head.row::<L>(order - i), tail.row::<L>(order - i));
-                    let (e_k, before_k) = (head.row::<L>(order - i - k), tail.row::<L>(order - i - k));
+                    let (e, before) = (head.row::<L>(lags - i), tail.row::<L>(lags - i));
+                    let (e_k, before_k) = (head.row::<L>(lags - i - k), tail.row::<L>(lags - i - k));
                     for lane in 0..L {
                         sum[lane] += e[lane] * e_k[lane] - before[lane] * before_k[lane];
                     }
@@ -110,6 +134,30 @@ impl LaneMoments {
                 place(&mut self.products[i * width + i + k], sum);
                 place(&mut self.products[(i + k) * width + i], sum);
             }
+        }
+        for k in 0..self.left.len() {
+            // Σ_p G_p,0 G_p,k / K_p: the lagged fold is the plain one, both edges moved by k.
+            let mut sum = autoproducts.row::<L>(k);
+            let mean = |p: usize| {
+                let share = share(samples, period, p);
+                fold.row::<L>(p).map(|x| x * share)
+            };
+            let mut take_out = |mean: [f64; L], x: [f64; L], sign: f64| {
+                for lane in 0..L {
+                    sum[lane] -= sign * (mean[lane] * x[lane]);
+                }
+            };
+            let shift = k % period;
+            for p in 0..period {
+                keep_apart();
+                let phase = if p >= shift { p - shift } else { p + period - shift };
+                take_out(mean(p), fold.row::<L>(phase), 1.0);
+            }
+            for back in 1..=k {
+                take_out(mean((k - back) % period), head.row::<L>(lags - back), 1.0);
+                take_out(mean((samples + k - back) % period), tail.row::<L>(lags - back), -1.0);
+            }
+            place(&mut self.left[k], sum);
         }
     }
 }
@@ -135,8 +183,12 @@ mod tests {
                 let zeros = LaneMoments::zeros(plan.lags, plan.periods[period]);
                 let mut slow = vec![zeros.clone(); 2];
                 pass.run(1, 0, 0..16, |r, record| {
-                    let moments =
-                        NoiseMoments::from_checkpoint(&record.head, &record.checkpoints[checkpoint], period);
+                    let moments = NoiseMoments::from_checkpoint(
+                        plan.lags,
+                        &record.head,
+                        &record.checkpoints[checkpoint],
+                        period,
+                    );
                     slow[r as usize / LANES].set(r as usize % LANES, &moments);
                 });
                 let mut fast = vec![zeros; 2];

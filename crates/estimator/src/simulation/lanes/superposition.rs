@@ -24,6 +24,10 @@ pub struct LaneSuperposition {
     uneven: Vec<f64>,
     /// `D`.
     response_within: Vec<f64>,
+    /// `z`, for the folds.
+    phases: Vec<f64>,
+    /// The level that the input visits at each phase.
+    visits: Vec<Option<usize>>,
 }
 
 /// `C`: what noise and noise-free response have in common within the groups, for eight replicates.
@@ -60,7 +64,8 @@ impl LaneSuperposition {
                 *within += count(p) * z[k / width] * z[k % width];
             }
         }
-        Self { width, counts, response, uneven, response_within }
+        let (phases, visits) = (z.to_vec(), design.visits());
+        Self { width, counts, response, uneven, response_within, phases, visits }
     }
 
     /// Statistics to be filled by [`Self::at`].
@@ -72,7 +77,7 @@ impl LaneSuperposition {
 
     /// Makes [`Self::statistics`] of others, in their memory.
     pub fn shape(&self, statistics: &mut LaneStatistics) {
-        statistics.shape(self.width - 1, &self.counts);
+        statistics.shape(self.width - 1, &self.counts, &self.visits);
     }
 
     /// What the response has in common with the noise of eight replicates.
@@ -143,7 +148,7 @@ impl Work for At<'_> {
     #[inline(always)]
     fn run(self) {
         let Self {
-            superposition: LaneSuperposition { width, response, response_within, .. },
+            superposition: LaneSuperposition { width, response, response_within, phases, .. },
             noise,
             cross: LaneCross(cross),
             sigma,
@@ -152,6 +157,15 @@ impl Work for At<'_> {
         for ((mean, z), e) in statistics.means.iter_mut().zip(response).zip(&noise.means) {
             keep_apart();
             *mean = *e * sigma + Lane::splat(*z);
+        }
+        statistics.folds.resize(noise.folds.len(), Lane::ZERO);
+        for ((fold, z), e) in statistics.folds.iter_mut().zip(phases).zip(&noise.folds) {
+            keep_apart();
+            *fold = *e * sigma + Lane::splat(*z);
+        }
+        statistics.left.resize(noise.left.len(), Lane::ZERO);
+        for (left, e) in statistics.left.iter_mut().zip(&noise.left) {
+            *left = *e * (sigma * sigma);
         }
         for i in 0..*width {
             for l in 0..=i {

@@ -67,6 +67,7 @@ impl LaneRecords {
         let rows = |rows| LaneRows::new(rows, *lanes, lane);
         LaneView {
             samples: *samples,
+            lags: tail.len() / lanes,
             head: rows(head),
             tail: rows(tail),
             autoproducts: rows(autoproducts),
@@ -79,6 +80,8 @@ impl LaneRecords {
 #[derive(Clone, Copy)]
 pub(crate) struct LaneView<'a> {
     pub(crate) samples: usize,
+    /// Rows of the head and of the tail.
+    pub(crate) lags: usize,
     pub(crate) head: LaneRows<'a>,
     pub(crate) tail: LaneRows<'a>,
     pub(crate) autoproducts: LaneRows<'a>,

@@ -1,5 +1,6 @@
 //! A method's estimate with its standard errors, from dense regressions.
 
+use super::folds::Folded;
 use super::qr::{LeastSquares, Triangle};
 use super::regression::{Experiment, Inner, Regression};
 use crate::study::pulse_kind::PulseKind;
@@ -22,6 +23,9 @@ pub(super) fn fit(
     samples: usize,
 ) -> Result<Vec<(f64, f64)>, PulseFitError> {
     let seen: Vec<&Experiment> = kind.experiments().iter().map(|&k| &experiments[k]).collect();
+    if kind.folds() {
+        return Folded::of(&seen, order, samples)?.estimates();
+    }
     let step = kind.needs_step().then(|| steps[kind.experiments()[0]]);
     let mean = step.map(|s| s.mean);
     let new = |inner| Regression::new(order, seen.clone(), samples, inner, mean);
@@ -41,20 +45,20 @@ pub(super) fn fit(
 }
 
 /// A regression with its solution.
-struct Solved<'a> {
-    regression: Regression<'a>,
+pub(super) struct Solved<'a> {
+    pub(super) regression: Regression<'a>,
     triangle: Triangle,
     least_squares: LeastSquares,
 }
 
 impl<'a> Solved<'a> {
-    fn of(regression: Regression<'a>) -> Result<Self, PulseFitError> {
+    pub(super) fn of(regression: Regression<'a>) -> Result<Self, PulseFitError> {
         let triangle = regression.triangle();
         let least_squares = triangle.solve(0).ok_or(PulseFitError::NotExcited)?;
         Ok(Self { regression, triangle, least_squares })
     }
 
-    fn theta(&self) -> &[f64] {
+    pub(super) fn theta(&self) -> &[f64] {
         self.least_squares.solution.as_slice()
     }
 
@@ -106,7 +110,7 @@ impl<'a> Solved<'a> {
 }
 
 /// Central differences of a list of functions of one variable.
-fn slopes(f: impl Fn(f64) -> Vec<f64>, x: f64) -> Vec<f64> {
+pub(super) fn slopes(f: impl Fn(f64) -> Vec<f64>, x: f64) -> Vec<f64> {
     let h = DIFFERENCE * (x.abs() + 1e-2);
     let (above, below) = (f(x + h), f(x - h));
     above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * h)).collect()

@@ -5,6 +5,7 @@
 //! replicate, so both give the same estimates to rounding; it is some thousand times slower.
 
 mod fit;
+mod folds;
 mod qr;
 mod record;
 mod regression;
@@ -75,6 +76,7 @@ struct Simulated {
 impl Simulated {
     fn new(case: &Case, setting: &Setting, records: &[OpenRecord; 2]) -> Self {
         let order = case.order;
+        let period = setting.bench.period();
         let experiment = |k: usize| {
             let (record, levels) = (&records[k], setting.bench.levels(k).to_vec());
             let level = |v: f64| levels.iter().position(|l| *l == v);
@@ -82,7 +84,9 @@ impl Simulated {
             Experiment {
                 branch: setting.bench.branch(k),
                 satellite: setting.bench.satellite(k),
+                before: record.y[..record.lead - order].to_vec(),
                 y: record.y[record.lead - order..].to_vec(),
+                period,
                 seen: (record.lead..record.v.len()).map(seen).collect(),
                 levels,
             }
@@ -103,7 +107,12 @@ impl Simulated {
             Ok(estimates) => estimates,
             Err(error) => return sums.runs.fail(replicate, error.to_string()),
         };
-        let data = [0, 1].map(|k| self.statistics(k, samples));
+        let data = [0, 1].map(|k| {
+            let data = self.statistics(k, samples);
+            let folds =
+                contender.kind.folds().then(|| folds::means(&self.experiments[k], self.order, samples));
+            data.with_folds(folds)
+        });
         let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));
         let errors =
             estimates.into_iter().zip(&contender.truth).map(|((value, se), truth)| (value - truth, se));
@@ -112,7 +121,7 @@ impl Simulated {
 
     /// What the control variate is made of.
     fn statistics(&self, k: usize, samples: usize) -> PulseData {
-        let Experiment { branch, levels, satellite, y, seen } = &self.experiments[k];
+        let Experiment { branch, levels, satellite, y, seen, .. } = &self.experiments[k];
         let mut statistics = GroupedStatistics::new(self.order, 1 + levels.len() * self.order);
         for (window, seen) in y.windows(self.order + 1).zip(seen).take(samples) {
             let group = seen.map_or(0, |(level, lag)| PulseData::group(self.order, level, lag));

@@ -18,15 +18,19 @@ pub(super) struct Experiment {
     /// `V₁…V_m`.
     pub(super) levels: Vec<f64>,
     pub(super) satellite: f64,
+    /// `y(t)` before that of `y`, as far as it was recorded.
+    pub(super) before: Vec<f64>,
     /// `y(t)` from `t = −n` on.
     pub(super) y: Vec<f64>,
+    /// After which the input repeats.
+    pub(super) period: usize,
     /// The level (from 0) and the lag (from 1) at which the window of each `t ≥ 0` left the satellite, if it did.
     pub(super) seen: Vec<Option<(usize, usize)>>,
 }
 
 impl Experiment {
     /// `w` at the satellite.
-    fn rest(&self) -> f64 {
+    pub(super) fn rest(&self) -> f64 {
         match self.branch {
             Branch::Descending => 1.0,
             Branch::Ascending => 0.0,

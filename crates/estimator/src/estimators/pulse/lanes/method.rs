@@ -3,6 +3,7 @@
 use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::constrained::Constrained;
+use super::folded::{FoldWork, LaneFolds};
 use super::levels::{LocalColumns, Reading};
 use super::sized::{SizedWork, run};
 use super::statistics::LaneStatistics;
@@ -33,6 +34,8 @@ pub struct LaneMethod {
     values: ColumnValues,
     levels: Vec<LevelRule>,
     constrained: Option<Constrained>,
+    /// In place of all that, for the method that works on the folds: nothing where the lanes do not know the experiments.
+    folded: Option<Option<LaneFolds>>,
 }
 
 /// Mean of the step experiment's output in each replicate.
@@ -64,6 +67,7 @@ pub struct LaneFit {
     pub sound: [bool; LANES],
     pub(super) locals: Locals,
     pub(super) linearised: ColumnValues,
+    pub(super) folded: FoldWork,
 }
 
 impl LaneMethod {
@@ -71,6 +75,12 @@ impl LaneMethod {
     pub fn of(example: &PulseMethod<'_>) -> Self {
         let experiments = Experiments::new(&example.experiments());
         let n = experiments.order();
+        if let PulseMethod::Instrumental(_) = example {
+            let columns = experiments.rank_free_columns();
+            let (plan, values) = ColumnPlan::of(&columns, true);
+            let folded = Some(LaneFolds::of(&example.experiments()));
+            return Self { order: n, plan, values, levels: Vec::new(), constrained: None, folded };
+        }
         let rank_one = |first: usize, plus: f64| LevelRule::RankOne { first, plus };
         let mut constrained = None;
         let (columns, levels) = match example {
@@ -94,6 +104,7 @@ impl LaneMethod {
                 constrained = Some(Constrained::new(&experiments, start));
                 (experiments.rank_free_columns(), levels)
             }
+            PulseMethod::Instrumental(_) => unreachable!("it has no columns"),
             PulseMethod::LinearArx(_) => {
                 let (columns, positions) = linear_arx::columns(&experiments);
                 (columns, positions.into_iter().flatten().map(LevelRule::Known).collect())
@@ -109,7 +120,7 @@ impl LaneMethod {
             }
         };
         let (plan, values) = ColumnPlan::of(&columns, true);
-        Self { order: n, plan, values, levels, constrained }
+        Self { order: n, plan, values, levels, constrained, folded: None }
     }
 
     /// The estimates from each sample, in as many of `fits`.
@@ -121,6 +132,15 @@ impl LaneMethod {
     /// If there are fewer fits than samples.
     pub fn fit(&self, samples: &[LaneSample<'_>], fits: &mut [LaneFit]) {
         let fits = &mut fits[..samples.len()];
+        if let Some(folded) = &self.folded {
+            for (sample, fit) in samples.iter().zip(fits) {
+                match folded {
+                    Some(folds) => folds.fit(self.order, sample, fit),
+                    None => fit.sound = [false; LANES],
+                }
+            }
+            return;
+        }
         for (samples, fits) in samples.chunks(ABREAST).zip(fits.chunks_mut(ABREAST)) {
             if !run(self.order, self.order + self.plan.width, Fit { method: self, samples, fits }) {
                 fits.iter_mut().for_each(|fit| fit.sound = [false; LANES]);
@@ -179,7 +199,7 @@ impl LaneMethod {
         sample: &LaneSample<'_>,
         fit: &mut LaneFit,
     ) {
-        let LaneFit { values, variances, sound, locals, linearised } = fit;
+        let LaneFit { values, variances, sound, locals, linearised, .. } = fit;
         let regression = self.regression(sample);
         let columns = if let Some(constrained) = &self.constrained {
             core.follow(&regression, locals);

@@ -8,6 +8,7 @@ mod columns;
 mod constrained;
 mod control;
 mod factor;
+mod folded;
 mod levels;
 mod method;
 mod profile;
@@ -16,6 +17,7 @@ mod sized;
 mod statistics;
 mod whole;
 
+pub(crate) use control::FoldControl;
 pub use control::{LaneControl, LaneTerms};
 pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
 pub use sized::LARGEST_ORDER;

@@ -6,7 +6,7 @@ use crate::lanes::{Lane, keep_apart};
 use std::ops::Range;
 
 /// The local columns as the [profile score](crate::estimators::pulse::Limit) needs them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct ProfilePlan {
     /// Whether each group has a local column to itself.
     pub(super) alone: Vec<bool>,

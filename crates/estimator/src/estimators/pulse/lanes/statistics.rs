@@ -1,6 +1,6 @@
 //! Sufficient statistics of eight replicates, split into within and between groups.
 
-use crate::estimators::pulse::GroupedStatistics;
+use crate::estimators::pulse::{Folds, GroupedStatistics};
 use crate::lanes::Lane;
 
 /// The statistics of [`GroupedStatistics`] of eight replicates, as means and what is left about them:
@@ -11,7 +11,7 @@ use crate::lanes::Lane;
 /// ```
 ///
 /// A group with a mean of its own (most, in a pulse experiment) adds nothing to the normal equations of `a` but its share of `W`, and of a
-/// noise-free response that is constant within the group nothing is left in `W`: there is no cancellation of large sums.
+/// noise-free response that is constant within the group nothing is left in `W`: there is no cancellation of large sums. The folds are kept for the instrumental method only.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LaneStatistics {
     order: usize,
@@ -25,11 +25,19 @@ pub struct LaneStatistics {
     pub means: Vec<Lane>,
     /// `W`.
     pub within: Vec<Lane>,
+    /// The level that the input visits at each phase, the same in all replicates.
+    pub(crate) visits: Vec<Option<usize>>,
+    /// The means of [`Folds`], where they are asked for.
+    pub folds: Vec<Lane>,
+    /// What the folds leave, lag by lag: the products of [`Folds`].
+    pub left: Vec<Lane>,
 }
 
 impl LaneStatistics {
     /// Makes room for these counts, in the memory at hand; means and products are to be overwritten.
-    pub(crate) fn shape(&mut self, order: usize, counts: &[f64]) {
+    pub(crate) fn shape(&mut self, order: usize, counts: &[f64], visits: &[Option<usize>]) {
+        self.visits.clear();
+        self.visits.extend_from_slice(visits);
         let width = order + 1;
         self.order = order;
         self.means.resize(counts.len() * width, Lane::ZERO);
@@ -49,6 +57,17 @@ impl LaneStatistics {
     /// `m_q,0…n`.
     fn mean(&self, group: usize) -> &[Lane] {
         &self.means[group * (self.order + 1)..(group + 1) * (self.order + 1)]
+    }
+
+    /// The folds of replicate `lane`, where they were asked for.
+    pub fn folds(&self, lane: usize) -> Option<Folds> {
+        let of = |lanes: &[Lane]| lanes.iter().map(|x| x.0[lane]).collect::<Vec<_>>();
+        (!self.folds.is_empty()).then(|| Folds {
+            visits: self.visits.clone(),
+            means: of(&self.folds),
+            within: of(&self.left),
+            samples: self.samples,
+        })
     }
 
     /// Replicate `lane` by itself.
