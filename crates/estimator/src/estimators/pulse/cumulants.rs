@@ -201,7 +201,9 @@ mod tests {
 
     /// The cumulants with `Q` and `p` written out.
     fn dense(limit: &Limit, record: &ExpectedRecord<'_>, noise: EquationNoise<'_>) -> Vec<Cumulants> {
-        let solution = &limit.solution;
+        let Solved::Regression(solution) = &limit.solution else {
+            unreachable!("the method is a regression")
+        };
         let inverse = InverseForm::of(&solution.fit);
         let phases = Phases::of(&solution.fit, &solution.columns, (record, 0, solution.reference));
         let (samples, period) = (record.samples, record.groups.len());
