@@ -160,7 +160,7 @@ fn told(nanoseconds: f64) -> String {
 fn write_page() {
     let place = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/export.md");
     let page = fs::read_to_string(place).expect("a page");
-    let (begin, end) = ("<!-- begin step -->\n", "<!-- end step -->");
+    let (begin, end) = ("<!-- step: figures -->\n", "<!-- end of figures -->");
     let (before, rest) = page.split_once(begin).expect("the marker that begins the figures");
     let (_, after) = rest.split_once(end).expect("the marker that ends them");
     let mut table =
