@@ -63,7 +63,7 @@ fn samples(c: &mut Criterion) {
     group.bench_function("pass", |b| {
         b.iter(|| {
             pass.run(1, 0, 0..REPLICATES, |_, record| {
-                black_box(NoiseMoments::from_checkpoint(&record.head, &record.checkpoints[2], 0));
+                black_box(NoiseMoments::from_checkpoint(2, &record.head, &record.checkpoints[2], 0));
             })
         })
     });
