@@ -3,7 +3,24 @@
 from collections.abc import Callable, Sequence
 from typing import Optional, TypedDict, final
 
-__all__: list[str]
+__all__ = [
+    "Answer",
+    "Records",
+    "SwitchbackError",
+    "__version__",
+    "design",
+    "diagnose",
+    "export",
+    "fit",
+    "identify",
+    "plant",
+    "power",
+    "run",
+    "simulate",
+    "simulate_file",
+    "study",
+    "study_of_json",
+]
 __version__: str
 
 class SwitchbackError(ValueError): ...
@@ -56,7 +73,7 @@ def identify(records: Records, words: Sequence[str], heard: _Heard = None) -> An
 def diagnose(records: Records, words: Sequence[str], model: Optional[_Model] = None, heard: _Heard = None) -> Answer: ...
 def power(
     records: Records,
-    words: Sequence[str],
+    asked: Sequence[str],
     more: Sequence[str],
     model: Optional[_Model] = None,
     heard: _Heard = None,
