@@ -165,6 +165,27 @@ fn refinement_removes_the_bias_of_output_noise() {
 }
 
 #[test]
+fn a_model_of_the_noise_narrows_the_intervals_where_it_is_coloured_and_changes_nothing_where_it_is_white() {
+    let (v, white) = (random_levels(3, 4000), normals(4, 4000, 0.2));
+    let estimate = |y: Vec<f64>, order, whiten| {
+        let settings = Settings { whiten, ..known(order, 0, 3) };
+        identify(&[&Record::new(v.clone(), y).unwrap()], &settings).unwrap().estimate
+    };
+    let output_noise = added(&simulate(SPRING, &A, &B, &v, &[]), &white);
+    assert_eq!(estimate(output_noise.clone(), 2, true), estimate(output_noise, 2, false));
+    let equation_error = simulate(SPRING, &A, &B, &v, &white);
+    let (whitened, plain) =
+        (estimate(equation_error.clone(), 2, true), estimate(equation_error.clone(), 2, false));
+    let narrower = plain.a_se[0] / whitened.a_se[0];
+    assert!(narrower > 1.2, "{narrower}");
+    for (i, truth) in A.into_iter().enumerate() {
+        assert!((whitened.a[i] - truth).abs() < 4.0 * whitened.a_se[i], "{whitened:?}");
+    }
+    // A model of too low an order contradicts itself through another filter, and the fit without one is kept.
+    assert_eq!(estimate(equation_error.clone(), 1, true), estimate(equation_error, 1, false));
+}
+
+#[test]
 fn sensor_noise_on_the_input_is_found_and_does_not_fake_reversals() {
     let wave = |t: f64| 0.8 * (0.041 * t).sin() + 0.15 * (0.0093 * t + 1.0).sin();
     let clean: Vec<f64> = (0..4000).map(|t| wave(f64::from(t))).collect();

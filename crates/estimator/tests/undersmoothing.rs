@@ -119,7 +119,7 @@ fn intervals_hold_borders_that_bend_where_those_of_a_fixed_grid_do_not() {
 }
 
 #[test]
-fn a_grid_fine_enough_is_left_alone() {
+fn a_grid_fine_enough_is_kept_and_its_bias_alone_taken_off() {
     let rig = Rig::new(Box::new(LeafSpring::hardening(0.5, 0.3, 0.25).expect("a spring")), 1002);
     let nested = NestedRegressions::new(&rig.v, rig.grid(9), &[900]).expect("regressions");
     let y = rig.output(0.3, 1);
@@ -127,8 +127,9 @@ fn a_grid_fine_enough_is_left_alone() {
     let plain = first.estimate(&moments(first, &y)).expect("an estimate");
     let estimate = refined(&nested, &y);
     for (x, z) in plain.descending.iter().zip(&estimate.descending) {
-        assert_eq!((x.v, x.f), (z.v, z.f));
-        assert!(z.se >= x.se && z.se < 1.5 * x.se);
+        assert_eq!(x.v, z.v);
+        assert!((x.f - z.f).abs() < x.se, "{x:?} and {z:?}");
+        assert!(z.se > 0.8 * x.se && z.se < 1.5 * x.se, "{x:?} and {z:?}");
     }
 }
 

@@ -3,9 +3,9 @@
 use super::basis::Basis;
 use super::equation_error::Moments;
 use super::normalise::{Covariance, Figures, normalise};
-use super::problem::{Parameters, Segment};
+use super::problem::Parameters;
 use super::rank_one::{information, residual_energy};
-use super::simulation_error::{cost, linearise};
+use super::runs::Runs;
 use super::units::OutputUnits;
 use crate::estimators::Estimate;
 use nalgebra::DMatrix;
@@ -22,14 +22,17 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    /// Of a fit of least simulation error.
-    pub(super) fn of_simulation(moments: &Moments, theta: &Parameters, segments: &[Segment]) -> Self {
-        let structure = moments.structure;
-        let model = linearise(structure, theta, segments);
-        let variance = cost(structure, theta, segments) / freedom(moments, theta);
-        let covariance =
-            Covariance::new(&model.information, theta, variance).map(|c| c.with_batches(&model.batches));
-        Self { variance, information: model.information, covariance }
+    /// Of a fit of least simulation error, filtered by `D` of the given coefficients; the variance is that of the filtered error.
+    pub(super) fn of_simulation(
+        moments: &Moments,
+        theta: &Parameters,
+        runs: &Runs,
+        whitening: &[f64],
+    ) -> Self {
+        let (information, energy, batches) = runs.scatter(moments.structure, theta, whitening);
+        let variance = energy / freedom(moments, theta);
+        let covariance = Covariance::new(&information, theta, variance).map(|c| c.with_batches(&batches));
+        Self { variance, information, covariance }
     }
 
     /// Of a fit of least equation error.

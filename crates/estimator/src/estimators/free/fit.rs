@@ -5,12 +5,10 @@ use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{alternate, gauss_newton, nearest_rank_one, over_parameterised, residual_energy};
+use super::runs::{Runs, SMOOTHNESS};
 use super::settings::InputMap;
 use super::simulation_error::{Effort, Refinement, cost};
 use crate::linear::is_stable;
-
-/// Weight of the smoothness penalty: decides only what the data leave open.
-const SMOOTHNESS: f64 = 1e-8;
 
 /// The data seen through every basis of a ladder from the straight line up to the map wanted.
 ///
@@ -21,17 +19,30 @@ pub(super) struct Ladder<'a> {
     rungs: Vec<Featured<'a>>,
 }
 
+/// What a fit makes least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FitKind {
+    /// The equation error: consistent where that is white.
+    Equation,
+    /// The error of the free run: consistent for any stationary noise, efficient where the noise of the output is white.
+    Simulation,
+    /// The same error, filtered by an autoregressive model of the noise that is estimated apart: consistent for any stationary noise, and efficient.
+    Prewhitened,
+}
+
 /// A fit, with the structure and the basis it is in.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
     pub(super) structure: Structure,
     pub(super) basis: Basis,
     pub(super) theta: Parameters,
+    /// Coefficients of the filter that makes its errors white; none where they are taken as they are.
+    pub(super) whitening: Vec<f64>,
 }
 
 impl Fitted {
     /// The same system in a structure and on a basis that contain its own, or nearly so.
-    fn lifted(&self, structure: Structure, basis: &Basis) -> Parameters {
+    pub(super) fn lifted(&self, structure: Structure, basis: &Basis) -> Parameters {
         self.theta.in_structure(self.structure, structure).on_basis(&self.basis, basis)
     }
 }
@@ -98,7 +109,7 @@ impl<'a> Ladder<'a> {
             let starts = starts.map(|f| f.lifted(structure, &rung.basis)).collect();
             let effort = if is_top { effort } else { Effort::SEARCH };
             let theta = refined(rung, structure, &segments, starts, effort)?;
-            below = Some(Fitted { structure, basis: rung.basis.clone(), theta });
+            below = Some(Fitted { structure, basis: rung.basis.clone(), theta, whitening: Vec::new() });
         }
         below
     }
@@ -113,14 +124,14 @@ impl<'a> Ladder<'a> {
         let top = self.top();
         let theta =
             refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
-        Some(Fitted { structure, basis: top.basis.clone(), theta })
+        Some(Fitted { structure, basis: top.basis.clone(), theta, whitening: Vec::new() })
     }
 
     /// The equation-error fit at the top, without refinement.
     pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
         let moments = Moments::of(structure, self.top().basis.features(), segments);
         let theta = equation_error_fit(&moments)?;
-        Some(Fitted { structure, basis: self.top().basis.clone(), theta })
+        Some(Fitted { structure, basis: self.top().basis.clone(), theta, whitening: Vec::new() })
     }
 }
 
@@ -177,7 +188,13 @@ fn refined(
     effort: Effort,
 ) -> Option<Parameters> {
     let curves: Vec<usize> = featured.basis.sizes().collect();
-    let refinement = |effort| Refinement { effort, curves: &curves, smoothness: SMOOTHNESS };
+    let refinement = |effort| Refinement {
+        effort,
+        curves: &curves,
+        smoothness: SMOOTHNESS,
+        whitening: &[],
+        constant: 0.0,
+    };
     let trial = refinement(Effort::TRIAL);
     let lifted = ranked(structure, lifted.into_iter().map(stabilised).collect(), segments);
     let fresh = equation_error_starts(featured, structure, segments);
@@ -187,22 +204,41 @@ fn refined(
     Some(refinement(effort).run(structure, start, segments))
 }
 
-/// A fit on a finer grid that contains its own, from where it was.
+/// The next fit on a finer grid that contains its own, from where it was.
 pub(super) fn refitted(
     finer: &Featured,
     segments: &[Segment],
     fitted: &Fitted,
-    refine: bool,
+    kind: FitKind,
 ) -> Option<Fitted> {
     let (structure, basis) = (fitted.structure, finer.basis.clone());
-    let theta = if refine {
-        let curves: Vec<usize> = basis.sizes().collect();
-        let refinement = Refinement { effort: Effort::FINAL, curves: &curves, smoothness: SMOOTHNESS };
-        refinement.run(structure, fitted.lifted(structure, &basis), segments)
-    } else {
-        equation_error_fit(&Moments::of(structure, basis.features(), segments))?
+    if kind == FitKind::Equation {
+        let theta = equation_error_fit(&Moments::of(structure, basis.features(), segments))?;
+        return Some(Fitted { structure, basis, theta, whitening: Vec::new() });
+    }
+    Some(simulated(
+        &Runs::new(segments.to_vec()),
+        fitted.lifted(structure, &basis),
+        (structure, basis),
+        &fitted.whitening,
+        kind,
+    ))
+}
+
+/// The fit of least simulation error from a start, with a filter to begin with.
+pub(super) fn simulated(
+    runs: &Runs,
+    start: Parameters,
+    (structure, basis): (Structure, Basis),
+    whitening: &[f64],
+    kind: FitKind,
+) -> Fitted {
+    let theta = runs.refined(structure, &basis, stabilised(start), whitening);
+    let (theta, whitening) = match kind {
+        FitKind::Prewhitened => runs.prewhitened(structure, &basis, theta, whitening.to_vec()),
+        FitKind::Equation | FitKind::Simulation => (theta, Vec::new()),
     };
-    Some(Fitted { structure, basis, theta })
+    Fitted { structure, basis, theta, whitening }
 }
 
 /// By simulation error, least first; unstable ones are dropped.
@@ -214,7 +250,7 @@ fn ranked(structure: Structure, fits: Vec<Parameters>, segments: &[Segment]) -> 
 }
 
 /// The same numerator with the poles drawn towards zero until they are stable.
-fn stabilised(mut theta: Parameters) -> Parameters {
+pub(super) fn stabilised(mut theta: Parameters) -> Parameters {
     for _ in 0..200 {
         if is_stable(&theta.a) {
             break;

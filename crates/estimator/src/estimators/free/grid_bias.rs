@@ -26,8 +26,8 @@ pub(super) struct GridBias {
     parameters: Vec<Uncertain>,
     /// Number of coefficients before the points.
     coefficients: usize,
-    /// Whether both borders have three knots or more.
-    is_judged: bool,
+    /// Of `(a, b, f, c)`, where both borders have three knots or more and it is finite.
+    change: Option<DVector<f64>>,
 }
 
 /// One parameter: how far noise and the grid may put it off.
@@ -39,6 +39,8 @@ struct Uncertain {
     bias: f64,
     /// Standard error of that estimate.
     bias_se: f64,
+    /// Standard error by noise of the parameter less its estimated bias.
+    corrected_se: f64,
 }
 
 impl Uncertain {
@@ -47,9 +49,10 @@ impl Uncertain {
         self.bias * self.bias - self.bias_se * self.bias_se
     }
 
-    /// `√(se² + bias²)`.
+    /// `√(se² + bias²)` of the corrected parameter, which is off by no more than the correction wherever that is of the right sign and at
+    /// most twice too large.
     fn error(self) -> f64 {
-        (self.se * self.se + self.square().max(0.0)).sqrt()
+        (self.corrected_se * self.corrected_se + self.square().max(0.0)).sqrt()
     }
 }
 
@@ -64,7 +67,8 @@ impl GridBias {
     ) -> Self {
         let coefficients = theta.a.len() + theta.b.len();
         let missed = missed_by_chords(basis);
-        let parameter = |derivative: &DVector<f64>| {
+        // From the derivatives of a quantity to those of its bias.
+        let derivatives_of_bias = |derivative: &DVector<f64>| {
             let change = information * embedded(&covariance.response(derivative), coefficients, basis);
             let mut response = DVector::zeros(derivative.len());
             for (middle, weights) in &missed {
@@ -72,16 +76,27 @@ impl GridBias {
                     response[coefficients + knot - 1] += change[coefficients + middle - 1] * weight;
                 }
             }
-            let bias = theta.f.iter().enumerate().map(|(k, f)| f * response[coefficients + k]).sum();
-            let [se, bias_se] = [derivative, &response].map(|d| covariance.standard_error(d));
-            Uncertain { se, bias, bias_se }
+            response
+        };
+        let at_the_fit = |response: &DVector<f64>| -> f64 {
+            theta.f.iter().enumerate().map(|(k, f)| f * response[coefficients + k]).sum()
+        };
+        let is_judged = basis.descending().len().min(basis.ascending().len()) > 2;
+        let size = coefficients + theta.f.len() + 1;
+        let change = DVector::from_fn(size, |i, _| {
+            let unit = DVector::from_fn(size, |j, _| f64::from(u8::from(i == j)));
+            at_the_fit(&derivatives_of_bias(&unit))
+        });
+        let change = Some(change).filter(|change| is_judged && change.iter().all(|x| x.is_finite()));
+        let parameter = |derivative: &DVector<f64>| {
+            let response = derivatives_of_bias(derivative);
+            let corrected = if change.is_some() { derivative - &response } else { derivative.clone() };
+            let [se, bias_se, corrected_se] =
+                [derivative, &response, &corrected].map(|d| covariance.standard_error(d));
+            Uncertain { se, bias: at_the_fit(&response), bias_se, corrected_se }
         };
         let parameters = quantities(theta, basis, units).iter().map(|q| parameter(&q.derivative)).collect();
-        Self {
-            parameters,
-            coefficients,
-            is_judged: basis.descending().len().min(basis.ascending().len()) > 2,
-        }
+        Self { parameters, coefficients, change }
     }
 
     /// Root mean square of the bias in standard errors, over the coefficients or over the points, whichever is larger; infinite where a border has
@@ -93,10 +108,18 @@ impl GridBias {
         };
         let (coefficients, points) = self.parameters.split_at(self.coefficients);
         let worst = rms(coefficients).max(rms(points));
-        if self.is_judged && worst.is_finite() { worst } else { f64::INFINITY }
+        if self.change.is_some() && worst.is_finite() { worst } else { f64::INFINITY }
     }
 
-    /// Standard errors with the bias in them.
+    /// The fit less its bias; as it is where the bends do not tell one.
+    pub(super) fn taken_off(&self, theta: &Parameters) -> Parameters {
+        match &self.change {
+            Some(change) => theta.moved((-change).as_slice()),
+            None => theta.clone(),
+        }
+    }
+
+    /// Standard errors of the fit less its bias, with the bias in them.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.parameters.iter().map(|p| p.error())
     }

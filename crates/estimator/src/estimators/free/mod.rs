@@ -6,6 +6,9 @@
 //! simulates badly, so [`identify`] goes on to minimise the error of the free run, and chooses order, delay and
 //! knots by cross-validation on the records it is given.
 //!
+//! The error of the free run needs no white noise to be consistent. Where it is coloured, the noise is modelled apart and the estimate made from filtered
+//! errors ([`FitKind::Prewhitened`]).
+//!
 //! [`InputMap`] makes the same machinery fit what a user would otherwise pick: a straight line (`linear-arx`) or one
 //! static curve (`memoryless`), so that a comparison compares the models and not the effort.
 //!
@@ -27,6 +30,7 @@ mod error;
 mod errors;
 mod examination;
 mod fit;
+mod free_run;
 mod grid_bias;
 mod halving;
 mod identify;
@@ -35,12 +39,14 @@ mod limit;
 mod model;
 mod nested;
 mod nesting;
+mod noise_model;
 mod normalise;
 mod one_shot;
 mod problem;
 mod progress;
 mod rank_one;
 mod regression;
+mod runs;
 mod selection;
 mod sensor;
 mod settings;
@@ -53,6 +59,8 @@ pub use basis::Basis;
 pub use branch::{Branches, LookAhead, ReversalRule, Timing};
 pub use equation_error::Moments;
 pub use error::FreeError;
+pub use fit::FitKind;
+pub use free_run::Output;
 pub use identify::{Identified, identify, identify_watched};
 pub use limit::Limit;
 pub use model::{Coefficients, FreeRun, Model, ModelError, fit_percent};

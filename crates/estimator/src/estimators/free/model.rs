@@ -168,7 +168,8 @@ impl Model {
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
         y.resize(memory + v.len(), 0.0);
-        let segment = Segment { y: &y, cells: &cells, from: memory + given, to: memory + v.len() };
+        let segment =
+            Segment { y: &y, cells: &cells, from: memory + given, to: memory + v.len(), weights: None };
         let run = free_run(self.structure, &self.parameters, &segment);
         y[memory..memory + given].iter().copied().chain(run).collect()
     }

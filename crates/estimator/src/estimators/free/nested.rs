@@ -22,7 +22,7 @@ use crate::estimators::Estimate;
 #[derive(Debug, Clone)]
 pub struct NestedRegressions {
     /// On each grid, and after it on the same with all cells halved, where its bends are judged.
-    regressions: Vec<Regression>,
+    pub(super) regressions: Vec<Regression>,
 }
 
 impl NestedRegressions {

@@ -84,6 +84,8 @@ pub(super) struct Segment<'a> {
     pub(super) cells: &'a Cells,
     pub(super) from: usize,
     pub(super) to: usize,
+    /// How many samples of the record each one stands for, over the same indices as `y`; one where there are none.
+    pub(super) weights: Option<&'a [f64]>,
 }
 
 impl<'a> Segment<'a> {
@@ -96,11 +98,16 @@ impl<'a> Segment<'a> {
     ) -> Option<Self> {
         let from = range.start + structure.memory();
         let to = range.end.min(y.len() - structure.ahead().min(y.len()));
-        (from < to).then_some(Self { y, cells, from, to })
+        (from < to).then_some(Self { y, cells, from, to, weights: None })
     }
 
     pub(super) fn len(&self) -> usize {
         self.to - self.from
+    }
+
+    /// The weight of a sample.
+    pub(super) fn weight(&self, t: usize) -> f64 {
+        self.weights.map_or(1.0, |weights| weights[t])
     }
 
     /// Energy of the outputs to be explained about their mean.

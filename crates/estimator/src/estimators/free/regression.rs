@@ -26,9 +26,9 @@ use nalgebra::DMatrix;
 #[derive(Debug, Clone)]
 pub struct Regression {
     grid: Grid,
-    cells: Cells,
+    pub(super) cells: Cells,
     start: usize,
-    checkpoints: Vec<usize>,
+    pub(super) checkpoints: Vec<usize>,
     /// `Σψψᵀ` at each checkpoint.
     input: Vec<DMatrix<f64>>,
 }
@@ -43,7 +43,7 @@ impl Regression {
         let regression = Self::unchecked(v, grid, checkpoints)?;
         if let Some(first) = checkpoints.first() {
             let (from, cells) = (regression.start, &regression.cells);
-            let segment = [Segment { y: v, cells, from, to: from + first }];
+            let segment = [Segment { y: v, cells, from, to: from + first, weights: None }];
             regression.grid.basis.check_visits(&segment)?;
             regression.grid.basis.check_length(regression.grid.structure, &segment)?;
         }

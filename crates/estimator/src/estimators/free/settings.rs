@@ -37,6 +37,8 @@ pub struct Settings {
     pub causal: bool,
     /// Whether to minimise the simulation error after the equation error.
     pub refine: bool,
+    /// Whether the final estimate of a refined fit models the colour of the noise, where that contradicts no fit without; the model is the same.
+    pub whiten: bool,
     /// Whether standard errors allow for what a grid of knots cannot follow, at the cost of fits on finer grids; the model is the same.
     pub undersmooth: bool,
 }
@@ -54,6 +56,7 @@ impl Settings {
             interval: None,
             causal: false,
             refine: true,
+            whiten: true,
             undersmooth: true,
         }
     }

@@ -9,7 +9,7 @@ use super::one_shot::{Grid, one_shot};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::over_parameterised;
 use super::regression::Regression;
-use super::simulation_error::{free_run, linearise};
+use super::simulation_error::{each_batch, free_run, linearise, linearise_whitened, whitened_cost};
 use crate::estimators::Estimate;
 use crate::excitation::RandomLevels;
 use crate::hysteresis::{Interval, SwitchedHysteresis, Table, TablePoint};
@@ -96,6 +96,43 @@ proptest! {
         }
         let batched = fast.batches.iter().fold(DVector::zeros(p), |sum, g| sum + g);
         prop_assert!((batched - fast.gradient).amax() < 1e-9);
+    }
+
+    /// With `e = w/D` from rest, `e = Ψw` with the impulse response of `1/D` along the rows of `Ψ`: generalised least squares weighs by `(ΨΨᵀ)⁻¹`.
+    #[test]
+    fn filtered_errors_are_weighed_by_the_inverse_covariance_of_the_noise(
+        seed: u64, structure in structures(), d1 in -0.9f64..0.9, d2 in -0.9f64..0.9,
+    ) {
+        let (y, basis, cells, known) = random_data(seed, Timing::AtSamples);
+        let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 2);
+        let theta = Parameters {
+            a: uniform(&mut rng, structure.order).into_iter().map(|x| 0.3 * x).collect(),
+            b: uniform(&mut rng, structure.numerator()),
+            f: uniform(&mut rng, basis.features()),
+            c: -0.2,
+        };
+        let segment = Segment::usable(structure, &y, &cells, known..y.len()).unwrap();
+        // Reflection coefficients below one make a stable 1/D.
+        let whitening = [d1 * (1.0 + d2), d2];
+        let mut pulse = vec![0.0; segment.len()];
+        pulse[0] = 1.0;
+        let response = filter(&whitening, &[0.0], &vec![0.0; pulse.len()], &pulse, 0.0, 0.0);
+        let psi = DMatrix::from_fn(pulse.len(), pulse.len(), |i, j| if i < j { 0.0 } else { response[i - j] });
+        let weight = (&psi * psi.transpose()).cholesky().unwrap().inverse();
+        let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
+        let (mut jacobian, mut error) = (DMatrix::zeros(p, segment.len()), DVector::zeros(segment.len()));
+        each_batch(structure, &theta, &segment, &[], |t, rows, errors| {
+            jacobian.columns_mut(t - segment.from, rows.ncols()).copy_from(&rows);
+            error.rows_mut(t - segment.from, errors.len()).copy_from(errors);
+        });
+        let fast = linearise_whitened(structure, &theta, &[segment], &whitening);
+        let dense = &jacobian * &weight * jacobian.transpose();
+        prop_assert!((fast.information - &dense).amax() < 1e-8 * (1.0 + dense.amax()));
+        let gradient = &jacobian * &weight * &error;
+        prop_assert!((fast.gradient - &gradient).amax() < 1e-8 * (1.0 + gradient.amax()));
+        let cost = error.dot(&(&weight * &error));
+        prop_assert!((fast.cost - cost).abs() < 1e-8 * (1.0 + cost));
+        prop_assert!((whitened_cost(structure, &theta, &[segment], &whitening) - cost).abs() < 1e-8 * (1.0 + cost));
     }
 
     #[test]
