@@ -125,6 +125,8 @@ pub struct Case {
     pub spacing: usize,
     /// On which knots `free` estimates the borders.
     pub knots: Knots,
+    /// What the fits of `free` make least.
+    pub fit: Fit,
     /// What must come out of this case.
     pub expect: Expect,
 }
@@ -151,6 +153,36 @@ impl Knots {
             Self::Given => "given",
             Self::Refined => "refined",
             Self::Known => "known",
+        }
+    }
+
+    /// The kind of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|k| k.name() == name)
+    }
+}
+
+/// What the fits of the method `free` make least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fit {
+    /// The equation error: consistent where that is white.
+    Equation,
+    /// The error of the free run: consistent whatever the noise.
+    FreeRun,
+    /// That error, filtered by a model of the noise: what `identify` does.
+    Prewhitened,
+}
+
+impl Fit {
+    /// Every kind, the default first.
+    pub const ALL: [Self; 3] = [Self::Equation, Self::FreeRun, Self::Prewhitened];
+
+    /// The name used in scenario files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equation => "equation error",
+            Self::FreeRun => "free run",
+            Self::Prewhitened => "prewhitened",
         }
     }
 

@@ -104,13 +104,16 @@ fn knots_and_promises_of_intervals_are_read_and_checked() {
     let case =
         |rest: &str| Scenario::parse("knots.toml", &format!("{GOOD}\n[[case]]\nname = \"fine\"\n{rest}\n"));
     let expect = "expect = { coverage = { mean = [0.9, 0.98], least = 0.85 }, width = { of = \"fine\", at_most = 2.0 } }";
-    let scenario = case(&format!("knots = \"refined\"\n{expect}")).expect("a valid scenario");
+    let scenario =
+        case(&format!("knots = \"refined\"\nfit = \"prewhitened\"\n{expect}")).expect("a valid scenario");
     let [fine] = scenario.cases() else { panic!("one case") };
-    assert_eq!(fine.knots, Knots::Refined);
+    assert_eq!((fine.knots, fine.fit), (Knots::Refined, Fit::Prewhitened));
     assert_eq!(fine.expect.coverage, Some(Coverage { mean: (0.9, 0.98), least: 0.85 }));
     assert_eq!(fine.expect.width, Some(Width { of: "fine".to_owned(), at_most: 2.0 }));
     for (rest, told) in [
         ("knots = \"refind\"".to_owned(), "refined"),
+        ("fit = \"free-run\"".to_owned(), "free run"),
+        ("fit = \"free run\"\nknots = \"known\"".to_owned(), "equation error alone"),
         (expect.replace("0.98", "98"), "coverage lies between 0 and 1"),
         (expect.replace("0.98", "0.1"), "begins above its end"),
         (expect.replace("\"fine\"", "\"fin\""), "no such case"),

@@ -48,6 +48,7 @@ pub(super) struct WireCase {
     pub(super) order: Option<Spanned<usize>>,
     pub(super) spacing: Option<Spanned<usize>>,
     pub(super) knots: Option<Spanned<String>>,
+    pub(super) fit: Option<Spanned<String>>,
     pub(super) expect: Option<WireExpect>,
 }
 

@@ -6,7 +6,7 @@ use crate::input::TwoNumbers;
 use crate::scenario::border::WireBorder;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCase, WireScenario, WireSystem, WireSystemOverride};
-use crate::scenario::{Border, Case, Disturbance, Expect, Knots, Method};
+use crate::scenario::{Border, Case, Disturbance, Expect, Fit, Knots, Method};
 use std::ops::Range;
 use std::sync::Arc;
 use switchback_estimator::hysteresis::Interval;
@@ -32,6 +32,7 @@ pub(super) fn cases(
             order: n,
             spacing: n.max(2),
             knots: Knots::Given,
+            fit: Fit::Equation,
             expect: default.clone(),
             system,
         }]);
@@ -57,6 +58,7 @@ pub(super) fn cases(
                 order,
                 spacing: spacing(case, system.order().max(order))?,
                 knots: knots(case)?,
+                fit: fit(case)?,
                 expect: case.expect.as_ref().map_or_else(|| Ok(default.clone()), |e| expect(e, swept))?,
                 system,
             })
@@ -172,4 +174,18 @@ fn knots(case: &WireCase) -> Result<Knots, Fault> {
     let Some(name) = &case.knots else { return Ok(Knots::Given) };
     Knots::from_name(name.get_ref())
         .ok_or_else(|| unknown(name, "choice of knots", &Knots::ALL.map(Knots::name)))
+}
+
+fn fit(case: &WireCase) -> Result<Fit, Fault> {
+    let Some(name) = &case.fit else { return Ok(Fit::Equation) };
+    let fit = Fit::from_name(name.get_ref())
+        .ok_or_else(|| unknown(name, "kind of fit", &Fit::ALL.map(Fit::name)))?;
+    if fit != Fit::Equation && knots(case)? == Knots::Known {
+        return Err(Fault::new(
+            name.span(),
+            "the grid that holds the true borders is known for fits of the equation error alone",
+            "leave out knots, or write knots = \"refined\"",
+        ));
+    }
+    Ok(fit)
 }

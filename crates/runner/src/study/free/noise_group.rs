@@ -3,7 +3,7 @@
 use super::drive::{self, Program};
 use super::setting::{GridOnDrive, Ingredients, NoiseSums, Regressions, Response, Setting, Way};
 use super::simulate::Simulator;
-use crate::scenario::{Case, Engine, Knots, Sweep};
+use crate::scenario::{Case, Engine, Fit, Knots, Sweep};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{ActiveCells, CellSpec, CellTheory};
@@ -13,7 +13,9 @@ use nalgebra::DMatrix;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use switchback_estimator::estimators::Estimate;
-use switchback_estimator::estimators::free::{Basis, Moments, NestedRegressions, Regression};
+use switchback_estimator::estimators::free::{
+    Basis, FitKind, Moments, NestedRegressions, Output, Regression,
+};
 use switchback_estimator::simulation::noise::{NoisePlan, NoiseSamples, StreamId, samples};
 use switchback_estimator::statistics::ReplicateError;
 
@@ -32,6 +34,8 @@ pub(in crate::study) struct FreeNoiseGroup {
     case: Case,
     /// `v(t)`.
     drive: Vec<f64>,
+    /// The samples after which it starts over.
+    period: usize,
     checkpoints: usize,
     responses: Vec<Response>,
     grids: Vec<GridOnDrive>,
@@ -106,6 +110,7 @@ impl FreeNoiseGroup {
             simulator: (engine == Engine::Direct).then(|| Simulator::new(case, &v)),
             case: case.clone(),
             drive: v,
+            period: program.period,
         })
     }
 
@@ -128,6 +133,13 @@ impl FreeNoiseGroup {
                 y: simulator.output(setting.response, setting.sigma, &noise),
                 sums: RefCell::default(),
             });
+            let open = (self.kind().is_some() && record.is_none()).then(|| {
+                let z = &self.responses[setting.response].z;
+                z.iter()
+                    .zip(&noise.e[noise.burn_in..])
+                    .map(|(z, e)| z + setting.sigma * e)
+                    .collect::<Vec<_>>()
+            });
             for (checkpoint, sums) in sums.iter_mut().enumerate().filter(|(c, _)| active[*c]) {
                 let moments = |number: usize| {
                     let regression = (number, &self.grids[setting.grid].regressions.all()[number]);
@@ -140,7 +152,15 @@ impl FreeNoiseGroup {
                         (None, None) => unreachable!("either engine has its noise"),
                     }
                 };
-                self.estimate((setting, checkpoint), moments, replicate, sums);
+                let open = open.as_ref().or(record.as_ref().map(|record| &record.y));
+                let output = open.zip(self.kind()).map(|(y, kind)| Output {
+                    y,
+                    checkpoint,
+                    // The direct engine simulates and fits every sample.
+                    period: self.simulator.is_none().then_some(self.period),
+                    kind,
+                });
+                self.estimate((setting, checkpoint), (moments, output), replicate, sums);
             }
         }
     }
@@ -156,6 +176,15 @@ impl FreeNoiseGroup {
         (self.drive[..y.len()].to_vec(), y)
     }
 
+    /// What fits of the free run make least; none where the equation error is.
+    fn kind(&self) -> Option<FitKind> {
+        match self.case.fit {
+            Fit::Equation => None,
+            Fit::FreeRun => Some(FitKind::Simulation),
+            Fit::Prewhitened => Some(FitKind::Prewhitened),
+        }
+    }
+
     fn draw(&self, seed: u64, replicate: u32) -> NoiseSamples {
         samples(&self.noise, StreamId { seed, experiment: self.stream, replicate }, self.drive.len())
             .expect("a group's noise plan is valid")
@@ -164,7 +193,7 @@ impl FreeNoiseGroup {
     fn estimate(
         &self,
         (setting, checkpoint): (&Setting, usize),
-        moments: impl Fn(usize) -> Moments,
+        (moments, output): (impl Fn(usize) -> Moments, Option<Output<'_>>),
         replicate: u32,
         sums: &mut SectionSums,
     ) {
@@ -173,11 +202,18 @@ impl FreeNoiseGroup {
         sums.runs.replicates += 1;
         let (estimate, first_order) = match (&setting.ways[checkpoint], &on.regressions) {
             (Way::Given(limit), _) => {
-                let moments = moments(0);
-                (regressions[0].estimate(&moments), Some(limit.first_order(&moments)))
+                if let Some(output) = output {
+                    (regressions[0].free_run_estimate(output, &moments(0)), None)
+                } else {
+                    let moments = moments(0);
+                    (regressions[0].estimate(&moments), Some(limit.first_order(&moments)))
+                }
             }
             (Way::Known(number), _) => (regressions[*number].estimate(&moments(*number)), None),
-            (Way::Refined, Regressions::Nested(nested)) => (nested.estimate(moments), None),
+            (Way::Refined, Regressions::Nested(nested)) => match output {
+                Some(output) => (nested.free_run_estimate(output, moments), None),
+                None => (nested.estimate(moments), None),
+            },
             (Way::Refined, Regressions::Given(_)) => unreachable!("a grid that is refined is nested"),
         };
         match estimate.map(|estimate| at_knots(estimate, &on.grid.basis)) {

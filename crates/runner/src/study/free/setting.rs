@@ -2,12 +2,14 @@
 
 use super::drive;
 use crate::results::{Group, Series};
-use crate::scenario::{Border, Case, Disturbance, Knots, Method};
+use crate::scenario::{Border, Case, Disturbance, Fit, Knots, Method};
 use crate::study::StudyError;
 use crate::study::bench::NoiseFilter;
 use crate::study::cell::{CellSpec, CellTheory, ParameterName};
 use nalgebra::DMatrix;
-use switchback_estimator::estimators::free::{Grid, Limit, Moments, NestedRegressions, Regression};
+use switchback_estimator::estimators::free::{
+    FitKind, Grid, Limit, Moments, NestedRegressions, Output, Regression,
+};
 use switchback_estimator::linear::autocovariance;
 
 /// A grid and the drive's regression on it.
@@ -116,8 +118,13 @@ impl Setting {
             let way = setting.way(of, (response, on), at)?;
             // Least squares and rank one on white errors is maximum likelihood: its theory is the bound.
             let theory = match &way {
-                Way::Given(limit) => holds.then(|| limit.theory_se()),
+                Way::Given(limit) if of.case.fit == Fit::Equation => holds.then(|| limit.theory_se()),
+                Way::Given(_) => setting.free_run_bound(of, (response, on), at),
                 Way::Refined | Way::Known(_) => None,
+            };
+            let is_efficient = match of.case.fit {
+                Fit::Equation | Fit::Prewhitened => true,
+                Fit::FreeRun => of.case.disturbance == Disturbance::Output,
             };
             setting.ways.push(way);
             setting.specs.push(CellSpec {
@@ -132,9 +139,35 @@ impl Setting {
                 parameters: names(of.case.order, &on.grid),
                 truth: truth(of.case, of.border, &on.grid),
             });
-            setting.theories.push(CellTheory { sd: theory.clone(), bound: theory, ..CellTheory::default() });
+            setting.theories.push(CellTheory {
+                sd: theory.clone().filter(|_| is_efficient),
+                bound: theory,
+                ..CellTheory::default()
+            });
         }
         Ok(setting)
+    }
+
+    /// The Cramér–Rao bound of a fit of the free run on a grid that holds the truth, where the noise is an autoregression.
+    fn free_run_bound(
+        &self,
+        of: Ingredients<'_>,
+        (response, on): (&Response, &GridOnDrive),
+        at: Place,
+    ) -> Option<Vec<f64>> {
+        let filter = NoiseFilter::of(of.case);
+        let regression = &on.regressions.all()[0];
+        let holds = of.case.order == of.case.system.order()
+            && filter.ma.is_empty()
+            && drive::lies_on(&of.border.hysteresis, &on.grid, of.v);
+        if !holds {
+            return None;
+        }
+        let (lags, input) = (&response.lags[at.checkpoint], &self.input[0][at.checkpoint]);
+        let moments = regression.moments(at.checkpoint, lags, input);
+        let output =
+            Output { y: &response.z, checkpoint: at.checkpoint, period: None, kind: FitKind::Simulation };
+        regression.free_run_bound(output, &moments, &filter.ar, self.sigma * self.sigma).ok()
     }
 
     /// How the cell at a checkpoint is estimated.
