@@ -24,6 +24,10 @@ pub enum Status {
 }
 
 impl Status {
+    /// Every status.
+    pub const ALL: [Self; 6] =
+        [Self::None, Self::Refit, Self::Named, Self::Class, Self::Ambiguous, Self::Unexplained];
+
     /// The name used in reports.
     pub fn name(self) -> &'static str {
         match self {

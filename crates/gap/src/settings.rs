@@ -18,8 +18,8 @@ pub struct Settings {
     pub max_effects: usize,
     /// A cause is named when its calibrated probability reaches this.
     pub name_at: f64,
-    /// How common causes are where the records were taken; that of the rigs which the fitted verdict knows, if not given. Counts for its
-    /// second opinion only.
+    /// How common causes are where the records were taken; that of the rigs which the fitted verdict knows, if not given. Counts where
+    /// that one is asked: in records that nobody designed.
     pub prior: Option<Shares>,
     /// Seed of the block bootstrap.
     pub seed: u64,

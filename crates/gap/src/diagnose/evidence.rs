@@ -5,7 +5,7 @@ use crate::attribution::Attribution;
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::{Firsts, Pair};
-use crate::attribution::search::on_a_free_drift_path;
+use crate::attribution::search::{beside_the_model, on_a_free_drift_path};
 use crate::effect::Effect;
 use crate::phase::Phase;
 use crate::residuals::omnibus::{Omnibus, omnibus};
@@ -76,6 +76,9 @@ impl Plan {
     /// Compares the explanations on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
     fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
         singles.retain(Explanation::may_be_a_cause);
+        if self.owns_colour && !self.campaign.holds_nominal() {
+            self.put_noise_beside_the_model(workers, &mut singles);
+        }
         self.hear_the_held_out(workers, &mut singles);
         self.keep_one_law_of_each(&mut singles);
         let all = singles.clone();
@@ -97,6 +100,23 @@ impl Plan {
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.campaign, &best.fit);
         Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
+    }
+
+    /// Noise moves no simulation, nor does a sensor that rounds: where fitting the model anew with them spoils that of a held-out record,
+    /// they are fitted beside the model as it is. Of records that nobody designed no model is right, and robust weights may move it anywhere.
+    fn put_noise_beside_the_model(&self, workers: &impl Workers, singles: &mut [Explanation]) {
+        let is_asked = |s: &Explanation| s.effects().iter().all(|effect| effect.moves_no_simulation());
+        let beside = |s: &Explanation| {
+            let spoils = is_asked(s) && self.harms(s);
+            spoils.then(|| beside_the_model(&self.campaign, &self.nominal.plain, s))
+        };
+        let found = workers.map(singles, beside);
+        singles.iter_mut().zip(found).for_each(|(single, beside)| {
+            if let Some(beside) = beside {
+                *single = beside;
+            }
+        });
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
     }
 
     /// Several laws may bear the name of one effect. One step ahead the likelihood chooses; of simulators, what they lose on held-out

@@ -37,6 +37,15 @@ pub(super) struct Conclusion {
     pub(super) other: Option<Other>,
 }
 
+impl Conclusion {
+    /// The effect that is the likeliest explanation by rules, with its probability; none where nothing or none of these is likelier.
+    pub(super) fn likeliest(&self) -> Option<(Effect, f64)> {
+        let weighed = self.singles.iter().zip(&self.odds.effects).map(|(s, p)| (s.parts[0].effect, *p));
+        let first = weighed.reduce(|best, x| if x.1 > best.1 { x } else { best });
+        first.filter(|(_, p)| *p > self.odds.none.max(self.odds.unexplained))
+    }
+}
+
 /// A nominal model of another structure.
 pub(super) struct Other {
     pub(super) structure: Structure,

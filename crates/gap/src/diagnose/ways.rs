@@ -5,12 +5,11 @@ use super::parameters::parameters;
 use super::report::Conclusion;
 use crate::attribution::explain::Explanation;
 use crate::attribution::search::profiled;
-use crate::diagnosis::{Candidate, Diagnosis, Status, Verdict};
+use crate::diagnosis::{Candidate, Diagnosis, Status};
 use crate::effect::Effect;
 use crate::evidence::{Compared, EffectEvidence};
 use crate::nominal::order::Chosen;
 use crate::phase::Phase;
-use crate::verdict::agreement::agreed;
 use crate::verdict::fitted::{FittedVerdict, SecondOpinion};
 use crate::workers::Workers;
 
@@ -73,37 +72,72 @@ impl Ways {
     pub(super) fn report(mut self, workers: &impl Workers) -> Diagnosis {
         let second_opinion = self.second_opinion();
         if let Some(opinion) = &second_opinion {
-            self.told.conclusion.verdict = self.agreed(opinion);
+            self.tell(opinion);
         }
-        let candidates = self.candidates(workers);
-        let evidence = std::iter::once(self.evidence).chain(self.others.into_iter().map(|(_, says)| says));
-        let Way { plan, conclusion } = self.told;
-        Diagnosis { second_opinion, ..plan.report(conclusion, candidates, evidence.collect()) }
+        let candidates = match &second_opinion {
+            Some(opinion) => self.candidates_of(workers, opinion),
+            None => self.candidates(workers),
+        };
+        let Self { told: Way { plan, conclusion }, evidence, others } = self;
+        let evidence = std::iter::once(evidence).chain(others.into_iter().map(|(_, says)| says));
+        let diagnosis = plan.report(conclusion, candidates, evidence.collect());
+        match second_opinion {
+            Some(opinion) => Diagnosis {
+                probability_none: opinion.none,
+                probability_unexplained: opinion.none_of_these,
+                second_opinion: Some(opinion),
+                ..diagnosis
+            },
+            None => diagnosis,
+        }
     }
 
     /// What a verdict that was fitted says of the same evidence, where the records are as the field has them: it was fitted to no others.
     fn second_opinion(&self) -> Option<SecondOpinion> {
-        let settings = &self.told.plan.settings;
-        if !self.all().any(|(way, _)| way.plan.is_of_the_field()) {
+        let Way { plan, conclusion } = &self.told;
+        let compared: Vec<Compared> = self.all().map(|(_, says)| says.clone()).collect();
+        let says_something = compared.iter().any(|says| !says.effects.is_empty());
+        if !says_something || !self.all().any(|(way, _)| way.plan.is_of_the_field()) {
             return None;
         }
-        let fitted = match settings.prior {
+        let fitted = match plan.settings.prior {
             Some(prior) => &FittedVerdict::built_in().clone().with_shares(prior),
             None => FittedVerdict::built_in(),
         };
-        let verdict = self.told.conclusion.verdict.clone();
-        Some(fitted.opinion(&self.compared(), |effect| self.is_no_cause(effect), (settings.name_at, verdict)))
+        let by_rules = (conclusion.verdict.clone(), conclusion.likeliest());
+        Some(fitted.opinion(&compared, |effect| self.is_no_cause(effect), by_rules, plan.settings.name_at))
     }
 
-    /// The verdict, where the other readings of the records put the same cause first.
-    fn agreed(&self, opinion: &SecondOpinion) -> Verdict {
-        let likeliest = opinion.effects.first().map(|(effect, ..)| *effect);
-        agreed(opinion.by_rules.clone(), &self.compared(), likeliest, |effect| self.is_no_cause(effect))
+    /// Tells what the fitted verdict says, on the way that simulates best with the first effect told.
+    fn tell(&mut self, opinion: &SecondOpinion) {
+        let verdict = opinion.told();
+        if verdict.effects == self.told.conclusion.verdict.effects && !verdict.effects.is_empty() {
+            // As the rules have it.
+        } else if let Some(&first) = verdict.effects.first().or(verdict.class.first()) {
+            self.tell_of(first);
+        } else if verdict.status == Status::None {
+            self.told.conclusion.augmented = self.told.plan.nominal.plain.clone();
+        }
+        self.told.conclusion.verdict = verdict;
     }
 
-    /// What each way says.
-    fn compared(&self) -> Vec<Compared> {
-        self.all().map(|(_, says)| says.clone()).collect()
+    /// Puts the way first that simulates the judged records best with an effect, of those in which it harms no record, if there are any.
+    fn tell_of(&mut self, effect: Effect) {
+        let fitted = |way: &Way| way.conclusion.fitted.iter().find(|s| s.parts[0].effect == effect).cloned();
+        let found = self.all().enumerate().filter_map(|(k, (way, says))| {
+            let single = fitted(way)?;
+            let error = way.plan.simulation_error(&single.fit);
+            Some((says.harms(effect) == Some(true), error, k, single))
+        });
+        let best = found.min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+        let Some((.., place, single)) = best else { return };
+        if place > 0 {
+            let (way, says) = &mut self.others[place - 1];
+            std::mem::swap(&mut self.told, way);
+            std::mem::swap(&mut self.evidence, says);
+        }
+        let conclusion = &mut self.told.conclusion;
+        (conclusion.augmented, conclusion.other) = (single, None);
     }
 
     /// Whether an effect belongs to the model of records that nobody designed, or was left out.
@@ -116,27 +150,57 @@ impl Ways {
         std::iter::once((&self.told, &self.evidence)).chain(self.others.iter().map(|(way, says)| (way, says)))
     }
 
-    /// The effects that have a probability, the likeliest first.
+    /// The effects that have a probability by rules, the likeliest first.
     fn candidates(&self, workers: &impl Workers) -> Vec<Candidate> {
-        let Conclusion { singles, odds, verdict, .. } = &self.told.conclusion;
-        let campaign = &self.told.plan.campaign;
+        let Conclusion { singles, odds, .. } = &self.told.conclusion;
+        let weighed: Vec<(&Explanation, f64)> = singles.iter().zip(odds.effects.iter().copied()).collect();
+        let mut candidates = self.told.candidates(workers, &weighed, &self.evidence);
+        candidates.sort_by(|x, y| {
+            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
+        });
+        candidates
+    }
+
+    /// The effects that have a probability by the fitted verdict, the likeliest first: each as the first way that fitted it has it.
+    fn candidates_of(&self, workers: &impl Workers, opinion: &SecondOpinion) -> Vec<Candidate> {
+        let mut left: Vec<(Effect, f64)> =
+            opinion.effects.iter().map(|(effect, p, _)| (*effect, *p)).collect();
+        let mut candidates = Vec::new();
+        for (way, says) in self.all() {
+            let of = |(effect, p): &(Effect, f64)| {
+                let single = way.conclusion.fitted.iter().find(|s| s.parts[0].effect == *effect)?;
+                Some((single, *p))
+            };
+            let known: Vec<(&Explanation, f64)> = left.iter().filter_map(of).collect();
+            left.retain(|asked| of(asked).is_none());
+            candidates.extend(way.candidates(workers, &known, says));
+        }
+        candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability));
+        candidates
+    }
+}
+
+impl Way {
+    /// Explanations by one effect as candidates with a probability; those that the verdict tells with profiled intervals.
+    fn candidates(
+        &self,
+        workers: &impl Workers,
+        weighed: &[(&Explanation, f64)],
+        says: &Compared,
+    ) -> Vec<Candidate> {
+        let (campaign, verdict) = (&self.plan.campaign, &self.conclusion.verdict);
         let is_told = |effect| verdict.effects.contains(&effect) || verdict.class.contains(&effect);
-        let weighed: Vec<(&Explanation, &f64)> = singles.iter().zip(&odds.effects).collect();
-        let one = |(single, p): &(&Explanation, &f64)| {
+        let one = |&(single, p): &(&Explanation, f64)| {
             let effect = single.parts[0].effect;
-            let says = self.evidence.of(effect)?;
+            let says = says.of(effect)?;
             let intervals = match is_told(effect) {
                 true => profiled(workers, campaign, single),
                 false => single.fit.intervals(),
             };
             let parameters = parameters(campaign, (single, 0), &intervals);
-            Some(Candidate { parameters, ..candidate((single, **p), says) })
+            Some(Candidate { parameters, ..candidate((single, p), says) })
         };
-        let mut candidates: Vec<Candidate> = workers.map(&weighed, one).into_iter().flatten().collect();
-        candidates.sort_by(|x, y| {
-            y.probability.total_cmp(&x.probability).then(y.delta_bic.total_cmp(&x.delta_bic))
-        });
-        candidates
+        workers.map(weighed, one).into_iter().flatten().collect()
     }
 }
 

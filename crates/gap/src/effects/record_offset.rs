@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Law: one constant for each fitted record but the first, which has the negative sum of the others: a zero that all records share is a level
-//! of the borders. In another record the zero is predicted from the first samples. Parameters, output units: `largest_difference` between two records
+//! of the borders. On top of a given model, whose borders stay, every fitted record has a constant of its own. In another record the zero is predicted from the first samples. Parameters, output units: `largest_difference` between two records
 //! and `sd_between_records`. Stage: sensor. Left by sensors that are switched on, re-zeroed or mounted anew before each record: every
 //! record lies above or below the simulation by a constant. Confused with: sensor drift, of which it is the limit where the zero moves in the pauses only.
 
@@ -25,27 +25,39 @@ pub(super) const CARD: Card = Card {
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let tracks = fitted_tracks(scene.campaign);
+    if scene.campaign.holds_nominal() {
+        return vec![zeros(tracks, None)];
+    }
     // Of one record the zero is that of the borders.
     let Some((&first, others)) = tracks.split_first().filter(|(_, others)| !others.is_empty()) else {
         return Vec::new();
     };
-    let others = others.to_vec();
-    vec![Variant::new(vec![Vec::new()], move |_, assembly| {
-        let zero = |&track: &usize| EquationColumn::Offset { track, against: Some(first) };
-        assembly.equation_columns.extend(others.iter().map(zero));
-    })]
+    vec![zeros(others.to_vec(), Some(first))]
 }
 
-/// How far the zeros of the fitted records lie apart.
+/// A zero for each of the tracks.
+fn zeros(tracks: Vec<usize>, against: Option<usize>) -> Variant {
+    Variant::new(vec![Vec::new()], move |_, assembly| {
+        let zero = |&track: &usize| EquationColumn::Offset { track, against };
+        assembly.equation_columns.extend(tracks.iter().map(zero));
+    })
+}
+
+/// How far the zeros of the fitted records lie apart; that of a model that stays is one of them.
 fn differences(reading: &Reading<'_>) -> Vec<FittedParameter> {
     let fit = reading.fit;
     let at_rest = 1.0 + fit.linear.a.iter().sum::<f64>();
-    let zeros: Vec<f64> =
+    let mut zeros: Vec<f64> =
         offsets(&fit.assembly, &fit.linear.d).into_values().map(|zero| zero / at_rest).collect();
+    if reading.campaign.holds_nominal() {
+        zeros.push(0.0);
+    }
     let [low, high] = zeros
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &zero| [low.min(zero), high.max(zero)]);
-    // Their mean is zero, and one of them follows from the others.
-    let variance = zeros.iter().map(|zero| zero * zero).sum::<f64>() / (zeros.len() as f64 - 1.0).max(1.0);
+    // Of zeros told against each other the mean is 0, and one of them follows from the others.
+    let mean = zeros.iter().sum::<f64>() / zeros.len().max(1) as f64;
+    let square = |zero: &f64| (zero - mean) * (zero - mean);
+    let variance = zeros.iter().map(square).sum::<f64>() / (zeros.len() as f64 - 1.0).max(1.0);
     vec![reading.step("largest_difference", high - low), reading.step("sd_between_records", variance.sqrt())]
 }

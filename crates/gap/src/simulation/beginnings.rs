@@ -115,7 +115,8 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    /// That of the fitted records; nothing without drift paths or zeros of their own. A zero is a drift path of one value.
+    /// That of the fitted records; nothing without drift paths or zeros of their own. A zero is a drift path of one value; zeros told
+    /// against a model that stays lie about its own, which is 0.
     pub(crate) fn of(assembly: &Assembly, coefficients: &[f64]) -> Option<Self> {
         let mut paths: Vec<(usize, Vec<f64>)> = Vec::new();
         for (column, d) in assembly.equation_columns.iter().zip(coefficients) {
@@ -129,7 +130,11 @@ impl Level {
             paths = offsets(assembly, coefficients).into_iter().map(|(track, d)| (track, vec![d])).collect();
         }
         let count: usize = paths.iter().map(|(_, values)| values.len()).sum();
-        let mean = paths.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64;
+        let is_known = |c: &EquationColumn| matches!(c, EquationColumn::Offset { against: None, .. });
+        let mean = match assembly.equation_columns.iter().any(is_known) {
+            true => 0.0,
+            false => paths.iter().flat_map(|(_, values)| values).sum::<f64>() / count as f64,
+        };
         let about: Vec<[f64; 2]> = paths
             .iter()
             .map(|(_, values)| [values[0] - mean, values.iter().sum::<f64>() / values.len() as f64 - mean])

@@ -1,7 +1,7 @@
 //! Whether other comparisons agree with a cause that is named, where nobody designed the records.
 //!
 //! There no likelihood is right: noise colour, poles and outliers gain one step ahead what a fault gains in simulation, and a rule that was
-//! tuned on designed experiments names them for certain. So a cause is named only where two other readings of the same records agree:
+//! tuned on designed experiments names them for certain. So a cause of theirs counts only where two other readings of the same records agree:
 //!
 //! ```text
 //! the fitted verdict       the likeliest of its effects
@@ -9,50 +9,22 @@
 //!                          (BIC) and closes more of the gap on held-out records
 //! ```
 //!
-//! A twin of the cause does not contradict it. Otherwise the cause and those put before it are told as rivals.
+//! A twin of the cause does not contradict it. How often such a cause is the right one is counted when the verdict is fitted.
 
-use crate::diagnosis::{Status, Verdict};
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
 
-/// The verdict, or one that tells the cause among its [rivals].
-pub(crate) fn agreed(
-    verdict: Verdict,
-    evidence: &[Compared],
-    likeliest: Option<Effect>,
-    is_no_cause: impl Fn(Effect) -> bool,
-) -> Verdict {
-    let (Status::Named, &[cause]) = (verdict.status, &verdict.effects[..]) else { return verdict };
-    let mut class = rivals(cause, evidence, likeliest, is_no_cause);
-    if class.is_empty() {
-        return verdict;
-    }
-    class.insert(0, cause);
-    let stage = class.iter().all(|effect| effect.stage() == cause.stage()).then(|| cause.stage());
-    Verdict {
-        status: Status::Ambiguous,
-        effects: Vec::new(),
-        class,
-        stage: stage.or(verdict.stage),
-        calibrated: false,
-        corrected_by: None,
-        ..verdict
-    }
-}
-
-/// The effects that other readings put before a cause, two at most. `likeliest` is the first effect of the fitted verdict, `is_no_cause` tells
+/// Whether no other reading puts another effect before a cause. `likeliest` is the first effect of the fitted verdict, `is_no_cause` tells
 /// effects that are no candidates.
-pub(super) fn rivals(
+pub(super) fn agrees(
     cause: Effect,
     evidence: &[Compared],
     likeliest: Option<Effect>,
     is_no_cause: impl Fn(Effect) -> bool,
-) -> Vec<Effect> {
-    let simulator = simulator_before(cause, evidence, is_no_cause).filter(|_| !cause.moves_no_simulation());
-    let likeliest = likeliest.filter(|other| differ(cause, *other));
-    let mut rivals: Vec<Effect> = simulator.into_iter().chain(likeliest).collect();
-    rivals.dedup();
-    rivals
+) -> bool {
+    let by_simulators =
+        || cause.moves_no_simulation() || simulator_before(cause, evidence, is_no_cause).is_none();
+    likeliest.is_none_or(|other| !differ(cause, other)) && by_simulators()
 }
 
 /// Whether two effects are neither the same nor twins.
@@ -81,13 +53,7 @@ fn simulator_before(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verdict::decide::naming_nothing;
     use crate::verdict::fitted::examples::{compared, says};
-
-    fn named(cause: Effect) -> Verdict {
-        let effects = vec![cause];
-        Verdict { effects, ..naming_nothing(Status::Named, Some(cause.stage()), 0.95) }
-    }
 
     /// Simulators of which one harms a held-out record, in the order of their gains, with what they close.
     fn simulators(order: [(Effect, f64); 2]) -> Vec<Compared> {
@@ -101,58 +67,32 @@ mod tests {
     }
 
     #[test]
-    fn what_all_put_first_is_named() {
+    fn all_readings_must_put_it_first_or_a_twin_of_it() {
         let evidence = simulators([(Effect::Creep, 0.5), (Effect::SensorSaturation, 0.6)]);
-        let verdict = agreed(named(Effect::Creep), &evidence, Some(Effect::Creep), |_| false);
-        assert_eq!(verdict, named(Effect::Creep));
-        // A twin does not contradict, and without simulators the fitted verdict decides.
-        let verdict = agreed(named(Effect::Creep), &evidence, Some(Effect::RateDependence), |_| false);
-        assert_eq!(verdict, named(Effect::Creep));
-        assert_eq!(agreed(named(Effect::Creep), &[], Some(Effect::Creep), |_| false), named(Effect::Creep));
+        let agrees =
+            |evidence: &[Compared], likeliest| agrees(Effect::Creep, evidence, Some(likeliest), |_| false);
+        assert!(agrees(&evidence, Effect::Creep) && agrees(&evidence, Effect::RateDependence));
+        assert!(!agrees(&evidence, Effect::Resonance) && !agrees(&[], Effect::Resonance));
+        // Without simulators the fitted verdict decides.
+        assert!(agrees(&[], Effect::Creep));
+        let other = simulators([(Effect::SensorSaturation, 0.6), (Effect::Creep, 0.5)]);
+        assert!(!agrees(&other, Effect::Creep));
     }
 
     #[test]
-    fn what_either_contradicts_is_told_among_its_rivals() {
-        let evidence = simulators([(Effect::SensorSaturation, 0.6), (Effect::Creep, 0.5)]);
-        let of = |likeliest| agreed(named(Effect::Creep), &evidence, Some(likeliest), |_| false);
-        let rivals = of(Effect::Creep);
-        assert_eq!(rivals.status, Status::Ambiguous);
-        assert_eq!(rivals.class, [Effect::Creep, Effect::SensorSaturation]);
-        assert!(rivals.effects.is_empty() && !rivals.calibrated);
-        assert_eq!(of(Effect::SensorSaturation).class, [Effect::Creep, Effect::SensorSaturation]);
-        assert_eq!(of(Effect::Resonance).class, [Effect::Creep, Effect::SensorSaturation, Effect::Resonance]);
-        let fitted = agreed(named(Effect::Creep), &[], Some(Effect::Resonance), |_| false);
-        assert_eq!(fitted.class, [Effect::Creep, Effect::Resonance]);
-    }
-
-    #[test]
-    fn what_fits_better_and_closes_less_does_not_contradict() {
-        let evidence = simulators([(Effect::SensorSaturation, 0.1), (Effect::Creep, 0.5)]);
-        assert_eq!(
-            agreed(named(Effect::Creep), &evidence, Some(Effect::Creep), |_| false),
-            named(Effect::Creep)
-        );
+    fn a_simulator_must_fit_better_and_close_more() {
+        let agrees = |evidence: &[Compared], cause| agrees(cause, evidence, Some(cause), |_| false);
+        let closes_less = simulators([(Effect::SensorSaturation, 0.1), (Effect::Creep, 0.5)]);
+        assert!(agrees(&closes_less, Effect::Creep));
         // What has no simulator is behind any that closes something.
-        let verdict = agreed(named(Effect::GainDrift), &evidence, Some(Effect::GainDrift), |_| false);
-        assert_eq!(verdict.class, [Effect::GainDrift, Effect::SensorSaturation]);
+        assert!(!agrees(&closes_less, Effect::GainDrift));
     }
 
     #[test]
     fn simulators_say_nothing_of_what_moves_none_and_of_what_is_no_cause() {
         let evidence = simulators([(Effect::SensorSaturation, 0.6), (Effect::Creep, 0.5)]);
-        let noise = agreed(named(Effect::Outliers), &evidence, Some(Effect::Outliers), |_| false);
-        assert_eq!(noise, named(Effect::Outliers));
+        assert!(agrees(Effect::Outliers, &evidence, Some(Effect::Outliers), |_| false));
         let left_out = |effect| effect == Effect::SensorSaturation;
-        let verdict = agreed(named(Effect::Creep), &evidence, Some(Effect::Creep), left_out);
-        assert_eq!(verdict, named(Effect::Creep));
-    }
-
-    #[test]
-    fn only_a_single_cause_is_asked_about() {
-        let evidence = simulators([(Effect::SensorSaturation, 0.6), (Effect::Creep, 0.5)]);
-        let none = naming_nothing(Status::None, None, 0.8);
-        assert_eq!(agreed(none.clone(), &evidence, Some(Effect::Resonance), |_| false), none);
-        let both = Verdict { effects: vec![Effect::Creep, Effect::Backlash], ..named(Effect::Creep) };
-        assert_eq!(agreed(both.clone(), &evidence, Some(Effect::Resonance), |_| false), both);
+        assert!(agrees(Effect::Creep, &evidence, Some(Effect::Creep), left_out));
     }
 }

@@ -15,7 +15,7 @@ const LIKELY: f64 = 2.0 / 3.0;
 ///
 /// ```text
 /// named         the first has probability `name_at`, evidence like this was met before, and it harms no held-out record
-/// class         else the fewest, two or three, that have `name_at` together, or three that have two thirds
+/// class         else the fewest, two or three, that have `name_at` together, or else two thirds
 /// none          else nothing is likelier to be missing than a cause that is none of the candidates
 /// ```
 ///
@@ -29,8 +29,8 @@ pub(crate) fn verdict(weighed: &Weighed, (name_at, harms): (f64, bool)) -> Verdi
     }
     let rivals = &weighed.effects[..weighed.effects.len().min(WIDEST)];
     let sum = |of: usize| rivals[..of].iter().map(|(_, p)| p).sum::<f64>();
-    let enough = (2..=rivals.len()).find(|of| sum(*of) >= name_at || *of == rivals.len());
-    if let Some(of) = enough.filter(|of| sum(*of) >= LIKELY) {
+    let enough = |least: f64| (2..=rivals.len()).find(|of| sum(*of) >= least);
+    if let Some(of) = enough(name_at).or_else(|| enough(LIKELY)) {
         let class: Vec<Effect> = rivals[..of].iter().map(|(effect, _)| *effect).collect();
         let are_twins = class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
         let status = if are_twins { Status::Class } else { Status::Ambiguous };

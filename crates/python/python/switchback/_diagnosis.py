@@ -228,7 +228,7 @@ def diagnose(
         Only nominal models that could run in real time, so that they can be exported.
     prior
         How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
-        ``{"none": 0.2, "unexplained": 0.1}``: for the second opinion on records that nobody designed.
+        ``{"none": 0.2, "unexplained": 0.1}``: for records that nobody designed.
     threads, progress
         As in :func:`identify`.
 

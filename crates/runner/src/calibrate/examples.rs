@@ -2,17 +2,17 @@
 
 use crate::examination::Reply;
 use crate::field::{Answered, Case, Kind};
-use switchback_gap::Effect;
 use switchback_gap::fitted::{Example, Holds};
+use switchback_gap::{Effect, Status, Verdict};
 
 /// Where an answer is: the case and the answer by their position.
-type Place = (usize, usize);
+pub(super) type Place = (usize, usize);
 
 /// What belongs to the model of records that nobody designed.
 const NO_CAUSE: Effect = Effect::ColouredNoise;
 
 /// Every answer that a fitted verdict could have given, with its place.
-pub fn examples(cases: &[Case]) -> Vec<(Place, Example)> {
+pub(super) fn examples(cases: &[Case]) -> Vec<(Place, Example)> {
     let of_case = |(k, case): (usize, &Case)| -> Vec<(Place, Example)> {
         let answers = case.answers.iter().enumerate();
         answers.filter_map(|(j, answer)| Some(((k, j), example(case, answer)?))).collect()
@@ -20,10 +20,10 @@ pub fn examples(cases: &[Case]) -> Vec<(Place, Example)> {
     cases.iter().enumerate().flat_map(of_case).collect()
 }
 
-/// The example of an answer; none where rules keep the word, or nothing was diagnosed.
+/// The example of an answer; none where rules tell two causes, or nothing was diagnosed.
 fn example(case: &Case, answer: &Answered) -> Option<Example> {
     let by_rules = answer.rules();
-    if answer.evidence.compared.is_empty() || by_rules.status == "refit" || by_rules.effects.len() > 1 {
+    if answer.evidence.compared.is_empty() || by_rules.effects.len() > 1 {
         return None;
     }
     let base = if case.is_measured { case.base.clone() } else { format!("made {}", case.base) };
@@ -34,8 +34,26 @@ fn example(case: &Case, answer: &Answered) -> Option<Example> {
         law,
         evidence: answer.evidence.compared.clone(),
         excluded: vec![NO_CAUSE],
+        rules: (told(by_rules)?, Effect::from_name(by_rules.top.0).map(|effect| (effect, by_rules.top.1))),
         by_rules: given_by(by_rules, &holds),
         holds,
+    })
+}
+
+/// The verdict that a reply tells; none where there was none.
+fn told(reply: &Reply) -> Option<Verdict> {
+    let status = Status::ALL.into_iter().find(|status| status.name() == reply.status)?;
+    let known = |names: &[&str]| names.iter().filter_map(|name| Effect::from_name(name)).collect();
+    Some(Verdict {
+        status,
+        effects: known(&reply.effects),
+        class: known(&reply.class),
+        stage: None,
+        probability: reply.probability,
+        calibrated: false,
+        corrected_by: None,
+        refit: None,
+        held_out_error_ratio: None,
     })
 }
 
@@ -66,7 +84,7 @@ fn given_by(reply: &Reply, holds: &Holds) -> f64 {
     let right = match reply.status {
         "named" => known(&reply.effects),
         "class" | "ambiguous" => known(&reply.class),
-        "none" => holds.none,
+        "none" | "refit" => holds.none,
         "unexplained" => holds.none_of_these,
         _ => return 0.0,
     };

@@ -2,12 +2,14 @@
 
 mod examples;
 
-pub use examples::examples;
+use examples::examples;
 
+use crate::calibrate::examples::Place;
 use crate::examination::{Measure, Reply, measures_table};
-use crate::field::{Case, Expect, score};
-use switchback_gap::fitted::{CalibrateError, FittedVerdict, calibrate};
-use switchback_gap::{Effect, Settings};
+use crate::field::{BaseVerdicts, Case, Expect, Rating, score};
+use std::collections::HashSet;
+use switchback_gap::fitted::{Agreed, CalibrateError, FittedVerdict, calibrate};
+use switchback_gap::{Settings, Verdict};
 
 /// A fitted verdict beside what rules reach on the same rigs.
 #[derive(Debug, Clone)]
@@ -16,10 +18,10 @@ pub struct Calibrated {
     pub verdict: FittedVerdict,
     /// Measures of the field examination by rules.
     pub by_rules: Vec<Measure>,
-    /// The same by the verdict, each rig predicted from others.
+    /// The same by the verdict alone, each rig predicted from others.
     pub out_of_fold: Vec<Measure>,
-    /// The same by both: what rules name, unless the verdict that knows neither base nor law, or a simulator, puts another cause first.
-    pub agreed: Vec<Measure>,
+    /// The same as the program tells it: where all readings agree, what rules name.
+    pub told: Vec<Measure>,
 }
 
 /// Fits the verdict to judged rigs. `studies` and `command` say where they come from.
@@ -28,27 +30,41 @@ pub struct Calibrated {
 /// [`CalibrateError`] where rigs of a kind are missing.
 pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrated, CalibrateError> {
     let (places, examples): (Vec<_>, Vec<_>) = examples(cases).into_iter().unzip();
-    let (verdict, predicted) = calibrate(&examples, origin)?;
+    let (mut verdict, predicted) = calibrate(&examples, origin)?;
     let mut by_rules = cases.to_vec();
     for answer in by_rules.iter_mut().flat_map(|case| &mut case.answers) {
         answer.reply = answer.rules().clone();
     }
-    let (mut by_fit, mut agreed) = (by_rules.clone(), by_rules.clone());
+    let predicted: Vec<_> = places.into_iter().zip(examples.iter().zip(&predicted)).collect();
+    let agreeing = predicted.iter().filter(|(_, (example, p))| p.agrees(example)).map(|(place, _)| *place);
+    verdict.agreed = agreed(&by_rules, &agreeing.collect());
+    let (mut by_fit, mut told) = (by_rules.clone(), by_rules.clone());
     let name_at = Settings::default().name_at;
-    for (((case, answer), example), predicted) in places.into_iter().zip(&examples).zip(&predicted) {
-        by_fit[case].answers[answer].reply =
-            Reply::told(&predicted.verdict(example, name_at), predicted.top());
-        let reply = &mut agreed[case].answers[answer].reply;
-        if let Some(cause) = reply.named().and_then(Effect::from_name) {
-            reply.rivalled(predicted.rivals(example, cause).into_iter().map(Effect::name));
-        }
+    for ((case, answer), (example, p)) in predicted {
+        let reply = |verdict: Verdict| Reply::told(&verdict, p.top());
+        by_fit[case].answers[answer].reply = reply(p.verdict(example, name_at));
+        told[case].answers[answer].reply = reply(p.told(example, (name_at, verdict.agreed.probability())));
     }
     let measures = |cases: &[Case]| score(cases, &Expect::default()).measures;
     Ok(Calibrated {
         verdict,
         by_rules: measures(&by_rules),
         out_of_fold: measures(&by_fit),
-        agreed: measures(&agreed),
+        told: measures(&told),
+    })
+}
+
+/// How often what rules name is right where all readings agree: of the answers at some places, those that can be judged.
+fn agreed(cases: &[Case], places: &HashSet<Place>) -> Agreed {
+    let verdicts = BaseVerdicts::of(cases);
+    let is_asked = |place: &Place| places.contains(place);
+    let all = cases.iter().enumerate().flat_map(|(k, case)| (0..case.answers.len()).map(move |j| (k, j)));
+    let asked = all.zip(verdicts.asked(cases)).filter(|(place, _)| is_asked(place));
+    let rated = asked.filter_map(|(_, asked)| asked.rating());
+    rated.fold(Agreed::default(), |Agreed { right, of }, rating| match rating {
+        Rating::Exact | Rating::Class => Agreed { right: right + 1, of: of + 1 },
+        Rating::Wrong => Agreed { right, of: of + 1 },
+        Rating::Silent => Agreed { right, of },
     })
 }
 
@@ -58,14 +74,16 @@ impl Calibrated {
         let from = &self.verdict.provenance;
         format!(
             "{} diagnoses; log-loss {:.3} nats a diagnosis, each predicted from rigs with other bases and laws; by rules {:.3}, by shares alone {:.3}\n\n\
-             by rules\n{}\nby the fitted verdict, out of fold\n{}\nby both, as the program tells it\n{}",
+             by rules\n{}\nby the fitted verdict alone, out of fold\n{}\nas the program tells it, out of fold (of {} causes on which all readings agree {} are right)\n{}",
             from.examples,
             from.log_loss,
             from.log_loss_of_rules,
             from.log_loss_of_shares,
             measures_table(&self.by_rules),
             measures_table(&self.out_of_fold),
-            measures_table(&self.agreed),
+            self.verdict.agreed.of,
+            self.verdict.agreed.right,
+            measures_table(&self.told),
         )
     }
 }

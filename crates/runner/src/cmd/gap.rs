@@ -95,7 +95,7 @@ pub struct Asked {
     causal: bool,
 
     /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
-    /// none=0.2,unexplained=0.1: for the second opinion on records that nobody designed.
+    /// none=0.2,unexplained=0.1: for records that nobody designed.
     #[arg(long, value_name = "SHARES", value_parser = prior)]
     prior: Option<Shares>,
 }

@@ -34,7 +34,7 @@ pub fn why(report: &Report) -> String {
 fn second(opinion: &SecondOpinion) -> String {
     let Shares { effect, none, none_of_these } = opinion.shares;
     let head = format!(
-        "second opinion, of a model fitted to {} diagnoses of rigs whose cause is known ({} % had one of the effects, {} % nothing, {} % another \
+        "the verdict is that of a model fitted to {} diagnoses of rigs whose cause is known ({} % had one of the effects, {} % nothing, {} % another \
          cause{}): nothing is missing with probability {}, the cause is none of the candidates with {}. To the logarithm of the odds of the likeliest \
          candidates add",
         opinion.examples,
@@ -62,15 +62,13 @@ fn second(opinion: &SecondOpinion) -> String {
     format!("\n{}{}{}", wrapped(&head, ""), columns(&rows), wrapped(&by_rules(opinion), ""))
 }
 
-/// What the rules name, which is told as a rival where the others put another cause first.
+/// What rules would tell.
 fn by_rules(opinion: &SecondOpinion) -> String {
-    let first = match opinion.by_rules.effects[..] {
-        [only] => format!("The rules put {only} first. "),
-        _ => String::new(),
+    let said = match &opinion.by_rules.effects[..] {
+        [] => opinion.by_rules.status.name().to_owned(),
+        effects => effects.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and "),
     };
-    format!(
-        "{first}In records that nobody designed a cause is named only where the rules and this model put it first and no simulator with another one does better."
-    )
+    format!("Rules tuned by hand say: {said} ({}).", probability(opinion.by_rules.probability))
 }
 
 fn table(listed: &[Candidate]) -> Vec<[String; 6]> {

@@ -44,23 +44,21 @@ impl Reply {
         }
     }
 
-    /// Tells what it names among rivals, where there are any.
-    pub fn rivalled(&mut self, rivals: impl Iterator<Item = &'static str>) {
-        let rivals: Vec<&'static str> = rivals.collect();
-        if !rivals.is_empty() {
-            self.class = self.effects.drain(..).chain(rivals).collect();
-            self.status = Status::Ambiguous.name();
-        }
-    }
-
     /// What a diagnosis said.
     pub fn of(d: &Diagnosis) -> Self {
         Self::told(&d.verdict, Self::top(d))
     }
 
-    /// What rules said, where the other readings of the records were asked.
+    /// What rules said, where a fitted verdict is told instead.
     pub fn by_rules(d: &Diagnosis) -> Option<Self> {
-        d.second_opinion.as_ref().map(|opinion| Self::told(&opinion.by_rules, Self::top(d)))
+        let opinion = d.second_opinion.as_ref()?;
+        let rules = &opinion.by_rules;
+        let top = match opinion.likeliest_by_rules {
+            Some((effect, p)) => (effect.name(), p),
+            None if rules.status == Status::Unexplained => (Status::Unexplained.name(), rules.probability),
+            None => (Status::None.name(), rules.probability),
+        };
+        Some(Self::told(rules, top))
     }
 
     fn top(d: &Diagnosis) -> (&'static str, f64) {

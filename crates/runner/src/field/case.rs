@@ -5,7 +5,7 @@ use super::design::Kind;
 use super::seal::{How, Sealed};
 use crate::examination::{ClosureCheck, Evidence, Judged, Reply};
 use serde::{Deserialize, Serialize};
-use switchback_gap::Diagnosis;
+use switchback_gap::{Diagnosis, Gap};
 use switchback_maker::OBSERVABLE;
 
 /// A fault as it was put in.
@@ -53,7 +53,8 @@ pub struct Answered {
     /// What it rests on.
     pub evidence: Evidence,
     /// How far the gap of the model given closes, where that was stated and the fault moves the simulation. What really closes is
-    /// `1 − E(base)/E(with the fault)`, `E` the mean square of the model's simulation error over the held-out records.
+    /// `1 − (E(base) − s²)/(E(with the fault) − s²)`, `E` the mean square of the model's simulation error over the held-out records and `s`
+    /// the noise floor that the diagnosis states: the gap and its closure are counted from there.
     pub closure: Option<ClosureCheck>,
 }
 
@@ -89,28 +90,28 @@ pub struct Case {
 }
 
 impl Case {
-    /// A rig with its key opened and what was said of it; `actual` is what of the gap of the model given is the fault's.
+    /// A rig with its key opened and what was said of it; `errors` are mean squares of the simulation error of the model given, without
+    /// and with the fault.
     pub(super) fn judge(
         sealed: &Sealed,
         base: &Base,
         diagnoses: Vec<(bool, Option<Diagnosis>)>,
-        actual: Option<f64>,
+        errors: Option<[f64; 2]>,
     ) -> Self {
         let (ticket, key) = (&sealed.ticket, &sealed.key);
         let answered = |(with_model, diagnosis): (bool, Option<Diagnosis>)| {
-            let actual = actual.filter(|_| with_model);
-            let stated = diagnosis.as_ref().and_then(|d| d.gap.closure);
-            let check = |(stated, actual): (switchback_gap::Figure, f64)| ClosureCheck {
-                estimate: stated.estimate,
-                ci90: stated.ci90,
-                actual,
+            let check = |gap: &Gap| {
+                let (stated, noise) = (gap.closure?, gap.noise_floor * gap.noise_floor);
+                let [before, after] = errors.filter(|_| with_model)?.map(|error| error - noise);
+                let actual = 1.0 - before / after;
+                (after > 0.0).then_some(ClosureCheck { estimate: stated.estimate, ci90: stated.ci90, actual })
             };
             Answered {
                 with_model,
                 reply: diagnosis.as_ref().map_or_else(Reply::refused, Reply::of),
                 by_rules: diagnosis.as_ref().and_then(Reply::by_rules),
                 evidence: diagnosis.as_ref().map_or_else(Evidence::default, Evidence::of),
-                closure: stated.zip(actual).map(check),
+                closure: diagnosis.as_ref().and_then(|d| check(&d.gap)),
             }
         };
         // The maker puts a fault in the place of what the machine has of it by itself.

@@ -141,8 +141,8 @@ impl<'a> Field<'a> {
         let base = self.base(&sealed.ticket);
         match self.open(sealed) {
             Ok(opened) => {
-                let actual = opened.closure().filter(|_| moves_simulation(&sealed.ticket));
-                Case::judge(sealed, base, opened.diagnoses(self.examiner), actual)
+                let errors = opened.errors().filter(|_| moves_simulation(&sealed.ticket));
+                Case::judge(sealed, base, opened.diagnoses(self.examiner), errors)
             }
             Err(reason) => {
                 let key = Key { refused: Some(reason), ..sealed.key.clone() };
@@ -171,11 +171,11 @@ impl Opened {
         vec![(false, without), (true, with)]
     }
 
-    /// `1 − E(base)/E(with the fault)` of the base's model.
-    fn closure(&self) -> Option<f64> {
+    /// Mean squares of the simulation error of the base's model, without and with the fault.
+    fn errors(&self) -> Option<[f64; 2]> {
         let model = &self.nominal.as_ref().ok()?.model;
-        let [before, after] = [&self.before, &self.rig].map(|rig| mean_square(left(model, rig)));
-        (after > 0.0 && after.is_finite()).then(|| 1.0 - before / after)
+        let errors = [&self.before, &self.rig].map(|rig| mean_square(left(model, rig)));
+        errors.iter().all(|error| error.is_finite()).then_some(errors)
     }
 }
 

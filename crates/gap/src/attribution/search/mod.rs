@@ -88,6 +88,20 @@ pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> 
     })
 }
 
+/// An explanation fitted to convergence beside a nominal model whose own parameters stay as they are.
+pub(crate) fn beside_the_model(
+    campaign: &Campaign,
+    nominal: &Explanation,
+    single: &Explanation,
+) -> Explanation {
+    let known = &nominal.fit;
+    let start = Fit { linear: known.linear.clone(), grid: known.grid.clone(), ..single.fit.clone() };
+    let held = campaign.with_nominal_held(&known.grid);
+    let found = finish(&held, 0, &Explanation { fit: start, ..single.clone() });
+    let parameters = known.parameters + found.fit.parameters;
+    Explanation { fit: Fit { parameters, ..found.fit }, set_back: nominal.set_back, ..found }
+}
+
 fn improved(
     campaign: &Campaign,
     held: usize,

@@ -7,16 +7,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::choice::{Choice, Sign, fitted, probabilities};
-use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
-use super::{Coefficient, FittedVerdict, Provenance, Shares, Weighed, harms};
+use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT, RulesSay};
+use super::{Agreed, Coefficient, FittedVerdict, Provenance, Shares, Weighed, all_agree, harms, told};
 use crate::diagnosis::Verdict;
 use crate::effect::Effect;
 use crate::evidence::Compared;
-use crate::verdict::agreement::rivals;
 use crate::verdict::by_fit;
 
 /// Folds of the base rigs, and of the laws.
-const FOLDS: usize = 5;
+const FOLDS: usize = 10;
 
 /// Weights of the penalty tried: standard deviations of a coefficient from 3 down to 0.2.
 const RIDGES: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
@@ -45,8 +44,16 @@ pub struct Example {
     pub excluded: Vec<Effect>,
     /// What holds; nothing where nobody knows: such an example is predicted, and fitted to nothing.
     pub holds: Holds,
-    /// Probability that rules tuned by hand gave to what holds.
+    /// What rules tuned by hand tell, and what they find likeliest.
+    pub rules: (Verdict, Option<(Effect, f64)>),
+    /// Probability that these gave to what holds.
     pub by_rules: f64,
+}
+
+impl Example {
+    fn rules_say(&self) -> RulesSay {
+        RulesSay::of(self.rules.0.status, self.rules.1)
+    }
 }
 
 impl Holds {
@@ -66,10 +73,15 @@ impl OutOfFold {
         by_fit::verdict(&self.0, (name_at, harms(&example.evidence, &self.0)))
     }
 
-    /// The effects that this, or simulators, put before a cause that rules name; without any the cause stays named.
-    pub fn rivals(&self, example: &Example, cause: Effect) -> Vec<Effect> {
-        let likeliest = self.0.effects.first().map(|(effect, _)| *effect);
-        rivals(cause, &example.evidence, likeliest, |effect| example.excluded.contains(&effect))
+    /// Whether all readings agree on the one cause that rules name.
+    pub fn agrees(&self, example: &Example) -> bool {
+        all_agree(&example.rules.0, &example.evidence, &self.0, |effect| example.excluded.contains(&effect))
+    }
+
+    /// What is told, where agreement has some probability.
+    pub fn told(&self, example: &Example, (name_at, agreed): (f64, f64)) -> Verdict {
+        let agreed = self.agrees(example).then_some(agreed);
+        told(&self.verdict(example, name_at), &example.rules.0, agreed)
     }
 
     /// The likeliest explanation: an effect, or `none` or `unexplained`.
@@ -91,7 +103,7 @@ pub enum CalibrateError {
     TooFew(usize, usize),
 }
 
-/// Fits a verdict, and predicts every example out of fold. `studies` and `command` say where the examples come from.
+/// Fits a verdict, and predicts every example out of fold; what agreement is worth is left to be counted. `studies` and `command` say where the examples come from.
 ///
 /// # Errors
 /// [`CalibrateError`] where examples of a kind are missing.
@@ -135,7 +147,7 @@ pub fn calibrate(
 const LEAST: f64 = 1e-3;
 
 fn alternatives(example: &Example) -> Alternatives {
-    Alternatives::of(&example.evidence, |effect| example.excluded.contains(&effect))
+    Alternatives::of(&example.evidence, example.rules_say(), |effect| example.excluded.contains(&effect))
 }
 
 fn choice(example: &Example, alternatives: &Alternatives) -> Choice {
@@ -274,6 +286,7 @@ fn verdict(
     FittedVerdict {
         provenance,
         shares,
+        agreed: Agreed::default(),
         effect: effect.map(|(k, (feature, value))| one((feature.name, value, of_effects(k)))).collect(),
         none: whole(none),
         none_of_these: whole(none_of_these),
@@ -358,7 +371,8 @@ mod tests {
         let renamed = text.replacen("\"settling\"", "\"setling\"", 1);
         assert!(serde_json::from_str::<FittedVerdict>(&renamed).is_err());
         let evidence = &examples[0].evidence;
-        let alternatives = |evidence: &[Compared]| Alternatives::of(evidence, |_| false);
+        let rules = examples[0].rules_say();
+        let alternatives = |evidence: &[Compared]| Alternatives::of(evidence, rules, |_| false);
         let before = verdict.weigh(&alternatives(evidence));
         let rare = Shares { effect: 0.1, none: 0.8, none_of_these: 0.1 };
         let after = verdict.clone().with_shares(rare).weigh(&alternatives(evidence));

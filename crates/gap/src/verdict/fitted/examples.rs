@@ -1,10 +1,11 @@
 //! Made evidence for tests.
 
 use super::calibration::{Example, Holds};
-use crate::diagnosis::{Horizon, HorizonGain};
+use crate::diagnosis::{Horizon, HorizonGain, Status};
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
 use crate::testing::white;
+use crate::verdict::decide::naming_nothing;
 
 /// What is said of an effect of two parameters that gains the same at all horizons.
 pub(in crate::verdict) fn says(effect: Effect, delta_bic: f64, share: f64, certainty: f64) -> EffectEvidence {
@@ -56,6 +57,7 @@ pub(in crate::verdict) fn rigs(count: usize) -> Vec<Example> {
                 none: truth == 4,
                 none_of_these: truth == 5,
             },
+            rules: (naming_nothing(Status::None, None, 0.5), None),
             by_rules: 0.2,
         }
     };

@@ -1,28 +1,33 @@
 //! Features of the alternatives: every effect, nothing, and none of these.
 //!
 //! All are of the order of one, without unit, and the same whatever the effect's name. Explanations are compared one step `ahead`, as
-//! simulators identified anew (`simulated`), and as simulators on top of a given model (`held`); what was not compared is 0.
+//! simulators identified anew (`simulated`), and as simulators on top of a given model (`held`); what was not compared is 0. How much an
+//! effect gains in deviance depends on how wrong the model is, which differs from rig to rig; where it stands among the others does not.
 //!
 //! ```text
-//! deviance_…    asinh(ΔBIC/50)/5 one step ahead, asinh(ΔBIC/20)/5 of simulators
-//! lead_…        the same of ΔBIC less that of the best effect of another class, where that is positive
+//! first_…       1 where ΔBIC is above 10 and above that of every effect of another class, and it harms no held-out record that way
+//! margin_…      (ΔBIC − Δ')/max(ΔBIC, Δ', 10), Δ' that of the best of another class, 0 at least; −1 where it harms
 //! settling_…    −ln(1 − s), s the share of error saved on the fit records until the model has settled
 //! closure_…     share of the gap that it closes on held-out records, from −1 to 1
 //! certainty     z/4, z the largest of the shares s in standard errors, from −3 to 8
-//! step          −ln(1 − s) one step ahead, beside the colour of the errors
 //! harm          share of the ways in which it makes a held-out record worse beyond its error
 //! noise, clocked    1 for an effect that changes only what is random; that follows a clock or has a phase of its own in each record
 //! predicts      of such noise: gain in held-out log score, nats a sample, from −1 to 3
 //! parameters    ln(1 + k), k the parameters that it adds
+//! by_rules      probability that rules give to it, where it is their likeliest explanation
 //! ```
 //!
-//! Nothing and none of these have a constant each, and the best of the effects that harm no record in that way in `deviance` one step ahead, and
-//! as simulators in `deviance`, `settling` and `closure` (on top of a given model, where there is one); `left`, the share of its gain in
-//! deviance that something else would still gain beside the best effect; `resolved`, whether the held-out records show a gap; and `given`,
-//! whether a model was.
+//! A ΔBIC of 10 is what R. Kass and A. Raftery, "Bayes factors", JASA 90, 1995, call very strong. What moves no simulation settles nothing,
+//! closes nothing and has no certainty.
+//!
+//! Nothing and none of these have a constant each, and the best of the effects that harm no record in that way in `deviance` one step ahead
+//! (asinh(ΔBIC/50)/5), and as simulators in `deviance` (asinh(ΔBIC/20)/5), `settling` and `closure` (on top of a given model, where there is
+//! one); `left`, the share of its gain in deviance that something else would still gain beside the best effect; `resolved`, whether the
+//! held-out records show a gap; `given`, whether a model was; and whether rules say that nothing is missing but parameters (`none_by_rules`), or
+//! that none of these is the cause (`unexplained_by_rules`).
 
 use super::choice::Sign;
-use crate::diagnosis::{Horizon, HorizonGain};
+use crate::diagnosis::{Horizon, HorizonGain, Status};
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
 
@@ -40,31 +45,39 @@ const fn feature(name: &'static str, words: &'static str, sign: Sign) -> Feature
 }
 
 /// Features of an effect.
-pub(crate) const OF_EFFECT: [Feature; 19] = [
-    feature("deviance_ahead", "fits better one sample ahead", Sign::NotNegative),
-    feature("deviance_simulated", "fits better in simulation", Sign::NotNegative),
-    feature("deviance_held", "fits better on top of the given model", Sign::NotNegative),
-    feature("lead_ahead", "leads one sample ahead", Sign::NotNegative),
-    feature("lead_simulated", "leads in simulation", Sign::NotNegative),
-    feature("lead_held", "leads on top of the given model", Sign::NotNegative),
-    feature("settling_ahead", "saves error over a settling time", Sign::NotNegative),
-    feature("settling_simulated", "the same, fitted as a simulator", Sign::NotNegative),
+pub(crate) const OF_EFFECT: [Feature; 17] = [
+    feature("first_ahead", "fits best one sample ahead", Sign::NotNegative),
+    feature("first_simulated", "fits best in simulation", Sign::NotNegative),
+    feature("first_held", "fits best on top of the given model", Sign::NotNegative),
+    feature("margin_ahead", "leads one sample ahead", Sign::NotNegative),
+    feature("margin_simulated", "leads in simulation", Sign::NotNegative),
+    feature("margin_held", "leads on top of the given model", Sign::NotNegative),
+    feature("settling_simulated", "saves error over a settling time", Sign::NotNegative),
     feature("settling_held", "the same, on top of the given model", Sign::NotNegative),
-    feature("closure_ahead", "closes the gap on held-out records", Sign::NotNegative),
-    feature("closure_simulated", "the same, fitted as a simulator", Sign::NotNegative),
+    feature("closure_simulated", "closes the gap on held-out records", Sign::NotNegative),
     feature("closure_held", "the same, on top of the given model", Sign::NotNegative),
     feature("certainty", "saves error beyond chance", Sign::NotNegative),
-    feature("step", "saves error one sample ahead", Sign::NotNegative),
     feature("harm", "harms a held-out record", Sign::NotPositive),
     feature("noise", "changes only what is random", Sign::Any),
     feature("predicts", "of such: predicts held-out noise better", Sign::NotNegative),
     feature("clocked", "follows a clock or a phase of each record", Sign::Any),
     feature("parameters", "has many parameters", Sign::Any),
+    feature("by_rules", "is the likeliest by the rules", Sign::NotNegative),
 ];
 
 /// Features of nothing and of none of these: what all effects together look like.
-pub(crate) const OF_ALL: [&str; 8] =
-    ["constant", "deviance_ahead", "deviance_simulated", "settling", "closure", "left", "resolved", "given"];
+pub(crate) const OF_ALL: [&str; 10] = [
+    "constant",
+    "deviance_ahead",
+    "deviance_simulated",
+    "settling",
+    "closure",
+    "left",
+    "resolved",
+    "given",
+    "none_by_rules",
+    "unexplained_by_rules",
+];
 
 /// Coefficients of the whole model: of effects, of nothing, of none of these.
 pub(crate) const COEFFICIENTS: usize = OF_EFFECT.len() + 2 * OF_ALL.len();
@@ -72,6 +85,28 @@ pub(crate) const COEFFICIENTS: usize = OF_EFFECT.len() + 2 * OF_ALL.len();
 /// The ways of comparing in the order of the features, each with the scale of its deviance.
 const WAYS: [(Comparison, f64); 3] =
     [(Comparison::OneStep, 50.0), (Comparison::Simulation, 20.0), (Comparison::GivenModelHeld, 20.0)];
+
+/// ΔBIC that chance does not give.
+const VERY_STRONG: f64 = 10.0;
+
+/// What rules that were tuned by hand say of a diagnosis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RulesSay {
+    /// That nothing is missing but, at the most, other parameters.
+    pub nothing: bool,
+    /// That the cause is none of the effects.
+    pub unexplained: bool,
+    /// The effect that they find the likeliest explanation of all, with its probability.
+    pub likeliest: Option<(Effect, f64)>,
+}
+
+impl RulesSay {
+    /// From the status of their verdict.
+    pub fn of(status: Status, likeliest: Option<(Effect, f64)>) -> Self {
+        let nothing = matches!(status, Status::None | Status::Refit);
+        Self { nothing, unexplained: status == Status::Unexplained, likeliest }
+    }
+}
 
 /// The alternatives of a diagnosis.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,17 +117,18 @@ pub(crate) struct Alternatives {
 }
 
 impl Alternatives {
-    /// Those of what was compared; `excluded` effects are none.
-    pub(crate) fn of(evidence: &[Compared], excluded: impl Fn(Effect) -> bool) -> Self {
+    /// Those of what was compared and of what rules say; `excluded` effects are none.
+    pub(crate) fn of(evidence: &[Compared], rules: RulesSay, excluded: impl Fn(Effect) -> bool) -> Self {
         let mut ways = WAYS.map(|(comparison, scale)| {
             let compared = evidence.iter().find(|compared| compared.comparison == comparison);
             let effects = compared.map_or_else(Vec::new, |compared| compared.effects.clone());
             Way { effects, scale }
         });
         ways.iter_mut().for_each(|way| way.effects.retain(|says| !excluded(says.effect)));
-        let fitted = Effect::ALL.into_iter().filter_map(|effect| Some((effect, of_effect(&ways, effect)?)));
+        let fitted =
+            Effect::ALL.into_iter().filter_map(|effect| Some((effect, of_effect(&ways, rules, effect)?)));
         let (effects, of_effects): (Vec<Effect>, Vec<_>) = fitted.unzip();
-        Self { effects, of_effects, of_all: of_all(evidence, &ways) }
+        Self { effects, of_effects, of_all: of_all(evidence, rules, &ways) }
     }
 
     /// Features of the effects, of nothing and of none of these, in the coordinates of the coefficients.
@@ -136,12 +172,27 @@ impl Way {
         (delta_bic / self.scale).asinh() / 5.0
     }
 
-    /// How far an effect is before the best one of another class.
-    fn lead(&self, says: &EffectEvidence) -> f64 {
-        let twins = says.effect.twins();
-        let others = self.effects.iter().filter(|o| o.effect != says.effect && !twins.contains(&o.effect));
-        let best = others.map(|other| other.delta_bic).fold(0.0, f64::max);
-        self.deviance((says.delta_bic - best).max(0.0))
+    /// ΔBIC of the best effect of another class that harms no held-out record; 0 at least.
+    fn best_beside(&self, effect: Effect) -> f64 {
+        let others =
+            self.effects.iter().filter(|o| o.effect != effect && !effect.twins().contains(&o.effect));
+        others.filter(|o| !o.harms).map(|other| other.delta_bic).fold(0.0, f64::max)
+    }
+
+    /// 1 for the best of its class, where that is before all others.
+    fn first(&self, says: &EffectEvidence) -> f64 {
+        let least = self.best_beside(says.effect).max(VERY_STRONG);
+        if says.delta_bic > least && !says.harms { 1.0 } else { 0.0 }
+    }
+
+    /// How far an effect is before, or behind, the best one of another class.
+    fn margin(&self, says: &EffectEvidence) -> f64 {
+        if says.harms {
+            return -1.0;
+        }
+        let other = self.best_beside(says.effect);
+        let scale = says.delta_bic.max(other).max(VERY_STRONG);
+        ((says.delta_bic - other) / scale).clamp(-1.0, 1.0)
     }
 
     /// The best in a figure of the effects that harm no held-out record.
@@ -169,34 +220,39 @@ fn closure(says: &EffectEvidence) -> f64 {
 }
 
 /// The features of an effect; none without a fit.
-fn of_effect(ways: &[Way; 3], effect: Effect) -> Option<[f64; OF_EFFECT.len()]> {
+fn of_effect(ways: &[Way; 3], rules: RulesSay, effect: Effect) -> Option<[f64; OF_EFFECT.len()]> {
     let says = ways.each_ref().map(|way| way.of(effect).map(|says| (way, says)));
     let all: Vec<&EffectEvidence> = says.iter().flatten().map(|(_, says)| *says).collect();
-    let first = all.first()?;
-    let ahead = ways[0].of(effect);
+    let parameters = all.first()?.parameters;
     let of =
         |figure: fn(&Way, &EffectEvidence) -> f64| says.map(|way| way.map_or(0.0, |(way, e)| figure(way, e)));
-    let certain = all.iter().filter_map(|e| settling(e)).map(|gain| gain.certainty.clamp(-3.0, 8.0) / 4.0);
-    let steps = all.iter().map(|e| saved(at(e, |h| h == Horizon::Step)));
-    let is_noise = if effect.is_noise() { 1.0 } else { 0.0 };
-    let of_ways = [
-        of(|way, e| way.deviance(e.delta_bic)),
-        of(Way::lead),
-        of(|_, e| saved(settling(e))),
-        of(|_, e| closure(e)),
-    ];
+    let [_, settles, settles_held] = of(|_, e| moving(e, saved(settling(e))));
+    let [_, closes, closes_held] = of(|_, e| moving(e, closure(e)));
+    let certain = all.iter().filter_map(|e| Some(moving(e, settling(e)?.certainty.clamp(-3.0, 8.0) / 4.0)));
+    let is = |is: bool| if is { 1.0 } else { 0.0 };
+    let is_noise = is(effect.is_noise());
     let rest = [
+        settles,
+        settles_held,
+        closes,
+        closes_held,
         largest(certain),
-        largest(steps),
         all.iter().filter(|e| e.harms).count() as f64 / all.len() as f64,
         is_noise,
-        is_noise * ahead.map_or(0.0, |e| e.heldout_log_score.clamp(-1.0, 3.0)),
-        if effect.is_of_its_record() { 1.0 } else { 0.0 },
-        first.parameters.max(0.0).ln_1p(),
+        is_noise * ways[0].of(effect).map_or(0.0, |e| e.heldout_log_score.clamp(-1.0, 3.0)),
+        is(effect.is_of_its_record()),
+        parameters.max(0.0).ln_1p(),
+        rules.likeliest.filter(|(likeliest, _)| *likeliest == effect).map_or(0.0, |(_, p)| p),
     ];
+    let of_ways = [of(Way::first), of(Way::margin)];
     let mut features = [0.0; OF_EFFECT.len()];
     features.iter_mut().zip(of_ways.into_iter().flatten().chain(rest)).for_each(|(f, x)| *f = x);
     Some(features)
+}
+
+/// A figure of simulations, which is 0 of what moves none.
+fn moving(says: &EffectEvidence, figure: f64) -> f64 {
+    if says.effect.moves_no_simulation() { 0.0 } else { figure }
 }
 
 /// The largest of some figures; 0 of none.
@@ -205,7 +261,7 @@ fn largest(figures: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The features of nothing and of none of these.
-fn of_all(evidence: &[Compared], ways: &[Way; 3]) -> [f64; OF_ALL.len()] {
+fn of_all(evidence: &[Compared], rules: RulesSay, ways: &[Way; 3]) -> [f64; OF_ALL.len()] {
     let [ahead, simulated, held] = ways;
     let is_given = !held.effects.is_empty();
     let simulator = if is_given { held } else { simulated };
@@ -226,6 +282,8 @@ fn of_all(evidence: &[Compared], ways: &[Way; 3]) -> [f64; OF_ALL.len()] {
         left.clamp(0.0, 1.0),
         is(evidence.iter().any(|compared| compared.gap[0] > 0.0)),
         is(is_given),
+        is(rules.nothing),
+        is(rules.unexplained),
     ]
 }
 
@@ -239,33 +297,50 @@ mod tests {
         alternatives.features(effect).expect("a fit")[place]
     }
 
+    fn of(evidence: &[Compared]) -> Alternatives {
+        Alternatives::of(evidence, RulesSay::default(), |_| false)
+    }
+
     #[test]
     fn features_are_what_their_formulas_say() {
         let ahead = EffectEvidence { closure: Some(0.3), ..says(Effect::Creep, 200.0, 0.4, 6.0) };
+        let rival = says(Effect::SensorSaturation, 150.0, 0.4, 6.0);
         let simulated = EffectEvidence { harms: true, ..says(Effect::Creep, 5.0, 0.6, 2.0) };
-        let evidence =
-            [compared(Comparison::OneStep, vec![ahead]), compared(Comparison::Simulation, vec![simulated])];
-        let alternatives = Alternatives::of(&evidence, |_| false);
+        let held = EffectEvidence { closure: Some(0.8), ..says(Effect::Creep, 8.0, 0.2, 1.0) };
+        let evidence = [
+            compared(Comparison::OneStep, vec![ahead, rival]),
+            compared(Comparison::Simulation, vec![simulated]),
+            compared(Comparison::GivenModelHeld, vec![held]),
+        ];
+        let rules = RulesSay::of(Status::Unexplained, Some((Effect::Creep, 0.4)));
+        let alternatives = Alternatives::of(&evidence, rules, |_| false);
         let is = |name: &str, expected: f64| {
             let found = feature(&alternatives, Effect::Creep, name);
             assert!((found - expected).abs() < 1e-12, "{name}: {found}, not {expected}");
         };
-        is("deviance_ahead", 4_f64.asinh() / 5.0);
-        is("deviance_simulated", 0.25_f64.asinh() / 5.0);
-        is("lead_ahead", 4_f64.asinh() / 5.0);
-        is("settling_ahead", -(0.6_f64).ln());
+        is("first_ahead", 1.0);
+        is("margin_ahead", 0.25);
+        is("first_simulated", 0.0);
+        is("margin_simulated", -1.0);
+        // Nothing beside it, and still too little.
+        is("first_held", 0.0);
+        is("margin_held", 0.8);
         is("settling_simulated", -(0.4_f64).ln());
-        is("settling_held", 0.0);
+        is("settling_held", -(0.8_f64).ln());
         is("certainty", 1.5);
-        is("closure_ahead", 0.3);
+        is("closure_held", 0.8);
         is("closure_simulated", 0.0);
-        is("harm", 0.5);
+        is("harm", 1.0 / 3.0);
         is("noise", 0.0);
         is("parameters", 3_f64.ln());
+        is("by_rules", 0.4);
+        assert_eq!(feature(&alternatives, Effect::SensorSaturation, "margin_ahead"), -0.25);
+        assert_eq!(feature(&alternatives, Effect::SensorSaturation, "by_rules"), 0.0);
+        assert_eq!(alternatives.of_all()[8..], [0.0, 1.0]);
     }
 
     #[test]
-    fn only_the_first_of_its_class_leads_and_a_twin_does_not_count() {
+    fn only_the_first_of_its_class_is_first_and_a_twin_does_not_count() {
         let [of_play, of_transition] = [Effect::Backlash, Effect::GradualTransition];
         assert!(of_play.twins().contains(&of_transition));
         let says = vec![
@@ -273,11 +348,25 @@ mod tests {
             says(of_transition, 250.0, 0.1, 1.0),
             says(Effect::Stribeck, 100.0, 0.1, 1.0),
         ];
-        let alternatives = Alternatives::of(&[compared(Comparison::GivenModelHeld, says)], |_| false);
-        let lead = |effect| feature(&alternatives, effect, "lead_held");
-        assert!((lead(of_play) - 10_f64.asinh() / 5.0).abs() < 1e-12);
-        assert!((lead(of_transition) - 7.5_f64.asinh() / 5.0).abs() < 1e-12);
-        assert_eq!(lead(Effect::Stribeck), 0.0);
+        let alternatives = of(&[compared(Comparison::GivenModelHeld, says)]);
+        let told = |effect| ["first_held", "margin_held"].map(|name| feature(&alternatives, effect, name));
+        assert_eq!(told(of_play), [1.0, 2.0 / 3.0]);
+        assert_eq!(told(of_transition), [1.0, 0.6]);
+        assert_eq!(told(Effect::Stribeck), [0.0, -2.0 / 3.0]);
+    }
+
+    #[test]
+    fn what_moves_no_simulation_says_nothing_of_it() {
+        let noise = EffectEvidence {
+            closure: Some(-0.5),
+            heldout_log_score: 0.3,
+            ..says(Effect::Outliers, 500.0, -0.9, -4.0)
+        };
+        let alternatives = of(&[compared(Comparison::OneStep, vec![noise])]);
+        for (name, expected) in [("certainty", 0.0), ("noise", 1.0), ("predicts", 0.3), ("first_ahead", 1.0)]
+        {
+            assert_eq!(feature(&alternatives, Effect::Outliers, name), expected, "{name}");
+        }
     }
 
     #[test]
@@ -286,7 +375,8 @@ mod tests {
         let harming = EffectEvidence { harms: true, ..says(Effect::Backlash, 9000.0, 0.9, 9.0) };
         let colour = says(Effect::ColouredNoise, 50_000.0, 0.0, 0.0);
         let evidence = [compared(Comparison::OneStep, vec![harming, good, colour])];
-        let alternatives = Alternatives::of(&evidence, |effect| effect == Effect::ColouredNoise);
+        let alternatives =
+            Alternatives::of(&evidence, RulesSay::default(), |effect| effect == Effect::ColouredNoise);
         assert_eq!(alternatives.effects.len(), 2);
         let best = alternatives.of_all()[1];
         assert!((best - 2_f64.asinh() / 5.0).abs() < 1e-12);
@@ -305,7 +395,7 @@ mod tests {
             heldout_log_score: f64::from(f32::MIN),
             ..says(Effect::Outliers, 1e300, f64::NEG_INFINITY, f64::from(f32::MIN))
         };
-        let alternatives = Alternatives::of(&[compared(Comparison::OneStep, vec![wild])], |_| false);
+        let alternatives = of(&[compared(Comparison::OneStep, vec![wild])]);
         let features = alternatives.features(Effect::Outliers).expect("a fit");
         assert!(features.iter().all(|x| x.is_finite() && x.abs() < 200.0), "{features:?}");
     }

@@ -1,7 +1,7 @@
 //! A verdict that is fitted: from the evidence of a diagnosis, the probabilities of every effect, that nothing is missing, and that the cause is no
 //! candidate.
 //!
-//! A [conditional logit](choice) on a few [features](features) that know no effect's name, fitted by [`calibrate`] to rigs whose cause is
+//! A [conditional logit](choice) on a few [features](features) that know no effect's name, among them what rules tuned by hand find, fitted by [`calibrate`] to rigs whose cause is
 //! known. What it says holds for rigs drawn as those were, and their [shares](Shares) of faults, of none and of foreign ones: for others the
 //! odds are to be multiplied by the ratio of the shares. Evidence outside what was met when it was fitted is told as such.
 
@@ -16,12 +16,14 @@ use std::sync::LazyLock;
 use serde::{Deserialize, Serialize};
 
 pub use self::calibration::{CalibrateError, Example, Holds, OutOfFold, calibrate};
+pub use self::features::RulesSay;
 
 use self::choice::probabilities;
 use self::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
-use crate::diagnosis::Verdict;
+use crate::diagnosis::{Status, Verdict};
 use crate::effect::Effect;
 use crate::evidence::Compared;
+use crate::verdict::agreement::agrees;
 use crate::verdict::by_fit;
 
 /// A feature with its coefficient and the range of what was met.
@@ -54,6 +56,23 @@ pub struct Shares {
     pub none_of_these: f64,
 }
 
+/// How often a cause that rules name was the right one where all readings of the records agree on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Agreed {
+    /// Right ones, or twins of these.
+    pub right: usize,
+    /// All that could be judged, each predicted from other rigs.
+    pub of: usize,
+}
+
+impl Agreed {
+    /// Probability that the next one is right: Laplace's rule of succession.
+    pub fn probability(self) -> f64 {
+        (self.right as f64 + 1.0) / (self.of as f64 + 2.0)
+    }
+}
+
 /// Where a fitted verdict comes from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
@@ -81,6 +100,8 @@ pub struct FittedVerdict {
     pub provenance: Provenance,
     /// How common causes were among the rigs fitted.
     pub shares: Shares,
+    /// What agreement is worth.
+    pub agreed: Agreed,
     /// Features of an effect.
     pub effect: Vec<Coefficient>,
     /// What speaks for nothing.
@@ -93,6 +114,7 @@ pub struct FittedVerdict {
 struct Wire {
     provenance: Provenance,
     shares: Shares,
+    agreed: Agreed,
     effect: Vec<Coefficient>,
     none: Vec<Coefficient>,
     none_of_these: Vec<Coefficient>,
@@ -113,8 +135,8 @@ impl TryFrom<Wire> for FittedVerdict {
                 "`none` and `none_of_these` must list the features of all effects in their order".to_owned()
             );
         }
-        let Wire { provenance, shares, effect, none, none_of_these } = wire;
-        Ok(Self { provenance, shares, effect, none, none_of_these })
+        let Wire { provenance, shares, agreed, effect, none, none_of_these } = wire;
+        Ok(Self { provenance, shares, agreed, effect, none, none_of_these })
     }
 }
 
@@ -131,23 +153,53 @@ pub struct Contribution {
     pub adds: f64,
 }
 
-/// What a fitted verdict says of a diagnosis, beside rules that tell it.
+/// What a fitted verdict says of a diagnosis, and what rules say of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SecondOpinion {
     /// Diagnoses that it was fitted to.
     pub examples: usize,
     /// How common causes are, which its probabilities hold for.
     pub shares: Shares,
-    /// What it would tell; its `calibrated` says whether evidence like this was met when it was fitted.
+    /// What it would tell by itself; its `calibrated` says whether evidence like this was met when it was fitted.
     pub verdict: Verdict,
-    /// What the rules say, before the other readings of the records are asked whether they agree.
+    /// What rules that were tuned by hand would tell.
     pub by_rules: Verdict,
+    /// The effect that these find the likeliest explanation, with its probability; none where that is none.
+    pub likeliest_by_rules: Option<(Effect, f64)>,
+    /// Probability of the cause that rules name, where all readings of the records agree on it.
+    pub agreed: Option<f64>,
     /// Every effect with a fit, the likeliest first: its probability, and what each feature says of it.
     pub effects: Vec<(Effect, f64, Vec<Contribution>)>,
     /// Probability that nothing is missing.
     pub none: f64,
     /// Probability that the cause is none of the effects.
     pub none_of_these: f64,
+}
+
+impl SecondOpinion {
+    /// The verdict as it is told.
+    pub(crate) fn told(&self) -> Verdict {
+        told(&self.verdict, &self.by_rules, self.agreed)
+    }
+}
+
+/// The verdict as it is told, from the fitted one and that by rules.
+///
+/// ```text
+/// named         a cause that rules name, where all readings agree, with how often that is right (`agreed`); two causes at once, which only rules weigh
+/// else          what the fitted verdict tells; where that is no cause, rules say whether parameters are off, the held-out records were taken under
+///               other conditions, or something is left, and it says with what probability
+/// ```
+pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>) -> Verdict {
+    let weighed = |probability| Verdict { probability, calibrated: fitted.calibrated, ..rules.clone() };
+    match (fitted.status, rules.status) {
+        (_, Status::Named) if rules.effects.len() > 1 => rules.clone(),
+        (_, Status::Named) if let Some(p) = agreed => weighed(p),
+        (Status::None | Status::Unexplained, Status::None | Status::Refit | Status::Unexplained) => {
+            weighed(fitted.probability)
+        }
+        _ => fitted.clone(),
+    }
 }
 
 /// Probabilities of the alternatives of a diagnosis.
@@ -176,6 +228,18 @@ impl Weighed {
 fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
     let first = weighed.effects.first();
     first.is_some_and(|(effect, _)| evidence.iter().all(|says| says.harms(*effect) != Some(false)))
+}
+
+/// Whether all readings agree on the one cause that rules name, and it harms no held-out record in the way that these tell; that is the first.
+fn all_agree(
+    by_rules: &Verdict,
+    evidence: &[Compared],
+    weighed: &Weighed,
+    excluded: impl Fn(Effect) -> bool,
+) -> bool {
+    let (Status::Named, &[cause]) = (by_rules.status, &by_rules.effects[..]) else { return false };
+    let harms = evidence.first().and_then(|says| says.harms(cause)) == Some(true);
+    !harms && agrees(cause, evidence, weighed.effects.first().map(|(effect, _)| *effect), excluded)
 }
 
 impl FittedVerdict {
@@ -215,15 +279,18 @@ impl FittedVerdict {
         Weighed { is_met, ..weighed }
     }
 
-    /// What it says of what was compared, beside what the rules say; `excluded` effects are none, and one is named from a probability on.
+    /// What it says of what was compared; `excluded` effects are none, and one is named from a probability on.
     pub(crate) fn opinion(
         &self,
         evidence: &[Compared],
         excluded: impl Fn(Effect) -> bool,
-        (name_at, by_rules): (f64, Verdict),
+        (by_rules, likeliest_by_rules): (Verdict, Option<(Effect, f64)>),
+        name_at: f64,
     ) -> SecondOpinion {
-        let alternatives = Alternatives::of(evidence, excluded);
+        let rules = RulesSay::of(by_rules.status, likeliest_by_rules);
+        let alternatives = Alternatives::of(evidence, rules, &excluded);
         let weighed = self.weigh(&alternatives);
+        let agreed = all_agree(&by_rules, evidence, &weighed, &excluded);
         let with_features = |&(effect, p): &(Effect, f64)| {
             let contributions = alternatives.features(effect).map(|features| self.contributions(features));
             (effect, p, contributions.unwrap_or_default())
@@ -232,7 +299,9 @@ impl FittedVerdict {
             examples: self.provenance.examples,
             shares: self.shares,
             verdict: by_fit::verdict(&weighed, (name_at, harms(evidence, &weighed))),
+            agreed: agreed.then(|| self.agreed.probability()),
             by_rules,
+            likeliest_by_rules,
             effects: weighed.effects.iter().map(with_features).collect(),
             none: weighed.none,
             none_of_these: weighed.none_of_these,
@@ -254,6 +323,35 @@ impl FittedVerdict {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verdict::decide::naming_nothing;
+
+    fn saying(status: Status, effects: &[Effect], probability: f64) -> Verdict {
+        Verdict { effects: effects.to_vec(), ..naming_nothing(status, None, probability) }
+    }
+
+    #[test]
+    fn rules_name_where_all_agree_and_tell_what_kind_of_nothing_it_is() {
+        let rules = saying(Status::Named, &[Effect::Creep], 0.99);
+        let fitted = saying(Status::Unexplained, &[], 0.3);
+        let agreed = told(&fitted, &rules, Some(0.9));
+        assert_eq!(
+            (agreed.status, &agreed.effects[..], agreed.probability),
+            (Status::Named, &[Effect::Creep][..], 0.9)
+        );
+        assert_eq!(told(&fitted, &rules, None), fitted);
+        let refit = told(&fitted, &saying(Status::Refit, &[], 0.8), None);
+        assert_eq!((refit.status, refit.probability), (Status::Refit, 0.3));
+        let named = saying(Status::Named, &[Effect::Resonance], 0.87);
+        assert_eq!(told(&named, &saying(Status::None, &[], 0.9), None), named);
+        let both = saying(Status::Named, &[Effect::Creep, Effect::Backlash], 0.9);
+        assert_eq!(told(&named, &both, None), both);
+    }
+
+    #[test]
+    fn what_was_right_as_often_as_not_has_the_probability_of_a_half() {
+        assert_eq!(Agreed::default().probability(), 0.5);
+        assert!((Agreed { right: 8, of: 8 }.probability() - 0.9).abs() < 1e-12);
+    }
 
     #[test]
     fn the_verdict_compiled_in_is_whole_and_says_where_it_comes_from() {
@@ -265,6 +363,6 @@ mod tests {
         assert!(from.log_loss < from.log_loss_of_shares && from.log_loss < from.log_loss_of_rules);
         // What no coefficient may say.
         let of = |name: &str| verdict.effect.iter().find(|c| c.feature == name).map(|c| c.value);
-        assert!(of("harm") <= Some(0.0) && of("closure_held") >= Some(0.0));
+        assert!(of("harm") <= Some(0.0) && of("margin_held") >= Some(0.0));
     }
 }

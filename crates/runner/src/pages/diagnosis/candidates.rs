@@ -1,11 +1,11 @@
 //! The explanations, and why each stands where it stands.
 
-use crate::diagnosis::json::{Explanation, GapFile, Pair, Parameter, SecondOpinion};
+use crate::diagnosis::json::{Explanation, GapFile, Pair, Parameter, SecondOpinion, Verdict};
 use crate::diagnosis::{closed_percent, digits, probability};
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
 
-/// A row an explanation; then what each saves by how far ahead it predicts; then the pair and the second opinion, where there are.
+/// A row an explanation; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
 pub(super) fn candidates(gap: &GapFile) -> Markup {
     html! {
         (table(gap).html())
@@ -154,9 +154,17 @@ fn together(pair: &Pair) -> Markup {
     }
 }
 
+/// What a verdict says in a few words.
+fn said(verdict: &Verdict) -> String {
+    match &verdict.effects[..] {
+        [] => verdict.status.replace('_', " "),
+        effects => effects.join(" and ").replace('_', " "),
+    }
+}
+
 fn second(opinion: &SecondOpinion) -> Markup {
     let mut table = Table::new(
-        "A second opinion: probabilities of a model fitted to diagnoses with known causes",
+        "What the verdict rests on: a model fitted to diagnoses with known causes",
         ["explanation", "probability", "what speaks for it"],
     );
     for weighed in opinion.effects.iter().take(LISTED) {
@@ -173,15 +181,14 @@ fn second(opinion: &SecondOpinion) -> Markup {
         ]);
     }
     html! {
-        h3 { "A second opinion" }
+        h3 { "What the verdict rests on" }
         p {
             "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
             (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
-            ". A cause is named only where it is the first of these, too, and no simulator with another one does better"
-            @if let Some([only]) = opinion.by_rules.as_ref().map(|rules| &rules.effects[..]) {
-                "; the rules put " (only.replace('_', " ")) " first"
-            }
             "."
+            @if let Some(rules) = &opinion.by_rules {
+                " Rules tuned by hand say " (said(rules)) "."
+            }
         }
         (table.html())
     }
