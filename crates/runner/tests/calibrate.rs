@@ -50,6 +50,7 @@ fn the_rules_and_the_fitted_verdict_are_told_side_by_side() {
         "by rules\n",
         "by the fitted verdict alone, out of fold\n",
         "as the program tells it, out of fold (of ",
+        " likely causes on which all readings agree ",
         "calibration error",
     ] {
         assert!(words.contains(expected), "{expected} in\n{words}");

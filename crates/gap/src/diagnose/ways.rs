@@ -74,20 +74,18 @@ impl Ways {
         if let Some(opinion) = &second_opinion {
             self.tell(opinion);
         }
-        let candidates = match &second_opinion {
-            Some(opinion) => self.candidates_of(workers, opinion),
+        let weights = second_opinion.as_ref().map(SecondOpinion::weights);
+        let candidates = match &weights {
+            Some((effects, _)) => self.candidates_of(workers, effects.clone()),
             None => self.candidates(workers),
         };
         let Self { told: Way { plan, conclusion }, evidence, others } = self;
         let evidence = std::iter::once(evidence).chain(others.into_iter().map(|(_, says)| says));
         let diagnosis = plan.report(conclusion, candidates, evidence.collect());
-        match second_opinion {
-            Some(opinion) => Diagnosis {
-                probability_none: opinion.none,
-                probability_unexplained: opinion.none_of_these,
-                second_opinion: Some(opinion),
-                ..diagnosis
-            },
+        match weights {
+            Some((_, [probability_none, probability_unexplained])) => {
+                Diagnosis { probability_none, probability_unexplained, second_opinion, ..diagnosis }
+            }
             None => diagnosis,
         }
     }
@@ -110,7 +108,7 @@ impl Ways {
 
     /// Tells what the fitted verdict says, on the way that simulates best with the first effect told.
     fn tell(&mut self, opinion: &SecondOpinion) {
-        let verdict = opinion.told();
+        let verdict = opinion.told(self.told.plan.settings.name_at);
         if verdict.effects == self.told.conclusion.verdict.effects && !verdict.effects.is_empty() {
             // As the rules have it.
         } else if let Some(&first) = verdict.effects.first().or(verdict.class.first()) {
@@ -161,10 +159,8 @@ impl Ways {
         candidates
     }
 
-    /// The effects that have a probability by the fitted verdict, the likeliest first: each as the first way that fitted it has it.
-    fn candidates_of(&self, workers: &impl Workers, opinion: &SecondOpinion) -> Vec<Candidate> {
-        let mut left: Vec<(Effect, f64)> =
-            opinion.effects.iter().map(|(effect, p, _)| (*effect, *p)).collect();
+    /// The effects given with their probabilities, the likeliest first: each as the first way that fitted it has it.
+    fn candidates_of(&self, workers: &impl Workers, mut left: Vec<(Effect, f64)>) -> Vec<Candidate> {
         let mut candidates = Vec::new();
         for (way, says) in self.all() {
             let of = |(effect, p): &(Effect, f64)| {

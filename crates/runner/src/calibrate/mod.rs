@@ -8,8 +8,8 @@ use crate::calibrate::examples::Place;
 use crate::examination::{Measure, Reply, measures_table};
 use crate::field::{BaseVerdicts, Case, Expect, Rating, score};
 use std::collections::HashSet;
-use switchback_gap::fitted::{Agreed, CalibrateError, FittedVerdict, calibrate};
-use switchback_gap::{Settings, Verdict};
+use switchback_gap::Settings;
+use switchback_gap::fitted::{Agreed, CalibrateError, Example, FittedVerdict, OutOfFold, calibrate};
 
 /// A fitted verdict beside what rules reach on the same rigs.
 #[derive(Debug, Clone)]
@@ -36,30 +36,39 @@ pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrate
         answer.reply = answer.rules().clone();
     }
     let predicted: Vec<_> = places.into_iter().zip(examples.iter().zip(&predicted)).collect();
-    let agreeing = predicted.iter().filter(|(_, (example, p))| p.agrees(example)).map(|(place, _)| *place);
-    verdict.agreed = agreed(&by_rules, &agreeing.collect());
-    let (mut by_fit, mut told) = (by_rules.clone(), by_rules.clone());
     let name_at = Settings::default().name_at;
-    for ((case, answer), (example, p)) in predicted {
-        let reply = |verdict: Verdict| Reply::told(&verdict, p.top());
-        by_fit[case].answers[answer].reply = reply(p.verdict(example, name_at));
-        told[case].answers[answer].reply = reply(p.told(example, (name_at, verdict.agreed.probability())));
+    let mut by_fit = by_rules.clone();
+    for ((case, answer), (example, p)) in &predicted {
+        by_fit[*case].answers[*answer].reply = Reply::told(&p.verdict(example, name_at), p.top());
     }
+    let told = |agreed: Agreed| {
+        let mut told = by_rules.clone();
+        for ((case, answer), (example, p)) in &predicted {
+            told[*case].answers[*answer].reply = Reply::told(&p.told(example, agreed, name_at), p.top());
+        }
+        told
+    };
+    // What a measured base shows by itself is what is told of it, if agreement is worth what it may be at most.
+    let most = Agreed { right: examples.len(), of: examples.len() };
+    let likely = |(_, (example, p)): &&(Place, (&Example, &OutOfFold))| {
+        p.agreed_on(example).is_some_and(|p| Agreed::counts(p))
+    };
+    let places = predicted.iter().filter(likely).map(|(place, _)| *place).collect();
+    verdict.agreed = agreed(&told(most), &places);
     let measures = |cases: &[Case]| score(cases, &Expect::default()).measures;
     Ok(Calibrated {
-        verdict,
         by_rules: measures(&by_rules),
         out_of_fold: measures(&by_fit),
-        told: measures(&told),
+        told: measures(&told(verdict.agreed)),
+        verdict,
     })
 }
 
-/// How often what rules name is right where all readings agree: of the answers at some places, those that can be judged.
+/// How often the cause told is right, of the answers at some places, those that can be judged.
 fn agreed(cases: &[Case], places: &HashSet<Place>) -> Agreed {
     let verdicts = BaseVerdicts::of(cases);
-    let is_asked = |place: &Place| places.contains(place);
     let all = cases.iter().enumerate().flat_map(|(k, case)| (0..case.answers.len()).map(move |j| (k, j)));
-    let asked = all.zip(verdicts.asked(cases)).filter(|(place, _)| is_asked(place));
+    let asked = all.zip(verdicts.asked(cases)).filter(|(place, _)| places.contains(place));
     let rated = asked.filter_map(|(_, asked)| asked.rating());
     rated.fold(Agreed::default(), |Agreed { right, of }, rating| match rating {
         Rating::Exact | Rating::Class => Agreed { right: right + 1, of: of + 1 },
@@ -74,7 +83,7 @@ impl Calibrated {
         let from = &self.verdict.provenance;
         format!(
             "{} diagnoses; log-loss {:.3} nats a diagnosis, each predicted from rigs with other bases and laws; by rules {:.3}, by shares alone {:.3}\n\n\
-             by rules\n{}\nby the fitted verdict alone, out of fold\n{}\nas the program tells it, out of fold (of {} causes on which all readings agree {} are right)\n{}",
+             by rules\n{}\nby the fitted verdict alone, out of fold\n{}\nas the program tells it, out of fold (of {} likely causes on which all readings agree {} are right)\n{}",
             from.examples,
             from.log_loss,
             from.log_loss_of_rules,

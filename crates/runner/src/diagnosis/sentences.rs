@@ -159,7 +159,7 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             format!("Cause: {}, probability {p}{next}.{correction}", effect.unwrap_or_default())
         }
         Status::Class | Status::Ambiguous if verdict.class.len() == 1 => format!(
-            "Cause: probably {}; that is not certain enough to name it{}.",
+            "Cause: most likely {}; that is not certain enough to name it{}.",
             rivals(&verdict.class, diagnosis, units),
             next_best(diagnosis)
         ),

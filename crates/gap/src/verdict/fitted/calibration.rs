@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::choice::{Choice, Sign, fitted, probabilities};
 use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT, RulesSay};
-use super::{Agreed, Coefficient, FittedVerdict, Provenance, Shares, Weighed, all_agree, harms, told};
+use super::{Agreed, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on, harms, told};
 use crate::diagnosis::Verdict;
 use crate::effect::Effect;
 use crate::evidence::Compared;
@@ -73,15 +73,15 @@ impl OutOfFold {
         by_fit::verdict(&self.0, (name_at, harms(&example.evidence, &self.0)))
     }
 
-    /// Whether all readings agree on the one cause that rules name.
-    pub fn agrees(&self, example: &Example) -> bool {
-        all_agree(&example.rules.0, &example.evidence, &self.0, |effect| example.excluded.contains(&effect))
+    /// The probability given to the one cause that rules name, where all readings agree on it.
+    pub fn agreed_on(&self, example: &Example) -> Option<f64> {
+        agreed_on(&example.rules.0, &example.evidence, &self.0, |effect| example.excluded.contains(&effect))
     }
 
-    /// What is told, where agreement has some probability.
-    pub fn told(&self, example: &Example, (name_at, agreed): (f64, f64)) -> Verdict {
-        let agreed = self.agrees(example).then_some(agreed);
-        told(&self.verdict(example, name_at), &example.rules.0, agreed)
+    /// What is told, for what agreement is worth.
+    pub fn told(&self, example: &Example, agreed: Agreed, name_at: f64) -> Verdict {
+        let agreed = self.agreed_on(example).map(|p| agreed.probability(p));
+        told(&self.verdict(example, name_at), &example.rules.0, agreed, name_at)
     }
 
     /// The likeliest explanation: an effect, or `none` or `unexplained`.

@@ -56,7 +56,8 @@ pub struct Shares {
     pub none_of_these: f64,
 }
 
-/// How often a cause that rules name was the right one where all readings of the records agree on it.
+/// How often a cause that rules name was the right one where all readings of the records agree on it, and the fitted verdict finds it
+/// likelier than all else together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Agreed {
@@ -68,8 +69,19 @@ pub struct Agreed {
 
 impl Agreed {
     /// Probability that the next one is right: Laplace's rule of succession.
-    pub fn probability(self) -> f64 {
+    pub fn rate(self) -> f64 {
         (self.right as f64 + 1.0) / (self.of as f64 + 2.0)
+    }
+
+    /// Whether a cause with a probability is among those counted: likelier than all else together.
+    pub fn counts(fitted: f64) -> bool {
+        fitted > 0.5
+    }
+
+    /// Probability of a cause on which all readings agree, and to which the fitted verdict gives a probability: that one, or where it is above a
+    /// half this rate, if that is larger.
+    pub fn probability(self, fitted: f64) -> f64 {
+        if Self::counts(fitted) { fitted.max(self.rate()) } else { fitted }
     }
 }
 
@@ -177,27 +189,50 @@ pub struct SecondOpinion {
 }
 
 impl SecondOpinion {
-    /// The verdict as it is told.
-    pub(crate) fn told(&self) -> Verdict {
-        told(&self.verdict, &self.by_rules, self.agreed)
+    /// The verdict as it is told, where a cause is named from a probability on.
+    pub(crate) fn told(&self, name_at: f64) -> Verdict {
+        told(&self.verdict, &self.by_rules, self.agreed, name_at)
+    }
+
+    /// Probability of every effect as it is told, and of nothing and of none of these: those of the fitted verdict, unless all readings agree on a
+    /// cause; then the others share the rest as they did.
+    pub(crate) fn weights(&self) -> (Vec<(Effect, f64)>, [f64; 2]) {
+        let mut effects: Vec<(Effect, f64)> =
+            self.effects.iter().map(|(effect, p, _)| (*effect, *p)).collect();
+        let rest = [self.none, self.none_of_these];
+        let (Some(agreed), [cause]) = (self.agreed, &self.by_rules.effects[..]) else {
+            return (effects, rest);
+        };
+        let of_others = 1.0 - effects.iter().find(|(effect, _)| effect == cause).map_or(0.0, |(_, p)| *p);
+        let share = (1.0 - agreed) / of_others.max(f64::MIN_POSITIVE);
+        effects.iter_mut().for_each(|(effect, p)| *p = if effect == cause { agreed } else { *p * share });
+        (effects, rest.map(|p| p * share))
     }
 }
 
-/// The verdict as it is told, from the fitted one and that by rules.
+/// The verdict as it is told, from the fitted one and that by rules; `agreed` is the probability of the cause that these name, where all
+/// readings agree on it.
 ///
 /// ```text
-/// named         a cause that rules name, where all readings agree, with how often that is right (`agreed`); two causes at once, which only rules weigh
+/// named         such a cause from a probability of `name_at` on; two causes at once, which only rules weigh
+/// ambiguous     such a cause by itself, where it is less probable and the fitted verdict tells no cause or class
 /// else          what the fitted verdict tells; where that is no cause, rules say whether parameters are off, the held-out records were taken under
 ///               other conditions, or something is left, and it says with what probability
 /// ```
-pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>) -> Verdict {
+pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_at: f64) -> Verdict {
     let weighed = |probability| Verdict { probability, calibrated: fitted.calibrated, ..rules.clone() };
-    match (fitted.status, rules.status) {
-        (_, Status::Named) if rules.effects.len() > 1 => rules.clone(),
-        (_, Status::Named) if let Some(p) = agreed => weighed(p),
-        (Status::None | Status::Unexplained, Status::None | Status::Refit | Status::Unexplained) => {
-            weighed(fitted.probability)
-        }
+    let is_silent = matches!(fitted.status, Status::None | Status::Unexplained);
+    match (rules.status, agreed) {
+        (Status::Named, _) if rules.effects.len() > 1 => rules.clone(),
+        (Status::Named, Some(p)) if p >= name_at => weighed(p),
+        (Status::Named, Some(p)) if is_silent => Verdict {
+            status: Status::Ambiguous,
+            effects: Vec::new(),
+            class: rules.effects.clone(),
+            corrected_by: None,
+            ..weighed(p)
+        },
+        (Status::None | Status::Refit | Status::Unexplained, _) if is_silent => weighed(fitted.probability),
         _ => fitted.clone(),
     }
 }
@@ -230,16 +265,21 @@ fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
     first.is_some_and(|(effect, _)| evidence.iter().all(|says| says.harms(*effect) != Some(false)))
 }
 
-/// Whether all readings agree on the one cause that rules name, and it harms no held-out record in the way that these tell; that is the first.
-fn all_agree(
+/// The probability that the fitted verdict gives to the one cause that rules name, where all readings agree on it and it harms no held-out
+/// record in the way that these tell; that is the first.
+fn agreed_on(
     by_rules: &Verdict,
     evidence: &[Compared],
     weighed: &Weighed,
     excluded: impl Fn(Effect) -> bool,
-) -> bool {
-    let (Status::Named, &[cause]) = (by_rules.status, &by_rules.effects[..]) else { return false };
+) -> Option<f64> {
+    let (Status::Named, &[cause]) = (by_rules.status, &by_rules.effects[..]) else { return None };
     let harms = evidence.first().and_then(|says| says.harms(cause)) == Some(true);
-    !harms && agrees(cause, evidence, weighed.effects.first().map(|(effect, _)| *effect), excluded)
+    let likeliest = weighed.effects.first().map(|(effect, _)| *effect);
+    if harms || !agrees(cause, evidence, likeliest, excluded) {
+        return None;
+    }
+    weighed.effects.iter().find(|(effect, _)| *effect == cause).map(|(_, p)| *p)
 }
 
 impl FittedVerdict {
@@ -290,7 +330,7 @@ impl FittedVerdict {
         let rules = RulesSay::of(by_rules.status, likeliest_by_rules);
         let alternatives = Alternatives::of(evidence, rules, &excluded);
         let weighed = self.weigh(&alternatives);
-        let agreed = all_agree(&by_rules, evidence, &weighed, &excluded);
+        let agreed = agreed_on(&by_rules, evidence, &weighed, &excluded);
         let with_features = |&(effect, p): &(Effect, f64)| {
             let contributions = alternatives.features(effect).map(|features| self.contributions(features));
             (effect, p, contributions.unwrap_or_default())
@@ -299,7 +339,7 @@ impl FittedVerdict {
             examples: self.provenance.examples,
             shares: self.shares,
             verdict: by_fit::verdict(&weighed, (name_at, harms(evidence, &weighed))),
-            agreed: agreed.then(|| self.agreed.probability()),
+            agreed: agreed.map(|p| self.agreed.probability(p)),
             by_rules,
             likeliest_by_rules,
             effects: weighed.effects.iter().map(with_features).collect(),
@@ -333,12 +373,17 @@ mod tests {
     fn rules_name_where_all_agree_and_tell_what_kind_of_nothing_it_is() {
         let rules = saying(Status::Named, &[Effect::Creep], 0.99);
         let fitted = saying(Status::Unexplained, &[], 0.3);
+        let told = |fitted: &Verdict, rules: &Verdict, agreed| told(fitted, rules, agreed, 0.85);
         let agreed = told(&fitted, &rules, Some(0.9));
-        assert_eq!(
-            (agreed.status, &agreed.effects[..], agreed.probability),
-            (Status::Named, &[Effect::Creep][..], 0.9)
-        );
+        assert_eq!((agreed.status, &agreed.effects[..]), (Status::Named, &[Effect::Creep][..]));
+        assert_eq!(agreed.probability, 0.9);
         assert_eq!(told(&fitted, &rules, None), fitted);
+        let weak = told(&fitted, &rules, Some(0.4));
+        assert_eq!(
+            (weak.status, &weak.class[..], weak.probability),
+            (Status::Ambiguous, &[Effect::Creep][..], 0.4)
+        );
+        assert!(weak.effects.is_empty());
         let refit = told(&fitted, &saying(Status::Refit, &[], 0.8), None);
         assert_eq!((refit.status, refit.probability), (Status::Refit, 0.3));
         let named = saying(Status::Named, &[Effect::Resonance], 0.87);
@@ -348,9 +393,33 @@ mod tests {
     }
 
     #[test]
-    fn what_was_right_as_often_as_not_has_the_probability_of_a_half() {
-        assert_eq!(Agreed::default().probability(), 0.5);
-        assert!((Agreed { right: 8, of: 8 }.probability() - 0.9).abs() < 1e-12);
+    fn probabilities_as_told_sum_to_one_and_hold_what_agreement_is_worth() {
+        let effects = vec![(Effect::Creep, 0.3, Vec::new()), (Effect::Backlash, 0.2, Vec::new())];
+        let mut opinion = SecondOpinion {
+            examples: 1,
+            shares: Shares { effect: 0.5, none: 0.3, none_of_these: 0.2 },
+            verdict: saying(Status::Unexplained, &[], 0.1),
+            by_rules: saying(Status::Named, &[Effect::Creep], 0.99),
+            likeliest_by_rules: None,
+            agreed: None,
+            effects,
+            none: 0.4,
+            none_of_these: 0.1,
+        };
+        assert_eq!(opinion.weights(), (vec![(Effect::Creep, 0.3), (Effect::Backlash, 0.2)], [0.4, 0.1]));
+        opinion.agreed = Some(0.86);
+        let (effects, rest) = opinion.weights();
+        assert_eq!(effects[0], (Effect::Creep, 0.86));
+        assert!((effects[1].1 / rest[1] - 2.0).abs() < 1e-12);
+        assert!((effects[0].1 + effects[1].1 + rest[0] + rest[1] - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn agreement_counts_where_the_fitted_verdict_finds_the_cause_likelier_than_not() {
+        assert_eq!(Agreed::default().rate(), 0.5);
+        let agreed = Agreed { right: 8, of: 8 };
+        assert!((agreed.rate() - 0.9).abs() < 1e-12);
+        assert_eq!([0.3, 0.6, 0.95].map(|p| agreed.probability(p)), [0.3, agreed.rate(), 0.95]);
     }
 
     #[test]
