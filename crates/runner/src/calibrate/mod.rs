@@ -9,7 +9,9 @@ use crate::examination::{Measure, Reply, measures_table};
 use crate::field::{BaseVerdicts, Case, Expect, Rating, score};
 use std::collections::HashSet;
 use switchback_gap::Settings;
-use switchback_gap::fitted::{Agreed, CalibrateError, Example, FittedVerdict, OutOfFold, calibrate};
+use switchback_gap::fitted::{
+    Agreed, AgreedOn, CalibrateError, Example, FittedVerdict, OutOfFold, calibrate,
+};
 
 /// A fitted verdict beside what rules reach on the same rigs.
 #[derive(Debug, Clone)]
@@ -51,7 +53,7 @@ pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrate
     // What a measured base shows by itself is what is told of it, if agreement is worth what it may be at most.
     let most = Agreed { right: examples.len(), of: examples.len() };
     let likely = |(_, (example, p)): &&(Place, (&Example, &OutOfFold))| {
-        p.agreed_on(example).is_some_and(|p| Agreed::counts(p))
+        p.agreed_on(example).is_some_and(AgreedOn::counts)
     };
     let places = predicted.iter().filter(likely).map(|(place, _)| *place).collect();
     verdict.agreed = agreed(&told(most), &places);

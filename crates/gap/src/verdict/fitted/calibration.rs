@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::choice::{Choice, Sign, fitted, probabilities};
 use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT, RulesSay};
-use super::{Agreed, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on, harms, told};
+use super::{
+    Agreed, AgreedOn, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on, harms, told,
+};
 use crate::diagnosis::Verdict;
 use crate::effect::Effect;
 use crate::evidence::Compared;
@@ -73,8 +75,8 @@ impl OutOfFold {
         by_fit::verdict(&self.0, (name_at, harms(&example.evidence, &self.0)))
     }
 
-    /// The probability given to the one cause that rules name, where all readings agree on it.
-    pub fn agreed_on(&self, example: &Example) -> Option<f64> {
+    /// The one cause that rules name, where all readings agree on it.
+    pub fn agreed_on(&self, example: &Example) -> Option<AgreedOn> {
         agreed_on(&example.rules.0, &example.evidence, &self.0, |effect| example.excluded.contains(&effect))
     }
 

@@ -57,7 +57,7 @@ pub struct Shares {
 }
 
 /// How often a cause that rules name was the right one where all readings of the records agree on it, and the fitted verdict finds it
-/// likelier than all else together.
+/// with its twins likelier than all else together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Agreed {
@@ -73,15 +73,26 @@ impl Agreed {
         (self.right as f64 + 1.0) / (self.of as f64 + 2.0)
     }
 
-    /// Whether a cause with a probability is among those counted: likelier than all else together.
-    pub fn counts(fitted: f64) -> bool {
-        fitted > 0.5
+    /// Probability of a cause on which all readings agree: the one that the fitted verdict gives to it, or this rate, where it counts and that is
+    /// larger.
+    pub fn probability(self, cause: AgreedOn) -> f64 {
+        if cause.counts() { cause.fitted.max(self.rate()) } else { cause.fitted }
     }
+}
 
-    /// Probability of a cause on which all readings agree, and to which the fitted verdict gives a probability: that one, or where it is above a
-    /// half this rate, if that is larger.
-    pub fn probability(self, fitted: f64) -> f64 {
-        if Self::counts(fitted) { fitted.max(self.rate()) } else { fitted }
+/// A cause on which all readings agree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AgreedOn {
+    /// Probability that the fitted verdict gives to it.
+    pub fitted: f64,
+    /// The same of it and its twins.
+    pub with_twins: f64,
+}
+
+impl AgreedOn {
+    /// Whether it is among those counted: with its twins likelier than all else together.
+    pub fn counts(self) -> bool {
+        self.with_twins > 0.5
     }
 }
 
@@ -217,12 +228,16 @@ impl SecondOpinion {
 /// named         such a cause from a probability of `name_at` on; two causes at once, which only rules weigh
 /// ambiguous     such a cause by itself, where it is less probable and the fitted verdict tells no cause or class
 /// else          what the fitted verdict tells; where that is no cause, rules say whether parameters are off, the held-out records were taken under
-///               other conditions, or something is left, and it says with what probability
+///               other conditions, or something is left, and it says with what probability. Where they find that another order or delay does what
+///               the effect would do, that is told
 /// ```
 pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_at: f64) -> Verdict {
     let weighed = |probability| Verdict { probability, calibrated: fitted.calibrated, ..rules.clone() };
     let is_silent = matches!(fitted.status, Status::None | Status::Unexplained);
+    let is_dynamics = |effect: &Effect| effect.card().room.is_some();
+    let are_dynamics = fitted.effects.iter().chain(&fitted.class).all(is_dynamics);
     match (rules.status, agreed) {
+        (Status::Refit, _) if !is_silent && are_dynamics => rules.clone(),
         (Status::Named, _) if rules.effects.len() > 1 => rules.clone(),
         (Status::Named, Some(p)) if p >= name_at => weighed(p),
         (Status::Named, Some(p)) if is_silent => Verdict {
@@ -265,21 +280,23 @@ fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
     first.is_some_and(|(effect, _)| evidence.iter().all(|says| says.harms(*effect) != Some(false)))
 }
 
-/// The probability that the fitted verdict gives to the one cause that rules name, where all readings agree on it and it harms no held-out
-/// record in the way that these tell; that is the first.
+/// The one cause that rules name, where all readings agree on it and it harms no held-out record in the way that these tell; that is the first.
 fn agreed_on(
     by_rules: &Verdict,
     evidence: &[Compared],
     weighed: &Weighed,
     excluded: impl Fn(Effect) -> bool,
-) -> Option<f64> {
+) -> Option<AgreedOn> {
     let (Status::Named, &[cause]) = (by_rules.status, &by_rules.effects[..]) else { return None };
     let harms = evidence.first().and_then(|says| says.harms(cause)) == Some(true);
     let likeliest = weighed.effects.first().map(|(effect, _)| *effect);
     if harms || !agrees(cause, evidence, likeliest, excluded) {
         return None;
     }
-    weighed.effects.iter().find(|(effect, _)| *effect == cause).map(|(_, p)| *p)
+    let of =
+        |is: &dyn Fn(Effect) -> bool| weighed.effects.iter().filter(|(e, _)| is(*e)).map(|(_, p)| p).sum();
+    let fitted = of(&|effect| effect == cause);
+    Some(AgreedOn { fitted, with_twins: of(&|effect| effect == cause || cause.twins().contains(&effect)) })
 }
 
 impl FittedVerdict {
@@ -419,7 +436,16 @@ mod tests {
         assert_eq!(Agreed::default().rate(), 0.5);
         let agreed = Agreed { right: 8, of: 8 };
         assert!((agreed.rate() - 0.9).abs() < 1e-12);
-        assert_eq!([0.3, 0.6, 0.95].map(|p| agreed.probability(p)), [0.3, agreed.rate(), 0.95]);
+        let on = |fitted, with_twins| agreed.probability(AgreedOn { fitted, with_twins });
+        assert_eq!([on(0.3, 0.4), on(0.4, 0.6), on(0.95, 0.95)], [0.3, agreed.rate(), 0.95]);
+    }
+
+    #[test]
+    fn what_another_order_does_as_well_is_no_cause() {
+        let rules = saying(Status::Refit, &[], 0.8);
+        let told = |effect| told(&saying(Status::Named, &[effect], 0.95), &rules, None, 0.85);
+        assert_eq!(told(Effect::Resonance), rules);
+        assert_eq!(told(Effect::Stribeck).effects, [Effect::Stribeck]);
     }
 
     #[test]
