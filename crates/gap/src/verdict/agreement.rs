@@ -32,7 +32,8 @@ fn differ(cause: Effect, other: Effect) -> bool {
     other != cause && !cause.twins().contains(&other)
 }
 
-/// The best simulator identified anew with another effect that fits better and closes more of the gap on held-out records, if there is one.
+/// The best simulator identified anew with another effect that fits better and closes more of the gap on held-out records than those with the
+/// cause or a twin of it, if there is one.
 fn simulator_before(
     cause: Effect,
     evidence: &[Compared],
@@ -40,7 +41,8 @@ fn simulator_before(
 ) -> Option<Effect> {
     let says = evidence.iter().find(|says| says.comparison == Comparison::Simulation)?;
     let reached = |says: &EffectEvidence| (says.delta_bic.max(0.0), says.closure.unwrap_or_default());
-    let (gain, closure) = says.of(cause).filter(|says| !says.harms).map_or((0.0, 0.0), reached);
+    let of_cause = says.effects.iter().filter(|says| !says.harms && !differ(cause, says.effect)).map(reached);
+    let (gain, closure) = of_cause.fold((0.0, 0.0), |best, of| (best.0.max(of.0), best.1.max(of.1)));
     // The best in penalised deviance comes first.
     let better = says.effects.iter().find(|other| {
         let (of_other, closes) = reached(other);
@@ -84,6 +86,8 @@ mod tests {
         let agrees = |evidence: &[Compared], cause| agrees(cause, evidence, Some(cause), |_| false);
         let closes_less = simulators([(Effect::SensorSaturation, 0.1), (Effect::Creep, 0.5)]);
         assert!(agrees(&closes_less, Effect::Creep));
+        // A twin stands for it.
+        assert!(agrees(&simulators([(Effect::Creep, 0.5), (Effect::Resonance, 0.4)]), Effect::RateDependence));
         // What has no simulator is behind any that closes something.
         assert!(!agrees(&closes_less, Effect::GainDrift));
     }
