@@ -42,7 +42,7 @@ fn simulator_before(
     let says = evidence.iter().find(|says| says.comparison == Comparison::Simulation)?;
     let reached = |says: &EffectEvidence| (says.delta_bic.max(0.0), says.closure.unwrap_or_default());
     let of_cause = says.effects.iter().filter(|says| !says.harms && !differ(cause, says.effect)).map(reached);
-    let (gain, closure) = of_cause.fold((0.0, 0.0), |best, of| (best.0.max(of.0), best.1.max(of.1)));
+    let (gain, closure) = of_cause.fold((0.0_f64, 0.0_f64), |best, of| (best.0.max(of.0), best.1.max(of.1)));
     // The best in penalised deviance comes first.
     let better = says.effects.iter().find(|other| {
         let (of_other, closes) = reached(other);
@@ -87,7 +87,10 @@ mod tests {
         let closes_less = simulators([(Effect::SensorSaturation, 0.1), (Effect::Creep, 0.5)]);
         assert!(agrees(&closes_less, Effect::Creep));
         // A twin stands for it.
-        assert!(agrees(&simulators([(Effect::Creep, 0.5), (Effect::Resonance, 0.4)]), Effect::RateDependence));
+        assert!(agrees(
+            &simulators([(Effect::Creep, 0.5), (Effect::Resonance, 0.4)]),
+            Effect::RateDependence
+        ));
         // What has no simulator is behind any that closes something.
         assert!(!agrees(&closes_less, Effect::GainDrift));
     }
