@@ -1,10 +1,8 @@
 //! Properties of a whole campaign, against the operator by its definition.
 
-mod support;
-
+use crate::support::hysteresis;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use support::hysteresis;
 use switchback_estimator::excitation::{Campaign, PlannedRecord, Reversals};
 use switchback_estimator::hysteresis::{Branch, Interval, SwitchedHysteresis, output_by_definition};
 use switchback_estimator::rig::Role;

@@ -1,10 +1,8 @@
 //! The means of the control variate's terms, against a sum over noise that is exact for quadratics.
 
-mod sweep;
-
+use crate::sweep::{Bench, methods, systems};
 use nalgebra::{Cholesky, DMatrix};
 use proptest::prelude::*;
-use sweep::{Bench, methods, systems};
 use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseData, SecondOrder};
 use switchback_estimator::linear::autocovariance;
 use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, SumCovariance, superpose};

@@ -1,7 +1,5 @@
 //! The designed experiments on every kind of border.
 
-mod support;
-
 use proptest::collection::btree_set;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -27,13 +25,13 @@ fn experiment(interval: Interval) -> impl Strategy<Value = PulseExperiment> {
 }
 
 fn any_experiment() -> impl Strategy<Value = PulseExperiment> {
-    support::interval().prop_flat_map(experiment)
+    crate::support::interval().prop_flat_map(experiment)
 }
 
 proptest! {
     #[test]
     fn a_pulse_experiment_masks_the_memory(
-        (hysteresis, experiment) in support::hysteresis().prop_flat_map(|h| {
+        (hysteresis, experiment) in crate::support::hysteresis().prop_flat_map(|h| {
             let experiment = experiment(h.interval());
             (Just(h), experiment)
         }),
@@ -83,7 +81,7 @@ proptest! {
 
     #[test]
     fn evenly_spaced_levels_are_ordered_and_stop_one_step_short_of_the_satellite(
-        interval in support::interval(), direction in direction(), m in 1..=64usize, order in 1..=5usize,
+        interval in crate::support::interval(), direction in direction(), m in 1..=64usize, order in 1..=5usize,
     ) {
         let experiment = PulseExperiment::evenly_spaced(interval, direction, m, order).unwrap();
         prop_assert_eq!(experiment.points(), m);
@@ -97,7 +95,7 @@ proptest! {
 
     #[test]
     fn a_step_experiment_loads_the_border_and_holds_it(
-        hysteresis in support::hysteresis(), direction in direction(), samples in 0..40usize,
+        hysteresis in crate::support::hysteresis(), direction in direction(), samples in 0..40usize,
     ) {
         let v = StepExperiment::at_satellite_of(direction, hysteresis.interval()).record_input(samples);
         let u = hysteresis.output(&v, f64::NAN);

@@ -1,10 +1,8 @@
 //! Bias and standard deviation at a given number of samples, against the delta method carried out by brute force.
 
-mod sweep;
-
+use crate::sweep::{Bench, methods};
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
-use sweep::{Bench, methods};
 use switchback_estimator::estimators::pulse::{
     EquationNoise, ExpectedRecord, GroupedStatistics, Limit, PulseData, PulseMethod, StepMean,
 };

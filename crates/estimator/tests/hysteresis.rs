@@ -1,7 +1,5 @@
 //! The operator (2.3) on every kind of border.
 
-mod support;
-
 use proptest::collection::vec;
 use proptest::prelude::*;
 use switchback_estimator::hysteresis::{
@@ -31,7 +29,7 @@ fn restated(hysteresis: &SwitchedHysteresis, v: &[f64], before: f64, t: usize) -
 proptest! {
     #[test]
     fn the_operator_its_definition_and_a_per_sample_restatement_agree_exactly(
-        (hysteresis, v) in support::hysteresis().prop_flat_map(|h| {
+        (hysteresis, v) in crate::support::hysteresis().prop_flat_map(|h| {
             let v = input(h.interval());
             (Just(h), v)
         }),
@@ -45,7 +43,7 @@ proptest! {
 
     #[test]
     fn what_came_before_is_forgotten_at_the_first_move(
-        (hysteresis, v) in support::hysteresis().prop_flat_map(|h| {
+        (hysteresis, v) in crate::support::hysteresis().prop_flat_map(|h| {
             let v = input(h.interval());
             (Just(h), v)
         }),
@@ -58,7 +56,7 @@ proptest! {
     }
 
     #[test]
-    fn a_hysteresis_that_was_built_satisfies_assumption_1(hysteresis in support::hysteresis()) {
+    fn a_hysteresis_that_was_built_satisfies_assumption_1(hysteresis in crate::support::hysteresis()) {
         prop_assert!(hysteresis.u_low() < hysteresis.u_high());
         prop_assert!(hysteresis.span() > 0.0);
     }

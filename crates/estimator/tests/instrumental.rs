@@ -1,9 +1,7 @@
 //! Refined instrumental variables: what they refuse, and their bias against the second derivatives of the estimate itself.
 
-mod sweep;
-
+use crate::sweep::Bench;
 use nalgebra::DMatrix;
-use sweep::Bench;
 use switchback_estimator::Record;
 use switchback_estimator::estimators::pulse::{
     EquationNoise, ExpectedRecord, Folds, Limit, PulseData, PulseFitError, PulseMethod,

@@ -1,9 +1,7 @@
 //! Eight replicates abreast against the methods one replicate at a time.
 
-mod sweep;
-
+use crate::sweep::{Bench, methods, noise, systems};
 use proptest::prelude::*;
-use sweep::{Bench, methods, noise, systems};
 use switchback_estimator::estimators::pulse::lanes::{
     LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
 };

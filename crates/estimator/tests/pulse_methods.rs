@@ -1,7 +1,5 @@
 //! The methods for pulse experiments against dense least squares, closed forms and the truth.
 
-mod oracle;
-
 use proptest::prelude::*;
 use switchback_estimator::Record;
 use switchback_estimator::estimators::pulse::{
@@ -209,7 +207,7 @@ proptest! {
             prop_assert_eq!(data.levels.clone(), rig.experiment(direction).levels().to_vec());
             let fit = PulseMethod::Paper { experiment: &data, step: StepMean { mean: y0, samples: 50.0 } }.fit().expect("excited");
             let first = 1 + 7.max(order);
-            let (a, b, f) = oracle::paper(&record, direction.visited_branch(), &data.levels, order, first, y0);
+            let (a, b, f) = crate::oracle::paper(&record, direction.visited_branch(), &data.levels, order, first, y0);
             near(&values(&fit.a), &a, 1e-9)?;
             near(&values(&fit.b), &b, 1e-9)?;
             near(&values(&fit.borders[0]), &f, 1e-9)?;
@@ -223,7 +221,7 @@ proptest! {
         let records = BOTH.map(|direction| rig.simulate(direction, 12, &xi));
         let data = [0, 1].map(|e| PulseData::from_record(&records[e], BOTH[e].visited_branch(), order, 7).expect("a pulse experiment"));
         let fit = PulseMethod::Joint { descendant: &data[0], ascendant: &data[1] }.fit().expect("excited");
-        let (a, b, f) = oracle::joint([(&records[0], &data[0].levels), (&records[1], &data[1].levels)], order, 1 + 7.max(order));
+        let (a, b, f) = crate::oracle::joint([(&records[0], &data[0].levels), (&records[1], &data[1].levels)], order, 1 + 7.max(order));
         near(&values(&fit.a), &a, 1e-9)?;
         near(&values(&fit.b), &b, 1e-9)?;
         for e in 0..2 {

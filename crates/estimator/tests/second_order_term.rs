@@ -1,9 +1,7 @@
 //! The whole second-order term of a replicate's error, against differences of the estimators themselves.
 
-mod sweep;
-
+use crate::sweep::{Bench, methods, systems};
 use proptest::prelude::*;
-use sweep::{Bench, methods, systems};
 use switchback_estimator::estimators::pulse::{
     GroupedStatistics, Limit, PulseData, PulseMethod, SecondOrder, StepMean,
 };

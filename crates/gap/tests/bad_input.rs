@@ -1,10 +1,8 @@
 //! Records that cannot be judged, or only in part.
 
-mod bench;
-
 use std::f64::consts::PI;
 
-use bench::{input, made, output, record, rig, whole};
+use crate::bench::{input, made, output, record, rig, whole};
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
 use switchback_gap::{DiagnoseError, Diagnosis, Effect, Model, NominalModel, Settings, Status, diagnose};
 

@@ -1,8 +1,6 @@
 //! Effects that rule what the dynamics are identified from: the nominal model is that of another system.
 
-mod bench;
-
-use bench::{input, record, rig, white};
+use crate::bench::{input, record, rig, white};
 use switchback_estimator::rig::{Rig, Usage};
 use switchback_gap::{Effect, Model, Settings, Status, diagnose};
 

@@ -1,8 +1,6 @@
 //! Models that were given: the map shows where these miss, not where one identified from the records would.
 
-mod bench;
-
-use bench::{made, played, record, response, rig, white, whole};
+use crate::bench::{made, played, record, response, rig, white, whole};
 use switchback_estimator::rig::{Rig, RigRecord, Usage};
 use switchback_gap::{Diagnosis, Effect, Model, NominalModel, Settings, Status, diagnose};
 

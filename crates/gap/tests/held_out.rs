@@ -1,9 +1,7 @@
 //! What a verdict owes to the held-out records: a cause does them no harm, a gap that they do not show is none, and what a higher order
 //! does is no cause.
 
-mod bench;
-
-use bench::{input, output, played, record, response, rig, white};
+use crate::bench::{input, output, played, record, response, rig, white};
 use switchback_estimator::rig::{RigRecord, Usage};
 use switchback_gap::{Effect, Model, Settings, Status, Verdict, diagnose};
 use switchback_maker::{Ingredient, MakeRig};

@@ -1,8 +1,6 @@
 //! Two effects at once, each put into the bench's rig by hand.
 
-mod bench;
-
-use bench::{input, output, record, rig};
+use crate::bench::{input, output, record, rig};
 use switchback_estimator::rig::{Rig, Usage};
 use switchback_gap::{Effect, Model, Settings, Status, diagnose};
 

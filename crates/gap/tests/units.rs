@@ -1,8 +1,6 @@
 //! Zero and unit of input and output are matters of the sensors: no verdict depends on them.
 
-mod bench;
-
-use bench::{input, played, record, response, rig, white};
+use crate::bench::{input, played, record, response, rig, white};
 use proptest::prelude::*;
 use switchback_estimator::Record;
 use switchback_estimator::rig::{Rig, RigRecord, Usage};

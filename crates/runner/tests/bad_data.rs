@@ -1,9 +1,6 @@
 //! Files of measurements that are interrupted, in doubt or wrong: what is made of them, and what is said.
 
-#[path = "common/bench_data.rs"]
-mod bench_data;
-
-use bench_data::{Bench, SAMPLES, lines, point, rows};
+use crate::common::bench_data::{Bench, SAMPLES, lines, point, rows};
 use switchback_estimator::rig::Usage;
 
 fn table(header: &str, change: impl Fn(usize, String) -> Option<String>) -> String {

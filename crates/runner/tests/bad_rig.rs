@@ -1,8 +1,6 @@
 //! Everything that can be wrong with a rig: one clear message with file, place and remedy, exit code 2, nothing written.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use std::fs;
 
 /// Spoils a good rig, identifies it with an output folder, and checks what is said and that nothing is left behind.

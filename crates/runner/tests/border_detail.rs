@@ -1,8 +1,6 @@
 //! What counts as a detail of the borders, and what is their own.
 
-mod common;
-
-use common::{verdict_on_changed, verdict_on_made};
+use crate::common::{verdict_on_changed, verdict_on_made};
 use serde_json::json;
 
 /// `rig.toml` with nothing but its free records.

@@ -1,8 +1,6 @@
 //! `switchback calibrate`
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -4,19 +4,12 @@
 //! minutes. Where an engine is absent its tests say so and pass.
 #![cfg(target_os = "linux")]
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-#[path = "cluster/hyperqueue.rs"]
 mod hyperqueue;
-#[path = "cluster/processes.rs"]
 mod processes;
-#[path = "cluster/slurm.rs"]
 mod slurm;
-#[path = "cluster/study.rs"]
 mod study;
 
-use faults::files;
+use crate::common::faults::files;
 use hyperqueue::HyperQueue;
 use slurm::Slurm;
 use std::fs;

@@ -1,9 +1,7 @@
 //! What the command line understands, and what it says to what it does not.
 
-mod common;
-
+use crate::common::{Folder, listing};
 use assert_cmd::Command;
-use common::{Folder, listing};
 use serde_json::Value;
 
 fn switchback(arguments: &[&str]) -> Command {

@@ -1,12 +1,8 @@
 //! Folders that cannot be written are found before the run: another writes there, something stands in the way, the disk is full.
 #![cfg(all(unix, debug_assertions))]
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-
-use common::{Folder, STUDY, listing};
-use faults::{Change, Files, RUN, run, start};
+use crate::common::faults::{Change, Files, RUN, run, start};
+use crate::common::{Folder, STUDY, listing};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;

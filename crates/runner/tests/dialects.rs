@@ -1,9 +1,6 @@
 //! The same record in the dialects that loggers, spreadsheets and laboratories write, read without a word of explanation.
 
-#[path = "common/bench_data.rs"]
-mod bench_data;
-
-use bench_data::{Bench, SAMPLES, comma, lines, point, rows, truth};
+use crate::common::bench_data::{Bench, SAMPLES, comma, lines, point, rows, truth};
 use switchback::rig::Loaded;
 use switchback_estimator::rig::Usage;
 

@@ -2,9 +2,7 @@
 //!
 //! Without a C compiler, or a Python with NumPy (`SWITCHBACK_PYTHON` or `python3`), what needs them says so and is left out.
 
-mod common;
-
-use common::{Folder, step};
+use crate::common::{Folder, step};
 use std::fs;
 use std::path::Path;
 use std::process::Command;

@@ -1,8 +1,6 @@
 //! A field examination of made bases, with an examiner that is easy to foresee in place of the diagnosis.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;

@@ -2,9 +2,7 @@
 //!
 //! Without a C compiler, or a Python with FMPy (`SWITCHBACK_PYTHON`), what needs them says so and is left out.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::io::Write;

@@ -1,8 +1,6 @@
 //! `switchback gap`: what it writes, and what it does with bad input.
 
-mod common;
-
-use common::{Folder, listing, verdict_on_made};
+use crate::common::{Folder, listing, verdict_on_made};
 use serde_json::Value;
 use std::fs;
 use switchback_gap::Effect;

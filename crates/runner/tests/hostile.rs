@@ -1,8 +1,6 @@
 //! Input that is hostile, or only wrong: told in the user's words, bounded, and never obeyed.
 
-mod common;
-
-use common::{BLIND, Folder, STUDY};
+use crate::common::{BLIND, Folder, STUDY};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
@@ -181,7 +179,8 @@ fn control_characters_reach_neither_terminal_nor_picture() {
     for told in [output.stdout, output.stderr] {
         assert!(!told.contains(&0x1b) && !told.contains(&0), "{}", String::from_utf8_lossy(&told));
     }
-    let pictures = common::listing(&folder.path("out")).into_iter().filter(|name| name.ends_with(".svg"));
+    let pictures =
+        crate::common::listing(&folder.path("out")).into_iter().filter(|name| name.ends_with(".svg"));
     let mut labelled = 0;
     for name in pictures {
         let svg = fs::read_to_string(folder.path("out").join(&name)).expect("a picture");

@@ -1,8 +1,6 @@
 //! `switchback identify` on good rigs.
 
-mod common;
-
-use common::{Folder, listing};
+use crate::common::{Folder, listing};
 use serde_json::Value;
 use std::fs;
 
@@ -59,7 +57,7 @@ fn the_papers_method_takes_the_level_from_the_step_experiment() {
         ("ascendant", -1.0, "step_low", "ascendant", "descendant"),
     ] {
         let folder = Folder::with_good_rig();
-        folder.write("step.csv", &common::step(satellite, 4));
+        folder.write("step.csv", &crate::common::step(satellite, 4));
         folder.edit("rig.toml", |text| {
             format!("{text}\n[[record]]\nfile = \"step.csv\"\nrole = \"{role}\"\nuse = \"fit\"\n")
         });

@@ -1,9 +1,7 @@
 //! A process that is stopped leaves nothing half-written. Signals are sent by `kill`.
 #![cfg(unix)]
 
-mod common;
-
-use common::{BLIND, Folder, STUDY, listing};
+use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;
 use std::io::Read;
 use std::path::Path;

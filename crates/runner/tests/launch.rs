@@ -1,12 +1,8 @@
 //! Scripts for schedulers; on a real Slurm where one is.
 #![cfg(unix)]
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-
-use common::{BLIND, Folder, STUDY};
-use faults::{files, run};
+use crate::common::faults::{files, run};
+use crate::common::{BLIND, Folder, STUDY};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Stdio};

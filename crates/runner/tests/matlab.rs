@@ -1,10 +1,7 @@
 //! The same record in MATLAB's two file formats.
 #![cfg(feature = "matlab")]
 
-#[path = "common/bench_data.rs"]
-mod bench_data;
-
-use bench_data::{Bench, rows, truth};
+use crate::common::bench_data::{Bench, rows, truth};
 use hdf5_pure::FileBuilder;
 use switchback::rig::Loaded;
 

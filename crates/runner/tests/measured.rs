@@ -1,8 +1,6 @@
 //! `switchback gap` on measured rigs, where they are beside the workspace.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,8 +1,6 @@
 //! One cause is named alone: whatever looks like a second one beside it is no cause of its own.
 
-mod common;
-
-use common::{diagnosis_of_made, verdict_on_made};
+use crate::common::{diagnosis_of_made, verdict_on_made};
 use serde_json::{Value, json};
 
 /// The verdict on a made rig with one effect.

@@ -1,8 +1,6 @@
 //! No verb overwrites what someone else wrote, unless it is told to.
 
-mod common;
-
-use common::{BLIND, Folder, STUDY, listing};
+use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;
 
 const FOREIGN: &str = "measured for three weeks\n";

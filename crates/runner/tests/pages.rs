@@ -1,8 +1,6 @@
 //! `index.html` beside every report, and `switchback report`, as a user runs it.
 
-mod common;
-
-use common::{BLIND, Folder, STUDY, listing};
+use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;
 use std::path::Path;
 use switchback::output::sha256;

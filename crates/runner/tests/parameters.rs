@@ -1,8 +1,6 @@
 //! What a diagnosis tells of a cause is what was put in.
 
-mod common;
-
-use common::diagnosis_of_made;
+use crate::common::diagnosis_of_made;
 use serde_json::Value;
 
 /// A parameter of the candidate for an effect.

@@ -1,8 +1,6 @@
 //! `switchback gap --power`: what it finds, writes, and refuses.
 
-mod common;
-
-use common::{Folder, listing};
+use crate::common::{Folder, listing};
 use serde_json::Value;
 use std::fs;
 

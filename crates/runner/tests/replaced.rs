@@ -1,12 +1,8 @@
 //! A report is replaced whole or not at all, whenever the process is killed and whatever the file system can.
 #![cfg(all(unix, debug_assertions))]
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-
-use common::{BLIND, Folder, listing};
-use faults::{BESIDE, Change, RUN, files, killed_at_its_pause, run, start};
+use crate::common::faults::{BESIDE, Change, RUN, files, killed_at_its_pause, run, start};
+use crate::common::{BLIND, Folder, listing};
 use std::fs;
 use std::time::Instant;
 

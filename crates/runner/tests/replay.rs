@@ -1,8 +1,6 @@
 //! One replicate alone, and a study again from what its results say.
 
-mod common;
-
-use common::{Folder, STUDY, listing};
+use crate::common::{Folder, STUDY, listing};
 use serde_json::Value;
 use std::fs;
 

@@ -1,12 +1,8 @@
 //! A study that is killed, or whose disk fails, goes on where it stood: its report has the bytes of an undisturbed one.
 #![cfg(all(unix, debug_assertions))]
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-
-use common::{Folder, STUDY, listing};
-use faults::{Files, files, killed_at_its_pause};
+use crate::common::faults::{Files, files, killed_at_its_pause};
+use crate::common::{Folder, STUDY, listing};
 use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};

@@ -1,8 +1,6 @@
 //! Every JSON object that the program writes is what its schema in `docs/schemas` says, and no schema allows a key that it does not describe.
 
-mod common;
-
-use common::{BLIND, Folder, STUDY};
+use crate::common::{BLIND, Folder, STUDY};
 use jsonschema::Validator;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,8 +1,6 @@
 //! Parts of an examination make the report of one run, and nothing else does.
 
-mod common;
-
-use common::{BLIND, Folder, listing};
+use crate::common::{BLIND, Folder, listing};
 use std::fs;
 
 /// Runs, and gives the exit code with what is told.
@@ -61,7 +59,7 @@ fn parts_merged_are_the_bytes_of_one_run() {
 #[test]
 fn a_part_that_cannot_be_is_refused() {
     let folder = Folder::with_good_rig();
-    folder.write("study.toml", common::STUDY);
+    folder.write("study.toml", crate::common::STUDY);
     let (code, told) = run(&folder, &["study.toml", "--shard", "3/2"]);
     assert_eq!(code, Some(2));
     assert!(told.contains("as in 1/4"), "{told}");

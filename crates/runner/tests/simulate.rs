@@ -1,8 +1,6 @@
 //! `switchback simulate`: models that were written run as they did in the command that wrote them.
 
-mod common;
-
-use common::{Folder, step};
+use crate::common::{Folder, step};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

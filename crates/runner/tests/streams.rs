@@ -1,12 +1,8 @@
 //! Pipes, FIFOs, devices and the standard input in place of files.
 #![cfg(unix)]
 
-#[path = "common/bench_data.rs"]
-mod bench_data;
-mod common;
-
-use bench_data::{lines, point};
-use common::{Folder, STUDY, listing};
+use crate::common::bench_data::{lines, point};
+use crate::common::{Folder, STUDY, listing};
 use std::fs::OpenOptions;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

@@ -1,9 +1,7 @@
 //! `switchback SCENARIO.toml`, as a user runs it.
 
-mod common;
-
+use crate::common::STUDY;
 use assert_cmd::Command;
-use common::STUDY;
 use std::fs;
 use std::path::{Path, PathBuf};
 use switchback::scenario::Engine;

@@ -1,11 +1,7 @@
 //! Parts of a study make the report of one run, and nothing else does.
 
-mod common;
-#[path = "common/faults.rs"]
-mod faults;
-
-use common::{Folder, STUDY};
-use faults::{Files, files, run};
+use crate::common::faults::{Files, files, killed_at_its_pause, run};
+use crate::common::{Folder, STUDY};
 use std::fs;
 
 fn text(replicates: &str) -> String {
@@ -141,7 +137,7 @@ fn a_part_that_was_killed_goes_on() {
         .spawn()
         .expect("the program starts");
     if cfg!(debug_assertions) {
-        assert!(faults::killed_at_its_pause(process));
+        assert!(killed_at_its_pause(process));
         assert!(folder.path("again/unfinished.sums").exists());
         let (code, told) = merge(&folder, &["again".to_owned(), made[1].clone()], "none");
         assert_eq!(code, Some(2), "{told}");

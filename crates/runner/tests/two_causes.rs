@@ -1,8 +1,6 @@
 //! Two causes of one size are both named.
 
-mod common;
-
-use common::diagnosis_of_made;
+use crate::common::diagnosis_of_made;
 use serde_json::Value;
 
 /// The diagnosis of a made rig with two effects.

@@ -1,8 +1,6 @@
 //! A rig that declares no order: what colours the equation error is looked for before models are compared as simulators.
 
-mod common;
-
-use common::verdict_on_changed;
+use crate::common::verdict_on_changed;
 use serde_json::json;
 
 #[test]

@@ -1,8 +1,5 @@
 //! Random cells of a sweep, and every method on them.
 
-// Each test file uses its part.
-#![allow(dead_code)]
-
 use proptest::prelude::*;
 use switchback_estimator::estimators::pulse::{PulseData, PulseMethod, StepMean};
 use switchback_estimator::excitation::{Direction, PulseExperiment};

@@ -1,8 +1,5 @@
 //! A small rig with a known model.
 
-// Each test file uses its part.
-#![allow(dead_code)]
-
 use std::f64::consts::PI;
 
 use switchback_estimator::Record;

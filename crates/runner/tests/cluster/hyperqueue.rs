@@ -1,9 +1,9 @@
 //! HyperQueue with three workers. Its program `hq` is taken where it is on the PATH; or else `hq.py` speaks its command line to the server and
 //! the workers of the Python package, with the interpreter that `SWITCHBACK_HYPERQUEUE` names.
 
-use crate::Cluster;
-use crate::processes::{descendants, kill};
-use crate::study::is_asked;
+use super::Cluster;
+use super::processes::{descendants, kill};
+use super::study::is_asked;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};

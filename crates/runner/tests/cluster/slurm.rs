@@ -1,8 +1,8 @@
 //! Slurm with three nodes on this host (`three-nodes.sh`).
 
-use crate::Cluster;
-use crate::processes::{Process, all, has_variable, kill, number_in, parent};
-use crate::study::{Study, is_asked, is_full};
+use super::Cluster;
+use super::processes::{Process, all, has_variable, kill, number_in, parent};
+use super::study::{Study, is_asked, is_full};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -133,7 +133,7 @@ impl Drop for Slurm {
 fn slurm_reaches_a_time_limit() {
     if is_full() {
         let notice = |script: &str| script.replace("notice=60", "notice=170");
-        crate::bytes_survive_a_time_limit::<Slurm>(&Study::new(3), "3", notice);
+        super::bytes_survive_a_time_limit::<Slurm>(&Study::new(3), "3", notice);
     } else {
         eprintln!("SKIPPED: a time limit of Slurm's takes minutes; SWITCHBACK_CLUSTER=full reaches one");
     }

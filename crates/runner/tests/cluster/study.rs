@@ -1,8 +1,8 @@
 //! A study that takes a while, and what becomes of it in parts.
 
-use crate::Cluster;
+use super::Cluster;
+use crate::common::faults::{Files, files, run};
 use crate::common::{BLIND, Folder, STUDY};
-use crate::faults::{Files, files, run};
 use std::cell::OnceCell;
 use std::fs::{self, File};
 use std::path::PathBuf;

@@ -1,7 +1,5 @@
 //! One measured record, to be written in many dialects.
 
-#![allow(dead_code, unreachable_pub, reason = "each test binary uses a part of it")]
-
 use clap::Parser;
 use std::fs;
 use std::path::PathBuf;
@@ -9,10 +7,10 @@ use switchback::cmd::data_args::DataArgs;
 use switchback::rig::{Loaded, RigError};
 use tempfile::TempDir;
 
-pub const SAMPLES: usize = 600;
+pub(crate) const SAMPLES: usize = 600;
 
 /// Travel and force of a leaf spring with a first-order sensor, as a logger prints them.
-pub fn truth() -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn truth() -> (Vec<f64>, Vec<f64>) {
     let printed = |x: f64, decimals: usize| format!("{x:.decimals$}").parse::<f64>().expect("a number");
     let v: Vec<f64> = (0..SAMPLES)
         .map(|k| k as f64 * 0.01)
@@ -35,21 +33,21 @@ pub fn truth() -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The record's rows, each as time in seconds, input and output.
-pub fn rows() -> impl Iterator<Item = (f64, f64, f64)> {
+pub(crate) fn rows() -> impl Iterator<Item = (f64, f64, f64)> {
     let (v, y) = truth();
     v.into_iter().zip(y).enumerate().map(|(k, (v, y))| ((k as f64) / 100.0, v, y))
 }
 
 /// The rows as lines, cells joined by `delimiter`, numbers printed by `print`.
-pub fn lines(delimiter: &str, print: impl Fn(f64) -> String) -> Vec<String> {
+pub(crate) fn lines(delimiter: &str, print: impl Fn(f64) -> String) -> Vec<String> {
     rows().map(|(t, v, y)| [t, v, y].map(&print).join(delimiter)).collect()
 }
 
-pub fn point(x: f64) -> String {
+pub(crate) fn point(x: f64) -> String {
     x.to_string()
 }
 
-pub fn comma(x: f64) -> String {
+pub(crate) fn comma(x: f64) -> String {
     x.to_string().replace('.', ",")
 }
 
@@ -60,26 +58,26 @@ struct Line {
 }
 
 /// A folder with files of measurements.
-pub struct Bench {
+pub(crate) struct Bench {
     root: TempDir,
 }
 
 impl Bench {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { root: TempDir::new().expect("a temporary folder") }
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.root.path().join(name)
     }
 
-    pub fn with(self, name: &str, contents: impl AsRef<[u8]>) -> Self {
+    pub(crate) fn with(self, name: &str, contents: impl AsRef<[u8]>) -> Self {
         fs::write(self.path(name), contents).expect("a writable temporary folder");
         self
     }
 
     /// Reads as the command line `switchback gap WORDS` does; words that are files of this folder are taken from it.
-    pub fn load(&self, words: &[&str]) -> Result<Loaded, RigError> {
+    pub(crate) fn load(&self, words: &[&str]) -> Result<Loaded, RigError> {
         let word = |word: &&str| {
             let path = self.path(word);
             if path.exists() || word.ends_with(".csv") {
@@ -96,14 +94,14 @@ impl Bench {
     }
 
     /// The message of an error, as it is told, with the folder left out.
-    pub fn refusal(&self, words: &[&str]) -> String {
+    pub(crate) fn refusal(&self, words: &[&str]) -> String {
         let error = self.load(words).expect_err("bad input");
         let told = switchback::failure::plain(&error);
         told.replace(&format!("{}/", self.root.path().display()), "")
     }
 
     /// `switchback`, run in this folder.
-    pub fn switchback(&self, arguments: &[&str]) -> assert_cmd::Command {
+    pub(crate) fn switchback(&self, arguments: &[&str]) -> assert_cmd::Command {
         let mut command = assert_cmd::Command::cargo_bin("switchback").expect("the binary is built");
         command.current_dir(self.root.path()).args(arguments);
         command

@@ -1,7 +1,5 @@
 //! Runs that are killed, and disks that fail. `SWITCHBACK_FAULTS` is read by builds with debug assertions only.
 
-#![allow(dead_code, unreachable_pub, reason = "each test binary uses a part of it")]
-
 use crate::common::{Folder, STUDY, listing};
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,24 +8,24 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 /// Files of a folder by name, without those that tell of the run and not of what came out; none where it is not there.
-pub type Files = BTreeMap<String, Vec<u8>>;
+pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 
 /// Files that tell of the run and not of what came out.
-pub const BESIDE: [&str; 3] = ["provenance.json", "replicates.sums", ".switchback.beside.sha256"];
+pub(crate) const BESIDE: [&str; 3] = ["provenance.json", "replicates.sums", ".switchback.beside.sha256"];
 
-pub fn files(folder: &Path) -> Files {
+pub(crate) fn files(folder: &Path) -> Files {
     let names = if folder.exists() { listing(folder) } else { Vec::new() };
     let read = |name: String| (name.clone(), fs::read(folder.join(name)).expect("a file"));
     names.into_iter().filter(|name| !BESIDE.contains(&name.as_str())).map(read).collect()
 }
 
 /// Runs to the end: the exit code, and what is told.
-pub fn run(folder: &Folder, arguments: &[&str], faults: &str) -> (Option<i32>, String) {
+pub(crate) fn run(folder: &Folder, arguments: &[&str], faults: &str) -> (Option<i32>, String) {
     let output = folder.switchback(arguments).env("SWITCHBACK_FAULTS", faults).output().expect("it runs");
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-pub fn start(folder: &Folder, arguments: &[&str], faults: &str) -> Child {
+pub(crate) fn start(folder: &Folder, arguments: &[&str], faults: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_switchback"))
         .current_dir(folder.path("."))
         .args(arguments)
@@ -39,7 +37,7 @@ pub fn start(folder: &Folder, arguments: &[&str], faults: &str) -> Child {
 }
 
 /// Waits until the process pauses and kills it with SIGKILL; false if it ends without a pause.
-pub fn killed_at_its_pause(mut process: Child) -> bool {
+pub(crate) fn killed_at_its_pause(mut process: Child) -> bool {
     let stderr = BufReader::new(process.stderr.take().expect("piped"));
     let has_paused = stderr.lines().map_while(Result::ok).any(|line| line == "paused");
     if has_paused {
@@ -50,18 +48,18 @@ pub fn killed_at_its_pause(mut process: Child) -> bool {
 }
 
 /// The command of [`Change`].
-pub const RUN: [&str; 4] = ["study.toml", "--quiet", "--out", "out"];
+pub(crate) const RUN: [&str; 4] = ["study.toml", "--quiet", "--out", "out"];
 
 /// A study whose report is there, and a change of it whose report is known too.
-pub struct Change {
-    pub folder: Folder,
-    pub old: Files,
-    pub new: Files,
+pub(crate) struct Change {
+    pub(crate) folder: Folder,
+    pub(crate) old: Files,
+    pub(crate) new: Files,
     entries: Vec<String>,
 }
 
 impl Change {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = Folder::with_good_rig();
         let changed = STUDY.replace("seed = 3", "seed = 4").replace("\"efficient\"", "\"joint\"");
         let report = |text: &str| {
@@ -83,7 +81,7 @@ impl Change {
     }
 
     /// Puts the old report back, file by file, and forgets what was begun.
-    pub fn reset(&self) {
+    pub(crate) fn reset(&self) {
         let _ = fs::remove_dir_all(self.folder.path(".switchback-out"));
         let out = self.folder.path("out");
         fs::remove_dir_all(&out).expect("a folder");
@@ -93,13 +91,13 @@ impl Change {
             .for_each(|(name, bytes)| fs::write(out.join(name), bytes).expect("it can be written"));
     }
 
-    pub fn now(&self) -> Files {
+    pub(crate) fn now(&self) -> Files {
         files(&self.folder.path("out"))
     }
 
     /// The same command succeeds after all, and leaves nothing beside the report.
     #[track_caller]
-    pub fn ends_well(&self) {
+    pub(crate) fn ends_well(&self) {
         let (code, told) = run(&self.folder, &RUN, "");
         assert_eq!(code, Some(0), "{told}");
         assert!(self.now() == self.new, "another report than that of an undisturbed run");

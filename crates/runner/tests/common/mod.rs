@@ -1,13 +1,14 @@
 //! A small rig in a temporary folder, to be spoilt one thing at a time.
 
-#![allow(dead_code, unreachable_pub, reason = "each test binary uses a part of it")]
+pub(crate) mod bench_data;
+pub(crate) mod faults;
 
 use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-pub const RIG: &str = r#"name = "small"
+pub(crate) const RIG: &str = r#"name = "small"
 sample_time = 0.01
 order = 2
 interval = [-1.0, 1.0]
@@ -29,7 +30,7 @@ use = "holdout"
 "#;
 
 /// A scenario that runs in a moment; tests change a line of it.
-pub const STUDY: &str = r#"study = "consistency"
+pub(crate) const STUDY: &str = r#"study = "consistency"
 question = "Is it consistent?"
 seed = 3
 replicates = 40
@@ -50,7 +51,7 @@ methods = ["efficient"]
 "#;
 
 /// An examination of one or two rigs.
-pub const BLIND: &str = r#"study = "blind"
+pub(crate) const BLIND: &str = r#"study = "blind"
 question = "?"
 seed = 4
 systems = 1
@@ -62,13 +63,13 @@ pairs = 0
 slice = 1
 "#;
 
-pub struct Folder {
+pub(crate) struct Folder {
     root: TempDir,
 }
 
 impl Folder {
     /// A rig that can be identified.
-    pub fn with_good_rig() -> Self {
+    pub(crate) fn with_good_rig() -> Self {
         let root = TempDir::new().expect("a temporary folder");
         let folder = Self { root };
         folder.write("rig.toml", RIG);
@@ -78,22 +79,22 @@ impl Folder {
         folder
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.root.path().join(name)
     }
 
-    pub fn write(&self, name: &str, text: &str) {
+    pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).expect("a writable temporary folder");
     }
 
     /// Rewrites a file.
-    pub fn edit(&self, name: &str, change: impl Fn(&str) -> String) {
+    pub(crate) fn edit(&self, name: &str, change: impl Fn(&str) -> String) {
         let text = fs::read_to_string(self.path(name)).expect("a file of the rig");
         self.write(name, &change(&text));
     }
 
     /// Puts another text in place of a line, counted from 1.
-    pub fn replace_line(&self, name: &str, line: usize, with: &str) {
+    pub(crate) fn replace_line(&self, name: &str, line: usize, with: &str) {
         self.edit(name, |text| {
             let mut lines: Vec<&str> = text.lines().collect();
             lines[line - 1] = with;
@@ -102,19 +103,19 @@ impl Folder {
     }
 
     /// `switchback`, run in this folder.
-    pub fn switchback(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn switchback(&self, arguments: &[&str]) -> Command {
         let mut command = Command::cargo_bin("switchback").expect("the binary is built");
         command.current_dir(self.root.path()).args(arguments);
         command
     }
 
     /// Names of everything in the folder.
-    pub fn listing(&self) -> Vec<String> {
+    pub(crate) fn listing(&self) -> Vec<String> {
         listing(self.root.path())
     }
 }
 
-pub fn listing(folder: &Path) -> Vec<String> {
+pub(crate) fn listing(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .expect("an existing folder")
         .map(|entry| entry.expect("a readable entry").file_name().to_string_lossy().into_owned())
@@ -137,7 +138,7 @@ fn pulses(satellite: f64, seed: u64) -> String {
 }
 
 /// The step experiment at the satellite `satellite`.
-pub fn step(satellite: f64, seed: u64) -> String {
+pub(crate) fn step(satellite: f64, seed: u64) -> String {
     let mut v = vec![satellite; 400];
     v[0] = -satellite;
     measured(&v, seed)
@@ -164,17 +165,17 @@ fn measured(v: &[f64], seed: u64) -> String {
 }
 
 /// The verdict on a rig made with the arguments given.
-pub fn verdict_on_made(what: &[&str]) -> serde_json::Value {
+pub(crate) fn verdict_on_made(what: &[&str]) -> serde_json::Value {
     verdict_on_changed(what, str::to_owned)
 }
 
 /// The same once its `rig.toml` was changed.
-pub fn verdict_on_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
+pub(crate) fn verdict_on_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
     diagnosis_of_changed(what, change)["verdict"].clone()
 }
 
 /// The whole diagnosis.
-pub fn diagnosis_of_made(what: &[&str]) -> serde_json::Value {
+pub(crate) fn diagnosis_of_made(what: &[&str]) -> serde_json::Value {
     diagnosis_of_changed(what, str::to_owned)
 }
 

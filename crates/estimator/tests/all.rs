@@ -1,0 +1,19 @@
+//! All tests of the estimators in one binary: linked once, and run side by side.
+
+mod campaign;
+mod control_mean;
+mod doubts;
+mod excitation;
+mod finite_sample;
+mod free;
+mod hysteresis;
+mod instrumental;
+mod invariance;
+mod lanes;
+mod morris;
+mod oracle;
+mod pulse_methods;
+mod second_order_term;
+mod support;
+mod sweep;
+mod undersmoothing;
