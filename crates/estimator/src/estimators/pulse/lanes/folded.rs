@@ -2,7 +2,7 @@
 
 use super::factor::{Factor, dot};
 use super::method::{LaneFit, LaneSample};
-use super::sized::{SizedWork, run};
+use super::sized::{SizedWork, run_with_constant};
 use super::statistics::LaneStatistics;
 use crate::estimators::pulse::data::PulseData;
 use crate::estimators::pulse::experiments::{first_level_value, satellite_value};
@@ -119,7 +119,7 @@ impl LaneFolds {
 
     /// The estimates from a sample; nothing where the order is not compiled.
     pub(super) fn fit(&self, order: usize, sample: &LaneSample<'_>, fit: &mut LaneFit) {
-        if !run(order, 2 * order + 1, Fold { folds: self, sample, fit }) {
+        if !run_with_constant(order, Fold { folds: self, sample, fit }) {
             fit.sound = [false; LANES];
         }
     }
@@ -177,10 +177,15 @@ impl LaneFolds {
         let variance = self.weigh(parts, work, sound);
         self.transform(parts, work);
         let mut theta = self.start::<N, D>(parts, work, sound);
-        let mut factor = self.step::<N, D>(&mut theta, work, sound);
-        for _ in 1..STEPS {
-            factor = self.step::<N, D>(&mut theta, work, sound);
-        }
+        // Every call is compiled anew: a first round before the loop would double its code.
+        let mut steps = 0;
+        let factor = loop {
+            let factor = self.step::<N, D>(&mut theta, work, sound);
+            steps += 1;
+            if steps == STEPS {
+                break factor;
+            }
+        };
         self.read::<N, D>(&theta, (&factor, variance), work, (values, variances));
         let mut spoilt = Lane::ZERO;
         for (value, variance) in values.iter().zip(&*variances) {
