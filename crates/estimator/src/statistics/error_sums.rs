@@ -19,6 +19,24 @@ pub struct ReplicateError {
     pub first_order_variance: Option<f64>,
 }
 
+impl ReplicateError {
+    /// One where the interval holds the truth, else zero.
+    fn is_covered(&self) -> f64 {
+        f64::from(self.error.abs() <= normal_quantile_975() * self.se)
+    }
+
+    /// What the control variates leave of the error, of its square and of its coverage; `None` where there are none.
+    fn remainders(&self) -> Option<[f64; 3]> {
+        let first = self.first_order?;
+        let of_coverage = self.first_order_variance.map_or(0.0, |variance| {
+            let within = normal_quantile_975() * normal_quantile_975() * variance;
+            self.is_covered() - f64::from(first * first <= within)
+        });
+        let beyond_first = self.error - first;
+        Some([beyond_first - self.second_order, beyond_first * (self.error + first), of_coverage])
+    }
+}
+
 /// What is known of the control variate of a parameter without any replicate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KnownControl {
@@ -75,7 +93,19 @@ pub struct Performance {
 impl ErrorSums {
     /// Adds one replicate.
     pub fn push(&mut self, replicate: ReplicateError) {
-        let ReplicateError { error, se, first_order, second_order, first_order_variance } = replicate;
+        self.push_pair(replicate, None);
+    }
+
+    /// Adds one replicate with its antithetic partner, the same noise with its sign changed.
+    ///
+    /// The partner joins the remainders that the control variates leave, each then the mean of two: parts of odd order in the noise cancel, and
+    /// with them most of what is left of the bias beyond the second order, of the square and of the coverage beyond the first. All else is of
+    /// the replicate alone, so that replicates stay independent of each other.
+    ///
+    /// Antithetic variates: J. M. Hammersley and K. W. Morton, "A new Monte Carlo technique: antithetic variates", Mathematical Proceedings of
+    /// the Cambridge Philosophical Society 52 (1956), 449–475.
+    pub fn push_pair(&mut self, replicate: ReplicateError, mirrored: Option<ReplicateError>) {
+        let ReplicateError { error, se, .. } = replicate;
         let square = error * error;
         self.count += 1.0;
         for (sum, power) in self.error.iter_mut().zip([error, square, square * error, square * square]) {
@@ -83,22 +113,15 @@ impl ErrorSums {
         }
         self.variance[0] += se * se;
         self.variance[1] += se * se * se * se;
-        let covered = f64::from(error.abs() <= normal_quantile_975() * se);
-        self.covered += covered;
-        if let (Some(first), Some(variance)) = (first_order, first_order_variance) {
-            let within = normal_quantile_975() * normal_quantile_975() * variance;
-            let remainder = covered - f64::from(first * first <= within);
-            self.coverage_remainder[0] += remainder;
-            self.coverage_remainder[1] += remainder * remainder;
-        }
-        if let Some(first) = first_order {
-            let remainder = error - first - second_order;
-            let square_remainder = (error - first) * (error + first);
-            self.controlled += 1.0;
-            self.remainder[0] += remainder;
-            self.remainder[1] += remainder * remainder;
-            self.square_remainder[0] += square_remainder;
-            self.square_remainder[1] += square_remainder * square_remainder;
+        self.covered += replicate.is_covered();
+        let Some(own) = replicate.remainders() else { return };
+        let partner = mirrored.and_then(|mirrored| mirrored.remainders()).unwrap_or(own);
+        self.controlled += 1.0;
+        let sums = [&mut self.remainder, &mut self.square_remainder, &mut self.coverage_remainder];
+        for (sums, (own, partner)) in sums.into_iter().zip(own.into_iter().zip(partner)) {
+            let mean = (own + partner) * 0.5;
+            sums[0] += mean;
+            sums[1] += mean * mean;
         }
     }
 

@@ -42,11 +42,11 @@ impl IntervalCounts {
     /// Adds the replicates in the chosen lanes to the counts, one a parameter, given the true values.
     pub fn add(counts: &mut [Self], truth: &[f64], errors: &LaneErrors<'_>, chosen: &[bool; LANES]) {
         for (k, (counts, truth)) in counts.iter_mut().zip(truth).enumerate() {
-            let error = errors.values[k] - Lane::splat(*truth);
+            let error = errors.own.values[k] - Lane::splat(*truth);
             let square = error * error;
             let mut within = Lane::ZERO;
             for end in CLASS_ENDS {
-                within += square.at_most(errors.variances[k] * squared(end));
+                within += square.at_most(errors.own.variances[k] * squared(end));
             }
             for l in (0..LANES).filter(|&l| chosen[l]) {
                 counts.side(error.0[l])[CLASSES - 1 - within.0[l] as usize] += 1;
@@ -81,6 +81,7 @@ fn class_ends(variance: f64) -> [f64; CLASS_ENDS.len()] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::LaneEstimates;
     use proptest::prelude::*;
 
     /// Counted by definition.
@@ -105,7 +106,8 @@ mod tests {
             let values = [lane(&|l| truth + errors[l].0)];
             let variances = [lane(&|l| errors[l].1 * errors[l].1)];
             let zero = [Lane::ZERO];
-            let lanes = LaneErrors { values: &values, variances: &variances, first_order: &zero, second_order: &zero, first_variances: None };
+            let own = LaneEstimates { values: &values, variances: &variances, first_order: &zero, second_order: &zero };
+            let lanes = LaneErrors { own, mirrored: None, first_variances: None };
             let mut counts = [IntervalCounts::default()];
             IntervalCounts::add(&mut counts, &[truth], &lanes, &chosen);
             let picked: Vec<_> = (0..LANES).filter(|&l| chosen[l]).map(|l| errors[l]).collect();

@@ -6,6 +6,17 @@ use crate::lanes::{LANES, Lane, Work, keep_apart, widest};
 /// What eight replicates tell of every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneErrors<'a> {
+    /// The replicates themselves.
+    pub own: LaneEstimates<'a>,
+    /// Their antithetic partners, the same noise with its sign changed, where these were estimated (see [`ErrorSums::push_pair`]).
+    pub mirrored: Option<LaneEstimates<'a>>,
+    /// Exact variances of the first-order parts, where they are known.
+    pub first_variances: Option<&'a [f64]>,
+}
+
+/// The estimates of every parameter from eight records, with the leading terms of their errors.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneEstimates<'a> {
     /// The estimates `θ̂`.
     pub values: &'a [Lane],
     /// Variances that the method reports.
@@ -14,8 +25,6 @@ pub struct LaneErrors<'a> {
     pub first_order: &'a [Lane],
     /// What is known of the second.
     pub second_order: &'a [Lane],
-    /// Exact variances of the first-order parts, where they are known.
-    pub first_variances: Option<&'a [f64]>,
 }
 
 /// Sums of a replicate's terms: error and its powers, variance and its square, coverage, remainder and its square, remainder of the
@@ -162,17 +171,19 @@ impl LaneErrors<'_> {
     /// The terms of parameter `k`; `covered` is the largest squared error over variance that an interval covers.
     #[inline(always)]
     fn terms(&self, k: usize, truth: f64, covered: f64) -> [Lane; TERMS] {
-        let (variance, first) = (self.variances[k], self.first_order[k]);
-        let error = self.values[k] - Lane::splat(truth);
+        let within = self.first_variances.map(|variances| variances[k] * covered);
+        let variance = self.own.variances[k];
+        let error = self.own.values[k] - Lane::splat(truth);
         let square = error * error;
-        let beyond_first = error - first;
-        let remainder = beyond_first - self.second_order[k];
-        let square_remainder = beyond_first * (error + first);
         let is_covered = square.at_most(variance * covered);
-        let coverage_remainder = match self.first_variances {
-            Some(variances) => is_covered - (first * first).at_most(Lane::splat(variances[k] * covered)),
-            None => Lane::ZERO,
-        };
+        let mut remainders = self.own.remainders(k, truth, (covered, within));
+        if let Some(mirrored) = self.mirrored {
+            let partner = mirrored.remainders(k, truth, (covered, within));
+            for (own, partner) in remainders.iter_mut().zip(partner) {
+                *own = (*own + partner) * 0.5;
+            }
+        }
+        let [remainder, square_remainder, coverage_remainder] = remainders;
         [
             error,
             square,
@@ -191,6 +202,24 @@ impl LaneErrors<'_> {
     }
 }
 
+impl LaneEstimates<'_> {
+    /// What the control variates leave of the error of parameter `k`, of its square and of its coverage; `within` is the largest squared
+    /// first-order part that an interval of the exact variance covers.
+    #[inline(always)]
+    fn remainders(&self, k: usize, truth: f64, (covered, within): (f64, Option<f64>)) -> [Lane; 3] {
+        let (error, first) = (self.values[k] - Lane::splat(truth), self.first_order[k]);
+        let beyond_first = error - first;
+        let of_coverage = match within {
+            Some(within) => {
+                (error * error).at_most(self.variances[k] * covered)
+                    - (first * first).at_most(Lane::splat(within))
+            }
+            None => Lane::ZERO,
+        };
+        [beyond_first - self.second_order[k], beyond_first * (error + first), of_coverage]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,17 +230,20 @@ mod tests {
         #[test]
         fn lanes_add_what_their_replicates_add_one_by_one(
             values in prop::array::uniform8(-1.0..1.0_f64), variances in prop::array::uniform8(0.0..0.5_f64), first in prop::array::uniform8(-1.0..1.0_f64),
-            second in prop::array::uniform8(-0.1..0.1_f64),
+            second in prop::array::uniform8(-0.1..0.1_f64), is_paired in any::<bool>(),
             chosen in prop::array::uniform8(any::<bool>()),
         ) {
             let left_out = |x: [f64; LANES]| Lane(std::array::from_fn(|l| if chosen[l] { x[l] } else { f64::NAN }));
-            let errors = LaneErrors {
-                values: &[left_out(values)],
-                variances: &[left_out(variances)],
-                first_order: &[left_out(first)],
-                second_order: &[left_out(second)],
-                first_variances: Some(&[0.04]),
+            let [values_in_lanes, variances_in_lanes, first_in_lanes, second_in_lanes] = [values, variances, first, second].map(|x| [left_out(x)]);
+            let own = LaneEstimates {
+                values: &values_in_lanes,
+                variances: &variances_in_lanes,
+                first_order: &first_in_lanes,
+                second_order: &second_in_lanes,
             };
+            // Anything else that could be a partner.
+            let partner = LaneEstimates { values: &second_in_lanes, second_order: &first_in_lanes, ..own };
+            let errors = LaneErrors { own, mirrored: is_paired.then_some(partner), first_variances: Some(&[0.04]) };
             let mut fast = LaneSums::new(1);
             fast.add(&[0.3], errors, &chosen);
             fast.add(&[0.3], errors, &chosen);
@@ -224,13 +256,15 @@ mod tests {
             for l in 0..LANES {
                 let mut slow = ErrorSums::default();
                 for _ in 0..if chosen[l] { 2 } else { 0 } {
-                    slow.push(ReplicateError {
+                    let own = ReplicateError {
                         error: values[l] - 0.3,
                         se: variances[l].sqrt(),
                         first_order: Some(first[l]),
                         second_order: second[l],
                         first_order_variance: Some(0.04),
-                    });
+                    };
+                    let partner = ReplicateError { error: second[l] - 0.3, second_order: first[l], ..own };
+                    slow.push_pair(own, is_paired.then_some(partner));
                 }
                 let fast = fast.lane(l);
                 prop_assert_eq!(fast[0].count(), slow.count());
@@ -250,7 +284,8 @@ mod tests {
                 .map(|x| {
                     let (values, variances) = x[..4].split_at(2);
                     let first_variances = Some(&[0.1, 0.2][..]);
-                    LaneErrors { values, variances, first_order: &x[4..6], second_order: &x[6..], first_variances }
+                    let own = LaneEstimates { values, variances, first_order: &x[4..6], second_order: &x[6..] };
+                    LaneErrors { own, mirrored: None, first_variances }
                 })
                 .collect();
             let (mut together, mut apart) = (LaneSums::new(2), LaneSums::new(2));

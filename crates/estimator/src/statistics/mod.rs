@@ -15,7 +15,7 @@ pub use correlation::correlation;
 pub use error_sums::{ErrorSums, KnownControl, Performance, ReplicateError, normal_quantile_975};
 pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
 pub use jackknife::jackknife_se;
-pub use lane_errors::{LaneErrors, LaneSums};
+pub use lane_errors::{LaneErrors, LaneEstimates, LaneSums};
 pub use line::{Line, weighted_line};
 pub use propagation::propagated;
 pub use whiteness::Whiteness;

@@ -64,7 +64,10 @@ impl<'a> Family<'a> {
         few.shape(&place.plan.superpositions);
         for NoiseLevel { setting, mut cells } in levels {
             for (noise, crosses) in noise.chunks(LANES_AT_ONCE).zip(crosses.chunks(LANES_AT_ONCE)) {
-                place.superpose(setting, (noise, crosses), few);
+                place.superpose((setting, setting.sigma), (noise, crosses), &mut few.own);
+                if cells.iter().any(|cell| cell.contender.is_paired()) {
+                    place.superpose((setting, -setting.sigma), (noise, crosses), &mut few.mirrored);
+                }
                 cells.iter_mut().for_each(|cell| place.estimate(cell, noise, few));
             }
         }

@@ -2,13 +2,12 @@
 
 use super::bench::Bench;
 use super::family_plan::FamilyPlan;
-use super::memory::{Few, LANES_AT_ONCE};
+use super::memory::{Few, LANES_AT_ONCE, Side};
 use super::noise::LaneNoise;
-use super::sections::{CellSums, SectionSums, section};
+use super::sections::{CellSums, section};
 use super::setting::{Contender, Setting};
 use std::array;
-use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneFit, LaneSample, LaneStep};
-use switchback_estimator::estimators::pulse::{PulseData, StepMean};
+use switchback_estimator::estimators::pulse::lanes::{LANES, Lane, LaneStep};
 use switchback_estimator::simulation::{LaneCross, LaneGroupedNoise};
 use switchback_estimator::statistics::LaneErrors;
 
@@ -44,49 +43,46 @@ impl Place<'_> {
         }
     }
 
-    /// The data of a few groups at a noise level.
+    /// The data of a few groups at a noise level, `sigma` times the unit noise: with its sign changed where that is negative.
     pub(super) fn superpose(
         &self,
-        setting: &Setting,
+        (setting, sigma): (&Setting, f64),
         (noise, crosses): (&[LaneNoise], &[[LaneCross; 2]]),
-        few: &mut Few,
+        side: &mut Side,
     ) {
         for (i, (noise, crosses)) in noise.iter().zip(crosses).enumerate() {
             for (k, cross) in crosses.iter().enumerate() {
                 let Some(pulses) = self.pulses(noise, k) else { continue };
-                self.plan.superpositions[k].at((pulses, cross), setting.sigma, &mut few.statistics[i][k]);
+                self.plan.superpositions[k].at((pulses, cross), sigma, &mut side.statistics[i][k]);
                 let unit = noise.steps[k].get(self.plan.checkpoint).copied().unwrap_or(Lane::ZERO);
-                let mean = unit * setting.sigma + Lane::splat(setting.bench.satellite_output(k));
-                few.steps[i][k] = LaneStep { mean, samples: self.plan.samples as f64 };
+                let mean = unit * sigma + Lane::splat(setting.bench.satellite_output(k));
+                side.steps[i][k] = LaneStep { mean, samples: self.plan.samples as f64 };
             }
         }
     }
 
     /// Adds one method's errors to the sums of a cell.
     pub(super) fn estimate(&self, cell: &mut Cell<'_>, noise: &[LaneNoise], few: &mut Few) {
-        let Few { statistics, steps, fits, terms } = few;
+        let Few { own, mirrored } = few;
         let Cell { contender, sums } = cell;
-        let experiments = contender.kind.experiments();
-        let (first, last) = (experiments[0], experiments[experiments.len() - 1]);
-        let parts = statistics.each_ref().map(|both| both.each_ref());
-        let samples: [LaneSample<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneSample {
-            parts: &parts[i][first..=last],
-            step: contender.kind.needs_step().then_some(steps[i][first]),
-        });
-        let samples = &samples[..noise.len()];
-        contender.lanes.fit(samples, fits);
         let expansion = &contender.expansions[self.plan.checkpoint];
-        expansion.control.terms(samples, terms);
+        own.estimate(contender, &expansion.control, noise.len());
+        if contender.is_paired() {
+            mirrored.estimate(contender, &expansion.control, noise.len());
+        }
+        let (own, mirrored) = (&*own, contender.is_paired().then_some(&*mirrored));
+        let first_variances = expansion.variances.as_deref();
         let errors: [LaneErrors<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneErrors {
-            values: &fits[i].values,
-            variances: &fits[i].variances,
-            first_order: &terms[i].first,
-            second_order: &terms[i].second,
-            first_variances: expansion.variances.as_deref(),
+            own: own.estimates(i),
+            mirrored: mirrored.map(|mirrored| mirrored.estimates(i)),
+            first_variances,
         });
+        let is_sound =
+            |i: usize, l: usize| own.fits[i].sound[l] && mirrored.is_none_or(|m| m.fits[i].sound[l]);
         sums.runs.replicates += noise.iter().map(LaneNoise::replicates).sum::<usize>();
-        let plain = |(noise, fit): (&LaneNoise, &LaneFit)| noise.is_whole() && fit.sound == [true; LANES];
-        if noise.len() == LANES_AT_ONCE && noise.iter().zip(&*fits).all(plain) {
+        let is_plain =
+            |(i, noise): (usize, &LaneNoise)| noise.is_whole() && (0..LANES).all(|l| is_sound(i, l));
+        if noise.len() == LANES_AT_ONCE && noise.iter().enumerate().all(is_plain) {
             // Every other eight belongs to the same sections.
             let [a, b, c, d] = errors;
             sums.add_all(noise[0].first, &contender.truth, &[a, c]);
@@ -94,34 +90,24 @@ impl Place<'_> {
             return;
         }
         for (i, noise) in noise.iter().enumerate() {
-            let solved = array::from_fn(|l| noise.chosen[l] && fits[i].sound[l]);
+            let solved = array::from_fn(|l| noise.chosen[l] && is_sound(i, l));
             sums.add(noise.first, &contender.truth, errors[i], &solved);
-            for l in (0..LANES).filter(|&l| noise.chosen[l] && !fits[i].sound[l]) {
-                let steps = steps[i].map(|s| StepMean { mean: s.mean.0[l], samples: s.samples });
-                let data = self.bench.replicate(&statistics[i], l);
+            for l in (0..LANES).filter(|&l| noise.chosen[l] && !is_sound(i, l)) {
                 let replicate = noise.first + l as u32;
+                let outcome = |side: &Side| {
+                    let (data, steps) = side.alone(self.bench, i, l);
+                    contender.kind.with_input(&data, steps, |m| contender.outcome(self.plan.checkpoint, &m))
+                };
                 let mut alone = sums.section(section(replicate as usize));
-                self.estimate_alone(&data, steps, (contender, replicate), &mut alone);
+                match outcome(own) {
+                    Ok(own) => {
+                        let partner = mirrored.and_then(|mirrored| outcome(mirrored).ok());
+                        alone.push_pair(&own, partner.as_ref(), first_variances);
+                    }
+                    Err(error) => alone.runs.fail(replicate, error.to_string()),
+                }
                 sums.put_section(section(replicate as usize), &alone);
             }
         }
-    }
-
-    /// A replicate that the lanes could not solve, or its failure.
-    fn estimate_alone(
-        &self,
-        data: &[PulseData; 2],
-        steps: [StepMean; 2],
-        (contender, replicate): (&Contender, u32),
-        sums: &mut SectionSums,
-    ) {
-        contender.kind.with_input(data, steps, |method| match method.fit() {
-            Ok(fit) => {
-                let errors = fit.parameters().zip(&contender.truth).map(|(x, truth)| (x.value - truth, x.se));
-                let variances = contender.expansions[self.plan.checkpoint].variances.as_deref();
-                sums.push(errors, &contender.terms(self.plan.checkpoint, &method), variances);
-            }
-            Err(error) => sums.runs.fail(replicate, error.to_string()),
-        });
     }
 }

@@ -121,7 +121,8 @@ fn open(scenario: &Scenario, group: &NoiseGroup, setting: &Setting, noise: &Open
     let case = &scenario.cases()[setting.case];
     let border = &case.borders[setting.border];
     let experiment = |k: usize| {
-        let OpenRecord { lead, v, y, step_means } = noise.record(group, (case, border), setting, k);
+        let OpenRecord { lead, v, y, step_means } =
+            noise.record(group, (case, border), (setting, setting.sigma), k);
         ReplayedExperiment {
             direction: DIRECTIONS[k],
             levels: setting.bench.levels(k).to_vec(),

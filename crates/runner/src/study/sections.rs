@@ -50,6 +50,21 @@ impl Runs {
     }
 }
 
+/// What one record gives: the errors of all parameters with the standard errors that the method reports, and the errors' leading terms.
+#[derive(Debug, Clone)]
+pub(super) struct Outcome {
+    pub(super) errors: Vec<(f64, f64)>,
+    pub(super) terms: ErrorTerms,
+}
+
+impl Outcome {
+    fn parameter(&self, k: usize, first_order_variance: Option<f64>) -> ReplicateError {
+        let (error, se) = self.errors[k];
+        let (first_order, second_order) = (Some(self.terms.first[k]), self.terms.second[k]);
+        ReplicateError { error, se, first_order, second_order, first_order_variance }
+    }
+}
+
 /// One section of a cell's replicates.
 #[derive(Debug, Clone)]
 pub(super) struct SectionSums {
@@ -62,20 +77,13 @@ pub(super) struct SectionSums {
 }
 
 impl SectionSums {
-    /// Adds a replicate: the errors with the standard errors that the method reports, and their leading terms with the variances of the first.
-    pub(super) fn push(
-        &mut self,
-        errors: impl Iterator<Item = (f64, f64)>,
-        terms: &ErrorTerms,
-        variances: Option<&[f64]>,
-    ) {
-        let terms = terms.first.iter().zip(&terms.second);
-        for (k, ((error, se), (&first, &second_order))) in errors.zip(terms).enumerate() {
-            let first_order_variance = variances.map(|variances| variances[k]);
-            self.push_parameter(
-                k,
-                ReplicateError { error, se, first_order: Some(first), second_order, first_order_variance },
-            );
+    /// Adds a replicate and its antithetic partner, if there is one, given the exact variances of the first-order terms where they are known.
+    pub(super) fn push_pair(&mut self, own: &Outcome, mirrored: Option<&Outcome>, variances: Option<&[f64]>) {
+        for k in 0..own.errors.len() {
+            let variance = variances.map(|variances| variances[k]);
+            let replicate = own.parameter(k, variance);
+            self.intervals[k].push(replicate.error, replicate.se);
+            self.parameters[k].push_pair(replicate, mirrored.map(|mirrored| mirrored.parameter(k, variance)));
         }
     }
 

@@ -4,11 +4,12 @@ use super::StudyError;
 use super::bench::Bench;
 use super::cell::ParameterName;
 use super::pulse_kind::PulseKind;
+use super::sections::Outcome;
 use crate::results::{Group, Series};
 use crate::scenario::{Case, Disturbance, Method, Scenario};
 use rayon::prelude::*;
 use switchback_estimator::estimators::pulse::lanes::{LaneControl, LaneMethod};
-use switchback_estimator::estimators::pulse::{ErrorTerms, Limit, PulseFitError, PulseMethod, SecondOrder};
+use switchback_estimator::estimators::pulse::{Limit, PulseFitError, PulseMethod, SecondOrder};
 use switchback_estimator::linear::NoiseMemory;
 
 /// One bench at one noise level: the cells over N and methods.
@@ -156,9 +157,32 @@ impl Contender {
         if self.theory { SecondOrder::Whole } else { SecondOrder::Profile }
     }
 
-    /// The leading terms of one replicate's error.
-    pub(super) fn terms(&self, checkpoint: usize, sample: &PulseMethod<'_>) -> ErrorTerms {
-        self.expansions[checkpoint].limit.terms(sample, self.second())
+    /// Whether antithetic partners are estimated, too: where the mean of what they cancel is known to be zero, as the model holds.
+    pub(super) fn is_paired(&self) -> bool {
+        self.theory
+    }
+
+    /// What one record gives.
+    pub(super) fn outcome(
+        &self,
+        checkpoint: usize,
+        sample: &PulseMethod<'_>,
+    ) -> Result<Outcome, PulseFitError> {
+        let fit = sample.fit()?;
+        let estimates = fit.parameters().map(|x| (x.value, x.se));
+        Ok(self.outcome_of(checkpoint, sample, estimates))
+    }
+
+    /// The same of estimates, each with its standard error, that were made from it elsewhere.
+    pub(super) fn outcome_of(
+        &self,
+        checkpoint: usize,
+        sample: &PulseMethod<'_>,
+        estimates: impl Iterator<Item = (f64, f64)>,
+    ) -> Outcome {
+        let terms = self.expansions[checkpoint].limit.terms(sample, self.second());
+        let errors = estimates.zip(&self.truth).map(|((value, se), truth)| (value - truth, se)).collect();
+        Outcome { errors, terms }
     }
 }
 

@@ -14,12 +14,14 @@ pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
 use super::cell::ActiveCells;
 use super::noise_group::NoiseGroup;
-use super::sections::SectionSums;
+use super::sections::{Outcome, SectionSums};
 use super::setting::{Contender, Setting};
 use super::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Scenario};
 use regression::Experiment;
-use switchback_estimator::estimators::pulse::{GroupedStatistics, PulseData, StepMean};
+use switchback_estimator::estimators::pulse::{
+    GroupedStatistics, PulseData, PulseFitError, PulseMethod, StepMean,
+};
 
 /// A noise group whose cells are simulated one by one.
 pub(super) struct DirectGroup<'a> {
@@ -38,16 +40,28 @@ impl<'a> DirectGroup<'a> {
         for setting in &self.group.settings {
             let case = &self.scenario.cases()[setting.case];
             let border = &case.borders[setting.border];
-            let records = [0, 1].map(|k| noise.record(self.group, (case, border), setting, k));
-            let bench = Simulated::new(case, setting, &records);
+            let records =
+                |sigma| [0, 1].map(|k| noise.record(self.group, (case, border), (setting, sigma), k));
+            let simulated = |sigma| Simulated::new(case, setting, &records(sigma));
+            let (own, mirrored) = (simulated(setting.sigma), simulated(-setting.sigma));
             for (checkpoint, &samples) in self.group.noise.pulses.checkpoints.iter().enumerate() {
                 let length = (checkpoint, samples);
-                let steps = [0, 1]
-                    .map(|k| StepMean { mean: records[k].step_means[checkpoint], samples: samples as f64 });
                 for contender in &setting.methods {
                     let Some((active, sums)) = cells.next() else { return };
-                    if *active {
-                        bench.estimate(contender, steps, length, replicate, sums);
+                    if !*active {
+                        continue;
+                    }
+                    sums.runs.replicates += 1;
+                    match own.estimate(contender, length) {
+                        Ok(own) => {
+                            let partner = contender
+                                .is_paired()
+                                .then(|| mirrored.estimate(contender, length).ok())
+                                .flatten();
+                            let variances = contender.expansions[checkpoint].variances.as_deref();
+                            sums.push_pair(&own, partner.as_ref(), variances);
+                        }
+                        Err(error) => sums.runs.fail(replicate, error.to_string()),
                     }
                 }
             }
@@ -71,6 +85,8 @@ impl Workload for DirectGroup<'_> {
 struct Simulated {
     order: usize,
     experiments: [Experiment; 2],
+    /// Mean outputs of the step experiments, one a number of samples of the noise group.
+    step_means: [Vec<f64>; 2],
 }
 
 impl Simulated {
@@ -91,32 +107,29 @@ impl Simulated {
                 levels,
             }
         };
-        Self { order, experiments: [0, 1].map(experiment) }
+        let step_means = records.each_ref().map(|record| record.step_means.clone());
+        Self { order, experiments: [0, 1].map(experiment), step_means }
     }
 
     fn estimate(
         &self,
         contender: &Contender,
-        steps: [StepMean; 2],
         (checkpoint, samples): (usize, usize),
-        replicate: u32,
-        sums: &mut SectionSums,
-    ) {
-        sums.runs.replicates += 1;
-        let estimates = match fit::fit(contender.kind, self.order, &self.experiments, steps, samples) {
-            Ok(estimates) => estimates,
-            Err(error) => return sums.runs.fail(replicate, error.to_string()),
-        };
+    ) -> Result<Outcome, PulseFitError> {
+        let steps = self
+            .step_means
+            .each_ref()
+            .map(|means| StepMean { mean: means[checkpoint], samples: samples as f64 });
+        let estimates = fit::fit(contender.kind, self.order, &self.experiments, steps, samples)?;
         let data = [0, 1].map(|k| {
             let data = self.statistics(k, samples);
             let folds =
                 contender.kind.folds().then(|| folds::means(&self.experiments[k], self.order, samples));
             data.with_folds(folds)
         });
-        let terms = contender.kind.with_input(&data, steps, |method| contender.terms(checkpoint, &method));
-        let errors =
-            estimates.into_iter().zip(&contender.truth).map(|((value, se), truth)| (value - truth, se));
-        sums.push(errors, &terms, contender.expansions[checkpoint].variances.as_deref());
+        let outcome =
+            |method: PulseMethod<'_>| contender.outcome_of(checkpoint, &method, estimates.into_iter());
+        Ok(contender.kind.with_input(&data, steps, outcome))
     }
 
     /// What the control variate is made of.

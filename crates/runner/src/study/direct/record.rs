@@ -44,12 +44,12 @@ impl OpenNoise {
         Self { pulses: [0, 1].map(open), steps: [0, 1].map(steps) }
     }
 
-    /// Experiment `k` of a setting.
+    /// Experiment `k` of a setting, `sigma` times the unit noise in it.
     pub(in crate::study) fn record(
         &self,
         group: &NoiseGroup,
         (case, border): (&Case, &Border),
-        setting: &Setting,
+        (setting, sigma): (&Setting, f64),
         k: usize,
     ) -> OpenRecord {
         let (lead, bench, noise) = (group.noise.pulses.lags, &setting.bench, &self.pulses[k]);
@@ -60,9 +60,9 @@ impl OpenNoise {
         let v = bench.input(k, before - 1 + count);
         let u = border.hysteresis.output(&v, border.hysteresis.u_low());
         let mut white = vec![0.0; before - noise.burn_in];
-        white.extend(noise.w.iter().map(|w| setting.sigma * w));
+        white.extend(noise.w.iter().map(|w| sigma * w));
         let y = disturbed(case, &u, &white, 0.0);
-        let step_mean = |e: &f64| bench.satellite_output(k) + setting.sigma * e;
+        let step_mean = |e: &f64| bench.satellite_output(k) + sigma * e;
         OpenRecord {
             lead,
             v: v[before - lead..].to_vec(),
