@@ -111,7 +111,7 @@ fn axes(case: &CaseSelection<'_>, groups: &[Group], row: Row) -> (Axis, Axis) {
     let values = curves.flat_map(|(_, s)| match row {
         Row::Sd => [s.ends.0, s.ends.1],
         // A bar that reaches zero has no lower end.
-        Row::Bias => [s.middle, s.ends.1],
+        Row::Bias => [if s.ends.0 > 0.0 { s.ends.0 } else { s.middle }, s.ends.1],
     });
     let y = match row {
         Row::Sd => Axis::linear(values.chain([0.95, 1.05])),
