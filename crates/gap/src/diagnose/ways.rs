@@ -109,12 +109,16 @@ impl Ways {
     /// Tells what the fitted verdict says, on the way that simulates best with the first effect told.
     fn tell(&mut self, opinion: &SecondOpinion) {
         let verdict = opinion.told(self.told.plan.settings.name_at);
-        if verdict.effects == self.told.conclusion.verdict.effects && !verdict.effects.is_empty() {
-            // As the rules have it.
-        } else if let Some(&first) = verdict.effects.first().or(verdict.class.first()) {
-            self.tell_of(first);
-        } else if verdict.status == Status::None {
-            self.told.conclusion.augmented = self.told.plan.nominal.plain.clone();
+        let is_by_rules =
+            !verdict.effects.is_empty() && verdict.effects == self.told.conclusion.verdict.effects;
+        if !is_by_rules {
+            match verdict.effects.first().or(verdict.class.first()) {
+                Some(&first) => self.tell_of(first),
+                None if verdict.status == Status::None => {
+                    self.told.conclusion.augmented = self.told.plan.nominal.plain.clone();
+                }
+                None => {}
+            }
         }
         self.told.conclusion.verdict = verdict;
     }
