@@ -51,6 +51,7 @@ pub(crate) fn fit(
             causal: fixed.causal,
             // Standard errors are not asked for here.
             undersmooth: false,
+            input_noise: false,
             ..Settings::new(InputMap::Borders)
         };
         let threads = Threads { threads: fixed.threads };

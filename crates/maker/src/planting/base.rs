@@ -23,7 +23,12 @@ pub(crate) struct Base {
 
 impl Base {
     pub(crate) fn new(rig: &Rig) -> Result<Self, PlantingError> {
-        let open = Settings { order: rig.order, interval: rig.interval, ..Settings::new(InputMap::Borders) };
+        let open = Settings {
+            order: rig.order,
+            interval: rig.interval,
+            input_noise: false,
+            ..Settings::new(InputMap::Borders)
+        };
         let identified = from_fit_records(rig, &open)?;
         let (structure, rule) = (identified.selection.structure, identified.model.rule());
         let settings = Settings {

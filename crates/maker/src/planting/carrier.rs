@@ -32,6 +32,7 @@ impl Carrier {
             timing: Some(rule.timing),
             interval: rig.interval,
             undersmooth: false,
+            input_noise: false,
             ..Settings::new(InputMap::Borders)
         };
         let records: Vec<_> = rig.fit_records().map(|r| &r.record).collect();

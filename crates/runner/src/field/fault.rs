@@ -11,7 +11,12 @@ use switchback_maker::PlantedFault;
 /// What the default of `identify` gives.
 pub(super) fn nominal(rig: &Rig) -> Result<Identified, String> {
     let records: Vec<&Record> = rig.fit_records().map(|record| &record.record).collect();
-    let open = Settings { order: rig.order, interval: rig.interval, ..Settings::new(InputMap::Borders) };
+    let open = Settings {
+        order: rig.order,
+        interval: rig.interval,
+        input_noise: false,
+        ..Settings::new(InputMap::Borders)
+    };
     identify(&records, &open).map_err(|error: FreeError| error.to_string())
 }
 

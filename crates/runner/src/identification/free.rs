@@ -33,6 +33,7 @@ pub(super) fn identify(
         runs: rig.records.iter().map(|record| run(&identified.model, &record.record)).collect(),
         level_errors: identified.level_errors,
         distance: identified.distance,
+        input_noise: identified.input_noise,
         obstacles: causal::obstacles(&identified.model, unit(&rig.input_label)),
         flags: identified.warnings.iter().map(Flag::from).collect(),
         examination: Examination::default(),

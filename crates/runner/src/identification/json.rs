@@ -6,6 +6,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
+use switchback_estimator::estimators::free::InputNoise;
 use switchback_estimator::estimators::{BorderDistance, BorderPoint};
 use switchback_estimator::rig::Rig;
 
@@ -56,6 +57,8 @@ pub(crate) struct EstimateFile {
     pub(crate) yardsticks: Vec<Beside>,
     /// How far the borders lie apart.
     pub(crate) r#loop: Option<Loop>,
+    /// What noise on the input does to the estimate.
+    pub(crate) input_noise: Option<Moved>,
     pub(crate) innovations: Option<Innovations>,
     /// The sentences of `flags`.
     pub(crate) warnings: Vec<String>,
@@ -69,6 +72,22 @@ pub(crate) struct Reservation {
     pub(crate) kind: String,
     pub(crate) figure: Option<f64>,
     pub(crate) text: String,
+}
+
+/// By how much noise on the input moves the estimate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Moved {
+    pub(crate) sd: f64,
+    pub(crate) share: f64,
+    pub(crate) largest_shift: f64,
+    pub(crate) largest_shift_se: f64,
+}
+
+impl From<InputNoise> for Moved {
+    fn from(InputNoise { sd, share, largest_shift, largest_shift_se }: InputNoise) -> Self {
+        Self { sd, share, largest_shift, largest_shift_se }
+    }
 }
 
 /// Another model on the held-out records.
@@ -251,6 +270,7 @@ pub fn json(rig: &Rig, identification: &Identification) -> String {
         causal_alternative: examination.causal.as_ref().map(causal),
         yardsticks: examination.yardsticks.iter().map(Beside::from).collect(),
         r#loop: identification.distance.map(Loop::from),
+        input_noise: identification.input_noise.map(Moved::from),
         innovations: examination.innovations.map(|w| Innovations {
             foretold: w.foretold,
             ljung_box: w.ljung_box,

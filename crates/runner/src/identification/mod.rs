@@ -32,6 +32,7 @@ pub use table::table;
 pub use yardstick::Yardstick;
 
 use crate::model::{Curves, Points};
+use switchback_estimator::estimators::free::InputNoise;
 use switchback_estimator::estimators::{BorderDistance, Estimate, LevelErrors};
 use switchback_estimator::rig::Rig;
 
@@ -58,6 +59,8 @@ pub struct Identification {
     pub runs: Vec<Option<FreeRun>>,
     /// How far the borders lie apart against their errors; none where the method does not see both.
     pub distance: Option<BorderDistance>,
+    /// By how much noise on the input moves the estimate; none where none was found, or the method does not ask.
+    pub input_noise: Option<InputNoise>,
     /// Why the model could not run in real time; empty if it could.
     pub obstacles: Vec<String>,
     /// What the reader must know before trusting the figures, weightiest first.

@@ -72,6 +72,7 @@ fn missing_by(rig: &Rig, method: Method, errors: &[f64]) -> Identification {
         level_errors: None,
         runs,
         distance: None,
+        input_noise: None,
         obstacles,
         flags,
         examination,

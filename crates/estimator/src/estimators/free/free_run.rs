@@ -127,7 +127,7 @@ impl NestedRegressions {
             let on_halved = theta.on_basis(&basis, &halved.grid().basis);
             let halved_information = explained.runs(halved).information(structure, &on_halved, &whitening);
             before = Some(fitted);
-            Some(GridFit { basis, theta, errors, halved_information })
+            Some(GridFit { basis, theta, errors, halved_information, whitening })
         });
         let figures = figures(&moments(0), 0.0, OutputUnits::OWN);
         Ok(undersmoothed(structure, figures, fits).ok_or(FreeError::NotExcited)?.estimate)

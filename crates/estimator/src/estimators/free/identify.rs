@@ -8,6 +8,7 @@ use super::errors::{Errors, figures};
 use super::examination::Examination;
 use super::fit::{FitKind, Fitted, Ladder, refitted};
 use super::halving::Places;
+use super::input_noise::InputNoise;
 use super::model::Model;
 use super::noise_model::noise_model;
 use super::normalise::{Figures, level_errors, normalise};
@@ -42,6 +43,8 @@ pub struct Identified {
     pub warnings: Vec<Warning>,
     /// Covariance of the model's coefficients `(a, b, f, c)`, row by row; absent where the records leave one of them open.
     pub covariance: Option<Vec<Vec<f64>>>,
+    /// By how much noise found on the input moves the estimate; none where no noise was found, or the settings do not ask.
+    pub input_noise: Option<InputNoise>,
 }
 
 /// Identifies a Hammerstein system from any records.
@@ -61,6 +64,9 @@ pub struct Identified {
 ///    is right this reaches the Cramér–Rao bound whatever the colour of the noise, and the two estimates differ by no more than the error of the
 ///    first. Where they differ by more, the model is wrong somewhere, what is told depends on the filter, and the first is kept
 ///    (J. A. Hausman, Econometrica 46 (1978), doi 10.2307/1913827).
+///
+/// Where noise is found on the input, the fit is repeated on simulated records to see by how much it moves the estimate ([`InputNoise`]); neither estimate nor intervals
+/// allow for it, a [`Warning::InputNoise`] tells.
 ///
 /// Standard errors: without `refine` the equation error is taken as white; with it, each is the larger of the one for
 /// white output errors and the one that the scatter of the gradient over batches of 128 samples gives, which allows for residuals of
@@ -111,22 +117,30 @@ pub fn identify_watched(
     let hollow = estimate.hollow_coefficients();
     let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum }).collect();
     let examined = examine(&data, featured, structure, &theta, &segments);
-    let warnings = [doubt.warnings(), hollow, examined].concat();
+    let mut warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
     let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance, units));
-    if settings.undersmooth && basis.is_switched() {
-        let start = Fitted { structure, basis: basis.clone(), theta: theta.clone(), whitening: Vec::new() };
-        let kind = if settings.refine { FitKind::Simulation } else { FitKind::Equation };
-        if let Some(finer) = final_estimate(&data, &start, (kind, settings.whiten), figures) {
-            // The noise is that of the model's free run.
-            estimate = Estimate { noise_sd: estimate.noise_sd, ..finer.estimate };
-            level_errors = Some(finer.level_errors);
-        }
+    let mut told = Fitted { structure, basis: basis.clone(), theta: theta.clone(), whitening: Vec::new() };
+    let kind = if settings.refine { FitKind::Simulation } else { FitKind::Equation };
+    if settings.undersmooth
+        && basis.is_switched()
+        && let Some(finer) = final_estimate(&data, &told, (kind, settings.whiten), figures)
+    {
+        // The noise is that of the model's free run.
+        estimate = Estimate { noise_sd: estimate.noise_sd, ..finer.estimate };
+        level_errors = Some(finer.level_errors);
+        let GridFit { basis, theta, whitening, .. } = finer.fit;
+        told = Fitted { structure, basis, theta, whitening };
     }
+    let input_noise = settings
+        .input_noise
+        .then(|| InputNoise::of(&data, &told, kind, settings.timing, &estimate, units))
+        .flatten();
+    warnings.extend(input_noise.and_then(|noise| noise.warning()));
     let covariance = covariance.map(|covariance| units.covariance(&theta, covariance.matrix()));
     let parameters = units.parameters(&theta);
     let model = Model { basis: basis.clone(), structure, parameters, rule: data.rule };
-    Ok(Identified { estimate, level_errors, model, selection, distance, warnings, covariance })
+    Ok(Identified { estimate, level_errors, model, selection, distance, warnings, covariance, input_noise })
 }
 
 /// Each halving leaves a quarter of the bias of a smooth border. The grid that predicts best leaves about as much bias as noise, so that two
@@ -205,7 +219,7 @@ fn grid_fit(data: &Data, fitted: &Fitted, kind: FitKind) -> Option<GridFit> {
         let moments_on_halved = Moments::of(structure, halved.basis.features(), &segments_on_halved);
         (Errors::of_equation(&moments, &theta), information(&moments_on_halved, &on_halved))
     };
-    Some(GridFit { basis, theta, errors, halved_information })
+    Some(GridFit { basis, theta, errors, halved_information, whitening })
 }
 
 /// Collects the warnings.

@@ -16,7 +16,7 @@
 //! [`NestedRegressions`] for many outputs of one input).
 //!
 //! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
-//! on `v`, which fakes reversals; a model that needs `v` ahead of time. What no warning can tell: a static
+//! on `v`, which fakes reversals, and moves estimates by a bias whose size [`InputNoise`] works out; a model that needs `v` ahead of time. What no warning can tell: a static
 //! nonlinearity in series with `v` and a common offset look like other borders.
 
 mod basis;
@@ -34,6 +34,7 @@ mod free_run;
 mod grid_bias;
 mod halving;
 mod identify;
+mod input_noise;
 mod jumps;
 mod limit;
 mod model;
@@ -51,6 +52,7 @@ mod selection;
 mod sensor;
 mod settings;
 mod simulation_error;
+mod smoothing;
 mod undersmoothing;
 mod units;
 mod warning;
@@ -62,6 +64,7 @@ pub use error::FreeError;
 pub use fit::FitKind;
 pub use free_run::Output;
 pub use identify::{Identified, identify, identify_watched};
+pub use input_noise::InputNoise;
 pub use limit::Limit;
 pub use model::{Coefficients, FreeRun, Model, ModelError, fit_percent};
 pub use nested::NestedRegressions;

@@ -78,7 +78,7 @@ impl NestedRegressions {
             let theta = quick_equation_error_fit(&moments)?;
             let errors = Errors::of_equation(&moments, &theta);
             let halved_information = information(&on_halved, &theta.on_basis(&basis, halved));
-            Some(GridFit { basis, theta, errors, halved_information })
+            Some(GridFit { basis, theta, errors, halved_information, whitening: Vec::new() })
         });
         let figures = figures(&moments(0), 0.0, OutputUnits::OWN);
         Ok(undersmoothed(structure, figures, fits).ok_or(FreeError::NotExcited)?.estimate)

@@ -41,6 +41,9 @@ pub struct Settings {
     pub whiten: bool,
     /// Whether standard errors allow for what a grid of knots cannot follow, at the cost of fits on finer grids; the model is the same.
     pub undersmooth: bool,
+    /// Whether it is worked out by how much noise found on the input moves the estimate, at the cost of fits to simulated records; model and estimate
+    /// are the same.
+    pub input_noise: bool,
 }
 
 impl Settings {
@@ -58,6 +61,7 @@ impl Settings {
             refine: true,
             whiten: true,
             undersmooth: true,
+            input_noise: true,
         }
     }
 

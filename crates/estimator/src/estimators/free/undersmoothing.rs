@@ -40,6 +40,8 @@ pub(super) struct GridFit {
     pub(super) errors: Errors,
     /// The information matrix of the same fit on its halved grid, per unit noise variance.
     pub(super) halved_information: DMatrix<f64>,
+    /// Coefficients of the filter that makes its errors white; none where they are taken as they are.
+    pub(super) whitening: Vec<f64>,
 }
 
 impl GridFit {

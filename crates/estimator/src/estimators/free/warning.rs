@@ -13,6 +13,15 @@ pub enum Warning {
         /// Reversal threshold in force, input units.
         threshold: f64,
     },
+    /// If the fast part of the input is noise of its sensor, it moves an estimate by so much that intervals hold the truth in less than 90 % of all cases.
+    InputNoise {
+        /// Standard deviation of the noise, input units.
+        sd: f64,
+        /// `sd` over the width of the working interval.
+        share: f64,
+        /// The largest shift, in standard errors of what is moved.
+        errors: f64,
+    },
     /// So few reversals that the borders are hardly told from a trend.
     FewReversals {
         /// Reversals in all records.
@@ -97,6 +106,7 @@ impl Warning {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::SensorNoise { .. } => "sensor_noise",
+            Self::InputNoise { .. } => "input_noise",
             Self::FewReversals { .. } => "few_reversals",
             Self::SteepCell { .. } => "steep_cell",
             Self::RarelyVisited { .. } => "rarely_visited",
@@ -112,10 +122,11 @@ impl Warning {
         }
     }
 
-    /// The figure that decided: a threshold, a count, a share, or how many standard errors a number lies from zero.
+    /// The figure that decided: a threshold, a count, a share, or how many standard errors a number lies from zero or is moved.
     pub fn figure(&self) -> Option<f64> {
         match *self {
             Self::SensorNoise { threshold } => Some(threshold),
+            Self::InputNoise { errors, .. } => Some(errors),
             Self::FewReversals { count } => Some(count as f64),
             Self::SteepCell { share, .. } => Some(share),
             Self::RarelyVisited { samples, .. } | Self::LooksAhead { samples } => Some(samples as f64),
@@ -141,6 +152,11 @@ impl fmt::Display for Warning {
             Self::SensorNoise { threshold } => {
                 write!(out, "the input is noisy: reversals smaller than {threshold:.3e} were taken as noise")
             }
+            Self::InputNoise { sd, share, errors } => write!(
+                out,
+                "the fast part of the input (sd {sd:.3e}, {:.2} % of the interval), if it is noise of the sensor, moves a coefficient or a border point by roughly {errors:.1} standard errors, which the intervals do not allow for; longer records do not help, a less noisy sensor does, or the mean of several readings in each sample",
+                100.0 * share
+            ),
             Self::FewReversals { count } => write!(out, "only {count} reversals in all records"),
             Self::SteepCell { curve, between: (low, high), share } => write!(
                 out,
