@@ -7,6 +7,7 @@ mod excitation;
 mod finite_sample;
 mod free;
 mod hysteresis;
+mod input_noise;
 mod instrumental;
 mod invariance;
 mod lanes;
