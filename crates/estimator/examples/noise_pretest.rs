@@ -30,12 +30,12 @@ const SAMPLES: usize = 4_000;
 /// How white noise `w` enters `A y = B u + ξ`.
 const NOISES: [(&str, f64, Noise); 4] = [
     ("white equation error", 0.05, |w| w.to_vec()),
-    ("coloured equation error", 0.05, |w| filter(&[-0.8], &[], &[], w, 0.0, 0.0)),
+    ("coloured equation error", 0.05, |w| filter(&[-0.8], &[], w, w, 0.0, 0.0)),
     // ξ = A w.
     ("white output noise", 0.1, |w| filter(&[], &A, w, w, 0.0, 0.0)),
     // ξ = A w/D.
     ("coloured output noise", 0.1, |w| {
-        let coloured = filter(&[-0.7], &[], &[], w, 0.0, 0.0);
+        let coloured = filter(&[-0.7], &[], w, w, 0.0, 0.0);
         filter(&[], &A, &coloured, &coloured, 0.0, 0.0)
     }),
 ];
