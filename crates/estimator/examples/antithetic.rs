@@ -1,8 +1,8 @@
-//! What antithetic pairs would gain: of the leaf spring's estimates, the part of the error that is left after the control variate, split into what
+//! What antithetic partners gain: of the leaf spring's estimates, the part of the error that is left after the control variate, split into what
 //! changes its sign with the noise (odd) and what does not (even).
 //!
-//! A pair, σ and −σ, has the mean of the even part alone; two independent replicates share odd and even. Per estimate a pair therefore changes
-//! the variance by `2/(1 + Var(odd)/Var(even))`: it gains where the ratio is above one.
+//! A replicate and its partner, σ and −σ, have the mean of the even part alone. Studies estimate a partner for every replicate, so that the variance
+//! of a mean falls by the factor `1 + Var(odd)/Var(even)`.
 //!
 //! `cargo run --example antithetic -- REPLICATES`
 
