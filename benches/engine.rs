@@ -7,19 +7,17 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use switchback::scenario::Scenario;
-use switchback::study;
 use switchback_benches::{experiment, noise, settings, spring, system};
-use switchback_estimator::estimators::pulse::lanes::{
-    LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms,
-};
-use switchback_estimator::estimators::pulse::{Limit, PulseMethod, SecondOrder, StepMean};
-use switchback_estimator::excitation::Direction;
-use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
-use switchback_estimator::simulation::{
+use switchback_identify::excitation::Direction;
+use switchback_identify::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms};
+use switchback_identify::pulse::{Limit, PulseMethod, SecondOrder, StepMean};
+use switchback_identify::simulation::{
     Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition, NoiseMoments, PeriodicDesign,
     periodic_response, superpose,
 };
+use switchback_noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
+use switchback_study::consistency;
+use switchback_study::scenario::Scenario;
 
 /// Points `m`.
 const POINTS: usize = 8;
@@ -129,7 +127,7 @@ fn cell(c: &mut Criterion) {
 /// Nobody watches.
 struct Silent;
 
-impl study::Progress for Silent {
+impl consistency::Progress for Silent {
     fn planned(&self, _: u64) {}
     fn advanced(&self, _: u64) {}
 }
@@ -152,7 +150,9 @@ fn sweep(c: &mut Criterion) {
     group.throughput(Throughput::Elements(longest * u64::from(SWEEP_REPLICATES)));
     group.bench_function("leaf-spring sweep", |b| {
         b.iter(|| {
-            thread.install(|| study::run(black_box(&scenario), String::new(), &Silent)).expect("it runs")
+            thread
+                .install(|| consistency::run(black_box(&scenario), String::new(), &Silent))
+                .expect("it runs")
         })
     });
     group.finish();

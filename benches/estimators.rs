@@ -4,9 +4,9 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use switchback_benches::{experiment, noise, settings, spring, system};
-use switchback_estimator::estimators::pulse::{PulseData, PulseMethod, StepMean};
-use switchback_estimator::excitation::Direction;
-use switchback_estimator::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
+use switchback_identify::excitation::Direction;
+use switchback_identify::pulse::{PulseData, PulseMethod, StepMean};
+use switchback_identify::simulation::{NoiseMoments, PeriodicDesign, periodic_response, superpose};
 
 /// Samples behind the statistics; the methods' time does not depend on it.
 const SAMPLES: usize = 3000;

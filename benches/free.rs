@@ -6,10 +6,10 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use switchback_benches::{noise, settings, spring, system};
-use switchback_estimator::Record;
-use switchback_estimator::estimators::free::{Basis, Grid, Regression, ReversalRule, Structure, one_shot};
-use switchback_estimator::excitation::RandomLevels;
-use switchback_estimator::linear::filter;
+use switchback_identify::excitation::RandomLevels;
+use switchback_identify::free::{Basis, Grid, Regression, ReversalRule, Structure, one_shot};
+use switchback_model::Record;
+use switchback_model::linear::filter;
 
 /// Regression samples.
 const SAMPLES: usize = 10_000;

@@ -14,8 +14,8 @@ use serde_json::{Value, json};
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
-use switchback::scenario::Scenario;
-use switchback::study::{self, Progress};
+use switchback_study::consistency::{self, Progress};
+use switchback_study::scenario::Scenario;
 
 const SCENARIO: &str = include_str!("../scenarios/leafspring.toml");
 
@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenario = arguments.scenario()?;
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let start = Instant::now();
-    let results = thread.install(|| study::run(&scenario, String::new(), &Silent))?;
+    let results = thread.install(|| consistency::run(&scenario, String::new(), &Silent))?;
     let seconds = start.elapsed().as_secs_f64();
     if let Some(folder) = &arguments.records {
         write_records(&scenario, Path::new(folder))?;
@@ -118,7 +118,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Replicate 0 in every cell.
 fn estimates(scenario: &Scenario) -> Result<Vec<Value>, Box<dyn Error>> {
     let order = scenario.cases()[0].order;
-    study::replay(scenario, 0)?
+    consistency::replay(scenario, 0)?
         .into_iter()
         .map(|cell| {
             let estimates = cell.estimates?;
@@ -139,7 +139,7 @@ fn estimates(scenario: &Scenario) -> Result<Vec<Value>, Box<dyn Error>> {
 fn write_records(scenario: &Scenario, folder: &Path) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(folder)?;
     let mut index = Vec::new();
-    for (k, setting) in study::records(scenario, 0)?.iter().enumerate() {
+    for (k, setting) in consistency::records(scenario, 0)?.iter().enumerate() {
         for experiment in &setting.experiments {
             let name = format!("{k:02}-{}", experiment.direction);
             let doubles = |x: &[f64]| x.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use criterion::Criterion;
-use switchback_estimator::excitation::{Direction, PulseExperiment};
-use switchback_estimator::hysteresis::{Interval, LeafSpring, SwitchedHysteresis};
-use switchback_estimator::linear::LinearSystem;
-use switchback_estimator::simulation::noise::{NoisePlan, StreamId, samples};
+use switchback_identify::excitation::{Direction, PulseExperiment};
+use switchback_model::hysteresis::{Interval, LeafSpring, SwitchedHysteresis};
+use switchback_model::linear::LinearSystem;
+use switchback_noise::{NoisePlan, StreamId, samples};
 
 /// Enough runs for a steady median, few enough that all benches end in a minute or two.
 pub fn settings() -> Criterion {

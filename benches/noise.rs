@@ -11,7 +11,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
+use switchback_noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
 
 /// Samples of one replicate, a multiple of the block.
 const SAMPLES: usize = 160 * BLOCK;

@@ -9,7 +9,7 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use switchback_estimator::simulation::noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
+use switchback_noise::{BLOCK, NoisePass, NoisePlan, StreamId, WhiteNoise, Width};
 
 /// Samples of one replicate, a multiple of the block.
 const SAMPLES: usize = 160 * BLOCK;

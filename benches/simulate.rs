@@ -4,9 +4,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use switchback_benches::{experiment, noise, settings, spring, system};
-use switchback_estimator::excitation::Direction;
-use switchback_estimator::linear::filter;
-use switchback_estimator::simulation::{PeriodicDesign, periodic_response};
+use switchback_identify::excitation::Direction;
+use switchback_identify::simulation::{PeriodicDesign, periodic_response};
+use switchback_model::linear::filter;
 
 /// Samples of a record.
 const SAMPLES: usize = 20_000;

@@ -12,9 +12,9 @@ use cpu_time::ProcessTime;
 use criterion::{Criterion, Throughput, criterion_group};
 use libloading::Library;
 use switchback_benches::{settings, spring, system};
-use switchback_estimator::hysteresis::Branch;
 use switchback_fmu::{Instance, Package, SCHEMA, references};
-use switchback_step::{
+use switchback_model::hysteresis::Branch;
+use switchback_model::step::{
     Beyond, Borders, Curve, Direction, Effects, Heading, Linear, Model, Play, Scale, Sensor, Transition,
     TransitionLaw, c,
 };

@@ -3,14 +3,14 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use switchback::scenario::Scenario;
-use switchback::study;
 use switchback_benches::settings;
+use switchback_study::consistency;
+use switchback_study::scenario::Scenario;
 
 /// Nobody watches.
 struct Silent;
 
-impl study::Progress for Silent {
+impl consistency::Progress for Silent {
     fn planned(&self, _: u64) {}
     fn advanced(&self, _: u64) {}
 }
@@ -49,7 +49,7 @@ fn sweeps(c: &mut Criterion) {
     ] {
         let scenario = scenario(methods);
         group.bench_function(name, |b| {
-            b.iter(|| study::run(black_box(&scenario), String::new(), &Silent).expect("it runs"))
+            b.iter(|| consistency::run(black_box(&scenario), String::new(), &Silent).expect("it runs"))
         });
     }
     group.finish();

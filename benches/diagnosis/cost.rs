@@ -4,7 +4,7 @@ use super::rigs::BenchRig;
 use cpu_time::ProcessTime;
 use peak_alloc::PeakAlloc;
 use std::hint::black_box;
-use switchback_gap::{Model, Settings, diagnose};
+use switchback_diagnose::{Model, Settings, diagnose};
 
 /// The allocator that knows how much was held at once.
 pub(crate) const PEAK: PeakAlloc = PeakAlloc;

@@ -1,9 +1,9 @@
 //! The rigs whose diagnosis is timed.
 
 use std::path::Path;
-use switchback::rig;
-use switchback_estimator::rig::Rig;
-use switchback_maker::{Family, Ingredient, MakeRig, Plan, Shape};
+use switchback_io::rig;
+use switchback_lab::generate::{Family, Ingredient, MakeRig, Plan, Shape};
+use switchback_model::rig::Rig;
 
 /// A rig to be diagnosed.
 pub(crate) struct BenchRig {

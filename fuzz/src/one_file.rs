@@ -1,8 +1,8 @@
 //! A single file of measurements, read as `switchback gap FILE` reads it.
 
 use super::{Scratch, told};
-use switchback::rig::{self, ColumnNames, HELD_OUT, Plan, PlannedRecord, Sampling, Voice};
-use switchback_estimator::rig::{Role, Usage};
+use switchback_io::rig::{self, ColumnNames, HELD_OUT, Plan, PlannedRecord, Sampling, Voice};
+use switchback_model::rig::{Role, Usage};
 
 /// Reads bytes as a file of that name: a rig whose numbers are finite, or a refusal in words.
 pub fn one_file(folder: &Scratch, name: &str, bytes: &[u8]) {

@@ -4,7 +4,7 @@ use crate::fmi2::ValueReference;
 use crate::package::{Package, references};
 use std::fmt;
 use std::sync::Arc;
-use switchback_step::{Fault, Machine, Run};
+use switchback_model::step::{Fault, Machine, Run};
 
 /// Why a call is refused.
 #[derive(Debug, Clone, PartialEq)]

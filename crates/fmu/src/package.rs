@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use switchback_step::Program;
+use switchback_model::step::Program;
 
 /// The format that is written, and the only one that is read.
 pub const SCHEMA: &str = "switchback/fmu/1";

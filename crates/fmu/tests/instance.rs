@@ -4,7 +4,7 @@ use std::sync::Arc;
 use switchback_fmu::{
     Constant, Description, Instance, Package, PackageError, Refusal, SCHEMA, model_description, references,
 };
-use switchback_step::{Beyond, Borders, Curve, Direction, Effects, Linear, Model, Scale, Sensor};
+use switchback_model::step::{Beyond, Borders, Curve, Direction, Effects, Linear, Model, Scale, Sensor};
 
 /// `y(t) = u(t − lag)` on two straight borders.
 fn package(lag: usize) -> Package {

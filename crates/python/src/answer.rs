@@ -9,7 +9,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use switchback::options::Force;
-use switchback::output::Artefacts;
+use switchback_io::output::Artefacts;
 
 /// What a verb has to say, made when it is asked for.
 pub(crate) trait Page: fmt::Debug + Send + Sync {

@@ -15,9 +15,9 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
-use switchback::progress::{Listener, Step, Watch};
-use switchback::study::{Keeper, Progress, Snapshot};
-use switchback_estimator::estimators::free;
+use switchback_identify::free;
+use switchback_io::progress::Stages;
+use switchback_study::consistency::{Keeper, Progress, Snapshot};
 
 /// How often signals are looked for, and how far the work has come is told.
 const MOMENT: Duration = Duration::from_millis(50);
@@ -75,11 +75,6 @@ impl Call {
         }
     }
 
-    /// A watch that tells this call how far a diagnosis or an identification has come.
-    pub(crate) fn watch(self: &Arc<Self>) -> Watch {
-        Watch::heard_by(Arc::<Self>::clone(self))
-    }
-
     fn attend(&self, py: Python<'_>, heard: &Heard<'_>) -> PyResult<()> {
         py.check_signals()?;
         if let Some(heard) = heard {
@@ -104,17 +99,11 @@ fn broken(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!("internal error, please report it: {words}"))
 }
 
-impl Listener for Call {
-    fn heard(&self, step: Step) {
-        match step {
-            Step::Stage(stage) => {
-                *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
-                self.found.store(0, Ordering::Relaxed);
-                self.done.store(0, Ordering::Relaxed);
-            }
-            Step::Found(pieces) => _ = self.found.fetch_add(pieces as u64, Ordering::Relaxed),
-            Step::Done => _ = self.done.fetch_add(1, Ordering::Relaxed),
-        }
+impl Stages for Call {
+    fn begin(&self, stage: &'static str) {
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        self.found.store(0, Ordering::Relaxed);
+        self.done.store(0, Ordering::Relaxed);
         self.go_on();
     }
 }
@@ -131,11 +120,13 @@ impl Progress for Call {
 
 impl free::Progress for Call {
     fn found(&self, pieces: usize) {
-        self.heard(Step::Found(pieces));
+        self.found.fetch_add(pieces as u64, Ordering::Relaxed);
+        self.go_on();
     }
 
     fn did_one(&self) {
-        self.heard(Step::Done);
+        self.done.fetch_add(1, Ordering::Relaxed);
+        self.go_on();
     }
 }
 

@@ -5,11 +5,11 @@ use crate::numbers::numbers;
 use miette::miette;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use switchback::model::{Curves, Domain, Header, ModelFile, System};
 use switchback::options::Threads;
-use switchback_estimator::Record;
-use switchback_estimator::estimators::free::{FreeError, InputMap, Settings, identify_watched};
-use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+use switchback_identify::free::{FreeError, InputMap, Settings, identify_watched};
+use switchback_io::model::{Curves, Domain, Header, ModelFile, System};
+use switchback_model::Record;
+use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
 /// What the caller fixes; the rest is chosen by cross-validation within the records.
 #[derive(Debug, Clone, Copy, FromPyObject)]

@@ -34,7 +34,7 @@ fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
 /// The native part of the package `switchback`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    switchback::platform::keep_memory();
+    switchback_io::platform::keep_memory();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("SwitchbackError", module.py().get_type::<refusal::SwitchbackError>())?;
     module.add_class::<answer::Answer>()?;

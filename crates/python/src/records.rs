@@ -13,12 +13,12 @@ use std::sync::Arc;
 use switchback::cli;
 use switchback::cmd::data_args::DataArgs;
 use switchback::options::Quiet;
-use switchback::rig::{
+use switchback_io::rig::{
     self, Cells, ColumnNames, Frame, Loaded, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
 };
-use switchback_estimator::Record;
-use switchback_estimator::hysteresis::Interval;
-use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
+use switchback_model::Record;
+use switchback_model::hysteresis::Interval;
+use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
 /// The records of a rig, and what was inferred when they were read.
 #[pyclass(frozen, module = "switchback._native")]

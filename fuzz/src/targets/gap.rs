@@ -3,9 +3,9 @@
 //! Input bytes are the order, whether it is declared and which effects are looked for, the lengths of two records, and then the input's steps and the output's noise, one byte each. The
 //! output is a made machine's, so that there is something to find; with a large last byte it is noise alone.
 
-use switchback_estimator::Record;
-use switchback_estimator::rig::{Rig, RigRecord, Role, Usage};
-use switchback_gap::{Effect, Model, Settings, diagnose};
+use switchback_diagnose::{Effect, Model, Settings, diagnose};
+use switchback_model::Record;
+use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
 /// Shortest record that is made.
 const LEAST: usize = 40;

@@ -1,7 +1,8 @@
 //! What the program wrote and reads again: results of studies, and models, which must run once they were read.
 
 use super::{Scratch, text_of, told};
-use switchback::{model, results};
+use switchback_io::model;
+use switchback_study::results;
 
 thread_local!(static FOLDER: Scratch = Scratch::new());
 

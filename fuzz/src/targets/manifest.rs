@@ -1,7 +1,7 @@
 //! Rig files beside a good file of measurements: a rig, or refused in words; a rig that was read is written and read back as the same.
 
 use super::{Scratch, text_of, told};
-use switchback::rig;
+use switchback_io::rig;
 
 thread_local!(static FOLDER: Scratch = {
     let folder = Scratch::new();

@@ -1,8 +1,8 @@
 //! Scenario files of all three kinds: a text is a scenario, or refused in words.
 
 use super::{Scratch, text_of, told};
-use switchback::scenario::Scenario;
-use switchback::{blind, field};
+use switchback_lab::{blind, field};
+use switchback_study::scenario::Scenario;
 
 thread_local!(static FOLDER: Scratch = Scratch::new());
 

@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use switchback::cmd::design::{Asked, planned};
-use switchback::design::{artefacts, json, words};
-use switchback::output::Artefacts;
+use switchback_io::output::Artefacts;
+use switchback_study::design::{artefacts, json, words};
 
 /// Plans experiments. `out` is the folder that they are meant for.
 #[pyfunction]
@@ -26,7 +26,7 @@ pub(crate) fn design(
 }
 
 #[derive(Debug)]
-struct Designed(switchback::design::Report);
+struct Designed(switchback_study::design::Report);
 
 impl Page for Designed {
     fn json(&self) -> String {

@@ -10,9 +10,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use switchback::cmd::gap;
-use switchback::diagnosis::{self, GivenModel, Report, Subject};
-use switchback::model;
-use switchback::output::Artefacts;
+use switchback_io::diagnosis::{self, GivenModel, Report, Subject};
+use switchback_io::model;
+use switchback_io::output::Artefacts;
+use switchback_report::diagnosis as text;
 
 /// Diagnoses the gap between a model and the records.
 #[pyfunction]
@@ -33,7 +34,7 @@ pub(crate) fn diagnose(
             None => Subject::choose(rig, asked.model())?,
         };
         let subject = subject.noting(about.warnings);
-        let report = gap::diagnosed(subject, &asked, (&about.place, threads, &call.watch()))?;
+        let report = gap::diagnosed(subject, &asked, (&about.place, threads, &*call))?;
         Ok(Answer::new(Diagnosed { report, inputs: about.inputs }))
     })
 }
@@ -46,11 +47,11 @@ struct Diagnosed {
 
 impl Page for Diagnosed {
     fn json(&self) -> String {
-        diagnosis::json(&self.report)
+        text::json(&self.report)
     }
 
     fn words(&self) -> String {
-        diagnosis::words(&self.report, None)
+        text::words(&self.report, None)
     }
 
     fn files(&self) -> miette::Result<Artefacts> {
@@ -60,10 +61,8 @@ impl Page for Diagnosed {
     fn texts(&self) -> BTreeMap<String, String> {
         let models = model::diagnosed(&self.report).into_iter();
         let models = models.map(|(name, model)| (name.to_owned(), model.text()));
-        let others = [
-            ("series.csv", model::diagnosed_series(&self.report).text()),
-            ("why", diagnosis::why(&self.report)),
-        ];
+        let others =
+            [("series.csv", model::diagnosed_series(&self.report).text()), ("why", text::why(&self.report))];
         models.chain(others.map(|(name, text)| (name.to_owned(), text))).collect()
     }
 

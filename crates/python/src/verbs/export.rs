@@ -7,7 +7,7 @@ use pyo3::types::PyBytes;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use switchback::cmd::export::{Asked, made};
-use switchback::model;
+use switchback_io::model;
 
 /// The bytes of a model as a Python file, a C header or an FMU; `out` is the file that they are meant for.
 #[pyfunction]

@@ -10,10 +10,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use switchback::cmd;
-use switchback::identification::{self, Identification};
-use switchback::model;
-use switchback::output::Artefacts;
-use switchback_estimator::rig::Rig;
+use switchback_io::identification::{self, Identification};
+use switchback_io::model;
+use switchback_io::output::Artefacts;
+use switchback_model::rig::Rig;
 
 /// Identifies the linear part and both borders.
 #[pyfunction]
@@ -27,7 +27,7 @@ pub(crate) fn identify(
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
     Call::run(py, &heard, move |call| {
         let Options { asked, threads } = options(words)?;
-        let identification = cmd::identify::identified(&rig, &asked, (&about.place, threads, &call.watch()))?;
+        let identification = cmd::identify::identified(&rig, &asked, (&about.place, threads, &*call))?;
         Ok(Answer::new(Identified { rig, identification, inputs: about.inputs }))
     })
 }

@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::sync::Arc;
 use switchback::cmd;
-use switchback::diagnosis::Units;
-use switchback::{model, rig};
+use switchback_io::diagnosis::Units;
+use switchback_io::{model, rig};
 
 /// Puts a known fault into records; gives what was put in, and the records with it.
 #[pyfunction]

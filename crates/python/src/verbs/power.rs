@@ -10,8 +10,8 @@ use std::ffi::OsString;
 use std::sync::Arc;
 use switchback::cmd::gap;
 use switchback::cmd::power::{PowerArgs, artefacts, plan};
-use switchback::diagnosis::GivenModel;
-use switchback::power::{Ground, json, measure, words};
+use switchback_io::diagnosis::GivenModel;
+use switchback_lab::power::{Ground, json, measure, words};
 
 /// Which effects these records would have shown. `asked` are words of a diagnosis, `more` are those of `--power`.
 #[pyfunction]
@@ -37,7 +37,7 @@ pub(crate) fn power(
         // What is found is told with the ground that it was found on, which borrows the rig.
         let measured = threads.install(|| {
             let ground = Ground::new(&rig, model, asked.settings(), &place)?;
-            let power = measure(&ground, &plan, &Stoppable(call), |_| {})?;
+            let power = measure(&ground, &plan, &Stoppable(call), || {})?;
             let (json, words) = (json(&power, &ground), words(&power, &ground));
             Ok::<_, Refusal>(Stored::new(json, words, artefacts(&power, &ground)).reading(about.inputs))
         });

@@ -9,9 +9,9 @@ use pyo3::types::PyBytes;
 use std::ffi::OsString;
 use std::path::Path;
 use switchback::cmd::simulate::{Asked, Simulation, played};
-use switchback::model;
-use switchback::output::Artefacts;
-use switchback::rig::InputSeries;
+use switchback_io::model;
+use switchback_io::output::Artefacts;
+use switchback_io::rig::InputSeries;
 
 /// A free run: the answer, then the outputs, both ends of the band, and the first simulated sample.
 type Simulated<'py> = (Answer, [Bound<'py, PyBytes>; 4], usize);

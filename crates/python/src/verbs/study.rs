@@ -12,11 +12,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use switchback::cmd::study::{EngineArgs, refuse_all_but_consistency};
 use switchback::options::{Quiet, Threads, Yes};
-use switchback::output::Artefacts;
-use switchback::report;
-use switchback::results::{Results, to_json};
-use switchback::scenario::Scenario;
-use switchback::study::{Ended, Progress, Study, least_seconds};
+use switchback_io::output::Artefacts;
+use switchback_report::study as report;
+use switchback_study::consistency::{Ended, Progress, Study, least_seconds};
+use switchback_study::results::{Results, to_json};
+use switchback_study::scenario::Scenario;
 
 /// Runs the consistency study of a scenario file.
 #[pyfunction]

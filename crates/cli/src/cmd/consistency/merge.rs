@@ -1,0 +1,89 @@
+//! `switchback merge` where the parts are of a consistency study.
+
+use super::part::Part;
+use super::{FILES, Order, write};
+use crate::build::BUILD;
+use crate::failure::{CommandResult, Outcome};
+use crate::interrupt;
+use crate::options::Threads;
+use crate::progress::Meter;
+use miette::IntoDiagnostic;
+use std::path::{Path, PathBuf};
+use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
+use switchback_study::checkpoint::Kept;
+use switchback_study::consistency::{Standing, Study};
+use switchback_study::parts::{MergeError, check_whole};
+
+/// Adds parts up in the order of one run; where a precision is asked for and not reached, tells what to run next, once what there is has been
+/// written into the folder `next`, or else into that of the report.
+///
+/// # Errors
+/// Folders that make no whole, or one that cannot be written.
+pub fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> CommandResult {
+    let provenance = Provenance::begin(BUILD, Threads::default().at_once());
+    let mut parts: Vec<Part> = folders.iter().map(|folder| Part::read(folder)).collect::<Result<_, _>>()?;
+    parts.sort_by_key(|part| part.label.shard);
+    let first = &parts[0];
+    let scenario = first.scenario()?;
+    let study = order.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
+    let mut standing = added_up(&parts, &study)?;
+    let meter = Meter::new(order.quiet);
+    meter.begin(standing.target(), standing.replicates());
+    let is_whole = !study.next_round(&mut standing, &meter);
+    let kept = Kept::new(
+        order.out.unwrap_or(Path::new("")),
+        study.origin(BUILD.study_sources),
+        interrupt::is_wished,
+    );
+    let out = order.out.unwrap_or(Path::new("."));
+    let shards: Vec<String> = parts.iter().filter_map(|part| Some(part.label.shard?.to_string())).collect();
+    let provenance = provenance.end(shards);
+    let order = Order { command: &first.label.command, ..order };
+    if is_whole {
+        let folder = order.force.claim(out, &FILES)?;
+        let results = order.threads.install(|| study.results(&standing, order.command.to_owned()))?;
+        return write(&results, (&scenario, &standing, &kept, &provenance), folder, order);
+    }
+    let out = next.unwrap_or(out);
+    let merged = first.of_all();
+    let folder = order.force.claim(out, &merged.files())?;
+    let mut artefacts = merged.artefacts(kept.bytes(&standing));
+    artefacts.add_beside(PROVENANCE_FILE, provenance.text());
+    folder.commit(&artefacts)?;
+    order.quiet.note(&how_to_go_on(&standing, &first.label.scenario, out));
+    Ok(Outcome::Stopped)
+}
+
+/// What to run to go on.
+fn how_to_go_on(standing: &Standing, scenario: &str, out: &Path) -> String {
+    format!(
+        "{} replicates, and not precise enough yet; written to {out}.\n\
+         Run those up to {} in parts: switchback {scenario} --shard K/N --from {out} --out DIR\n\
+         then merge the parts with {out}.\n",
+        standing.replicates(),
+        standing.target(),
+        out = out.display(),
+    )
+}
+
+/// The parts of a round, and the rounds before it if they are given.
+fn added_up(parts: &[Part], study: &Study<'_>) -> Result<Standing, MergeError> {
+    let name = |part: &Part| part.folder.display().to_string();
+    let (before, parts) = parts.split_at(parts.partition_point(|part| part.label.shard.is_none()));
+    if let [one, other, ..] = before {
+        return Err(MergeError::TwoWholes { folder: name(other), first: name(one) });
+    }
+    let mut standing = match before.first() {
+        Some(whole) => whole.standing(study)?,
+        None => study.begin(),
+    };
+    let round = standing.clone();
+    check_whole(&parts.iter().filter_map(Part::piece).collect::<Vec<_>>())?;
+    for part in parts {
+        standing.add(part.standing_in(&round, study)?);
+    }
+    match standing.missing() {
+        None => Ok(standing),
+        Some(gap) => Err(MergeError::Gap { start: gap.start, end: gap.end }),
+    }
+}

@@ -1,0 +1,105 @@
+//! A part of a study on disk: which part of which scenario, the scenario as it was, and what its replicates left behind.
+
+use super::Order;
+use crate::build::BUILD;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use switchback_io::input::{FileError, read_text, stream};
+use switchback_io::output::Artefacts;
+use switchback_io::provenance::PROVENANCE_FILE;
+use switchback_study::Shard;
+use switchback_study::checkpoint::KEPT_FILE;
+use switchback_study::consistency::{Standing, Study};
+use switchback_study::parts::{MergeError, PART_FILE, Piece, label, label_text};
+use switchback_study::scenario::{Engine, Scenario, ScenarioError};
+
+/// What tells which part it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Label {
+    /// The scenario's file name.
+    pub(super) scenario: String,
+    /// The command that makes the results again.
+    pub(super) command: String,
+    /// The engine that runs it.
+    pub(super) engine: Engine,
+    /// Which part; none for the rounds before, put together.
+    pub(super) shard: Option<Shard>,
+}
+
+/// A part of a study.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) folder: PathBuf,
+    pub(super) label: Label,
+    /// The scenario's text.
+    pub(super) text: String,
+}
+
+impl Part {
+    /// A part that is to be run.
+    pub(super) fn new(order: Order<'_>, engine: Engine, shard: Option<Shard>) -> Result<Self, FileError> {
+        let (scenario, command) = (stream::copy_name(order.file), order.command.to_owned());
+        let label = Label { scenario, command, engine, shard };
+        Ok(Self { folder: PathBuf::new(), label, text: read_text(order.file)? })
+    }
+
+    /// The same label and scenario, without a shard: for what all parts of a round make.
+    pub(super) fn of_all(&self) -> Self {
+        Self { label: Label { shard: None, ..self.label.clone() }, ..self.clone() }
+    }
+
+    /// The scenario as it is run.
+    pub(super) fn scenario(&self) -> Result<Scenario, ScenarioError> {
+        let file = self.folder.join(&self.label.scenario);
+        Ok(Scenario::parse(&file.display().to_string(), &self.text)?.on(self.label.engine))
+    }
+
+    /// Names of the files of its folder.
+    pub(super) fn files(&self) -> [&str; 4] {
+        [PART_FILE, &self.label.scenario, KEPT_FILE, PROVENANCE_FILE]
+    }
+
+    /// What its folder gets, with what its replicates left behind.
+    pub(super) fn artefacts(&self, sums: Vec<u8>) -> Artefacts {
+        let mut artefacts = Artefacts::default();
+        artefacts.add(PART_FILE, label_text(&self.label));
+        artefacts.add(self.label.scenario.as_str(), self.text.as_str());
+        artefacts.add(KEPT_FILE, sums);
+        artefacts
+    }
+
+    /// Reads the folder of a part, but for what its replicates left behind: of all parts that may be more than the memory holds.
+    pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
+        let label: Label = label(folder)?;
+        let text = read_text(&folder.join(&label.scenario))?;
+        Ok(Self { folder: folder.to_owned(), label, text })
+    }
+
+    /// It as a piece of the round; nothing where it is all of one.
+    pub(super) fn piece(&self) -> Option<Piece<'_>> {
+        Some(Piece {
+            folder: &self.folder,
+            scenario: (&self.label.scenario, &self.text),
+            made_by: ("the engine", self.label.engine.name()),
+            shard: self.label.shard?,
+        })
+    }
+
+    /// Its replicates, as a part of the round that `round` stands at.
+    pub(super) fn standing_in(&self, round: &Standing, study: &Study<'_>) -> Result<Standing, MergeError> {
+        let origin = study.origin(BUILD.study_sources).of_part(self.label.shard, round);
+        let folder = || self.folder.display().to_string();
+        let sums = std::fs::read(self.folder.join(KEPT_FILE));
+        let sums = sums.map_err(|_| MergeError::NoPart { folder: folder() })?;
+        let strange = |why| MergeError::Unusable { folder: folder(), why };
+        round.emptied().read(&sums, &origin).map_err(strange)
+    }
+
+    /// How far the study had come that a folder without a shard holds.
+    pub(super) fn standing(&self, study: &Study<'_>) -> Result<Standing, MergeError> {
+        if let Some(shard) = self.label.shard {
+            return Err(MergeError::OnePart { folder: self.folder.display().to_string(), shard });
+        }
+        self.standing_in(&study.begin(), study)
+    }
+}

@@ -1,0 +1,254 @@
+//! `switchback SCENARIO.toml` where rigs are sealed: `study = "blind"` or `study = "field"`.
+
+use super::partial;
+use crate::build::{BUILD, JUDGING_SOURCES};
+use crate::failure::{CommandResult, Outcome};
+use crate::journal::{Journal, SEALED_FILE};
+use crate::interrupt::{self, Heeding};
+use crate::options::{Force, Quiet, Threads};
+use crate::progress::Meter;
+use rayon::prelude::*;
+use std::path::Path;
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
+use switchback_io::input::{read_text, stream};
+use switchback_io::output::{OutputError, OutputFolder, note, sha256};
+use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
+use switchback_lab::examination::{
+    Judged, KEY_FILE, Part, Partial, Report, Sealed, key_file,
+};
+use switchback_report::examination::{Drawn, report};
+use switchback_report::pages;
+use switchback_study::Shard;
+use switchback_study::consistency::Progress;
+use switchback_study::parts::PART_FILE;
+
+/// Where the report goes, and how it is made and told.
+#[derive(Debug, Clone, Copy)]
+pub struct Order<'a> {
+    /// The folder asked for.
+    pub out: Option<&'a Path>,
+    /// Whether files of others may be replaced there.
+    pub force: Force,
+    /// Worker threads.
+    pub threads: Threads,
+    /// What is printed.
+    pub page: Page,
+}
+
+impl Order<'_> {
+    /// Claims the folder asked for, or the one that belongs to an examination.
+    ///
+    /// # Errors
+    /// A folder that cannot be written.
+    pub fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, OutputError> {
+        let default = || Path::new("reports").join(examination.name());
+        self.force.claim(&self.out.map_or_else(default, Path::to_owned), E::FILES)
+    }
+}
+
+/// Makes and seals the rigs, writes the key, diagnoses, opens, scores, writes the report, prints the summary.
+///
+/// Interrupted, it is taken up where it stood by starting it again: what is judged is kept in the folder until the report is written.
+/// Only the printed time depends on the threads.
+///
+/// # Errors
+/// A design that cannot be made, or a folder that cannot be written.
+pub fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
+    let Order { threads, page, .. } = order;
+    let provenance = Provenance::begin(BUILD, threads.at_once());
+    // What a former run left stays until there is another report, the key with it.
+    let folder = order.claim(examination)?;
+    let place = folder.path().to_owned();
+    let Begun { mut journal, sealed } =
+        seal(examination, threads.install(|| examination.design())??, &place, order)?;
+    let keys = key_file(&sealed);
+    let of = sealed.len();
+    let partial = |cases: &[E::Case]| {
+        let partial = Partial { rigs: cases.len(), of };
+        let report = threads.install(|| report(examination, &sha256(&keys), cases))??.of_part(partial);
+        let files = pages::bound(report.files.clone())?;
+        order.force.claim(&partial::place(&place), E::FILES)?.commit(&files)?;
+        tell(&report, &partial::place(&place), page)
+    };
+    let Some(cases) = examine(examination, sealed, (&mut journal, &partial), order)? else {
+        return Ok(Outcome::Stopped);
+    };
+    let outcome = threads.install(|| {
+        let mut report = report(examination, &sha256(&keys), &cases)?;
+        report.files.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
+        conclude(report, &keys, folder, page)
+    })??;
+    journal.close()?;
+    partial::forget(&place, E::FILES, order.force);
+    Ok(outcome)
+}
+
+/// The same for one part of the rigs, which is judged and not scored: [`merge`](super::merge) makes the report. `scenario` is the file of
+/// the examination.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_part<E: Drawn>(
+    examination: &E,
+    (scenario, shard): (&Path, Shard),
+    order: Order<'_>,
+) -> CommandResult {
+    let provenance = Provenance::begin(BUILD, order.threads.at_once());
+    let text = read_text(scenario)?;
+    let default =
+        Path::new("reports").join(format!("{}-part-{}-of-{}", examination.name(), shard.number, shard.of));
+    let out = order.out.unwrap_or(&default);
+    let name = stream::copy_name(scenario);
+    let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name, PROVENANCE_FILE];
+    let folder = order.force.claim(out, &files)?;
+    let tickets = order.threads.install(|| examination.design())??.into_iter().enumerate();
+    let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
+    let Begun { mut journal, sealed } = seal(examination, tickets, folder.path(), order)?;
+    let keys = key_file(&sealed);
+    let of = sealed.len();
+    let told = |cases: &[E::Case]| {
+        order.page.say(&format!("stopped: {} of {of} rigs of part {shard} are judged and kept", cases.len()))
+    };
+    let Some(cases) = examine(examination, sealed, (&mut journal, &told), order)? else {
+        return Ok(Outcome::Stopped);
+    };
+    let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
+    let mut artefacts = part.artefacts();
+    artefacts.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
+    folder.commit(&artefacts)?;
+    journal.close()?;
+    order.page.say(&format!("part {shard} written to {}", out.display()))?;
+    Ok(Outcome::Done)
+}
+
+/// An examination whose rigs are made.
+struct Begun<E: Drawn> {
+    journal: Journal<E::Case>,
+    sealed: Vec<E::Sealed>,
+}
+
+/// Makes and seals the rigs, and writes the key.
+fn seal<E: Drawn>(
+    examination: &E,
+    tickets: Vec<E::Ticket>,
+    folder: &Path,
+    order: Order<'_>,
+) -> miette::Result<Begun<E>> {
+    let Order { threads, page, .. } = order;
+    page.say(&format!("{}: {}", examination.name(), examination.question()))?;
+    let meter = Meter::counting("rigs made", page.quiet);
+    meter.planned(tickets.len() as u64);
+    let mut journal = Journal::open(folder, JUDGING_SOURCES)?;
+    let before = journal.keys();
+    let sealed = threads.install(|| examination.seal(tickets, &before, &|| meter.advanced(1)))??;
+    meter.finish();
+    let keys = key_file(&sealed);
+    // On disk before the first diagnosis: whoever doubts the report can hash it.
+    journal.keep_keys(&keys)?;
+    let place = folder.join(SEALED_FILE);
+    page.say(&format!("{} rigs made, keys sealed in {}", sealed.len(), place.display()))?;
+    page.say(&format!("SHA-256 {}", sha256(&keys)))?;
+    Ok(Begun { journal, sealed })
+}
+
+/// Told of what is judged where an examination is stopped.
+type Stopped<'a, C> = &'a dyn Fn(&[C]) -> miette::Result<()>;
+
+/// How often it is asked whether someone wished the examination to stop.
+const MOMENT: Duration = Duration::from_millis(100);
+
+/// Judges what the journal does not know, in parallel, and keeps each rig as soon as it is judged. Cases come by their number in the design;
+/// `None` if someone wished it to stop, after `stopped` has been told.
+fn examine<E: Drawn>(
+    examination: &E,
+    sealed: Vec<E::Sealed>,
+    (journal, stopped): (&mut Journal<E::Case>, Stopped<'_, E::Case>),
+    order: Order<'_>,
+) -> miette::Result<Option<Vec<E::Case>>> {
+    let Order { threads, page, .. } = order;
+    let (mut cases, mut new) = (Vec::new(), Vec::new());
+    for rig in sealed {
+        match journal.recall(&rig.key_line()) {
+            Some(case) => cases.push(case.clone()),
+            None => new.push(rig),
+        }
+    }
+    if !cases.is_empty() {
+        page.say(&format!("{} of them are judged already: taken up where it was interrupted", cases.len()))?;
+    }
+    let meter = Meter::counting("rigs diagnosed", page.quiet);
+    meter.planned(new.len() as u64);
+    let start = Instant::now();
+    let _heeding = Heeding::new();
+    let (tell, told) = mpsc::channel();
+    let judge = |tell: &mut mpsc::Sender<_>, rig: &E::Sealed| {
+        let judged = examination.judge(rig).map(|case| (rig.key_line(), case));
+        // Nobody listens any more once the examination is stopped, or something has failed.
+        tell.send(judged).map_err(|_| ())
+    };
+    let is_done = thread::scope(|scope| -> miette::Result<bool> {
+        // One rig may take as long as twenty others: each is a task of its own.
+        let judging = || new.par_iter().with_max_len(1).try_for_each_with(tell, judge);
+        scope.spawn(|| threads.install(judging));
+        let told = told;
+        loop {
+            match told.recv_timeout(MOMENT) {
+                Ok(judged) => {
+                    let (key_line, case) = judged?;
+                    journal.keep(&key_line, &case)?;
+                    meter.advanced(1);
+                    cases.push(case);
+                }
+                Err(mpsc::RecvTimeoutError::Timeout) => {}
+                Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(true),
+            }
+            if interrupt::is_wished() {
+                cases.sort_by_key(Judged::id);
+                if !cases.is_empty() {
+                    stopped(&cases)?;
+                }
+                note("stopped; what was finished is kept, run the same command again to go on\n");
+                return Ok(false);
+            }
+        }
+    })?;
+    meter.finish();
+    page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
+    cases.sort_by_key(Judged::id);
+    Ok(is_done.then_some(cases))
+}
+
+/// Writes the report with its keys, prints the summary.
+///
+/// # Errors
+/// A folder that cannot be written.
+pub fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page) -> CommandResult {
+    let out = folder.path().to_owned();
+    report.files.add(KEY_FILE, keys);
+    report.files = pages::bound(report.files)?;
+    folder.commit(&report.files)?;
+    tell(&report, &out, page)?;
+    Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })
+}
+
+fn tell(report: &Report, out: &Path, page: Page) -> miette::Result<()> {
+    let words = || format!("{}\nwritten to {}\n", report.summary, out.display());
+    page.quiet.tell_or(page.json, || report.files.text("results.json"), words)
+}
+
+/// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Page {
+    /// Whether results.json is printed.
+    pub json: bool,
+    /// Whether words are not.
+    pub quiet: Quiet,
+}
+
+impl Page {
+    fn say(self, line: &str) -> miette::Result<()> {
+        if self.json { Ok(()) } else { self.quiet.tell(&format!("{line}\n")) }
+    }
+}

@@ -1,0 +1,237 @@
+//! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
+
+use super::data_args::DataArgs;
+use super::power::{self, DataPlace, PowerArgs};
+use crate::failure::{CommandResult, Outcome};
+use crate::options::{Force, Quiet, Threads, prior};
+use crate::progress::Watch;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use switchback_diagnose::fitted::Shares;
+use switchback_diagnose::{Effect, Settings};
+use switchback_io::diagnosis::{self, Checked, Expectation, Report, Subject};
+use switchback_io::fmu::{self, FmuError, Map, Simulator};
+use switchback_io::model;
+use switchback_io::output::{Artefacts, note};
+use switchback_io::progress::Stages;
+use switchback_io::rig::Loaded;
+use switchback_model::rig::Rig;
+use switchback_report::diagnosis as text;
+use switchback_report::pages::{self, INDEX, PageError};
+use switchback_report::plots;
+
+/// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    data: DataArgs,
+
+    #[command(flatten)]
+    asked: Asked,
+
+    /// Diagnose a simulator: run this co-simulation FMU (FMI 2.0) over the records, and take its outputs for y_sim.
+    #[arg(long, value_name = "MODEL.fmu", conflicts_with_all = ["model", "power"])]
+    fmu: Option<PathBuf>,
+
+    /// Which variables of the FMU are the input and the output, e.g. v=position,y=force; delay=1 where its output is a sample late
+    /// [default: the only ones, or v and y]
+    #[arg(long, value_name = "VARIABLES", value_parser = fmu::map, requires = "fmu")]
+    map: Option<Map>,
+
+    /// Seconds without a sign of life after which the FMU is ended.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = patience, requires = "fmu", hide_default_value = true)]
+    patience: Duration,
+
+    /// What must come out, e.g. "gap < 2 %" or "cause none", in the words of the keys of --json; may be given more than once. Exit code 1
+    /// where it does not, after everything is written.
+    #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
+    expect: Vec<Expectation>,
+
+    /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
+    #[arg(long, conflicts_with = "power")]
+    explain: bool,
+
+    /// Print one JSON object instead of words.
+    #[arg(long)]
+    json: bool,
+
+    /// Also write the verdict, gap.json, the models nominal.json and augmented.json, series.csv, the figures, the next
+    /// experiment and all of it on one page, index.html, into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    power: PowerArgs,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// What is asked of the records.
+#[derive(Debug, clap::Args)]
+pub struct Asked {
+    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
+    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    without: Vec<Effect>,
+
+    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    ask: Vec<Effect>,
+
+    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
+    /// confirmed.
+    #[arg(long)]
+    causal: bool,
+
+    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+    /// none=0.2,unexplained=0.1: for records that nobody designed.
+    #[arg(long, value_name = "SHARES", value_parser = prior)]
+    prior: Option<Shares>,
+}
+
+impl Asked {
+    /// The file of the model under diagnosis, where one is given.
+    pub fn model(&self) -> Option<&Path> {
+        self.model.as_deref()
+    }
+
+    /// How the records are diagnosed.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            prior: self.prior,
+            causal: self.causal,
+            ..Settings::default().without(&self.without).asking(&self.ask)
+        }
+    }
+}
+
+/// What the folder gets.
+const FILES: [&str; 11] = [
+    "gap.json",
+    "nominal.json",
+    "augmented.json",
+    "series.csv",
+    "verdict.txt",
+    "where.svg",
+    "candidates.svg",
+    "residuals.svg",
+    "outputs_*.svg",
+    diagnosis::NEXT_EXPERIMENT,
+    INDEX,
+];
+
+/// Reads, diagnoses, prints, and writes the folder if one was asked for.
+///
+/// # Errors
+/// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let loaded = args.data.load("gap", args.quiet)?;
+    if args.power.power {
+        return run_power(args, &loaded);
+    }
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.told.warnings);
+    notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
+    let subject = Subject::choose(rig, args.asked.model())?.noting(notes);
+    let watch = Watch::new(args.quiet);
+    let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
+    watch.finish();
+    if let Some(folder) = folder {
+        folder.commit(&artefacts(&report)?)?;
+    }
+    let words = || {
+        let why = if args.explain { text::why(&report) } else { String::new() };
+        text::words(&report, args.out.as_deref()) + &why
+    };
+    args.quiet.tell_or(args.json, || text::json(&report), words)?;
+    Ok(met(args, &report))
+}
+
+/// The rig with the predictions of the FMU, if one was given.
+fn simulated(args: &Args, rig: Rig) -> Result<Rig, FmuError> {
+    let Some(fmu) = &args.fmu else { return Ok(rig) };
+    let map = args.map.clone().unwrap_or_default();
+    fmu::predictions(rig, &Simulator { fmu, map, patience: args.patience })
+}
+
+/// Tells which expectations hold.
+fn met(args: &Args, report: &Report) -> Outcome {
+    let checked: Vec<Checked> = args.expect.iter().map(|expected| expected.check(report)).collect();
+    for one in &checked {
+        // What is broken is told even where nothing else is.
+        if !one.holds || !args.quiet.quiet {
+            note(&format!("{}\n", one.says));
+        }
+    }
+    if checked.iter().all(|one| one.holds) { Outcome::Done } else { Outcome::Unmet }
+}
+
+/// A positive number of seconds.
+fn patience(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0 && *seconds <= 1e6);
+    seconds.map(Duration::from_secs_f64).ok_or_else(|| "give a positive number of seconds".to_owned())
+}
+
+/// The diagnosis alone: nothing is read, printed or written. `place` is what messages call the records.
+///
+/// # Errors
+/// Records that cannot be diagnosed.
+pub fn diagnosed(
+    subject: Subject,
+    asked: &Asked,
+    (place, threads, progress): (&Path, Threads, &dyn Stages),
+) -> miette::Result<Report> {
+    let report = threads.install(|| diagnosis::examine_watched(subject, &asked.settings(), progress))?;
+    Ok(report.map_err(|error| error.in_file(place))?)
+}
+
+fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
+    let asked = power::Order {
+        model: args.asked.model(),
+        settings: args.asked.settings(),
+        out: args.out.as_ref(),
+        json: args.json,
+        options: (args.threads, args.quiet, args.force),
+    };
+    let inputs = args.data.inputs(loaded);
+    power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))
+}
+
+fn effect() -> impl TypedValueParser<Value = Effect> {
+    PossibleValuesParser::new(Effect::ALL.map(Effect::name))
+        .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
+}
+
+/// The files of a diagnosis.
+///
+/// # Errors
+/// A page that cannot be made.
+pub fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
+    let mut artefacts = Artefacts::default();
+    artefacts.add("gap.json", text::json(report));
+    for (name, file) in model::diagnosed(report) {
+        artefacts.add(name, file.text());
+    }
+    artefacts.add("series.csv", model::diagnosed_series(report).text());
+    artefacts.add("verdict.txt", text::verdict(report));
+    for figure in plots::gap::figures(report) {
+        artefacts.add(figure.name, figure.svg);
+    }
+    if let Some(csv) = diagnosis::next_experiment(report) {
+        artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
+    }
+    pages::bound(artefacts)
+}

@@ -1,0 +1,222 @@
+//! `switchback launch SCENARIO.toml --slurm`, `--hq` or `--plan`
+
+use super::study::refuse_other_kinds;
+use crate::failure::{CommandResult, Outcome};
+use crate::launch::plan::{self, Plan};
+use crate::launch::{Engine, Launch, TimeLimit};
+use crate::options::{Force, Quiet, Threads, whole};
+use clap::ArgGroup;
+use miette::{Diagnostic, IntoDiagnostic, miette};
+use std::io;
+use std::path::{Path, PathBuf, absolute};
+use std::process::Command;
+use switchback_io::input::stream;
+use switchback_io::output::print;
+use switchback_io::rig::in_shell;
+use switchback_lab::blind::{self, Blind};
+use switchback_lab::field::{self, Field};
+use switchback_study::scenario::Scenario;
+use thiserror::Error;
+
+/// Write the script by which a scheduler runs a study or an examination in parts and merges them, and submit it if asked to.
+#[derive(Debug, clap::Args)]
+#[command(group(ArgGroup::new("scheduler").required(true)))]
+pub struct Args {
+    /// The scenario file, where every node of the cluster finds it.
+    scenario: PathBuf,
+
+    /// For Slurm: job arrays of parts, and a merge job behind them
+    #[arg(long, group = "scheduler")]
+    slurm: bool,
+
+    /// For HyperQueue: a task array of parts; the script waits for them and merges
+    #[arg(long, group = "scheduler")]
+    hq: bool,
+
+    /// Run a little of it here, and tell how long it takes in parts, how much memory and disk, and where more tasks stop helping
+    #[arg(long, group = "scheduler")]
+    plan: bool,
+
+    /// With --plan: how many tasks are done within this time, written as for --time
+    #[arg(long, value_name = "TIME", conflicts_with_all = ["slurm", "hq"])]
+    within: Option<TimeLimit>,
+
+    /// With --plan: print JSON instead of words
+    #[arg(long, conflicts_with_all = ["slurm", "hq"])]
+    json: bool,
+
+    /// In how many parts
+    #[arg(long, value_name = "K", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tasks: u32,
+
+    /// Threads of each part
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<usize>(1..=1024))]
+    cpus: usize,
+
+    /// Time limit of a part, as sbatch takes it: 90 (minutes), 1:30:00, 2-0 (days); a part that reaches it goes on in another turn
+    #[arg(long, value_name = "TIME")]
+    time: Option<TimeLimit>,
+
+    /// Slurm's partition to run in
+    #[arg(long, value_name = "NAME", conflicts_with = "hq")]
+    partition: Option<String>,
+
+    /// Fit a verdict to the rigs that were judged, as `switchback calibrate` does, and write it beside the report
+    #[arg(long)]
+    calibrate: bool,
+
+    /// The report goes into this folder, the parts into DIR-parts beside it [default: reports/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Submit it instead of printing it
+    #[arg(long, conflicts_with = "plan")]
+    submit: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// What the folder of the parts gets.
+const SCRIPT: &str = "launch.sh";
+
+/// The script did not get through.
+#[derive(Debug, Error, Diagnostic)]
+enum SubmitError {
+    #[error("{script}: cannot be run: {source}")]
+    #[diagnostic(help("submit it by hand where the scheduler is: bash {script}"))]
+    NotRun { script: String, source: io::Error },
+    #[error("{script}: did not get through")]
+    #[diagnostic(help("why is told above; once that is mended, go on with: bash {script}"))]
+    Failed { script: String },
+}
+
+/// Slurm tells a part that its time is up a minute before, or up to two.
+const LEAST_OF_SLURM: u64 = 180;
+
+/// Prints the script, or writes and submits it; or measures what it would take.
+///
+/// # Errors
+/// A scenario that cannot be run, a folder that cannot be written, a scheduler that refuses.
+pub fn run(args: &Args) -> CommandResult {
+    check(args)?;
+    if args.plan {
+        return tell_plan(args);
+    }
+    let launch = launch(args)?;
+    let script = launch.script();
+    if !args.submit {
+        print(&script)?;
+        return Ok(Outcome::Done);
+    }
+    let place = launch.work.join(SCRIPT);
+    std::fs::create_dir_all(&launch.work).into_diagnostic()?;
+    args.force.claim_file(Some(&place), &[])?.into_iter().try_for_each(|file| file.commit(script.clone()))?;
+    let script = in_shell(&place.display().to_string());
+    let status = Command::new("bash").arg(&place).status();
+    let status = status.map_err(|source| SubmitError::NotRun { script: script.clone(), source })?;
+    match status.code() {
+        Some(0) => Ok(Outcome::Done),
+        // The script of HyperQueue ends with what its merge says.
+        Some(1) if launch.engine == Engine::HyperQueue && launch.out.join("results.json").exists() => {
+            Ok(Outcome::Unmet)
+        }
+        _ => Err(SubmitError::Failed { script }.into()),
+    }
+}
+
+/// What every part would refuse is refused once, before anything is submitted.
+fn check(args: &Args) -> miette::Result<()> {
+    let file = &args.scenario;
+    refuse_other_kinds(file)?;
+    let is_field = field::is_field(file);
+    if is_field {
+        field::read(file)?;
+    } else if blind::is_blind(file) {
+        blind::read(file)?;
+    } else {
+        Scenario::read(file)?;
+    }
+    if args.calibrate && !is_field {
+        let told =
+            "is no field examination, the only kind that a verdict is fitted to; leave out --calibrate";
+        return Err(miette!("{} {told}", file.display()));
+    }
+    if let Some(time) = args.time.as_ref().filter(|time| args.slurm && time.seconds() < LEAST_OF_SLURM) {
+        return Err(miette!(
+            "--time {time}: Slurm tells a part up to two minutes before; give 3 minutes at least"
+        ));
+    }
+    Ok(())
+}
+
+/// Measures and tells.
+fn tell_plan(args: &Args) -> CommandResult {
+    let file = &args.scenario;
+    args.quiet.note("measuring on one thread of this machine; for a plan, let nothing else run meanwhile\n");
+    let one = Threads { threads: Some(1) };
+    let told = one.install(|| -> miette::Result<String> {
+        if field::is_field(file) {
+            let study = field::read(file)?;
+            let bases = field::Bases::load(&study, args.quiet.quiet)?;
+            return Ok(told(&plan::measure_examination(&Field::new(study, &bases))?, args));
+        }
+        if blind::is_blind(file) {
+            return Ok(told(&plan::measure_examination(&Blind(blind::read(file)?))?, args));
+        }
+        Ok(told(&plan::measure_study(&Scenario::read(file)?)?, args))
+    })??;
+    print(&told)?;
+    Ok(Outcome::Done)
+}
+
+fn told(plan: &Plan<'_>, args: &Args) -> String {
+    let asked = (args.tasks as usize, args.within.as_ref().map(|time| time.seconds() as f64));
+    let tell = if args.json { plan::to_json } else { plan::to_text };
+    tell(&name(args), plan, asked)
+}
+
+fn name(args: &Args) -> String {
+    stream::stem(&args.scenario).unwrap_or_else(|| "study".to_owned())
+}
+
+fn launch(args: &Args) -> miette::Result<Launch> {
+    let name = name(args);
+    let out = args.out.clone().unwrap_or_else(|| Path::new("reports").join(&name));
+    let out = absolute(out).into_diagnostic()?;
+    let mut work = out.as_os_str().to_owned();
+    work.push("-parts");
+    Ok(Launch {
+        engine: if args.hq { Engine::HyperQueue } else { Engine::Slurm },
+        command: command(args),
+        program: std::env::current_exe().into_diagnostic()?,
+        scenario: absolute(&args.scenario).into_diagnostic()?,
+        name,
+        parts: args.tasks as usize,
+        threads: args.cpus,
+        time: args.time.clone(),
+        options: args.partition.iter().map(|partition| format!("--partition={partition}")).collect(),
+        calibrate: args.calibrate,
+        work: work.into(),
+        out,
+    })
+}
+
+/// The command, without the paths of this machine.
+fn command(args: &Args) -> String {
+    let engine = if args.hq { "--hq" } else { "--slurm" };
+    let mut words = vec![
+        "switchback launch".to_owned(),
+        in_shell(&stream::file_name(&args.scenario)),
+        engine.to_owned(),
+        format!("--tasks {}", args.tasks),
+    ];
+    words.extend((args.cpus > 1).then(|| format!("--cpus {}", args.cpus)));
+    words.extend(args.time.iter().map(|time| format!("--time {time}")));
+    words.extend(args.partition.iter().map(|partition| format!("--partition {}", in_shell(partition))));
+    words.extend(args.calibrate.then(|| "--calibrate".to_owned()));
+    words.join(" ")
+}

@@ -1,0 +1,139 @@
+//! `switchback gap … --power`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::options::{Force, Quiet, Threads, whole};
+use crate::progress::Meter;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use switchback_diagnose::Settings;
+use switchback_io::diagnosis::GivenModel;
+use switchback_io::output::Artefacts;
+use switchback_io::rig::Loaded;
+use switchback_lab::generate::EFFECTS;
+use switchback_lab::power::{self, Ground, Plan, Power, PowerError};
+use switchback_report::plots;
+
+/// What `--power` takes.
+#[derive(Debug, clap::Args)]
+pub struct PowerArgs {
+    /// Instead of a diagnosis: put known faults of every effect into these records, diagnose each, and tell from which size on nine in ten are
+    /// found. Takes about ten minutes on two cores for a few thousand samples.
+    #[arg(long, help_heading = "Power")]
+    pub power: bool,
+
+    /// Put in only these effects [default: all, but those of --without]
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',', value_parser = effect(), hide_possible_values = true, requires = "power", help_heading = "Power")]
+    effects: Vec<&'static str>,
+
+    /// Faults an effect, on average: an effect that is settled earlier leaves its draws to the others.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole::<usize>(1..=1000), requires = "power", help_heading = "Power")]
+    draws: usize,
+
+    /// Laws, parameters and noise are drawn from this.
+    #[arg(long, value_name = "SEED", default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX), requires = "power", help_heading = "Power")]
+    seed: u64,
+}
+
+fn effect() -> impl TypedValueParser<Value = &'static str> {
+    PossibleValuesParser::new(EFFECTS)
+        .map(|name| EFFECTS.into_iter().find(|known| *known == name).expect("only these are possible values"))
+}
+
+/// The rest of the command line that matters.
+pub(super) struct Order<'a> {
+    /// File of the model to diagnose.
+    pub(super) model: Option<&'a Path>,
+    /// How each rig is diagnosed.
+    pub(super) settings: Settings,
+    pub(super) out: Option<&'a PathBuf>,
+    pub(super) json: bool,
+    pub(super) options: (Threads, Quiet, Force),
+}
+
+/// What the folder gets.
+const FILES: [&str; 4] = ["power.json", "power.csv", "power.txt", "power.svg"];
+
+/// Measures, prints, and writes the folder if one was asked for.
+///
+/// # Errors
+/// Records or a model that no power can be measured with, or a folder that cannot be written.
+pub(super) fn run(
+    args: &PowerArgs,
+    order: Order<'_>,
+    (loaded, data): (&Loaded, &DataPlace<'_>),
+) -> CommandResult {
+    let (threads, quiet, force) = order.options;
+    let plan = plan(args, &order.settings)?;
+    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, data.inputs)?;
+    let model = order.model.map(GivenModel::read).transpose()?;
+    let name = data.path.display().to_string();
+    let meter = Meter::counting("diagnoses", quiet);
+    let (ground, power) = threads.install(|| {
+        let ground = Ground::new(&loaded.rig, model, order.settings, &name)?;
+        let clock = Instant::now();
+        let power = power::measure(&ground, &plan, &meter, || announce(&plan, clock.elapsed(), quiet))?;
+        Ok::<_, PowerError>((ground, power))
+    })??;
+    meter.finish();
+    if let Some(folder) = folder {
+        folder.commit(&artefacts(&power, &ground))?;
+    }
+    quiet.tell_or(order.json, || power::json(&power, &ground), || power::words(&power, &ground))?;
+    Ok(Outcome::Done)
+}
+
+/// The data in messages, and every file that was read.
+pub(super) struct DataPlace<'a> {
+    pub(super) path: &'a Path,
+    pub(super) inputs: &'a [&'a Path],
+}
+
+/// Which effects are put in how often, where the candidates are those of the settings.
+///
+/// # Errors
+/// [`PowerError::NoEffect`] where none is left.
+pub fn plan(args: &PowerArgs, settings: &Settings) -> Result<Plan, PowerError> {
+    let is_candidate = |name: &&'static str| settings.effects.iter().any(|effect| effect.name() == *name);
+    let mut effects: Vec<&'static str> = match &args.effects[..] {
+        [] => EFFECTS.into_iter().filter(is_candidate).collect(),
+        some => some.to_vec(),
+    };
+    let mut seen = Vec::new();
+    effects.retain(|effect| {
+        let is_new = !seen.contains(effect);
+        seen.push(*effect);
+        is_new
+    });
+    if effects.is_empty() {
+        return Err(PowerError::NoEffect);
+    }
+    Ok(Plan { effects, draws: args.draws, seed: args.seed })
+}
+
+/// A diagnosis of records with a fault takes about so many times as long as one of those without: there is a cause to be looked at, and pairs.
+const WITH_FAULT: f64 = 2.0;
+
+/// How long it will take, on stderr: the only words that depend on the clock.
+fn announce(plan: &Plan, first: Duration, quiet: Quiet) {
+    if quiet.quiet {
+        return;
+    }
+    let seconds = first.as_secs_f64();
+    let all = seconds * (plan.draws as f64 + WITH_FAULT * plan.budget() as f64);
+    let told = if all < 90.0 { format!("{all:.0} s") } else { format!("{:.0} min", all / 60.0) };
+    eprintln!(
+        "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {told} in all (less with `--draws` or `--effects`)",
+        plan.diagnoses()
+    );
+}
+
+/// The files of what was found.
+pub fn artefacts(power: &Power, ground: &Ground<'_>) -> Artefacts {
+    let mut artefacts = Artefacts::default();
+    artefacts.add("power.json", power::json(power, ground));
+    artefacts.add("power.csv", power::csv(power));
+    artefacts.add("power.txt", power::words(power, ground));
+    artefacts.add("power.svg", plots::power::figure(power, &ground.rig().name));
+    artefacts
+}

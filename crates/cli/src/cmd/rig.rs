@@ -1,0 +1,208 @@
+//! `switchback rig [--field] --effect EFFECT --size 2 --seed 7 --out DIR`
+
+use crate::failure::{CommandResult, Outcome};
+use crate::options::{Force, Quiet, number, whole};
+use miette::Diagnostic;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use switchback_io::diagnosis::Units;
+use switchback_io::input::closest;
+use switchback_io::output::{print, stamped};
+use switchback_io::rig;
+use switchback_lab::generate::{
+    EFFECTS, FOREIGN, Family, Ingredient, Key, MadeRig, MakeError, MakeRig, Setting, TrueEffect, laws_of,
+};
+use switchback_model::rig::Rig;
+use thiserror::Error;
+
+/// Make a rig with a chosen effect: records as a user would take them, and on stdout what was put in.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Effect to put in; may be given more than once; none makes a rig without a gap.
+    #[arg(long, value_name = "EFFECT")]
+    effect: Vec<String>,
+
+    /// Which law of the effects, 0 being the plain one; `--list` shows them.
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>(0..=u64::from(u32::MAX)))]
+    law: usize,
+
+    /// A rig as the field has them: nothing declared, no designed experiment, coloured noise, and what machines have besides.
+    #[arg(long)]
+    field: bool,
+
+    /// What each effect leaves after the best nominal re-fit, in standard deviations of the noise; with `--field` what survives
+    /// identification anew, over what the model of the rig without it leaves on held-out records.
+    #[arg(long, default_value_t = 1.0, value_parser = number)]
+    size: f64,
+
+    /// Everything else is drawn from this.
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX))]
+    seed: u64,
+
+    /// Order of the linear part, 1 to 3 [default: drawn].
+    #[arg(long, value_parser = whole::<u8>(1..=3))]
+    order: Option<u8>,
+
+    /// Folder for rig.toml and the records.
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+
+    /// Print what was put in, or the list, as JSON.
+    #[arg(long)]
+    json: bool,
+
+    /// List effects and laws instead.
+    #[arg(long)]
+    list: bool,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// Why no rig was made.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{error}")]
+#[diagnostic(help("{guess}`switchback rig --list` shows every effect with its laws"))]
+pub struct RigCommandError {
+    error: MakeError,
+    guess: String,
+}
+
+impl From<MakeError> for RigCommandError {
+    fn from(error: MakeError) -> Self {
+        let meant = match &error {
+            MakeError::UnknownEffect { name, .. } => closest(name, EFFECTS.into_iter().chain(FOREIGN)),
+            _ => None,
+        };
+        let guess = meant.map_or_else(String::new, |effect| format!("did you mean `{effect}`? "));
+        Self { error, guess }
+    }
+}
+
+/// Makes the rig, writes its folder, prints its key.
+///
+/// # Errors
+/// An unknown effect or law, a size that is none, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    if args.list {
+        print(&if args.json { stamped(LIST_SCHEMA, &list_json()) } else { list() })?;
+        return Ok(Outcome::Done);
+    }
+    let recipe = recipe(args).map_err(RigCommandError::from)?;
+    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
+    let made = recipe.make().map_err(RigCommandError::from)?;
+    if let Some(folder) = folder {
+        folder.commit(&rig::artefacts(&made.rig))?;
+    }
+    args.quiet.tell_or(args.json, || stamped(SCHEMA, &key_json(&made)), || told(&made))?;
+    Ok(Outcome::Done)
+}
+
+fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
+    let family = Family { order: args.order.map(usize::from), shape: None };
+    let setting = if args.field { Setting::Field } else { Setting::Laboratory };
+    let mut recipe = MakeRig::new(args.seed).family(family).setting(setting);
+    for effect in args.effect.iter().filter(|name| *name != "none") {
+        recipe = recipe.with(Ingredient::with_law(effect, args.law, args.size)?);
+    }
+    Ok(recipe)
+}
+
+/// Name and version of the layout of what was put in.
+const SCHEMA: &str = "switchback/rig/1";
+
+/// The same of the list of effects.
+const LIST_SCHEMA: &str = "switchback/rig-list/1";
+
+/// The magnitude of an effect and its unit: lengths along the input in the input's own.
+fn measured(effect: &TrueEffect, (rig, key): (&Rig, &Key)) -> (f64, String) {
+    let length = effect.length(key.interval);
+    length.map_or_else(|| (effect.magnitude, effect.unit.to_owned()), |x| (x, Units::of(rig).input))
+}
+
+fn told(MadeRig { rig, key, .. }: &MadeRig) -> String {
+    let between = if key.curved { " curved between the levels" } else { "" };
+    let mut text =
+        format!("order {}, {} borders{between}, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);
+    if key.setting == Setting::Field {
+        let _ = writeln!(text, "of the field: by itself it has {}", in_a_row(&key.base));
+    }
+    let survives = match key.setting {
+        Setting::Laboratory => "the best nominal re-fit with {} noise sd",
+        Setting::Field => "identification anew with {} times what the model leaves without it",
+    };
+    for e in &key.effects {
+        let (magnitude, unit) = measured(e, (rig, key));
+        let quantity = e.quantity.map_or_else(String::new, |quantity| format!("{quantity} "));
+        let _ = writeln!(
+            text,
+            "{} ({}, {}): {quantity}{magnitude:.4} {unit}; survives {}",
+            e.effect,
+            e.law,
+            e.stage.name(),
+            survives.replace("{}", &format!("{:.2}", e.size))
+        );
+        if (e.size / e.wanted - 1.0).abs() > 0.05 {
+            let _ = writeln!(text, "  (asked for {}; this system and law go no closer)", e.wanted);
+        }
+    }
+    if key.effects.is_empty() {
+        text.push_str("no effect\n");
+    }
+    text
+}
+
+fn in_a_row(names: &[&str]) -> String {
+    match names {
+        [] => "nothing".to_owned(),
+        [one] => (*one).to_owned(),
+        [others @ .., last] => format!("{} and {last}", others.join(", ")),
+    }
+}
+
+/// What was put in as JSON.
+fn key_json(MadeRig { rig, key, .. }: &MadeRig) -> serde_json::Value {
+    let effects: Vec<_> = key
+        .effects
+        .iter()
+        .map(|e| {
+            let (magnitude, unit) = measured(e, (rig, key));
+            serde_json::json!({
+                "effect": e.effect, "law": e.law, "plain": e.plain, "stage": e.stage.name(),
+                "quantity": e.quantity, "magnitude": magnitude, "unit": unit, "wanted_size": e.wanted, "size": e.size,
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "seed": key.seed, "order": key.order, "a": key.a, "b": key.b, "borders": key.borders,
+        "curved": key.curved, "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
+        "setting": key.setting.name(), "base": key.base,
+    })
+}
+
+fn list() -> String {
+    let mut text = String::new();
+    for (title, names) in [("effects", EFFECTS.as_slice()), ("in no library of causes", FOREIGN.as_slice())] {
+        let _ = writeln!(text, "{title}:");
+        for name in names {
+            let laws: Vec<_> =
+                laws_of(name).iter().enumerate().map(|(i, law)| format!("{i} {}", law.name())).collect();
+            let quantity = laws_of(name).first().and_then(|law| law.quantity());
+            let quantity =
+                quantity.map_or_else(String::new, |quantity| format!(" ({quantity}, in input units)"));
+            let _ = writeln!(text, "  {name:22} {}{quantity}", laws.join(", "));
+        }
+    }
+    text
+}
+
+fn list_json() -> serde_json::Value {
+    let laws = |names: &[&'static str]| -> Vec<serde_json::Value> {
+        let laws = |name| laws_of(name).iter().map(|law| law.name()).collect::<Vec<_>>();
+        names.iter().map(|name| serde_json::json!({ "effect": name, "laws": laws(name) })).collect()
+    };
+    serde_json::json!({ "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
+}

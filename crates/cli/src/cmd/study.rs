@@ -1,0 +1,189 @@
+//! `switchback SCENARIO.toml`
+
+use super::consistency::{self, Order};
+use super::examination::{self, Page, run_part};
+use crate::failure::CommandResult;
+use crate::options::{Force, Quiet, Threads, Yes};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use miette::{Diagnostic, miette};
+use std::path::{Path, PathBuf};
+use switchback_io::input::{FileKind, stream};
+use switchback_io::rig::in_shell;
+use switchback_lab::blind::{self, Blind};
+use switchback_lab::field::{self, Field};
+use switchback_report::examination::Drawn;
+use switchback_study::Shard;
+use switchback_study::consistency::least_seconds;
+use switchback_study::scenario::{Engine, Scenario};
+use thiserror::Error;
+
+/// Run the study that a scenario file describes, and write its report.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scenario file.
+    // There is none where a verb is named.
+    #[arg(required = true)]
+    scenario: Option<PathBuf>,
+
+    /// Write the report into this folder [default: reports/NAME, NAME the scenario's file name]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    engine: EngineArgs,
+
+    /// Run one of N equal parts, counted from 1; `switchback merge` makes the report of all of them
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+
+    /// Run the part of the next round of a study that asks for a precision: what `switchback merge` wrote of the rounds before
+    #[arg(long, value_name = "DIR", requires = "shard")]
+    from: Option<PathBuf>,
+
+    /// Print results.json instead of words.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    yes: Yes,
+
+    #[command(flatten)]
+    quiet: Quiet,
+
+    #[command(flatten)]
+    force: Force,
+}
+
+/// By which engine.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct EngineArgs {
+    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
+    engine: Option<Engine>,
+}
+
+impl EngineArgs {
+    /// A scenario on the engine asked for.
+    pub fn of(self, scenario: Scenario) -> Scenario {
+        match self.engine {
+            Some(engine) => scenario.on(engine),
+            None => scenario,
+        }
+    }
+
+    /// The command that makes the results of a scenario file again, without the place where this machine keeps it.
+    pub fn command(self, file: &Path) -> String {
+        let name = stream::file_name(file);
+        let engine = self.engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
+        format!("switchback {name}{engine}")
+    }
+}
+
+/// Refuses a file that describes no consistency study, for those who call the library: examinations keep their rigs sealed in a folder.
+///
+/// # Errors
+/// What it is, and the command that takes it.
+pub fn refuse_all_but_consistency(file: &Path) -> miette::Result<()> {
+    refuse_other_kinds(file)?;
+    let kind = match (blind::is_blind(file), field::is_field(file)) {
+        (true, _) => "a blind study",
+        (_, true) => "a field examination",
+        _ => return Ok(()),
+    };
+    let path = file.display().to_string();
+    let remedy = format!("it seals its rigs in a folder: run it with `switchback {}`", in_shell(&path));
+    Err(miette!(help = remedy, "{path}: this is {kind}, which only the command line runs"))
+}
+
+/// Reads, claims the folder, runs, writes, prints.
+///
+/// # Errors
+/// A scenario that cannot be read or run, or a folder that cannot be written.
+pub fn run(args: &Args) -> CommandResult {
+    let Some(file) = args.scenario.as_deref() else {
+        return Err(miette!("nothing to do; name a scenario file, or see `switchback --help`"));
+    };
+    refuse_other_kinds(file)?;
+    if blind::is_blind(file) {
+        refuse_engine_and_rounds(args, "a blind study")?;
+        return examined(args, file, &Blind(blind::read(file)?));
+    }
+    if field::is_field(file) {
+        refuse_engine_and_rounds(args, "a field examination")?;
+        let study = field::read(file)?;
+        let bases = field::Bases::load(&study, args.quiet.quiet)?;
+        return examined(args, file, &Field::new(study, &bases));
+    }
+    let scenario = args.engine.of(Scenario::read(file)?);
+    let parts = args.shard.map_or(1.0, |shard| shard.of as f64);
+    args.yes.permit(least_seconds(&scenario) / parts, args.threads, args.quiet)?;
+    let order = Order {
+        file,
+        command: &args.engine.command(file),
+        out: args.out.as_deref(),
+        shard: args.shard,
+        from: args.from.as_deref(),
+        threads: args.threads,
+        json: args.json,
+        quiet: args.quiet,
+        force: args.force,
+    };
+    consistency::run(&scenario, order)
+}
+
+/// Runs an examination, or the part of it that is asked for.
+fn examined<E: Drawn>(args: &Args, file: &Path, examination: &E) -> CommandResult {
+    let rigs = examination.design()?.len().div_ceil(args.shard.map_or(1, |shard| shard.of));
+    args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.quiet)?;
+    let page = Page { json: args.json, quiet: args.quiet };
+    let order =
+        examination::Order { out: args.out.as_deref(), force: args.force, threads: args.threads, page };
+    match args.shard {
+        Some(shard) => run_part(examination, (file, shard), order),
+        None => examination::run(examination, order),
+    }
+}
+
+/// Only a consistency study has engines and rounds.
+fn refuse_engine_and_rounds(args: &Args, kind: &str) -> miette::Result<()> {
+    let given =
+        [(args.engine.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
+    match (&args.scenario, given.into_iter().find(|(is_given, ..)| *is_given)) {
+        (Some(path), Some((_, what, option))) => {
+            Err(miette!("{} is {kind}, which has no {what}; leave out {option}", path.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A file of another kind was given.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{path}: this is {kind}, but a scenario is wanted")]
+#[diagnostic(help("{remedy}"))]
+pub(super) struct OtherKind {
+    path: String,
+    kind: &'static str,
+    remedy: String,
+}
+
+/// Data, rigs and what verbs wrote are told as such, with the verb that takes them.
+pub(super) fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
+    let path = file.display().to_string();
+    let shown = in_shell(&path);
+    let (kind, remedy) = match FileKind::of(file) {
+        Some(FileKind::Data) => ("data", format!("`switchback gap {shown}`")),
+        Some(FileKind::Rig) => ("a rig", format!("`switchback gap {shown}`")),
+        Some(FileKind::Json(kind @ "a model")) => (kind, format!("`switchback simulate {shown} INPUT.csv`")),
+        Some(FileKind::Json(kind)) => (kind, "name a scenario file, or see `switchback --help`".to_owned()),
+        Some(FileKind::Scenario) | None => return Ok(()),
+    };
+    Err(OtherKind { path, kind, remedy })
+}
+
+/// The engine of a name that is one of them.
+fn engine(name: String) -> Engine {
+    Engine::from_name(&name).unwrap_or(Engine::Superposed)
+}

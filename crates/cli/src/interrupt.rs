@@ -1,0 +1,66 @@
+//! Being stopped: Ctrl-C, SIGTERM, a closed terminal.
+
+use crate::failure::STOPPED;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+use switchback_io::output::{abandon, note};
+
+/// Whether someone wished the process to stop.
+static WISHED: AtomicBool = AtomicBool::new(false);
+
+/// How much of the work at hand ends by itself where that is wished.
+static HEEDING: AtomicUsize = AtomicUsize::new(0);
+
+/// What a piece of work that ends by itself may take to do so: a third of the time that Slurm leaves between SIGTERM and SIGKILL.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// From here on a signal ends the process with exit code 3. Work that [heeds](Heeding) it ends by itself; after ten seconds, at a second
+/// signal, or where nothing heeds it, the process ends at once: what is being written is written to its end first, whatever is only staged is
+/// removed, and what has been kept of a study or an examination stays.
+///
+/// # Panics
+/// If called twice.
+pub fn install() {
+    let stop = || {
+        if HEEDING.load(Ordering::SeqCst) == 0 || WISHED.swap(true, Ordering::SeqCst) {
+            end();
+        }
+        thread::spawn(|| {
+            thread::sleep(PATIENCE);
+            end();
+        });
+    };
+    ctrlc::set_handler(stop).expect("no other handler of signals is installed");
+}
+
+fn end() -> ! {
+    let _nobody_begins_to_write = abandon();
+    note("\nstopped; what was finished is kept, and nothing is half-written\n");
+    std::process::exit(STOPPED.into());
+}
+
+/// Whether someone wished the process to stop. Who asks [heeds](Heeding) it.
+pub fn is_wished() -> bool {
+    WISHED.load(Ordering::Relaxed)
+}
+
+/// While it lives, a signal is left to the work at hand, which asks [`is_wished`] often.
+#[derive(Debug)]
+pub struct Heeding(());
+
+impl Heeding {
+    /// From here on.
+    #[must_use]
+    #[expect(clippy::new_without_default, reason = "it does something")]
+    pub fn new() -> Self {
+        HEEDING.fetch_add(1, Ordering::SeqCst);
+        Self(())
+    }
+}
+
+impl Drop for Heeding {
+    fn drop(&mut self) {
+        HEEDING.fetch_sub(1, Ordering::SeqCst);
+    }
+}

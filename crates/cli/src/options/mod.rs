@@ -1,0 +1,17 @@
+//! Options that several verbs share, to be flattened into their arguments.
+
+mod force;
+mod positive;
+mod prior;
+mod quiet;
+mod threads;
+mod whole;
+mod yes;
+
+pub use force::Force;
+pub use positive::{number, positive};
+pub use prior::prior;
+pub use quiet::Quiet;
+pub use threads::Threads;
+pub use whole::whole;
+pub use yes::{TooLong, Yes};

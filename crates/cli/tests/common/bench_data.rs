@@ -1,0 +1,109 @@
+//! One measured record, to be written in many dialects.
+
+use clap::Parser;
+use std::fs;
+use std::path::PathBuf;
+use switchback::cmd::data_args::DataArgs;
+use switchback_io::rig::{Loaded, RigError};
+use tempfile::TempDir;
+
+pub(crate) const SAMPLES: usize = 600;
+
+/// Travel and force of a leaf spring with a first-order sensor, as a logger prints them.
+pub(crate) fn truth() -> (Vec<f64>, Vec<f64>) {
+    let printed = |x: f64, decimals: usize| format!("{x:.decimals$}").parse::<f64>().expect("a number");
+    let v: Vec<f64> = (0..SAMPLES)
+        .map(|k| k as f64 * 0.01)
+        .map(|t| printed(12.0 * (5.1 * t).sin() * (0.9 * t).cos() + 3.0 * (13.0 * t).sin(), 3))
+        .collect();
+    let (mut u, mut y, mut noise) = (0.0, 0.0, 1_u64);
+    let force = (0..SAMPLES).map(|k| {
+        noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let white = (noise >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        y += 0.5 * (u - y) + 0.05 * white;
+        u = match v[k].total_cmp(&v[k.saturating_sub(1)]) {
+            std::cmp::Ordering::Greater => 2.0 * v[k] + 6.0,
+            std::cmp::Ordering::Less => 2.0 * v[k] - 6.0,
+            std::cmp::Ordering::Equal => u,
+        };
+        printed(y, 4)
+    });
+    let force = force.collect();
+    (v, force)
+}
+
+/// The record's rows, each as time in seconds, input and output.
+pub(crate) fn rows() -> impl Iterator<Item = (f64, f64, f64)> {
+    let (v, y) = truth();
+    v.into_iter().zip(y).enumerate().map(|(k, (v, y))| ((k as f64) / 100.0, v, y))
+}
+
+/// The rows as lines, cells joined by `delimiter`, numbers printed by `print`.
+pub(crate) fn lines(delimiter: &str, print: impl Fn(f64) -> String) -> Vec<String> {
+    rows().map(|(t, v, y)| [t, v, y].map(&print).join(delimiter)).collect()
+}
+
+pub(crate) fn point(x: f64) -> String {
+    x.to_string()
+}
+
+pub(crate) fn comma(x: f64) -> String {
+    x.to_string().replace('.', ",")
+}
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    data: DataArgs,
+}
+
+/// A folder with files of measurements.
+pub(crate) struct Bench {
+    root: TempDir,
+}
+
+impl Bench {
+    pub(crate) fn new() -> Self {
+        Self { root: TempDir::new().expect("a temporary folder") }
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.root.path().join(name)
+    }
+
+    pub(crate) fn with(self, name: &str, contents: impl AsRef<[u8]>) -> Self {
+        fs::write(self.path(name), contents).expect("a writable temporary folder");
+        self
+    }
+
+    /// Reads as the command line `switchback gap WORDS` does; words that are files of this folder are taken from it.
+    pub(crate) fn load(&self, words: &[&str]) -> Result<Loaded, RigError> {
+        let word = |word: &&str| {
+            let path = self.path(word);
+            if path.exists() || word.ends_with(".csv") {
+                path.display().to_string()
+            } else {
+                (*word).to_owned()
+            }
+        };
+        let line = std::iter::once("gap".to_owned()).chain(words.iter().map(word));
+        Line::try_parse_from(line)
+            .expect("flags that exist")
+            .data
+            .load("gap", switchback::options::Quiet { quiet: true })
+    }
+
+    /// The message of an error, as it is told, with the folder left out.
+    pub(crate) fn refusal(&self, words: &[&str]) -> String {
+        let error = self.load(words).expect_err("bad input");
+        let told = switchback::failure::plain(&error);
+        told.replace(&format!("{}/", self.root.path().display()), "")
+    }
+
+    /// `switchback`, run in this folder.
+    pub(crate) fn switchback(&self, arguments: &[&str]) -> assert_cmd::Command {
+        let mut command = assert_cmd::Command::cargo_bin("switchback").expect("the binary is built");
+        command.current_dir(self.root.path()).args(arguments);
+        command
+    }
+}

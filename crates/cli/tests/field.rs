@@ -1,0 +1,183 @@
+//! A field examination of made bases, with an examiner that is easy to foresee in place of the diagnosis.
+
+use crate::common::Folder;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use switchback_diagnose::{DiagnoseError, Diagnosis, Model, Settings};
+use switchback_io::output::sha256;
+use switchback_lab::examination::{Examination, Part, Sealed as _, key_file, merged};
+use switchback_lab::field::{self, Bases, Case, Field, Kind};
+use switchback_model::rig::Rig;
+use switchback_study::Shard;
+
+const FIELD: &str = r#"study = "field"
+question = "?"
+seed = 4
+effects = ["sensor_drift", "gain_drift"]
+sizes = [2.0]
+seeds = 1
+made = 2
+none = 1
+outside = 0
+slice = 4
+"#;
+
+/// Two bases with two faults each and one without, of which two run.
+fn folder() -> Folder {
+    let folder = Folder::with_good_rig();
+    folder.write("field.toml", FIELD);
+    folder
+}
+
+fn bases(scenario: &Path) -> Bases {
+    Bases::load(&field::read(scenario).expect("a scenario"), true).expect("bases")
+}
+
+/// Refuses every rig: of what is judged only the replies differ then.
+fn refuse(_: &Rig, _: Model, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
+    Err(DiagnoseError::ConstantInput)
+}
+
+fn field<'b>(scenario: &Path, bases: &'b Bases) -> Field<'b> {
+    Field::of(refuse, field::read(scenario).expect("a scenario"), bases)
+}
+
+/// Makes and judges the rigs of a part: key file and cases.
+fn judged(field: &Field<'_>, shard: Shard) -> (String, Vec<Case>) {
+    let tickets = field.design().expect("a design").into_iter().enumerate();
+    let tickets = tickets.filter(|(k, _)| shard.holds(*k)).map(|(_, ticket)| ticket).collect();
+    let sealed = field.seal(tickets, "", &|| ()).expect("rigs");
+    let mut cases: Vec<Case> = sealed.par_iter().map(|rig| field.judge(rig).expect("a case")).collect();
+    cases.sort_by_key(|case| case.id);
+    (key_file(&sealed), cases)
+}
+
+fn report(scenario: &Path, keys: &str, cases: &[Case]) -> BTreeMap<String, Vec<u8>> {
+    let field = Field::scored_only(field::read(scenario).expect("a scenario"));
+    let report = switchback_report::examination::report(&field, &sha256(keys), cases).expect("a report");
+    report.files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect()
+}
+
+#[test]
+fn parts_merged_are_the_bytes_of_one_run_at_any_thread_count() {
+    let folder = folder();
+    let scenario = folder.path("field.toml");
+    let bases = bases(&scenario);
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let (keys, cases) = pool(2).install(|| judged(&field(&scenario, &bases), Shard { number: 1, of: 1 }));
+    let parted = field(&scenario, &bases);
+    let parts = [2, 1].map(|number| {
+        let shard = Shard { number, of: 2 };
+        let (keys, cases) = pool(1).install(|| judged(&parted, shard));
+        let part = Part::new(&scenario, FIELD.to_owned(), (shard, "program"), keys, cases);
+        let place = folder.path(&number.to_string());
+        fs::create_dir(&place).expect("a folder");
+        for (name, bytes) in part.artefacts().iter() {
+            fs::write(place.join(name), bytes).expect("a file");
+        }
+        Part::read(&place).expect("a part")
+    });
+    let whole = merged::<Case>(parts.into()).expect("a whole");
+    assert_eq!((whole.keys.as_str(), whole.cases.as_slice()), (keys.as_str(), cases.as_slice()));
+    let files = report(&scenario, &keys, &cases);
+    assert_eq!(report(&whole.scenario, &whole.keys, &whole.cases), files);
+    for file in
+        ["answers.csv", "cases.jsonl", "results.json", "summary.md", "confusion.svg", "calibration.svg"]
+    {
+        assert!(files.contains_key(file), "{file} is missing in {:?}", files.keys());
+    }
+    let text = |name: &str| String::from_utf8_lossy(&files[name]).into_owned();
+    // Every rig is diagnosed with the model and without.
+    assert_eq!(text("answers.csv").lines().count(), 1 + 2 * cases.len());
+    assert!(text("summary.md").contains("NO MEASURED BASE"));
+    let results: serde_json::Value = serde_json::from_str(&text("results.json")).expect("JSON");
+    assert_eq!((&results["key_sha256"], &results["failed"]), (&sha256(&keys).into(), &4.into()));
+}
+
+#[test]
+fn keys_that_were_written_are_taken_up_and_give_the_same_rigs() {
+    let folder = folder();
+    let scenario = folder.path("field.toml");
+    let bases = bases(&scenario);
+    let field = field(&scenario, &bases);
+    let tickets = || -> Vec<_> {
+        let all = field.design().expect("a design").into_iter();
+        all.filter(|ticket| ticket.kind == Kind::Planted).take(1).collect()
+    };
+    let keys = key_file(&field.seal(tickets(), "", &|| ()).expect("rigs"));
+    // What is written counts, or the size would be searched for again.
+    let size = |keys: &str| -> f64 {
+        let key: serde_json::Value = serde_json::from_str(keys).expect("a key");
+        key["fault"]["size"].as_f64().expect("a size")
+    };
+    let marked = keys.replace(&format!("\"size\":{}", size(&keys)), "\"size\":1.75");
+    let again = |before: &str| field.seal(tickets(), before, &|| ()).expect("rigs");
+    assert_eq!(size(&again(&marked)[0].key_line()), 1.75);
+    // That of another rig does not.
+    let foreign = marked.replacen("\"seed\":", "\"seed\":1", 1);
+    assert_eq!(key_file(&again(&foreign)), keys);
+}
+
+#[test]
+fn what_cannot_be_examined_is_refused_in_one_message() {
+    let folder = folder();
+    let run = |text: &str, arguments: &[&str]| {
+        folder.write("field.toml", text);
+        let arguments = [&["field.toml", "--out", "none"], arguments].concat();
+        let output = folder.switchback(&arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2));
+        assert!(!folder.path("none").exists());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let told = run(&FIELD.replace("[2.0]", "[1.0]"), &[]);
+    assert!(told.contains("field.toml:5:9") && told.contains("no size reaches 2"), "{told}");
+    let told = run(&FIELD.replace("gain_drift", "gain_drfit"), &[]);
+    assert!(told.contains("did you mean `gain_drift`?"), "{told}");
+    let told = run(FIELD, &["--engine", "direct"]);
+    assert!(told.contains("has no engines"), "{told}");
+    let told = run(&FIELD.replace("made = 2", "rigs = \"nowhere\"\nmade = 0"), &[]);
+    assert!(told.contains("NO MEASURED BASES: the folder nowhere exists neither"), "{told}");
+    assert!(told.contains("nowhere: holds no measured rig"), "{told}");
+    // Rigs that were made are no measured ones, wherever they lie.
+    folder.switchback(&["rig", "--seed", "3", "--out", "rigs/made-3"]).assert().success();
+    let told = run(&FIELD.replace("made = 2", "rigs = \"rigs\"\nmade = 0"), &[]);
+    assert!(told.contains("rigs: holds no measured rig"), "{told}");
+}
+
+#[test]
+fn a_slice_is_the_beginning_of_a_larger_one_and_has_the_measured_bases_it_needs() {
+    let folder = folder();
+    folder.switchback(&["rig", "--seed", "3", "--field", "--out", "rigs/press"]).assert().success();
+    let designed = |slice: &str| {
+        folder.write(
+            "field.toml",
+            &FIELD.replace("made = 2", "rigs = \"rigs\"\nmade = 2").replace("slice = 4", slice),
+        );
+        let study = field::read(&folder.path("field.toml")).expect("a scenario");
+        field::design(&study, &bases(&folder.path("field.toml")))
+    };
+    let ids = |slice: &str| designed(slice).iter().map(|ticket| ticket.id).collect::<Vec<_>>();
+    let whole = ids("");
+    // Two effects in three bases, a measured base as it is and a made one without fault.
+    assert_eq!(whole.len(), 2 * 3 + 2);
+    assert!(!whole.is_sorted());
+    for slice in 1..=whole.len() {
+        let tickets = designed(&format!("slice = {}", 2 * slice));
+        assert!(ids(&format!("slice = {}", 2 * slice)).starts_with(&whole[..slice]));
+        let has = |of: &dyn Fn(&field::Ticket) -> bool| tickets.iter().any(of);
+        assert!(
+            !has(&|ticket| ticket.base == 0) || has(&|ticket| ticket.base == 0 && ticket.kind == Kind::Bare)
+        );
+    }
+}
+
+#[test]
+fn the_shipped_scenarios_can_be_read() {
+    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let full = field::read(&scenarios.join("field.toml")).expect("a scenario");
+    let slice = field::read(&scenarios.join("field-slice.toml")).expect("a scenario");
+    assert_eq!((full.slice, slice.slice, &full.effects), (None, Some(20), &slice.effects));
+    assert!(!full.effects.contains(&"coloured_noise"));
+}

@@ -1,0 +1,186 @@
+//! What the fits say before anything is weighed.
+
+use super::Plan;
+use crate::attribution::explain::Explanation;
+use crate::attribution::pairs::{Firsts, Pair};
+use crate::attribution::search::{beside_the_model, on_a_free_drift_path};
+use crate::attribution::{Attribution, SIGNIFICANT};
+use crate::effect::Effect;
+use crate::phase::Phase;
+use crate::residuals::omnibus::{Omnibus, omnibus};
+use crate::verdict::odds::IMMATERIAL;
+use crate::workers::Workers;
+
+/// Single effects and the best pair of them.
+#[derive(Debug)]
+pub(super) struct Evidence {
+    /// Every effect whose fit is one of it: what is no cause by itself may still be one of two.
+    pub(super) all: Vec<Explanation>,
+    /// Those that may be the cause, best first.
+    pub(super) singles: Vec<Explanation>,
+    /// The same with what is out, since it harms held-out records by itself: it may still be one of two, and is a rival of the others.
+    pub(super) ranked: Vec<Explanation>,
+    /// Whether what is out, since it harms held-out records, follows the fit records better than all that are left: these, too, only
+    /// stand in for something else.
+    pub(super) outdone: bool,
+    /// Whether the best of them gains what chance does not.
+    pub(super) significant: bool,
+    /// The best of them, or the nominal model.
+    pub(super) best: Explanation,
+    /// What it leaves.
+    pub(super) tests: Option<Omnibus>,
+    pub(super) pair: Option<Pair>,
+}
+
+impl Plan {
+    /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
+    /// counts from then on.
+    pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
+        workers.begin(Phase::Effects);
+        let attribution = &Attribution {
+            campaign: &self.campaign,
+            settings: &self.settings,
+            nominal: &self.nominal.plain,
+            detailed: &self.nominal.detailed,
+            workers,
+            pair_effort: self.pair_effort,
+        };
+        let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
+        if !self.campaign.holds_nominal()
+            && (evidence.leaves_something() || evidence.is_coloured())
+            && let Some(better) = evidence.improved(attribution.dominant_reidentified(&evidence.all))
+        {
+            evidence = self.weigh_in(attribution.workers, better);
+        }
+        if evidence.leaves_something()
+            // Only the best: a free drift path follows in time whatever else changes while it passes.
+            && let Some(freed) = on_a_free_drift_path(&self.campaign, &evidence.best)
+            // What a free drift path is after the last record fitted nobody knows.
+            && self.simulation_error(&freed.fit) < self.simulation_error(&evidence.best.fit)
+            && let Some(better) = evidence.improved(vec![freed])
+        {
+            evidence = self.weigh_in(attribution.workers, better);
+        }
+        evidence.pair = self.pair(attribution, &evidence);
+        if let Some(pair) = &evidence.pair
+            && let Some(better) = evidence.improved(attribution.members_alone(pair))
+        {
+            let found = (pair.explanation.clone(), pair.left);
+            evidence = self.weigh_in(attribution.workers, better);
+            evidence.pair = evidence.tests().map(|tests| Pair::against(&evidence.best, tests, found));
+        }
+        evidence
+    }
+
+    /// Compares the explanations on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
+    fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
+        singles.retain(Explanation::may_be_a_cause);
+        if self.owns_colour && !self.campaign.holds_nominal() {
+            self.put_noise_beside_the_model(workers, &mut singles);
+        }
+        self.hear_the_held_out(workers, &mut singles);
+        self.keep_one_law_of_each(&mut singles);
+        let all = singles.clone();
+        let significant =
+            singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
+        let (mut outdone, mut ranked) = (false, Vec::new());
+        if significant {
+            self.drop_noise_where_the_gap_is_systematic(&mut singles);
+            ranked.clone_from(&singles);
+            let first = ranked.first().map(|s| (s.parts[0].effect, s.evidence()));
+            self.drop_what_held_out_records_refute(workers, &mut singles);
+            outdone = !self.campaign.criterion.simulates()
+                && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
+                    let other = left.parts[0].effect;
+                    let alike = other == effect || effect.twins().contains(&other);
+                    !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
+                });
+        }
+        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
+        let tests = omnibus(&self.campaign, &best.fit);
+        Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
+    }
+
+    /// Noise moves no simulation, nor does a sensor that rounds: where fitting the model anew with them spoils that of a held-out record,
+    /// they are fitted beside the model as it is. Of records that nobody designed no model is right, and robust weights may move it anywhere.
+    fn put_noise_beside_the_model(&self, workers: &impl Workers, singles: &mut [Explanation]) {
+        let is_asked = |s: &Explanation| s.effects().iter().all(|effect| effect.moves_no_simulation());
+        let beside = |s: &Explanation| {
+            let spoils = is_asked(s) && self.harms(s);
+            spoils.then(|| beside_the_model(&self.campaign, &self.nominal.plain, s))
+        };
+        let found = workers.map(singles, beside);
+        singles.iter_mut().zip(found).for_each(|(single, beside)| {
+            if let Some(beside) = beside {
+                *single = beside;
+            }
+        });
+        singles.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+    }
+
+    /// Several laws may bear the name of one effect. One step ahead the likelihood chooses; of simulators, what they lose on held-out
+    /// records counts as well.
+    fn keep_one_law_of_each(&self, singles: &mut Vec<Explanation>) {
+        let simulates = self.campaign.criterion.simulates();
+        let worth = |s: &Explanation| if simulates { s.evidence() } else { s.bic() };
+        let all: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, worth(s))).collect();
+        let is_best = |effect: Effect, worth: f64| all.iter().all(|(e, w)| *e != effect || worth <= *w);
+        singles.retain(|s| is_best(s.parts[0].effect, worth(s)));
+    }
+
+    fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
+        let tests = evidence.tests().filter(|_| self.settings.max_effects > 1)?;
+        attribution.workers.begin(Phase::Pairs);
+        let first = evidence.ranked.first()?;
+        let is_best = first.effects() == evidence.best.effects();
+        let of_first = (!is_best).then(|| omnibus(&self.campaign, &first.fit)).flatten();
+        let firsts = Firsts { ranked: &evidence.ranked, all: &evidence.all };
+        attribution.pair(firsts, of_first.as_ref().unwrap_or(tests))
+    }
+}
+
+impl Evidence {
+    /// The single effects that may be the cause, and behind them what harms held-out records and follows the fit records less well than
+    /// the best: their rivals all the same.
+    pub(super) fn rivals(&self) -> Vec<(Effect, f64)> {
+        let of = |s: &Explanation| (s.parts[0].effect, s.evidence());
+        let singles: Vec<(Effect, f64)> = self.singles.iter().map(of).collect();
+        let least = singles.first().map_or(f64::NEG_INFINITY, |best| best.1);
+        let is_out = |(effect, evidence): &(Effect, f64)| {
+            *evidence > least && singles.iter().all(|(known, _)| known != effect)
+        };
+        singles.iter().copied().chain(self.ranked.iter().map(of).filter(is_out)).collect()
+    }
+
+    /// What the best effect leaves, where there is one.
+    fn tests(&self) -> Option<&Omnibus> {
+        self.tests.as_ref().filter(|_| self.significant)
+    }
+
+    /// Whether the best colours the noise. Where `A` has taken the pole of a lag before the plant the noise of the equation is a
+    /// moving average: `A y = B/P u + ξ ⟺ P·A y = B u + P·ξ`.
+    fn is_coloured(&self) -> bool {
+        self.significant && matches!(self.best.effects()[..], [only] if only.card().colours_noise)
+    }
+
+    fn leaves_something(&self) -> bool {
+        self.tests().is_some_and(|tests| tests.excess() > IMMATERIAL)
+    }
+
+    /// All single effects, where others are better optima of some of them.
+    fn improved(&self, others: Vec<Explanation>) -> Option<Vec<Explanation>> {
+        let mut all = self.all.clone();
+        let mut improved = false;
+        for other in others.into_iter().filter(Explanation::may_be_a_cause) {
+            let effect = other.parts[0].effect;
+            match all.iter().find(|known| known.parts[0].effect == effect) {
+                Some(known) if other.bic() >= known.bic() - SIGNIFICANT => continue,
+                // The held-out records may yet prefer the one that was known.
+                _ => all.push(other),
+            }
+            improved = true;
+        }
+        all.sort_by(|x, y| x.bic().total_cmp(&y.bic()));
+        improved.then_some(all)
+    }
+}

@@ -1,0 +1,97 @@
+//! A model under diagnosis that was given, not identified: a table, or the column of another simulator.
+
+use switchback_model::rig::{Rig, RigRecord};
+
+use crate::error::DiagnoseError;
+use crate::likelihood::engine::Fit;
+use crate::localise::Residuals;
+use crate::records::campaign::{Campaign, Track, dimensionless};
+use crate::settings::Model;
+use crate::simulation::simulate::free_run;
+
+/// A model as it was given: nothing of it is fitted.
+#[derive(Debug)]
+pub(super) struct GivenModel {
+    /// The model itself, where it is known.
+    pub(super) fit: Option<Fit>,
+    /// Simulated outputs, one a judged track.
+    pub(super) runs: Vec<Vec<f64>>,
+    pub(super) residuals: Residuals,
+    /// Whether the residuals are those of the output itself, not of predictions one step ahead.
+    pub(super) is_output: bool,
+}
+
+impl GivenModel {
+    /// The model under diagnosis; none where it is to be identified.
+    pub(super) fn of(
+        model: &Model,
+        rig: &Rig,
+        campaign: &Campaign,
+        judged: &[usize],
+    ) -> Result<Option<Self>, DiagnoseError> {
+        Ok(match model {
+            Model::Identify => None,
+            Model::Given(model) => {
+                let given = crate::nominal::given::scaled(campaign, model)?;
+                let run = |&k: &usize| free_run(campaign, &given, k, &campaign.tracks[k]);
+                Some(Self {
+                    runs: judged.iter().map(run).collect(),
+                    residuals: Residuals::of(campaign, &given),
+                    is_output: false,
+                    fit: Some(given),
+                })
+            }
+            Model::Predicted => {
+                let errors = |(track, predicted): (&Track, Option<Vec<f64>>)| {
+                    let errors = |run: Vec<f64>| {
+                        track.y.iter().zip(run).skip(track.from).map(|(y, x)| y - x).collect()
+                    };
+                    predicted.map(errors).unwrap_or_default()
+                };
+                let known = predicted(rig, campaign);
+                let series = campaign.tracks.iter().zip(known).map(errors).collect();
+                let residuals = Residuals { series, simulated: true };
+                Some(Self {
+                    fit: None,
+                    runs: predictions(rig, campaign, judged)?,
+                    residuals,
+                    is_output: true,
+                })
+            }
+        })
+    }
+}
+
+/// The `y_sim` of every record that has one for each of its samples, dimensionless.
+pub(super) fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>> {
+    let scaled = |y: &Vec<f64>| dimensionless(y, campaign.y_mean, campaign.y_scale);
+    let whole = |r: &RigRecord| {
+        r.predicted
+            .as_ref()
+            .filter(|y| y.len() == r.record.len() && y.iter().all(|y| y.is_finite()))
+            .map(scaled)
+    };
+    rig.records.iter().map(whole).collect()
+}
+
+/// The `y_sim` of the judged records, dimensionless.
+fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
+    judged
+        .iter()
+        .map(|&k| {
+            let r = &rig.records[k];
+            let found = r.predicted.as_deref().unwrap_or_default();
+            if found.len() != r.record.len() {
+                return Err(DiagnoseError::Prediction {
+                    record: r.name.clone(),
+                    found: found.len(),
+                    expected: r.record.len(),
+                });
+            }
+            if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
+                return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
+            }
+            Ok(dimensionless(found, campaign.y_mean, campaign.y_scale))
+        })
+        .collect()
+}

@@ -1,0 +1,131 @@
+//! The record that would separate the rivals: T-optimality among a handful of inputs.
+//!
+//! For every input the rivals' free-run predictions are compared; the input whose least distance between any two rivals is
+//! largest is proposed (Atkinson and Fedorov, "The design of experiments for discriminating between two rival models",
+//! Biometrika 62, 1975, pp. 57–70).
+
+use std::f64::consts::PI;
+
+use switchback_model::rig::{Role, Usage};
+
+use crate::attribution::explain::Explanation;
+use crate::diagnosis::{ExperimentKind, NextExperiment, Status, Verdict};
+use crate::records::campaign::{Campaign, Track, WARM_UP};
+use crate::records::motion::{Play, motions};
+use crate::simulation::simulate::free_run;
+
+/// Samples of a proposed record.
+const LENGTH: usize = 1500;
+
+/// The best next record where rivals are left; `noise` is the variance of the noise in the output, dimensionless.
+pub(crate) fn propose(
+    campaign: &Campaign,
+    verdict: &Verdict,
+    singles: &[Explanation],
+    noise: f64,
+) -> Option<NextExperiment> {
+    if !matches!(verdict.status, Status::Class | Status::Ambiguous) || verdict.class.len() < 2 {
+        return None;
+    }
+    let rivals: Vec<&Explanation> =
+        verdict.class.iter().filter_map(|e| singles.iter().find(|s| s.parts[0].effect == *e)).collect();
+    let scale = noise.max(1e-300).sqrt();
+    let mut best: Option<NextExperiment> = None;
+    for (kind, v) in inputs(campaign) {
+        let track = Track {
+            name: kind.name().into(),
+            role: Role::Free,
+            usage: Usage::Holdout,
+            y: vec![0.0; v.len()].into(),
+            clock: campaign.total,
+            before: campaign.tracks.len(),
+            travelled: campaign.travel,
+            period: None,
+            from: WARM_UP.min(v.len()),
+            moves: motions(&v, Play::default(), campaign.rule).into(),
+            standing: false,
+            v: v.into(),
+        };
+        let runs: Vec<Vec<f64>> =
+            rivals.iter().map(|r| free_run(campaign, &r.fit, campaign.tracks.len(), &track)).collect();
+        let mut least = f64::INFINITY;
+        for i in 0..runs.len() {
+            for j in 0..i {
+                let square: f64 = runs[i].iter().zip(&runs[j]).map(|(x, y)| (x - y).powi(2)).sum();
+                least = least.min((square / track.v.len() as f64).sqrt() / scale);
+            }
+        }
+        if best.as_ref().is_none_or(|b| least > b.distance) {
+            best = Some(NextExperiment {
+                kind,
+                v: track.v.iter().map(|v| campaign.v_low + campaign.v_width * v).collect(),
+                separates: verdict.class.clone(),
+                distance: least,
+            });
+        }
+    }
+    best
+}
+
+/// The inputs to choose from, dimensionless.
+fn inputs(campaign: &Campaign) -> Vec<(ExperimentKind, Vec<f64>)> {
+    let n = LENGTH;
+    // A triangle of period `p` between `low` and `high`.
+    let triangle = |t: usize, p: f64| {
+        let phase = (t as f64 / p).fract();
+        if phase < 0.5 { 2.0 * phase } else { 2.0 - 2.0 * phase }
+    };
+    let pseudo_random = |k: usize| {
+        // A linear congruential step is random enough for levels, and the same on every machine.
+        let x = (k as u64).wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((x ^ (x >> 31)).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut out = Vec::new();
+    out.push((
+        ExperimentKind::NestedReversals,
+        (0..n).map(|t| 0.5 + (1.0 - (t % 500) as f64 / 520.0) * (triangle(t, 50.0) - 0.5)).collect(),
+    ));
+    out.push((
+        ExperimentKind::RandomLevels,
+        (0..n)
+            .map(|t| {
+                let (k, part) = (t / 8, (t % 8) as f64 / 8.0);
+                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * part.min(0.75) / 0.75
+            })
+            .collect(),
+    ));
+    out.push((
+        ExperimentKind::Sweep,
+        (0..n)
+            .map(|t| {
+                let x = t as f64 / n as f64;
+                0.5 + 0.5 * (2.0 * PI * (3.0 * x + 0.5 * 0.12 * n as f64 * x * x)).sin()
+            })
+            .collect(),
+    ));
+    out.push((
+        ExperimentKind::SeveralRates,
+        (0..n).map(|t| triangle(t % (n / 3), [200.0, 50.0, 12.5][(3 * t / n).min(2)])).collect(),
+    ));
+    out.push((
+        ExperimentKind::Prbs,
+        (0..n).map(|t| f64::from(u8::from(pseudo_random(t / 4) > 0.5))).collect(),
+    ));
+    out.push((
+        ExperimentKind::Rest,
+        (0..n)
+            .map(|t| {
+                let (k, part) = (t / 150, (t % 150) as f64 / 10.0);
+                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * part.min(1.0)
+            })
+            .collect(),
+    ));
+    out.push((
+        ExperimentKind::AmplitudeSeries,
+        (0..n).map(|t| 0.5 + (0.1 + 0.9 * (t / 100) as f64 / 14.0) * (triangle(t, 50.0) - 0.5)).collect(),
+    ));
+    if let Some(first) = campaign.fit().next() {
+        out.push((ExperimentKind::RepeatOfFirst, first.v.iter().copied().take(2 * n).collect()));
+    }
+    out
+}

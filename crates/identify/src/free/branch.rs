@@ -1,0 +1,194 @@
+//! Which border the working point is on, read off the input alone.
+
+use switchback_model::hysteresis::Branch;
+
+/// Where between two samples a reversal takes effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Timing {
+    /// As in (2.3): the turning sample is on the old border, the next one on the new.
+    AtSamples,
+    /// At the vertex of the parabola through the turning sample and its neighbours or, where the rule has a band, in the middle of the
+    /// time spent within the band (on a noisy input the extremum itself is a poor mark). The sample there is shared between the
+    /// borders, by the part of its interval `[t−½, t+½]` that follows: what a rig that knows no samples does.
+    BetweenSamples,
+    /// At the sample that confirms it, the first one that has moved back by more than the threshold: all that a simulation in real
+    /// time can know. Until then the old border stays in force. Without a threshold this is [`Self::AtSamples`].
+    AtConfirmation,
+}
+
+/// What counts as a reversal, and when it takes effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReversalRule {
+    /// A reversal counts once `v` has moved back by more than this, input units.
+    pub threshold: f64,
+    /// The turning sample is the last one this close to the extremum, input units; at most half the threshold.
+    pub band: f64,
+    /// When it takes effect.
+    pub timing: Timing,
+}
+
+impl ReversalRule {
+    /// Exactly (2.3): every move counts, at its sample.
+    pub const EXACT: Self = Self { threshold: 0.0, band: 0.0, timing: Timing::AtSamples };
+
+    /// Samples of `v` after `t` that decide the branch of `t`: none, one, or as many as a move beyond the threshold takes.
+    pub fn looks_ahead(&self) -> LookAhead {
+        match self.timing {
+            Timing::AtConfirmation => LookAhead::Never,
+            _ if self.threshold > 0.0 => LookAhead::UntilConfirmed,
+            Timing::AtSamples => LookAhead::Never,
+            Timing::BetweenSamples => LookAhead::OneSample,
+        }
+    }
+}
+
+/// How much of the future a reversal rule needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LookAhead {
+    /// The branch is known as soon as its sample is.
+    Never,
+    /// The sample after a reversal tells how the turning sample is shared.
+    OneSample,
+    /// A reversal is dated back once `v` has moved by the threshold, which takes as long as it takes.
+    UntilConfirmed,
+}
+
+/// The branch of every sample of an input.
+///
+/// A reversal counts only once `v` has moved back from its extremum by more than the threshold (a turning-point, or
+/// zigzag, rule), and then takes effect *retroactively*: every sample after the turning sample is on the new
+/// branch. The turning sample is the last one within the band of the extremum, so that the whole of a noisy rest at an
+/// extremum stays on the border it was reached on, as (2.3) has it. The rule looks ahead, which is no
+/// obstacle: the input of a record, or of a simulation, is known as a whole. In real time it is not, and
+/// [`Timing::AtConfirmation`] is the rule that remains: it leaves the samples between the turn and its confirmation on the old border.
+///
+/// With [`ReversalRule::EXACT`] this is (2.3): rising, falling, and holding at a rest.
+///
+/// ```
+/// use switchback_identify::free::{Branches, ReversalRule};
+/// use switchback_model::hysteresis::Branch::{Ascending, Descending};
+/// // The dip of 0.1 is sensor noise for a threshold of 0.3; the fall from 2 to 1 is a reversal.
+/// let rule = ReversalRule { threshold: 0.3, ..ReversalRule::EXACT };
+/// let branches = Branches::of(&[0.0, 1.0, 0.9, 2.0, 1.0], rule).unwrap();
+/// assert_eq!(branches.labels(), [Ascending, Ascending, Ascending, Ascending, Descending]);
+/// assert_eq!(branches.first_known(), 1);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branches {
+    labels: Vec<Branch>,
+    /// Share of each sample that follows its reversal; zero except at turning samples.
+    turned: Vec<f64>,
+    first_known: usize,
+    reversals: usize,
+}
+
+/// An extremum in the making: its value, and the last sample still counted as part of it.
+#[derive(Debug, Clone, Copy)]
+struct Extremum {
+    value: f64,
+    turn: usize,
+}
+
+impl Extremum {
+    /// Takes in a sample; `sign` is +1 for a maximum and −1 for a minimum.
+    fn push(&mut self, sign: f64, v: f64, t: usize, band: f64) {
+        if sign * (v - self.value) >= -band {
+            self.turn = t;
+        }
+        if sign * (v - self.value) > 0.0 {
+            self.value = v;
+        }
+    }
+}
+
+impl Branches {
+    /// Reads the branches off an input; `None` if `v` never moves by more than the threshold.
+    ///
+    pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
+        let ReversalRule { threshold, band, timing } = rule;
+        let (mut high, mut low) =
+            (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
+        let mut direction = None;
+        let mut labels = Vec::with_capacity(v.len());
+        let (mut first_known, mut reversals, mut shares) = (0, 0, Vec::new());
+        for (t, &now) in v.iter().enumerate() {
+            high.push(1.0, now, t, band);
+            low.push(-1.0, now, t, band);
+            let turned = match direction {
+                None | Some(Branch::Ascending) if high.value - now > threshold => {
+                    Some((Branch::Descending, high.turn))
+                }
+                None | Some(Branch::Descending) if now - low.value > threshold => {
+                    Some((Branch::Ascending, low.turn))
+                }
+                _ => None,
+            };
+            labels.push(direction.unwrap_or(Branch::Ascending));
+            if let Some((branch, last)) = turned {
+                let mut turn = last;
+                if timing == Timing::BetweenSamples && direction.is_some() {
+                    let instant = if band > 0.0 { middle_of_rest(v, last, rule) } else { vertex(v, last) };
+                    turn = instant.round() as usize;
+                    shares.push((turn, 0.5 - (instant - turn as f64)));
+                }
+                if timing == Timing::AtConfirmation {
+                    turn = t - 1;
+                }
+                let from = if direction.is_some() { turn + 1 } else { 0 };
+                labels[from..].fill(branch);
+                match direction {
+                    Some(_) => reversals += 1,
+                    None => first_known = turn + 1,
+                }
+                direction = Some(branch);
+                high = Extremum { value: now, turn: t };
+                low = high;
+            }
+        }
+        direction?;
+        let mut turned = vec![0.0; v.len()];
+        // A share only makes sense where the label really changes; on a noisy rest two turns may fall together.
+        for (t, share) in shares {
+            if t + 1 < v.len() && labels[t] != labels[t + 1] {
+                turned[t] = share;
+            }
+        }
+        Some(Self { labels, turned, first_known, reversals })
+    }
+
+    /// One branch a sample. Samples before the first move get the branch of that move.
+    pub fn labels(&self) -> &[Branch] {
+        &self.labels
+    }
+
+    /// First sample whose branch the input tells; before it `u` depends on what the rig did earlier.
+    pub fn first_known(&self) -> usize {
+        self.first_known
+    }
+
+    /// Share of a sample that belongs to the other branch already, if any.
+    pub(super) fn turned(&self, t: usize) -> Option<f64> {
+        Some(self.turned[t]).filter(|&share| share > 0.0)
+    }
+
+    /// Number of reversals after the first move.
+    pub fn reversals(&self) -> usize {
+        self.reversals
+    }
+}
+
+/// Instant at which the parabola through the turning sample and its neighbours turns.
+fn vertex(v: &[f64], turn: usize) -> f64 {
+    let [before, at, after] = [v[turn - 1], v[turn], v[turn + 1]];
+    let offset = 0.5 * (before - after) / (before - 2.0 * at + after);
+    // Three samples in line have no vertex: the reversal then takes effect as at samples.
+    turn as f64 + if offset.is_finite() { offset.clamp(-0.5, 0.5) } else { 0.5 }
+}
+
+/// Middle of the time spent within the band of the extremum that ends at sample `last`.
+fn middle_of_rest(v: &[f64], last: usize, rule: ReversalRule) -> f64 {
+    let near = |t: &usize, distance: f64| (v[*t] - v[last]).abs() <= distance;
+    let stay = (0..=last).rev().take_while(|t| near(t, rule.threshold));
+    let first = stay.filter(|t| near(t, rule.band)).last().unwrap_or(last);
+    0.5 * (first + last) as f64
+}

@@ -1,0 +1,73 @@
+//! The hats of every sample of an input.
+
+use super::basis::{Basis, Cell, Place};
+use super::branch::Branches;
+use switchback_model::hysteresis::Branch;
+
+/// One [`Cell`] a sample, sixteen bytes each: the few that lie on both branches have the second one beside them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cells {
+    samples: Vec<Sample>,
+    /// Place on the branch that a reversal leads to, and its share of the sample.
+    next: Vec<(Place, f64)>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Sample {
+    weight: f64,
+    knot: u32,
+    /// Number in the list of the second ones, from 1; 0 where there is none.
+    next: u32,
+}
+
+impl Cells {
+    /// The cells of an input whose branches are known.
+    pub(super) fn of(basis: &Basis, v: &[f64], branches: &Branches) -> Self {
+        let labelled = v.iter().zip(branches.labels()).enumerate();
+        let cell = |(t, (&v, &branch))| {
+            let turned = branches.turned(t).filter(|_| basis.is_switched());
+            let next = turned.map(|share| (basis.place(other(branch), v), share));
+            Cell { main: basis.place(branch, v), next }
+        };
+        labelled.map(cell).collect()
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// The cell of a sample.
+    #[inline]
+    pub(super) fn at(&self, t: usize) -> Cell {
+        let Sample { weight, knot, next } = self.samples[t];
+        let main = Place { knot: knot as usize, weight };
+        Cell { main, next: next.checked_sub(1).map(|k| self.next[k as usize]) }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = Cell> + '_ {
+        (0..self.len()).map(|t| self.at(t))
+    }
+}
+
+impl FromIterator<Cell> for Cells {
+    fn from_iter<I: IntoIterator<Item = Cell>>(cells: I) -> Self {
+        let cells = cells.into_iter();
+        let mut all = Self { samples: Vec::with_capacity(cells.size_hint().0), next: Vec::new() };
+        for Cell { main, next } in cells {
+            all.next.extend(next);
+            let next = if next.is_some() { all.next.len() as u32 } else { 0 };
+            all.samples.push(Sample { weight: main.weight, knot: main.knot as u32, next });
+        }
+        all
+    }
+}
+
+/// The branch that a reversal leads to.
+fn other(branch: Branch) -> Branch {
+    match branch {
+        Branch::Ascending => Branch::Descending,
+        Branch::Descending => Branch::Ascending,
+    }
+}
+
+const _: () = assert!(size_of::<Sample>() == 16);

@@ -1,0 +1,26 @@
+//! The methods of this module for eight replicates abreast, for Monte-Carlo studies.
+//!
+//! Everything that does not change from replicate to replicate is worked out once ([`LaneMethod`], [`LaneControl`]); the rest is the
+//! algebra of [`super::PulseMethod`] on [`Lane`]s, without allocation. That one by one is the oracle.
+
+mod arrow;
+mod columns;
+mod constrained;
+mod control;
+mod factor;
+mod folded;
+mod levels;
+mod method;
+mod profile;
+mod profile_control;
+mod sized;
+mod statistics;
+mod whole;
+
+pub(crate) use control::FoldControl;
+pub use control::{LaneControl, LaneTerms};
+pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
+pub use sized::LARGEST_ORDER;
+pub use statistics::LaneStatistics;
+
+pub use switchback_noise::lanes::{LANES, Lane};

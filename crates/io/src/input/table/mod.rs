@@ -1,0 +1,292 @@
+//! A file of measurements as named columns of numbers, whatever its dialect.
+//!
+//! Recognised without being told: what separates cells, decimal commas, the header and a row of units, what stands above the table,
+//! comments (`#`, `%`, `//`), missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be told.
+
+mod body;
+mod cell;
+mod dialect;
+mod error;
+mod head;
+mod lines;
+mod memory;
+mod places;
+pub mod unit;
+
+pub use error::{DataError, DataProblem, Place, Step};
+pub use memory::Cells;
+pub use places::Places;
+
+use super::mat;
+use super::text_file::{FileError, read_bytes};
+use super::text_pieces::{PieceError, TextPieces};
+use body::Rows;
+use dialect::Dialect;
+use head::Head;
+use lines::Delimiter;
+use std::path::Path;
+
+/// A file's columns, all of the same length.
+#[derive(Debug, Clone)]
+pub struct Table {
+    /// The file, as messages call it.
+    pub path: String,
+    /// In the order of the file.
+    pub columns: Vec<Column>,
+    /// Where each row stands.
+    pub places: Places,
+    /// Whether the names of the columns are the file's own.
+    pub has_header: bool,
+    /// What was recognised and is not how such files usually look.
+    pub notes: Vec<String>,
+    /// Rows that could not be read.
+    pub faults: Vec<DataError>,
+    /// The last line, where it ends in the middle of a row; such a row is left out.
+    pub cut_off: Option<DataError>,
+}
+
+/// One column.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// Its name without the unit; `column 2` where the file has no header.
+    pub name: String,
+    /// Its unit; empty for a pure number.
+    pub unit: Option<String>,
+    /// Form of `model`.
+    pub kind: Kind,
+    /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
+    pub values: Vec<f64>,
+    /// The cells as they stand in the file, of stamps only.
+    pub stamps: Vec<String>,
+    /// The first cells that are neither a value nor missing.
+    pub faults: Vec<Fault>,
+    /// How many such cells there are.
+    pub fault_count: usize,
+}
+
+/// What the cells of a column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A time stamp.
+    Stamp,
+    /// Text.
+    Text,
+}
+
+/// A cell that cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    pub row: usize,
+    pub cell: String,
+}
+
+/// Why a file gives no table at all.
+#[derive(Debug)]
+pub enum TableError {
+    /// The file cannot be read.
+    File(FileError),
+    /// The file holds no table of numbers.
+    Data(DataError),
+}
+
+/// Why a text gives no table.
+enum Unread {
+    Told(TableError),
+    /// It is not UTF-8, as was guessed.
+    NotUtf8,
+}
+
+impl Unread {
+    /// Read as Windows-1252 every text is one.
+    fn told(self) -> TableError {
+        match self {
+            Self::Told(error) => error,
+            Self::NotUtf8 => unreachable!("every byte is a letter"),
+        }
+    }
+}
+
+impl From<DataError> for Unread {
+    fn from(error: DataError) -> Self {
+        Self::Told(TableError::Data(error))
+    }
+}
+
+impl From<PieceError> for Unread {
+    fn from(error: PieceError) -> Self {
+        match error {
+            PieceError::File(error) => Self::Told(TableError::File(error)),
+            PieceError::NotUtf8 => Self::NotUtf8,
+        }
+    }
+}
+
+/// Bytes of text looked at for its dialect at first: more than most preambles and headers take.
+const ENOUGH: usize = 1 << 18;
+
+impl Column {
+    /// `force [N]`, or the name alone.
+    pub fn label(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} [{unit}]", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
+    pub fn is_number(&self) -> bool {
+        let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
+        self.kind == Kind::Number && is_meant()
+    }
+
+    /// A cell as it stands in the file, a number up to zeros that say nothing.
+    pub fn written(&self, row: usize) -> String {
+        self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
+    }
+}
+
+impl Table {
+    /// Reads a file of measurements of so many columns at least, one or two: text, or with the feature `matlab` a `.mat` file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
+    pub fn read(path: &Path, least: usize) -> Result<Self, TableError> {
+        let pieces = TextPieces::open(path).map_err(TableError::File)?;
+        if mat::is_matlab(path, pieces.first_bytes()) {
+            return mat::read(path, read_bytes(path).map_err(TableError::File)?);
+        }
+        match Self::of_pieces(path, pieces, least) {
+            Err(Unread::NotUtf8) => {
+                let again = TextPieces::open(path).map_err(TableError::File)?.in_windows_1252();
+                Self::of_pieces(path, again, least).map_err(Unread::told)
+            }
+            table => table.map_err(Unread::told),
+        }
+    }
+
+    /// The table in a text.
+    pub fn parse(text: &str, least: usize) -> Result<Self, TableError> {
+        let path = Path::new("");
+        Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::told)
+    }
+
+    /// The first lines tell the dialect; then rows are read line by line, and no more of the text is held than a piece.
+    fn of_pieces(path: &Path, mut pieces: TextPieces<'_>, least: usize) -> Result<Self, Unread> {
+        let path = path.display().to_string();
+        let fail = |place, problem| DataError { path: path.clone(), place, problem };
+        let mut text = String::new();
+        let mut wanted = ENOUGH;
+        while !pieces.has_ended() && !Dialect::is_seen_in(&text) {
+            while !pieces.has_ended() && text.len() < wanted {
+                pieces.append_to(&mut text)?;
+            }
+            wanted *= 2;
+        }
+        if text.trim().is_empty() {
+            return Err(fail(None, DataProblem::Empty).into());
+        }
+        let end = lines::end(&text);
+        let whole = if pieces.has_ended() { text.len() } else { text.rfind(end).unwrap_or(text.len()) };
+        let first = &text[..whole];
+        let single = || if least <= 1 { Dialect::single(first) } else { None };
+        let dialect = Dialect::of(first).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let head = Head::find(first, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
+        let mut table = Self {
+            path: path.clone(),
+            columns: columns(&head, dialect.width),
+            places: Places::default(),
+            has_header: !head.names.is_empty(),
+            notes: notes(&head, &dialect),
+            faults: Vec::new(),
+            cut_off: None,
+        };
+        table.notes.splice(..0, pieces.encoding().map(|encoding| format!("text in {encoding}")));
+        let mut rows = Rows::of(&mut table, dialect, head.first_row);
+        let mut line = 0;
+        loop {
+            let mut rest = text.as_str();
+            while let Some((whole, after)) = rest.split_once(end) {
+                line += 1;
+                rows.push(line, lines::without_return(whole));
+                rest = after;
+            }
+            if pieces.has_ended() {
+                rows.push(line + 1, lines::without_return(rest));
+                break;
+            }
+            let taken = text.len() - rest.len();
+            text.drain(..taken);
+            pieces.append_to(&mut text)?;
+        }
+        rows.finish();
+        // A delimiter at the end of every row makes no column.
+        let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
+        if table.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
+            let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
+            return Err(fail(Some(Place::Line(head.line)), problem).into());
+        }
+        table.columns.retain(|column| !is_blank(column));
+        Ok(table)
+    }
+
+    /// All columns for a message: number, name, unit.
+    pub fn listing(&self) -> String {
+        let listed = self.columns.iter().enumerate().map(|(k, column)| {
+            let kind = match column.kind {
+                Kind::Number => "",
+                Kind::Stamp => ", times",
+                Kind::Text => ", text",
+            };
+            if self.has_header {
+                format!("{} `{}`{kind}", k + 1, column.label())
+            } else {
+                (k + 1).to_string()
+            }
+        });
+        listed.collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn columns(head: &Head, width: usize) -> Vec<Column> {
+    let named = (0..width).map(|k| match head.names.get(k) {
+        Some((name, unit)) => (name.clone(), unit.clone()),
+        None => (format!("column {}", k + 1), None),
+    });
+    named.map(|(name, unit)| empty_column(name, unit)).collect()
+}
+
+fn empty_column(name: String, unit: Option<String>) -> Column {
+    Column {
+        name,
+        unit,
+        kind: Kind::Number,
+        values: Vec::new(),
+        stamps: Vec::new(),
+        faults: Vec::new(),
+        fault_count: 0,
+    }
+}
+
+fn notes(head: &Head, dialect: &Dialect) -> Vec<String> {
+    let mut notes = Vec::new();
+    match head.skipped {
+        0 => {}
+        1 => notes.push("line 1 above the table left out".to_owned()),
+        lines => notes.push(format!("lines 1 to {lines} above the table left out")),
+    }
+    if dialect.delimiter != Delimiter::Sign(',') {
+        notes.push(format!("{} between columns", dialect.delimiter.name()));
+    }
+    if dialect.decimal == cell::Decimal::Comma {
+        notes.push("decimal commas".to_owned());
+    }
+    if head.has_unit_row {
+        notes.push("a row of units".to_owned());
+    }
+    if head.names.is_empty() {
+        notes.push("no header".to_owned());
+    }
+    notes
+}

@@ -1,0 +1,16 @@
+//! Files: tables of measurements, rigs, models, results, and folders that are replaced whole.
+
+pub mod diagnosis;
+pub mod export;
+pub mod fmu;
+pub mod identification;
+pub mod input;
+pub mod model;
+pub mod output;
+pub mod platform;
+pub mod progress;
+pub mod provenance;
+pub mod rig;
+
+/// The page of a folder of results.
+pub const INDEX: &str = "index.html";

@@ -1,0 +1,56 @@
+//! Rigs: a campaign's files of measurements, described by a `rig.toml` or by the command line, read and written.
+//!
+//! ```toml
+//! name = "seal"
+//! sample_time = 0.01           # s; may be left out where a time column tells it
+//! order = 2                    # optional, else chosen from the data
+//! interval = [-1.0, 1.0]       # optional, h_m and h_M, else the range of the records
+//! input = "stroke [mm]"        # optional label and unit, else those of the column
+//! output = "force [N]"
+//! columns = { time = "time", input = "stroke", output = "force" }   # optional, else guessed from the header
+//! resample = false             # optional: interpolate uneven rows linearly to even ones
+//!
+//! [[record]]
+//! file = "first.csv"           # beside rig.toml
+//! role = "free"                # step_high | step_low | descendant | ascendant | free (the default)
+//! use = "fit"                  # fit | holdout
+//! holdout = 0.3                # optional: this share of it, at its end, is held out
+//! columns = { input = "pos" }  # optional: names in this file that are not those above
+//! ```
+
+mod assemble;
+mod check;
+mod clock;
+mod cut;
+mod doubts;
+mod faults;
+mod frame;
+mod guess;
+mod manifest;
+mod measured;
+mod plan;
+mod problem;
+mod read;
+mod resample;
+mod sampling;
+mod select;
+mod series;
+mod spikes;
+mod standing;
+mod told;
+mod voice;
+mod wire;
+mod write;
+
+pub use crate::input::Cells;
+pub use assemble::Loaded;
+pub use frame::{Frame, load_frames};
+pub use manifest::manifest;
+pub use plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling};
+pub use problem::{RigError, RigProblem};
+pub use read::{load, load_plan, read};
+pub use series::{InputSeries, read_input};
+pub use told::Told;
+pub use voice::Voice;
+pub use voice::in_shell;
+pub use write::{RIG_FILE, artefacts};

@@ -1,0 +1,34 @@
+//! The field examination: known faults in measured records and in made ones as the field has them.
+//!
+//! ```text
+//! scenario → bases → design → seal (plant, hash the keys) → judge (diagnose twice, open, compare) → score → report
+//! ```
+//!
+//! A *base* is a measured rig from a folder, or a made one. Every rig of the design is a base with a fault, a foreign fault, resampled
+//! residuals, or nothing; it is diagnosed twice, once with the base's own model given ("what has changed?") and once without. What a measured
+//! base shows by itself is unlabelled: an answer is judged by what it names beyond the base's own verdict, so that silence is silence and
+//! nothing that the machine has anyway counts as an error.
+
+mod bases;
+mod case;
+mod design;
+mod examination;
+mod fault;
+mod made;
+mod report;
+mod resample;
+mod scenario;
+mod score;
+mod seal;
+
+pub use bases::{Base, BaseError, Bases};
+pub use case::{Answered, Case, Fault};
+pub use design::law;
+pub use design::{Kind, Ticket, design};
+pub use examination::{Examiner, Field};
+pub use report::json;
+pub use resample::{resampled, runs_of};
+pub use scenario::{Expect, Study, is_field, read};
+pub use score::WIDEST_CLASS;
+pub use score::{AnswerRow, Asked, BaseVerdicts, Claims, Rating, Scores, Stratum, TARGETS, score};
+pub use seal::{How, Key, PutIn, Sealed};

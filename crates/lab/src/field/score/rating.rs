@@ -1,0 +1,154 @@
+//! What an answer is worth.
+
+use crate::blind::same_class;
+use crate::field::case::{Answered, Case};
+use crate::field::design::Kind;
+use crate::field::scenario::LARGE;
+use std::collections::HashMap;
+
+/// What an answer names beyond what the base shows by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Rating {
+    /// The fault, and nothing else.
+    Exact,
+    /// A class of at most three with the fault, or only twins of it.
+    Class,
+    /// Nothing.
+    Silent,
+    /// Anything else.
+    Wrong,
+}
+
+/// An answer of more effects than this is no class.
+pub const WIDEST_CLASS: usize = 3;
+
+/// What measured bases show by themselves, with their model given and without.
+#[derive(Debug)]
+pub struct BaseVerdicts<'c>(HashMap<(&'c str, bool), &'c [&'static str]>);
+
+impl<'c> BaseVerdicts<'c> {
+    /// Those among some cases.
+    pub fn of(cases: &'c [Case]) -> Self {
+        let bare = cases.iter().filter(|c| c.kind == Kind::Bare && c.is_measured);
+        let verdicts = bare.flat_map(|c| {
+            c.answers.iter().map(|answer| ((c.base.as_str(), answer.with_model), answer.reply.said()))
+        });
+        Self(verdicts.collect())
+    }
+
+    /// Every answer with what its base shows by itself.
+    pub fn asked(&self, cases: &'c [Case]) -> Vec<Asked<'c>> {
+        let one = |case: &'c Case| {
+            let own = |with_model: bool| match case.is_measured {
+                true => self.0.get(&(case.base.as_str(), with_model)).copied(),
+                false => Some(case.own.as_slice()),
+            };
+            case.answers.iter().map(move |answer| Asked { case, answer, own: own(answer.with_model) })
+        };
+        cases.iter().flat_map(one).collect()
+    }
+}
+
+/// One answer.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked<'c> {
+    /// The rig.
+    pub case: &'c Case,
+    /// What was said of it.
+    pub answer: &'c Answered,
+    /// What the base shows by itself; none where that is not known.
+    own: Option<&'c [&'static str]>,
+}
+
+impl<'c> Asked<'c> {
+    /// What is named beyond what the base shows by itself.
+    pub fn news(&self) -> Option<Vec<&'static str>> {
+        let own = self.own?;
+        Some(self.answer.reply.said().iter().copied().filter(|effect| !own.contains(effect)).collect())
+    }
+
+    /// The effect put in, where the library has it.
+    pub fn truth(&self) -> Option<&'static str> {
+        let fault = self.case.fault.as_ref().filter(|_| self.case.kind == Kind::Planted)?;
+        Some(fault.effect)
+    }
+
+    /// What the answer is worth. None where nobody can tell: a measured base as it is, one whose own verdict is not known, a fault that the
+    /// base shows by itself, and one too small to be asked for.
+    pub fn rating(&self) -> Option<Rating> {
+        let news = self.news()?;
+        let is_told_by_base = self.truth().is_some_and(|truth| self.own.unwrap_or_default().contains(&truth));
+        let is_unobservable = self.case.fault.as_ref().is_some_and(|fault| !fault.is_observable());
+        if is_told_by_base || is_unobservable || (self.case.kind == Kind::Bare && self.case.is_measured) {
+            return None;
+        }
+        if news.is_empty() {
+            return Some(Rating::Silent);
+        }
+        let Some(truth) = self.truth() else { return Some(Rating::Wrong) };
+        let is_class = self.answer.reply.said().len() <= WIDEST_CLASS;
+        let are_twins = news.iter().all(|effect| same_class(effect, truth));
+        Some(match self.answer.reply.status {
+            "named" if news == [truth] => Rating::Exact,
+            "named" if are_twins => Rating::Class,
+            "class" | "ambiguous" if is_class && (are_twins || news.contains(&truth)) => Rating::Class,
+            _ => Rating::Wrong,
+        })
+    }
+
+    /// The probability claimed and whether what it claims holds; none where nobody can tell, as where only what the base shows by itself
+    /// is named.
+    pub fn claim(&self) -> Option<(f64, bool)> {
+        let rating = self.rating()?;
+        let only_own = rating == Rating::Silent && !self.answer.reply.said().is_empty();
+        if only_own || self.answer.reply.status == "failed" {
+            return None;
+        }
+        let holds = match self.answer.reply.status {
+            "none" | "refit" => self.case.fault.is_none(),
+            "unexplained" => self.case.kind == Kind::Outside,
+            "named" => rating == Rating::Exact,
+            "class" | "ambiguous" => {
+                self.truth().is_some_and(|truth| self.answer.reply.said().contains(&truth))
+            }
+            _ => false,
+        };
+        Some((self.answer.reply.probability, holds))
+    }
+
+    /// Whether the one effect named makes a held-out record worse beyond its error; none where not one is named.
+    pub fn harms(&self) -> Option<bool> {
+        let [named] = self.answer.reply.effects[..] else { return None };
+        let effects = &self.answer.evidence.compared.first()?.effects;
+        effects.iter().find(|known| known.effect.name() == named).map(|known| known.harms)
+    }
+
+    /// Whether a fault of the library is large enough that it must be named.
+    pub fn is_large(&self) -> bool {
+        self.truth().is_some() && self.case.fault.as_ref().is_some_and(|fault| fault.reaches(LARGE))
+    }
+
+    /// The effect of a large fault.
+    pub fn large_effect(&self) -> Option<String> {
+        self.truth().filter(|_| self.is_large()).map(str::to_owned)
+    }
+
+    /// The size reached by a fault of the library, in classes.
+    pub fn size_class(&self) -> Option<String> {
+        let fault = self.case.fault.as_ref().filter(|_| self.truth().is_some())?;
+        let classes = [(4.0, "4 or more"), (LARGE, "2 to 4"), (1.0, "1 to 2")];
+        let class = classes.into_iter().find(|(size, _)| fault.reaches(*size)).map(|(_, class)| class);
+        let below = if fault.is_observable() { "½ to 1" } else { "below ½: not observable" };
+        Some(class.unwrap_or(below).to_owned())
+    }
+
+    /// Measured or made, and how the fault came in.
+    pub fn stratum(&self) -> String {
+        let base = if self.case.is_measured { "measured" } else { "made" };
+        match (&self.case.fault, self.case.kind) {
+            (Some(fault), Kind::Outside) => format!("{base}, foreign, {}", fault.how.name()),
+            (Some(fault), _) => format!("{base}, {}", fault.how.name()),
+            (None, _) => format!("{base}, no fault"),
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Rigs as the field has them: machines that nobody simplified, records that nobody designed.
+//!
+//! What a machine of the field has beside a nominal system are laws of this crate at drawn magnitudes, its [base](properties); an effect is
+//! put in on top, and a property of the same name is then left out. Its size is what survives identification anew, as that of a fault
+//! planted into measured records ([`PlantedFault::size`](crate::generate::PlantedFault::size)).
+
+mod colour;
+mod drive;
+mod machine;
+mod properties;
+mod reading;
+mod records;
+mod sizing;
+
+pub use sizing::{size_of_all, sized};
+
+use crate::generate::plant::Family;
+use crate::generate::setting::Setting;
+use crate::generate::stream::{Purpose, stream};
+use crate::generate::workshop::{Description, Workshop};
+use rand::RngExt;
+
+/// Samples to the slowest time constant, and their spread as a factor: coarse, usual and fine sampling.
+const RATES: [f64; 3] = [5.0, 15.0, 50.0];
+const SPREAD: std::ops::Range<f64> = 0.8..1.25;
+
+/// Draws the machine of a seed, without the properties of the given names, and its campaign.
+pub fn workshop(seed: u64, family: Family, spared: &[&str]) -> Workshop {
+    let mut rng = stream(seed, Purpose::Base);
+    let time_constant = RATES[rng.random_range(0..RATES.len())] * rng.random_range(SPREAD);
+    let (input, output) = machine::labels(&mut rng);
+    let sample_time = machine::sample_time(&mut rng);
+    let output_noise = machine::output_noise(&mut rng);
+    let base = properties::draw(seed, time_constant, spared, &mut rng);
+    let mut plant = machine::draw((seed, family), time_constant, spared);
+    plant.sample_time = sample_time;
+    plant.noise_sd = 2.0 * plant.y_half() * output_noise / properties::noise_amplification(&plant, &base);
+    let mut names: Vec<&'static str> = base.iter().map(|property| property.law.effect()).collect();
+    if plant.curved {
+        names.push(machine::CURVED_BORDERS);
+    }
+    let passages = records::campaign(&plant, time_constant, &mut stream(seed, Purpose::Drive));
+    let description =
+        Description { setting: Setting::Field, order: None, interval: None, input, output, base: names };
+    Workshop::new(seed, (plant, base), passages, description)
+}
+
+#[cfg(test)]
+mod tests;

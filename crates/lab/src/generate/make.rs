@@ -1,0 +1,272 @@
+//! Making a rig.
+
+use crate::generate::campaign::{Plan, campaign};
+use crate::generate::effects::laws_of;
+use crate::generate::field;
+use crate::generate::key::{Key, TrueEffect, Truth};
+use crate::generate::law::Law;
+use crate::generate::plant::{Family, Plant};
+use crate::generate::setting::Setting;
+use crate::generate::simulate::Active;
+use crate::generate::stream::{Purpose, stream};
+use crate::generate::workshop::{Description, Workshop};
+use switchback_model::record::RecordError;
+use switchback_model::rig::Rig;
+use thiserror::Error;
+
+/// Why no rig could be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MakeError {
+    /// The effect's name is unknown.
+    #[error("`{name}` is no effect; known are {known}")]
+    UnknownEffect {
+        /// The name given.
+        name: String,
+        /// All names, comma-separated.
+        known: String,
+    },
+    /// The effect has fewer laws.
+    #[error("`{effect}` has {laws} laws, numbered from 0; law {law} does not exist")]
+    UnknownLaw {
+        /// The effect.
+        effect: String,
+        /// Laws it has.
+        laws: usize,
+        /// The law asked for.
+        law: usize,
+    },
+    /// The size is no size.
+    #[error("an effect of size {0} cannot be made; the size is a number above 0")]
+    Size(f64),
+    /// The key belongs to another recipe.
+    #[error(
+        "the key is of the rig with seed {key}, its setting and its effects, not of this recipe with seed {recipe}"
+    )]
+    ForeignKey {
+        /// Seed of the recipe.
+        recipe: u64,
+        /// Seed in the key.
+        key: u64,
+    },
+    /// The machine's records without effects give no model that a size could be measured against.
+    #[error("the size of an effect cannot be measured in this machine ({0}); take another seed")]
+    NoSize(String),
+    /// A simulated signal was no record.
+    #[error("the drawn system and effect gave no finite record ({0}); take another seed")]
+    Record(#[from] RecordError),
+}
+
+/// An effect to be put into a rig.
+#[derive(Debug, Clone, Copy)]
+pub struct Ingredient {
+    /// Its law.
+    pub law: &'static dyn Law,
+    /// Whether that is the plain one.
+    pub plain: bool,
+    /// Size of all effects together.
+    pub size: f64,
+}
+
+impl Ingredient {
+    /// The plain law of an effect, at a size in noise standard deviations.
+    ///
+    /// # Errors
+    /// [`MakeError::UnknownEffect`] or [`MakeError::Size`].
+    pub fn plain(effect: &str, size: f64) -> Result<Self, MakeError> {
+        Self::with_law(effect, 0, size)
+    }
+
+    /// The `law`-th law of an effect (0 is the plain one).
+    ///
+    /// # Errors
+    /// [`MakeError::UnknownEffect`], [`MakeError::UnknownLaw`] or [`MakeError::Size`].
+    pub fn with_law(effect: &str, law: usize, size: f64) -> Result<Self, MakeError> {
+        let laws = laws_of(effect);
+        if laws.is_empty() {
+            let known = crate::generate::EFFECTS
+                .iter()
+                .chain(&crate::generate::FOREIGN)
+                .copied()
+                .collect::<Vec<_>>()
+                .join(", ");
+            return Err(MakeError::UnknownEffect { name: effect.to_owned(), known });
+        }
+        if !(size.is_finite() && size > 0.0) {
+            return Err(MakeError::Size(size));
+        }
+        let chosen = laws.get(law).ok_or_else(|| MakeError::UnknownLaw {
+            effect: effect.to_owned(),
+            laws: laws.len(),
+            law,
+        })?;
+        Ok(Self { law: *chosen, plain: law == 0, size })
+    }
+
+    /// What is true of it once its magnitude is found, and what size that makes.
+    pub fn found(&self, magnitude: f64, size: f64) -> TrueEffect {
+        TrueEffect {
+            effect: self.law.effect(),
+            law: self.law.name(),
+            plain: self.plain,
+            stage: self.law.stage(),
+            nature: self.law.nature(),
+            magnitude,
+            unit: self.law.unit(),
+            quantity: self.law.quantity(),
+            wanted: self.size,
+            size,
+        }
+    }
+}
+
+/// A recipe: everything else about the rig is drawn from the seed.
+#[derive(Debug, Clone)]
+pub struct MakeRig {
+    seed: u64,
+    family: Family,
+    plan: Plan,
+    setting: Setting,
+    ingredients: Vec<Ingredient>,
+    /// Effects that the machine does not have by itself.
+    spared: Vec<&'static str>,
+}
+
+/// A rig and, apart from it, its key.
+#[derive(Debug)]
+pub struct MadeRig {
+    /// What a user's folder would hold.
+    pub rig: Rig,
+    /// What is withheld.
+    pub key: Key,
+    /// What is true of each record, in the rig's order.
+    pub truth: Vec<Truth>,
+}
+
+impl MakeRig {
+    /// A rig without any effect, of the default plan and of no particular family.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            family: Family { order: None, shape: None },
+            plan: Plan::default(),
+            setting: Setting::default(),
+            ingredients: Vec::new(),
+            spared: Vec::new(),
+        }
+    }
+
+    /// Fixes order or border shape.
+    #[must_use]
+    pub fn family(mut self, family: Family) -> Self {
+        self.family = family;
+        self
+    }
+
+    /// Where the rig stands; the laboratory, if nothing is said.
+    #[must_use]
+    pub fn setting(mut self, setting: Setting) -> Self {
+        self.setting = setting;
+        self
+    }
+
+    /// Another plan of the laboratory's records; campaigns in the field have none.
+    #[must_use]
+    pub fn plan(mut self, plan: Plan) -> Self {
+        self.plan = plan;
+        self
+    }
+
+    /// Adds an effect. A machine of the field that has it by itself loses that: what is put in is all of it.
+    #[must_use]
+    pub fn with(mut self, ingredient: Ingredient) -> Self {
+        self.spared.push(ingredient.law.effect());
+        self.ingredients.push(ingredient);
+        self
+    }
+
+    /// The same machine, inputs and noise without the effects that were added: what the rig was before.
+    #[must_use]
+    pub fn base(&self) -> Self {
+        Self { ingredients: Vec::new(), ..self.clone() }
+    }
+
+    /// Draws the system and the inputs, sizes each effect by itself, and takes the records.
+    ///
+    /// # Errors
+    /// [`MakeError::Record`] if the output is not finite, [`MakeError::NoSize`] if an effect in the field has no size.
+    pub fn make(&self) -> Result<MadeRig, MakeError> {
+        let mut workshop = self.workshop();
+        if self.setting == Setting::Field {
+            let (active, effects) = field::sized(&workshop, &self.ingredients)?;
+            return workshop.assemble(&active, effects);
+        }
+        let (mut active, mut effects): (Vec<_>, Vec<_>) =
+            self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
+        if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
+            workshop.tune_noise(one, entry);
+        }
+        workshop.assemble(&active, effects)
+    }
+
+    /// The same rig once more from its key, without searching for the magnitudes: equal to the bit, and much faster.
+    ///
+    /// # Errors
+    /// [`MakeError::ForeignKey`] if the key belongs to another recipe, [`MakeError::Record`] as in [`MakeRig::make`].
+    pub fn again(&self, key: &Key) -> Result<MadeRig, MakeError> {
+        let same_effect =
+            |(i, e): (&Ingredient, &TrueEffect)| i.law.effect() == e.effect && i.law.name() == e.law;
+        let foreign = || MakeError::ForeignKey { recipe: self.seed, key: key.seed };
+        let same_count = self.ingredients.len() == key.effects.len();
+        let same_effects = same_count && self.ingredients.iter().zip(&key.effects).all(same_effect);
+        if (self.seed, self.setting) != (key.seed, key.setting) || !same_effects {
+            return Err(foreign());
+        }
+        let made = self.with_found(key.noise_sd, key.effects.clone())?;
+        if made.key.base != key.base {
+            return Err(foreign());
+        }
+        Ok(made)
+    }
+
+    /// The same rig once more from what a search found: standard deviation of the noise, magnitude and size of each effect. `None`
+    /// where there are not as many as effects.
+    ///
+    /// # Errors
+    /// [`MakeError::Record`] as in [`MakeRig::make`].
+    pub fn from_found(&self, noise_sd: f64, found: &[(f64, f64)]) -> Result<Option<MadeRig>, MakeError> {
+        if found.len() != self.ingredients.len() {
+            return Ok(None);
+        }
+        let entries =
+            self.ingredients.iter().zip(found).map(|(i, (magnitude, size))| i.found(*magnitude, *size));
+        self.with_found(noise_sd, entries.collect()).map(Some)
+    }
+
+    fn with_found(&self, noise_sd: f64, effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
+        let mut workshop = self.workshop();
+        workshop.plant.noise_sd = noise_sd;
+        let sized = self.ingredients.iter().zip(&effects).enumerate();
+        let active: Vec<Active> =
+            sized.map(|(slot, (i, e))| workshop.active(slot, i.law, e.magnitude)).collect();
+        workshop.assemble(&active, effects)
+    }
+
+    /// The system and the campaign of the recipe.
+    pub fn workshop(&self) -> Workshop {
+        if self.setting == Setting::Field {
+            return field::workshop(self.seed, self.family, &self.spared);
+        }
+        let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
+        let passages = campaign(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
+        let description = Description {
+            setting: Setting::Laboratory,
+            order: Some(plant.order()),
+            interval: Some(plant.interval),
+            input: "v".to_owned(),
+            output: "y".to_owned(),
+            base: Vec::new(),
+        };
+        Workshop::new(self.seed, (plant, Vec::new()), passages, description)
+    }
+}

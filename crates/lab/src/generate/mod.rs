@@ -1,0 +1,46 @@
+//! Rigs made with a chosen effect, so that a diagnosis of the sim-to-real gap can be tried on a withheld truth.
+//!
+//! A made rig is a random nominal system (order, poles, borders, interval, units and noise all drawn from one
+//! seed), a campaign of records as a user would take them, and at most a few *effects* that the nominal model lacks.
+//! An effect has one or more *laws*: the first is the plain textbook one, the others are what physics offers
+//! besides (Bouc–Wen, Dahl, Maxwell slip, Preisach, LuGre, other envelopes, other noises). Some effects are in
+//! no library of causes at all; they serve to try whether a diagnosis can say "none of these".
+//!
+//! A rig stands in the laboratory or, by [`MakeRig::setting`], in the [field](Setting::Field): nothing is declared, no experiment is
+//! designed, the noise has a colour, and the machine has by itself what no simple model has. Sizes of effects are measured against that.
+//!
+//! The crate knows nothing of the candidates that explain a gap: it shares no law with them. It is pure: no files,
+//! clocks, threads or ambient randomness.
+//!
+//! ```
+//! use switchback_lab::generate::{Ingredient, MakeRig};
+//!
+//! let made = MakeRig::new(7).with(Ingredient::plain("backlash", 2.0)?).make()?;
+//! assert_eq!(made.rig.records.len(), 7);
+//! assert!((made.key.effects[0].size - 2.0).abs() < 0.1);
+//! # Ok::<(), switchback_lab::generate::MakeError>(())
+//! ```
+
+mod campaign;
+mod effects;
+mod field;
+mod key;
+mod law;
+mod make;
+mod plant;
+mod planting;
+mod refit;
+mod setting;
+mod simulate;
+mod size;
+mod stream;
+mod workshop;
+
+pub use campaign::{Passage, Plan};
+pub use effects::{EFFECTS, FOREIGN, laws_of};
+pub use key::{Key, TrueEffect, Truth};
+pub use law::{Dose, INTERVAL_WIDTHS, Law, Nature, Planting, Scene, Stage};
+pub use make::{Ingredient, MadeRig, MakeError, MakeRig};
+pub use plant::{Family, Plant, Shape, Table};
+pub use planting::{OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround, Precision};
+pub use setting::Setting;

@@ -1,0 +1,183 @@
+//! Known faults in measured records: noise, unlogged influences and the model's errors stay those of the machine.
+//!
+//! Some faults need no model ([`Planting`] says which): what the sensor makes of the output, a gain that changes slowly, what the record of
+//! the input shows. All others are *carried*: a model of the machine, identified from its records with one pole and many knots more than
+//! any candidate has, is simulated with the fault and without, and the difference is added to the measured output. That assumes that the
+//! fault does not interact with what the model misses.
+//!
+//! The *size* of a fault is what survives identification anew, against what the base's own model leaves,
+//!
+//! ```text
+//! size = rms(r' − r) / rms(r),   r = y − ŷ,   r' = y' − ŷ'
+//! ```
+//!
+//! over the free runs on the held-out records (the fit records, where none are held out): `ŷ` is the model identified from the fit records
+//! as they are, `ŷ'` one of the same order, delay and knots identified from those with the fault. The *raw* size has `ŷ` in place of `ŷ'`,
+//! on the planted input: what a model given beforehand newly misses.
+
+mod again;
+mod alter;
+mod base;
+mod carrier;
+mod search;
+
+pub use self::base::Base;
+use self::carrier::Carrier;
+pub use self::search::Precision;
+pub use self::search::{Goal, Trial, search};
+use crate::generate::law::{Nature, Planting, Stage};
+use crate::generate::make::{Ingredient, MakeError};
+use std::sync::Arc;
+use switchback_identify::free::{FreeError, Model};
+use switchback_model::hysteresis::HysteresisError;
+use switchback_model::record::RecordError;
+use switchback_model::rig::Rig;
+use thiserror::Error;
+
+/// Sizes below this are told as not observable: less than half of what the model misses anyway.
+pub const OBSERVABLE: f64 = 0.5;
+
+/// Why no fault could be planted.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlantingError {
+    /// The records give no model.
+    #[error("no model can be identified from the fit records: {0}")]
+    Base(#[from] FreeError),
+    /// The model misses nothing, so that nothing can be large against it.
+    #[error("the model identified from the fit records leaves no residual: a size has no meaning")]
+    NoResidual,
+    /// The model that should carry the fault has no loop.
+    #[error("the identified loop cannot carry the fault: {0}")]
+    NoLoop(#[from] HysteresisError),
+    /// An altered signal was no record.
+    #[error("the fault gave no finite record ({0}); take a smaller size or another seed")]
+    Record(#[from] RecordError),
+    /// The effect or law is unknown, or the size is none.
+    #[error(transparent)]
+    Recipe(#[from] MakeError),
+}
+
+/// A fault as it was planted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlantedFault {
+    /// Its name.
+    pub effect: &'static str,
+    /// Its law.
+    pub law: &'static str,
+    /// Where it acts.
+    pub stage: Stage,
+    /// Whether it moves the expected output.
+    pub nature: Nature,
+    /// How it came into the records.
+    pub planting: Planting,
+    /// Magnitude, in `unit`.
+    pub magnitude: f64,
+    /// What magnitude 1 means.
+    pub unit: &'static str,
+    /// What the magnitude is, where its unit does not say it.
+    pub quantity: Option<&'static str>,
+    /// Size that was asked for.
+    pub wanted: f64,
+    /// What survives identification anew.
+    pub size: f64,
+    /// What a model given beforehand newly misses.
+    pub raw: f64,
+    /// Root mean square of what the base's model leaves on the judged records, output units.
+    pub residual: f64,
+}
+
+impl PlantedFault {
+    /// Whether it is large enough to be asked for.
+    pub fn is_observable(&self) -> bool {
+        self.size >= OBSERVABLE
+    }
+}
+
+/// A rig with a fault, and what it is.
+#[derive(Debug)]
+pub struct PlantedRig {
+    /// The records.
+    pub rig: Rig,
+    /// What is withheld.
+    pub fault: PlantedFault,
+}
+
+/// Records with the model that was identified from them, ready for faults.
+#[derive(Debug)]
+pub struct PlantingGround<'a> {
+    rig: &'a Rig,
+    base: Base,
+    carrier: Arc<Carrier>,
+}
+
+impl<'a> PlantingGround<'a> {
+    /// Identifies what is needed of a rig.
+    ///
+    /// # Errors
+    /// [`PlantingError`] where the records give no model with a loop, or one that misses nothing.
+    pub fn new(rig: &'a Rig) -> Result<Self, PlantingError> {
+        let base = Base::new(rig)?;
+        let carrier = Carrier::identified(rig, &base)?;
+        Ok(Self { rig, base, carrier: Arc::new(carrier) })
+    }
+
+    /// The same with a model of one's own to carry what has to be carried.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn carried_by(rig: &'a Rig, model: &Model) -> Result<Self, PlantingError> {
+        Ok(Self { rig, base: Base::new(rig)?, carrier: Arc::new(Carrier::of(rig, model)?) })
+    }
+
+    /// The ground that other records of the same machine are, the same inputs with other noise: sizes are measured against a model identified
+    /// anew from these, of the order, delay and knots chosen before; the carrier stays.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_records<'b>(&self, rig: &'b Rig) -> Result<PlantingGround<'b>, PlantingError> {
+        Ok(PlantingGround { rig, base: self.base.of_other(rig)?, carrier: Arc::clone(&self.carrier) })
+    }
+
+    /// Plants a fault of a size; everything random about it is drawn from the seed.
+    ///
+    /// # Errors
+    /// [`PlantingError::Record`] where the altered signals are not finite.
+    pub fn plant(&self, ingredient: &Ingredient, seed: u64) -> Result<PlantedRig, PlantingError> {
+        self.plant_to(Precision::FINE, ingredient, seed)
+    }
+
+    /// The same with the size met as closely as asked.
+    ///
+    /// # Errors
+    /// As [`Self::plant`].
+    pub fn plant_to(
+        &self,
+        precision: Precision,
+        ingredient: &Ingredient,
+        seed: u64,
+    ) -> Result<PlantedRig, PlantingError> {
+        let law = ingredient.law;
+        let with = |magnitude: f64| self.again(ingredient, magnitude, seed);
+        let goal = Goal { size: ingredient.size, limit: law.limit(), precision };
+        let Trial { magnitude, size, rig } = search(&self.base, goal, with)?;
+        let fault = PlantedFault {
+            effect: law.effect(),
+            law: law.name(),
+            stage: law.stage(),
+            nature: law.nature(),
+            planting: law.planting(),
+            magnitude,
+            unit: law.unit(),
+            quantity: law.quantity(),
+            wanted: ingredient.size,
+            size,
+            raw: self.base.raw(&rig),
+            residual: self.base.residual,
+        };
+        Ok(PlantedRig { rig, fault })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,9 @@
+//! Rigs made by laws of their own, faults put into measured records, and examinations of the diagnosis on both.
+
+pub mod blind;
+pub mod examination;
+pub mod field;
+pub mod generate;
+pub mod power;
+pub mod selftest;
+pub mod training;

@@ -1,0 +1,118 @@
+//! What the checks found, as a table with the reasons of failures, and as JSON.
+
+use super::{FALSE_ALARM, Figure, Finding};
+use std::fmt::Write as _;
+use switchback_io::output::{columns, stamped};
+
+/// Figures that are listed of a check that failed; the rest is counted.
+const LISTED: usize = 5;
+
+/// A row a check with the figure nearest to its limit, and below what is wrong.
+pub fn table(findings: &[Finding], seed: u64) -> String {
+    let head = ["check", "figures", "nearest to its limit", "found", "expected", ""].map(str::to_owned);
+    let rows: Vec<[String; 6]> = std::iter::once(head).chain(findings.iter().map(row)).collect();
+    let mut text = columns(&rows);
+    let limits = "Ranges leave chance a probability of";
+    let _ = writeln!(
+        text,
+        "{limits} {FALSE_ALARM:e} a check that it fails though nothing is wrong. Seed {seed}."
+    );
+    for finding in findings.iter().filter(|finding| !finding.holds()) {
+        let _ = writeln!(text, "\n{} FAILED: {}.", finding.check, finding.wrong);
+        if let Err(reason) = &finding.figures {
+            let _ = writeln!(text, "  it could not be run: {reason}");
+        }
+        for Figure { what, found, expected, .. } in finding.failed().take(LISTED) {
+            let _ = writeln!(text, "  {what}: found {found}, expected {expected}");
+        }
+        let more = finding.failed().count().saturating_sub(LISTED);
+        if more > 0 {
+            let _ = writeln!(text, "  and {more} more; --json has them all");
+        }
+    }
+    text
+}
+
+fn row(finding: &Finding) -> [String; 6] {
+    let count = finding.figures.as_ref().map_or(0, Vec::len).to_string();
+    let verdict = if finding.holds() { "ok" } else { "FAILED" }.to_owned();
+    let [what, found, expected] = finding.nearest().map_or_else(
+        || ["none", "–", "–"].map(str::to_owned),
+        |figure| [figure.what.clone(), figure.found.clone(), figure.expected.clone()],
+    );
+    [finding.check.to_owned(), count, what, found, expected, verdict]
+}
+
+/// Name and version of the layout of what the checks found.
+const SCHEMA: &str = "switchback/selftest/1";
+
+/// Everything that was found.
+pub fn json(findings: &[Finding], seed: u64) -> String {
+    let figure = |figure: &Figure| {
+        let Figure { what, found, expected, .. } = figure;
+        serde_json::json!({ "what": what, "found": found, "expected": expected, "ok": figure.holds() })
+    };
+    let checks: Vec<serde_json::Value> = findings
+        .iter()
+        .map(|finding| {
+            let ok = finding.holds();
+            let figures: Vec<serde_json::Value> = finding.figures.iter().flatten().map(figure).collect();
+            serde_json::json!({
+                "check": finding.check,
+                "ok": ok,
+                "wrong": (!ok).then_some(finding.wrong),
+                "refused": finding.figures.as_ref().err(),
+                "figures": figures,
+            })
+        })
+        .collect();
+    let ok = findings.iter().all(Finding::holds);
+    stamped(
+        SCHEMA,
+        &serde_json::json!({ "seed": seed, "false_alarm": FALSE_ALARM, "ok": ok, "checks": checks }),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn findings() -> Vec<Finding> {
+        let wrong = "the noise of studies is wrong";
+        let many = (0..7).map(|k| Figure::at_most(format!("figure {k}"), 2.0, 1.0)).collect();
+        vec![
+            Finding { check: "engines", wrong: "-", figures: Ok(vec![Figure::at_most("apart", 1e-9, 1e-6)]) },
+            Finding { check: "noise", wrong, figures: Ok(many) },
+            Finding {
+                check: "coverage",
+                wrong: "intervals are wrong",
+                figures: Err("no estimate".to_owned()),
+            },
+        ]
+    }
+
+    #[test]
+    fn failures_say_what_is_wrong_in_plain_words() {
+        let told = table(&findings(), 3);
+        for words in [
+            "engines         1                 apart  1.000e-9  at most 1.000e-6      ok",
+            "noise FAILED: the noise of studies is wrong.",
+            "figure 0: found 2, expected at most 1",
+            "and 2 more",
+            "coverage FAILED: intervals are wrong.\n  it could not be run: no estimate",
+            "Seed 3.",
+        ] {
+            assert!(told.contains(words), "{words} is not in\n{told}");
+        }
+        assert!(!told.contains("engines FAILED"));
+    }
+
+    #[test]
+    fn json_holds_every_figure() {
+        let page: serde_json::Value = serde_json::from_str(&json(&findings(), 3)).expect("JSON");
+        assert_eq!(page["schema"], SCHEMA);
+        assert_eq!((&page["ok"], &page["checks"][0]["ok"]), (&false.into(), &true.into()));
+        assert_eq!(page["checks"][1]["figures"].as_array().map(Vec::len), Some(7));
+        assert_eq!(page["checks"][2]["refused"], "no estimate");
+    }
+}

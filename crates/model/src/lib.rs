@@ -1,0 +1,22 @@
+//! Records and rigs, the switched hysteresis, the linear part, and causal models that run sample by sample.
+//!
+//! ```text
+//! A(q⁻¹) y(t) = B(q⁻¹) u(t) + ξ(t),   A = 1 + a₁q⁻¹ + … + aₙq⁻ⁿ,   B = b₁q⁻¹ + … + bₙq⁻ⁿ
+//! u(t) = C_a(v(t)) while v rises, C_d(v(t)) while v falls, u(t−1) while v stands still
+//! ```
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`record`], [`rig`] | measurements: one record; the records of one machine |
+//! | [`hysteresis`], [`linear`] | the two parts of a system |
+//! | [`step`] | a causal model as a small program, run here or printed as C |
+//!
+//! The crate is pure: no files, clocks, threads or ambient randomness.
+
+pub mod hysteresis;
+pub mod linear;
+pub mod record;
+pub mod rig;
+pub mod step;
+
+pub use record::{Record, RecordError};

@@ -1,0 +1,34 @@
+//! The noise of a study: unit white normals in lanes, and the one pass over them that serves every cell.
+//!
+//! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box
+//! and Muller's transform without a branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at
+//! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). Where they need
+//! the mean only, [`MeanNoise`] draws it from its law. [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
+
+mod aligned;
+mod chacha;
+mod kernels;
+mod lane_records;
+pub mod lanes;
+mod means;
+mod normal;
+mod oracle;
+mod pass;
+mod plan;
+mod record;
+mod samples;
+#[cfg(test)]
+mod tests;
+mod white;
+mod width;
+
+pub use lane_records::LaneRecords;
+pub use lane_records::LaneView;
+pub use means::MeanNoise;
+pub use oracle::record_by_definition;
+pub use pass::NoisePass;
+pub use plan::{NoisePlan, NoisePlanError};
+pub use record::{Checkpoint, NoiseRecord};
+pub use samples::{NoiseSamples, samples, white_samples};
+pub use white::{BLOCK, StreamId, WhiteNoise};
+pub use width::Width;

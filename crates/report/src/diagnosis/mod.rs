@@ -1,0 +1,13 @@
+//! A diagnosis as one JSON object and in words.
+
+pub(crate) mod json;
+mod place;
+mod sentences;
+mod why;
+mod words;
+
+pub use json::json;
+pub(crate) use place::SIGNIFICANT;
+pub(crate) use sentences::probability;
+pub use why::why;
+pub use words::{verdict, words};

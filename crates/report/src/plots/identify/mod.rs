@@ -1,0 +1,8 @@
+//! Figures of an identified rig: measured against simulated outputs, and the borders.
+
+mod borders;
+mod outputs;
+pub mod series;
+
+pub use borders::borders;
+pub use outputs::outputs;

@@ -1,0 +1,49 @@
+//! How long a study takes, before it is run.
+
+use super::standing::Rule;
+use crate::scenario::{Case, Coupling, Engine, Scenario};
+use switchback_identify::Method;
+
+/// Seconds of one thread for a sample of noise of one experiment, drawn and taken in by the pulse methods: 0.139 ms a replicate of 100,000
+/// samples in reports/speed.
+const PULSES: f64 = 1.4e-9;
+
+/// Seconds of one thread for a parameter of a cell of the pulse methods, solved for and added up: 0.84 s for 500 replicates of the 648 cells of
+/// scenarios/leafspring.toml, less the noise.
+const SOLVED: f64 = 0.1e-6;
+
+/// Seconds of one thread for a sample of a cell of `free`: 53 ns in scenarios/any-record.toml, seven times as many where knots are refined.
+const FREE: f64 = 50e-9;
+
+/// Seconds of one thread that a study takes at least. Cells that share their noise cost the pulse methods next to nothing beside it; what a
+/// precision adds is known only as far as the error of a standard deviation goes, which depends on the number of replicates alone.
+pub fn least_seconds(scenario: &Scenario) -> f64 {
+    Rule::of(scenario).forecast() as f64 * of_a_replicate(scenario)
+}
+
+/// The same of one replicate.
+pub(super) fn of_a_replicate(scenario: &Scenario) -> f64 {
+    scenario.cases().iter().map(|case| of_case(scenario, case)).sum()
+}
+
+/// The same of one replicate of a case.
+fn of_case(scenario: &Scenario, case: &Case) -> f64 {
+    let sweep = scenario.sweep();
+    let longest = sweep.samples.last().map_or(0.0, |n| *n as f64);
+    let series = (case.borders.len() * sweep.noise.len() * sweep.points.len()) as f64;
+    let samples = series * sweep.samples.iter().map(|n| *n as f64).sum::<f64>();
+    let pulse_methods = sweep.methods.iter().filter(|method| **method != Method::Free).count();
+    let cells = series * sweep.samples.len() as f64 * pulse_methods as f64;
+    let parameters = 2.0 * case.order as f64 + mean(&sweep.points) * 2.0;
+    let pulses = match (pulse_methods, scenario.engine(), scenario.coupling()) {
+        (0, ..) => 0.0,
+        (_, Engine::Superposed, Coupling::Shared) => longest,
+        (methods, ..) => samples * methods as f64,
+    };
+    let free = if sweep.methods.contains(&Method::Free) { samples } else { 0.0 };
+    PULSES * pulses + SOLVED * cells * parameters + FREE * free
+}
+
+fn mean(points: &[usize]) -> f64 {
+    points.iter().sum::<usize>() as f64 / points.len().max(1) as f64
+}

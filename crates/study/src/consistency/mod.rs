@@ -1,0 +1,288 @@
+//! The consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
+//!
+//! One pass over the noise of a replicate serves every cell of the pulse methods (`noise_group`), another every cell of `free`, which needs no
+//! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight at once
+//! (`family`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`; what runs, in which
+//! pieces, is a `workload`). The oracle of
+//! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
+//! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
+
+mod batches;
+mod bench;
+mod cell;
+mod cost;
+mod direct;
+mod execute;
+mod expectations;
+mod family;
+mod family_plan;
+mod free;
+mod intervals;
+mod judge;
+mod lane_batch;
+mod memory;
+mod noise;
+mod noise_group;
+mod paired;
+mod pulse_kind;
+mod replay;
+mod sections;
+mod setting;
+mod single;
+mod sizes;
+mod standing;
+mod tabulate;
+mod tally;
+mod views;
+mod workload;
+
+use crate::Shard;
+use crate::results::{BorderCurve, Partial, Results, SCHEMA};
+use crate::scenario::{Coupling, Engine, Scenario};
+use cell::{CellSpec, CellTheory};
+use direct::DirectGroup;
+use execute::Work;
+use free::FreeNoiseGroup;
+use noise_group::NoiseGroup;
+use standing::Rule;
+use std::ops::{ControlFlow, Range};
+use switchback_io::output::sha256;
+use switchback_io::platform::platform;
+use thiserror::Error;
+use workload::Workload;
+
+pub use cost::least_seconds;
+pub use execute::Progress;
+pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
+pub use single::{Estimated, Single, SingleRecord};
+pub use sizes::ShareSize;
+pub use standing::{Keeper, Origin, Snapshot, Standing, Unusable};
+
+/// Why a study cannot be run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// A method has no limit on some cell: its information matrix is singular even with endless data.
+    #[error(
+        "{method} cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; drop the method, or change the case"
+    )]
+    NoLimit {
+        /// Name of the method.
+        method: &'static str,
+        /// Name of the case.
+        case: String,
+        /// Name of the border.
+        border: String,
+        /// Points `m`.
+        points: usize,
+        /// What the method says.
+        source: switchback_identify::pulse::PulseFitError,
+    },
+    /// The estimate from any record does not exist on some cell.
+    #[error(
+        "free cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; lower sweep.points, raise sweep.samples, or drop the method"
+    )]
+    NotFromDrive {
+        /// Name of the case.
+        case: String,
+        /// Name of the border.
+        border: String,
+        /// Knots `m` on each border.
+        points: usize,
+        /// What the method says.
+        source: switchback_identify::free::FreeError,
+    },
+    /// An experiment of the sweep cannot be built.
+    #[error("case `{case}`, m = {points}: {reason}")]
+    NoExperiment {
+        /// Name of the case.
+        case: String,
+        /// Points `m`.
+        points: usize,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// A scenario with everything laid out that its replicates share.
+#[derive(Debug)]
+pub struct Study<'s> {
+    scenario: &'s Scenario,
+    pulses: Vec<NoiseGroup>,
+    free: Vec<FreeNoiseGroup>,
+    specs: Vec<CellSpec>,
+    rule: Rule,
+}
+
+/// Whether all replicates that were asked for have been run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[must_use]
+pub enum Ended {
+    /// They have.
+    Finished,
+    /// The [`Keeper`] wished the study to stop: what was run of the batch under way is lost.
+    Stopped,
+}
+
+impl<'s> Study<'s> {
+    /// Lays a scenario out.
+    ///
+    /// # Errors
+    /// [`StudyError`] if a method or an experiment does not exist for some cell.
+    pub fn plan(scenario: &'s Scenario) -> Result<Self, StudyError> {
+        let (pulses, free) = (noise_group::plan(scenario)?, free::plan(scenario)?);
+        let of_pulses = pulses.iter().flat_map(|w| w.specs(scenario));
+        let specs = of_pulses.chain(free.iter().flat_map(|w| w.specs())).collect();
+        Ok(Self { scenario, pulses, free, specs, rule: Rule::of(scenario) })
+    }
+
+    /// Before the first replicate.
+    pub fn begin(&self) -> Standing {
+        Standing::new(self.rule, &self.specs)
+    }
+
+    /// What the replicates are of: the scenario, but for their number where no precision is asked for; sources by their hash, on this platform.
+    pub fn origin(&self, sources: &str) -> Origin {
+        let Self { scenario, .. } = self;
+        let replication = scenario.replication();
+        let rule = replication.stopping.map(|stopping| (replication.replicates, stopping));
+        let what = (scenario.cases(), scenario.sweep(), scenario.coupling(), scenario.engine(), rule);
+        Origin {
+            scenario: sha256(format!("{} {what:?}", scenario.seed())),
+            part: String::new(),
+            program: sources.to_owned(),
+            platform: platform(),
+        }
+    }
+
+    /// How many replicates are run in all, as far as is known when the first round is under way.
+    pub fn forecast(&self) -> usize {
+        self.rule.forecast()
+    }
+
+    /// Goes on to the next round; false where there is enough. All replicates of the round under way have been run.
+    pub fn next_round(&self, standing: &mut Standing, progress: &dyn Progress) -> bool {
+        match standing.look(self.rule, progress) {
+            Some(next) => standing.round = next,
+            None => return false,
+        }
+        true
+    }
+
+    /// Runs replicates until the scenario has enough of them.
+    pub fn run(&self, standing: &mut Standing, progress: &dyn Progress, keeper: &mut dyn Keeper) -> Ended {
+        loop {
+            if self.run_part(standing, None, (progress, &mut *keeper)) == Ended::Stopped {
+                return Ended::Stopped;
+            }
+            if !self.next_round(standing, progress) {
+                return Ended::Finished;
+            }
+        }
+    }
+
+    /// Runs what is left of the round under way, or of one of equal parts of it.
+    pub fn run_part(
+        &self,
+        standing: &mut Standing,
+        shard: Option<Shard>,
+        watch: (&dyn Progress, &mut dyn Keeper),
+    ) -> Ended {
+        match self.with_work(|work| standing.finish_round(work, shard, watch)) {
+            ControlFlow::Continue(()) => Ended::Finished,
+            ControlFlow::Break(()) => Ended::Stopped,
+        }
+    }
+
+    /// Lends what runs replicates.
+    fn with_work<T>(&self, run: impl FnOnce(Work<'_>) -> T) -> T {
+        let scenario = self.scenario;
+        let direct: Vec<DirectGroup<'_>> =
+            self.pulses.iter().map(|group| DirectGroup::new(group, scenario)).collect();
+        let pulses: Vec<&dyn Workload> = match scenario.engine() {
+            Engine::Superposed => self.pulses.iter().map(|w| w as &dyn Workload).collect(),
+            Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
+        };
+        let workloads: Vec<&dyn Workload> =
+            pulses.into_iter().chain(self.free.iter().map(|w| w as &dyn Workload)).collect();
+        run(Work { seed: scenario.seed(), workloads: &workloads })
+    }
+
+    /// What the replicates so far amount to. `command` is what the results name as the command that makes them again.
+    pub fn results(&self, standing: &Standing, command: String) -> Results {
+        let Self { scenario, specs, .. } = self;
+        let totals = standing.tally.totals();
+        let precise = standing.precise(self.rule);
+        let theories = self.theories();
+        let cells = tabulate::cells(specs, &theories, &totals, precise.as_deref());
+        let views = views::of_cells(&theories, &totals);
+        let summaries = judge::summaries(specs, &theories, &views, scenario.sweep().slope_from);
+        let paired = (scenario.coupling() == Coupling::Shared)
+            .then(|| paired::pairing(specs, &views, &self.cells_of_worlds()));
+        let expectations = expectations::check(scenario, &summaries, &cells);
+        let of = standing.target();
+        let partial = standing.missing().map(|_| Partial { replicates: standing.replicates(), of });
+        Results {
+            schema: SCHEMA,
+            study: "consistency".to_owned(),
+            name: scenario.name().to_owned(),
+            question: scenario.question().to_owned(),
+            seed: scenario.seed(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command,
+            partial,
+            engine: scenario.engine(),
+            coupling: scenario.coupling(),
+            slope_samples: scenario.sweep().slope_samples().to_vec(),
+            labels: scenario.labels().clone(),
+            scenario: scenario.source().clone(),
+            curves: curves(scenario),
+            expectations,
+            summaries,
+            paired,
+            cells,
+        }
+    }
+
+    /// What theory says of each cell. Only results need it: a part of a study does without.
+    fn theories(&self) -> Vec<CellTheory> {
+        let of_pulses = self.pulses.iter().flat_map(NoiseGroup::theories);
+        of_pulses.chain(self.free.iter().flat_map(FreeNoiseGroup::theories)).collect()
+    }
+
+    /// Where the cells of each workload stand among all cells.
+    fn cells_of_worlds(&self) -> Vec<Range<usize>> {
+        let counts = self.pulses.iter().map(|group| group.cells().count());
+        let counts = counts.chain(self.free.iter().map(Workload::cells));
+        let mut first = 0;
+        counts
+            .map(|count| {
+                let cells = first..first + count;
+                first = cells.end;
+                cells
+            })
+            .collect()
+    }
+}
+
+/// Runs a scenario to its result table, keeping nothing meanwhile. `command` is what the results name as the command that makes them again.
+///
+/// # Errors
+/// [`StudyError`] if a method or an experiment does not exist for some cell.
+pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
+    let study = Study::plan(scenario)?;
+    let mut standing = study.begin();
+    progress.planned(study.rule.forecast() as u64);
+    match study.run(&mut standing, progress, &mut ()) {
+        Ended::Finished => Ok(study.results(&standing, command)),
+        Ended::Stopped => unreachable!("nobody stops it"),
+    }
+}
+
+fn curves(scenario: &Scenario) -> Vec<BorderCurve> {
+    scenario
+        .cases()
+        .iter()
+        .flat_map(|case| case.borders.iter().map(|b| BorderCurve::sample(&case.name, &b.name, &b.hysteresis)))
+        .collect()
+}

@@ -1,0 +1,207 @@
+//! `results.json`: writing it byte for byte the same, and refusing what is not one.
+
+use super::{Results, SCHEMA};
+use miette::Diagnostic;
+use serde::Serialize;
+use serde_json::ser::Formatter;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use switchback_io::input::json_file::{self, JsonError};
+use switchback_io::output::{NotWhole, verify};
+use thiserror::Error;
+
+/// Why a file holds no results.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum ResultsError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    #[diagnostic(help("give a results.json, or the folder of a report that holds one"))]
+    Unreadable {
+        /// The path tried.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The folder is not as one run wrote it.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    NotWhole(#[from] NotWhole),
+    /// The content is not a result table.
+    #[error("{place}: is not a results file of Switchback: {message}")]
+    #[diagnostic(help("give a results.json as a consistency study writes it"))]
+    NotResults {
+        /// The path read, with line and column.
+        place: String,
+        /// What does not fit.
+        message: String,
+    },
+    /// Another command wrote it.
+    #[error("{}: this is {kind}, not the results of a study", path.display())]
+    #[diagnostic(help("give a results.json as a consistency study writes it"))]
+    OtherKind {
+        /// The path read.
+        path: PathBuf,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// The layout is of another version.
+    #[error("{}: has results layout {found}, this version reads {SCHEMA}", path.display())]
+    #[diagnostic(help("run its scenario again to renew it"))]
+    OtherSchema {
+        /// The path read.
+        path: PathBuf,
+        /// The layout found.
+        found: u64,
+    },
+}
+
+/// Reads `results.json` from a file or from the report folder that holds it.
+///
+/// # Errors
+/// [`ResultsError`] if it is missing, no result table, of another layout, or in a folder that is not as one run wrote it.
+pub fn read(path: &Path) -> Result<Results, ResultsError> {
+    let is_folder = path.is_dir();
+    if is_folder {
+        verify(path)?;
+    }
+    let path = if is_folder { path.join("results.json") } else { path.to_owned() };
+    let text = std::fs::read_to_string(&path)
+        .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?;
+    parse(&path, &text)
+}
+
+/// The results that a text holds; `path` is what messages call it.
+///
+/// # Errors
+/// [`ResultsError`] if it is no result table, or of another layout.
+pub fn parse(path: &Path, text: &str) -> Result<Results, ResultsError> {
+    let refuse = |JsonError { place, message, .. }| ResultsError::NotResults { place, message };
+    if let Some(kind) = json_file::kind(text).filter(|kind| *kind != "the results of a study") {
+        return Err(ResultsError::OtherKind { path: path.to_owned(), kind });
+    }
+    let value: serde_json::Value = json_file::parse(path, text).map_err(refuse)?;
+    match value.get("schema").and_then(serde_json::Value::as_u64) {
+        Some(found) if found != u64::from(SCHEMA) => {
+            Err(ResultsError::OtherSchema { path: path.to_owned(), found })
+        }
+        _ => json_file::parse(path, text).map_err(refuse),
+    }
+}
+
+/// The bytes of `results.json`: one parameter a line, so that changes of a committed report can be read.
+pub fn to_json(results: &Results) -> String {
+    let mut bytes = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Shallow::default());
+    results.serialize(&mut serializer).expect("a result table has string keys and writes to memory");
+    bytes.push(b'\n');
+    String::from_utf8(bytes).expect("JSON is UTF-8")
+}
+
+/// How deep lines are broken: results → cells → cell → parameters; below, a parameter is one line.
+const DEPTH: usize = 4;
+
+/// Pretty down to [`DEPTH`], compact below.
+#[derive(Default)]
+struct Shallow {
+    depth: usize,
+    filled: bool,
+}
+
+impl Shallow {
+    fn open<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth += 1;
+        self.filled = false;
+        writer.write_all(bracket)
+    }
+
+    fn item<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        self.filled = true;
+        self.break_line(writer)
+    }
+
+    fn close<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        let broken = self.filled && self.depth <= DEPTH;
+        self.depth -= 1;
+        self.filled = true;
+        if broken {
+            self.break_line(writer)?;
+        }
+        writer.write_all(bracket)
+    }
+
+    fn break_line<W: ?Sized + Write>(&self, writer: &mut W) -> io::Result<()> {
+        if self.depth > DEPTH {
+            return Ok(());
+        }
+        writer.write_all(b"\n")?;
+        (0..self.depth).try_for_each(|_| writer.write_all(b" "))
+    }
+}
+
+impl Formatter for Shallow {
+    fn begin_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open(writer, b"[")
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"]")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.item(writer, first)
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open(writer, b"{")
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"}")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.item(writer, first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::synthetic;
+
+    #[test]
+    fn a_table_reads_back_as_written_and_its_bytes_repeat() {
+        let results = synthetic::results();
+        let text = to_json(&results);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        std::fs::write(folder.path().join("results.json"), &text).expect("it can be written");
+        let back = read(folder.path()).expect("it reads back");
+        assert_eq!(back, results);
+        assert_eq!(to_json(&back), text);
+    }
+
+    #[test]
+    fn a_parameter_takes_one_line() {
+        let results = synthetic::results();
+        let lines = to_json(&results).lines().filter(|l| l.contains("\"theory_sd\"")).count();
+        assert_eq!(lines, results.cells.iter().map(|c| c.parameters.len()).sum::<usize>());
+    }
+
+    #[test]
+    fn a_missing_file_another_layout_and_foreign_json_are_told_apart() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("results.json");
+        assert!(matches!(read(folder.path()), Err(ResultsError::Unreadable { .. })));
+        let with = |content: &str| {
+            std::fs::write(&path, content).expect("it can be written");
+            read(&path)
+        };
+        assert!(matches!(with("{\"schema\": 99}"), Err(ResultsError::OtherSchema { found: 99, .. })));
+        assert!(matches!(with("{\"hello\": 1}"), Err(ResultsError::NotResults { .. })));
+        assert!(matches!(with("no JSON"), Err(ResultsError::NotResults { .. })));
+    }
+}

@@ -1,0 +1,121 @@
+//! The result table: everything a study found, with its Monte-Carlo errors.
+//!
+//! Plots, reports and comparisons know these types only, so they can be redrawn without simulating again. The bytes
+//! of `results.json` depend on the values alone; numbers that are not finite cannot occur in it.
+
+mod cell;
+mod csv;
+mod curve;
+mod json;
+mod measured;
+mod paired;
+mod pooled;
+mod series;
+mod summary;
+#[cfg(any(test, feature = "synthetic"))]
+pub mod synthetic;
+
+pub use cell::{Cell, Failures, Intervals, Parameter};
+pub use csv::to_csv;
+pub use curve::{BorderCurve, CurvePoint};
+pub use json::{ResultsError, parse, read, to_json};
+pub use measured::{Measured, MeasuredError};
+pub use paired::{Comparison, Overall, Paired, PairedError, PairedGroup, PairedParameter, Pairing, Subject};
+pub use pooled::{root_mean_square, root_mean_square_exact};
+pub use series::{Group, Series};
+pub use summary::{Expectation, Fitted, Summary, Verdict};
+
+use crate::scenario::{Coupling, Engine, Labels, Scenario, ScenarioError};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Version of the layout of `results.json`; a reader refuses any other.
+pub const SCHEMA: u32 = 1;
+
+/// All that a consistency study found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Always `consistency`.
+    pub study: String,
+    /// The scenario's name.
+    pub name: String,
+    /// What the study was to answer.
+    pub question: String,
+    /// The seed of every random stream.
+    pub seed: u64,
+    /// Switchback's version.
+    pub version: String,
+    /// The command that makes this file again.
+    pub command: String,
+    /// How far a study came that was stopped; `None` where it has all its replicates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<Partial>,
+    /// How the replicates were computed.
+    pub engine: Engine,
+    /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
+    pub coupling: Coupling,
+    /// The numbers of samples that slopes are fitted over.
+    #[serde(default)]
+    pub slope_samples: Vec<usize>,
+    /// What the axes are called.
+    pub labels: Labels,
+    /// The scenario file as JSON.
+    pub scenario: serde_json::Value,
+    /// The true borders, one entry a case and border.
+    pub curves: Vec<BorderCurve>,
+    /// What must come out, and whether it did.
+    pub expectations: Vec<Expectation>,
+    /// One entry a curve and parameter group.
+    pub summaries: Vec<Summary>,
+    /// Methods and borders against each other on the same noise; `None` where every cell has its own.
+    #[serde(default)]
+    pub paired: Option<Pairing>,
+    /// One entry a cell.
+    pub cells: Vec<Cell>,
+}
+
+/// Not all of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Partial {
+    /// Replicates that were run.
+    pub replicates: usize,
+    /// … of so many, as far as was known.
+    pub of: usize,
+}
+
+impl fmt::Display for Partial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PARTIAL: the study was stopped after {} of {} replicates.", self.replicates, self.of)
+    }
+}
+
+impl Results {
+    /// The scenario again. It is called by the name of the results, as in `leafspring.toml`.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] if the results hold none that this version can read.
+    pub fn to_scenario(&self) -> Result<Scenario, ScenarioError> {
+        let text = toml::to_string(&self.scenario).unwrap_or_default();
+        Ok(Scenario::parse(&format!("{}.toml", self.name), &text)?.on(self.engine))
+    }
+
+    /// Whether everything the scenario expects came out.
+    pub fn as_expected(&self) -> bool {
+        self.expectations.iter().all(|e| e.held)
+    }
+
+    /// The curves of the study in the order of the cells, each once.
+    pub fn series(&self) -> Vec<&Series> {
+        let mut found: Vec<&Series> = Vec::new();
+        for cell in &self.cells {
+            if !found.contains(&&cell.series) {
+                found.push(&cell.series);
+            }
+        }
+        found
+    }
+}
