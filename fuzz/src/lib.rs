@@ -1,6 +1,6 @@
 //! What is fuzzed: a function from bytes that panics where something is wrong, one for each target.
 //!
-//! `fuzz_targets` hands them to libFuzzer; `crates/runner/tests/fuzz.rs`, which takes this file in, to an ordinary test.
+//! `fuzz_targets` hands them to libFuzzer; `crates/cli/tests/fuzz.rs`, which takes this file in, to an ordinary test.
 
 #[path = "targets/csv.rs"]
 pub mod csv;

@@ -65,7 +65,7 @@
 //! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
 //! | `diagnose`, `diagnosis` | the order of all this, and its report |
 //!
-//! Its oracle is the crate `switchback-maker`, which makes rigs with known causes and shares no law with this one.
+//! Its oracle is the crate `switchback-lab`, which makes rigs with known causes and shares no law with this one.
 
 mod attribution;
 mod closure;

@@ -4,7 +4,7 @@
 //! The choice looks at the data, so that the intervals of what was chosen could be too narrow (H. Leeb, B. M. Pötscher, Econometric Theory 21
 //! (2005), 21–59). Records of a spring with curved borders on a smooth motion, order and delay given, knots left to the data.
 //!
-//! `cargo run -p switchback-estimator --example noise_pretest -- RECORDS`
+//! `cargo run -p switchback-identify --example noise_pretest -- RECORDS`
 
 #![allow(
     clippy::disallowed_macros,

@@ -1,4 +1,4 @@
-//! Prints which sizes every law reaches, and at what magnitude: `cargo run -p switchback-maker --example survey`.
+//! Prints which sizes every law reaches, and at what magnitude: `cargo run -p switchback-lab --example survey`.
 
 #![allow(clippy::disallowed_macros, reason = "an example prints")]
 

@@ -11,9 +11,9 @@ const OTHERS: [&str; 8] = [
     "CHANGELOG.md",
     "benches/peers/README.md",
     "fuzz/README.md",
-    "crates/estimator/README.md",
-    "crates/gap/README.md",
-    "crates/maker/README.md",
+    "crates/identify/README.md",
+    "crates/diagnose/README.md",
+    "crates/lab/README.md",
 ];
 
 /// Every link to a file or heading that is not there.
