@@ -5,7 +5,6 @@
 //! `{"program": …, "keys": …}`, the latter the SHA-256 of the key file: what the same sources found need not be searched for again.
 //! Until there is a report the keys lie beside the journal under a name of their own: a new key never lies under an old report.
 
-use switchback_lab::examination::Judged;
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -13,6 +12,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use switchback_io::output::sha256;
+use switchback_lab::examination::Judged;
 use thiserror::Error;
 
 /// Judged rigs, in memory and on disk.

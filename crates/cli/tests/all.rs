@@ -28,6 +28,7 @@ mod hostile;
 mod identify;
 mod interrupt;
 mod launch;
+mod layers;
 mod matlab;
 mod measured;
 mod one_cause;

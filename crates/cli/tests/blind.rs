@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use switchback::journal::{Journal, SEALED_FILE};
 use switchback_diagnose::{
     DiagnoseError, Diagnosis, Effect, Figure, Gap, ResidualPicture, Settings, Status, Verdict,
 };
 use switchback_io::output::sha256;
 use switchback_lab::blind::{self, Case, Examiner, Expect, Kind, Sealed, Study, WrittenKeys};
-use switchback::journal::{Journal, SEALED_FILE};
 use switchback_lab::examination::{KEY_FILE, Sealed as _, key_file};
 use switchback_lab::generate::Plan;
 use switchback_model::rig::Rig;

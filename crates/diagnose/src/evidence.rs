@@ -62,7 +62,7 @@ pub struct Compared {
 
 impl Compared {
     /// What is said of an effect, if it has a fit.
-    pub fn of(&self, effect: Effect) -> Option<&EffectEvidence> {
+    pub(crate) fn of(&self, effect: Effect) -> Option<&EffectEvidence> {
         self.effects.iter().find(|says| says.effect == effect)
     }
 

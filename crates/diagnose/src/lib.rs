@@ -92,17 +92,35 @@ mod testing;
 mod verdict;
 mod workers;
 
-pub use diagnose::{diagnose, diagnose_with};
-pub use diagnosis::{
-    Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Figure, FittedParameter, Gap,
-    HoldoutSeries, Horizon, HorizonGain, Models, NextExperiment, RecordGap, Refit, ResidualPicture, Status,
-    Together, Verdict,
-};
-pub use effect::{Effect, Stage};
+pub use diagnose::diagnose;
+pub use diagnose::diagnose_with;
+pub use diagnosis::Candidate;
+pub use diagnosis::Cell;
+pub use diagnosis::CellInterval;
+pub use diagnosis::CellUnit;
+pub use diagnosis::Diagnosis;
+pub use diagnosis::Figure;
+pub use diagnosis::FittedParameter;
+pub use diagnosis::Gap;
+pub use diagnosis::HoldoutSeries;
+pub use diagnosis::Horizon;
+pub use diagnosis::HorizonGain;
+pub use diagnosis::NextExperiment;
+pub use diagnosis::ResidualPicture;
+pub use diagnosis::Status;
+pub use diagnosis::Together;
+pub use diagnosis::Verdict;
+pub use effect::Effect;
+pub use effect::Stage;
 pub use error::DiagnoseError;
-pub use evidence::{Compared, Comparison, EffectEvidence};
-pub use export::{LooksAhead, PortableError, PortableModel, Simulated};
+pub use evidence::Compared;
+pub use evidence::Comparison;
+pub use export::LooksAhead;
+pub use export::PortableModel;
 pub use phase::Phase;
-pub use settings::{Model, NominalModel, Settings};
+pub use settings::Model;
+pub use settings::NominalModel;
+pub use settings::Settings;
 pub use verdict::fitted;
-pub use workers::{Serial, Workers};
+pub(crate) use workers::Serial;
+pub use workers::Workers;

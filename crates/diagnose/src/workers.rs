@@ -14,7 +14,7 @@ pub trait Workers: Sync {
 
 /// One piece after the other.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Serial;
+pub(crate) struct Serial;
 
 impl Workers for Serial {
     fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {

@@ -49,7 +49,7 @@ const LEVEL: f64 = 0.05;
 
 impl BorderDistance {
     /// From the differences at several places, by increasing `v`; `None` without a place, or where an error is unknown.
-    pub fn of(gaps: &[BorderGap]) -> Option<Self> {
+    pub(crate) fn of(gaps: &[BorderGap]) -> Option<Self> {
         if gaps.iter().any(|gap| !(gap.difference.is_finite() && gap.se >= 0.0)) {
             return None;
         }

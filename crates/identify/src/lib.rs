@@ -56,7 +56,10 @@ pub mod pulse;
 pub mod simulation;
 pub mod statistics;
 
-pub use border_distance::{BorderDistance, BorderGap};
-pub use estimate::{BorderPoint, Coefficient, Estimate, LevelErrors};
+pub use border_distance::BorderDistance;
+pub use estimate::BorderPoint;
+pub use estimate::Coefficient;
+pub use estimate::Estimate;
+pub use estimate::LevelErrors;
 pub use method::Method;
 pub use plus_minus::PlusMinus;

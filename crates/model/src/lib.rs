@@ -19,4 +19,4 @@ pub mod record;
 pub mod rig;
 pub mod step;
 
-pub use record::{Record, RecordError};
+pub use record::Record;

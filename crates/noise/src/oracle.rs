@@ -11,7 +11,10 @@ use super::white::StreamId;
 ///
 /// # Errors
 /// If the plan is not valid.
-pub fn record_by_definition(plan: &NoisePlan, stream: StreamId) -> Result<NoiseRecord, NoisePlanError> {
+pub(crate) fn record_by_definition(
+    plan: &NoisePlan,
+    stream: StreamId,
+) -> Result<NoiseRecord, NoisePlanError> {
     let longest = plan.checkpoints.iter().copied().max().unwrap_or(0);
     let noise = samples(plan, stream, longest)?;
     let e = |t: isize| match plan.burn_in.checked_add_signed(t) {

@@ -69,7 +69,7 @@ impl NoisePlan {
     ///
     /// # Errors
     /// See [`NoisePlanError`].
-    pub fn validate(&self) -> Result<(), NoisePlanError> {
+    pub(crate) fn validate(&self) -> Result<(), NoisePlanError> {
         for (polynomial, coefficients) in [("ar", &self.ar), ("ma", &self.ma)] {
             if let Some(i) = coefficients.iter().position(|x| !x.is_finite()) {
                 return Err(NoisePlanError::NotFinite { polynomial, index: i + 1, value: coefficients[i] });

@@ -29,7 +29,7 @@ pub struct StreamId {
 
 impl StreamId {
     /// The stream number `experiment·2³² + replicate`.
-    pub fn number(self) -> u64 {
+    pub(crate) fn number(self) -> u64 {
         u64::from(self.experiment) << 32 | u64::from(self.replicate)
     }
 }
@@ -71,7 +71,7 @@ impl WhiteNoise {
     }
 
     /// Goes to the beginning of the noise of other replicates under the same seed.
-    pub fn restart(&mut self, experiment: u32, replicate: u32) {
+    pub(crate) fn restart(&mut self, experiment: u32, replicate: u32) {
         for (l, stream) in self.streams.iter_mut().enumerate() {
             *stream = u64::from(experiment) << 32 | u64::from(replicate.wrapping_add(l as u32));
         }

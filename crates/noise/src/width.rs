@@ -53,10 +53,10 @@ pub(super) trait Kernel {
 
 impl Width {
     /// One replicate at a time: for a single stream.
-    pub const SINGLE: Self = Self(Set::Single);
+    pub(crate) const SINGLE: Self = Self(Set::Single);
 
     /// Four abreast in whatever the target has by default.
-    pub const PORTABLE: Self = Self(Set::Portable);
+    pub(crate) const PORTABLE: Self = Self(Set::Portable);
 
     /// The widest that this processor runs.
     pub fn detect() -> Self {

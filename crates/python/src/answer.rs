@@ -38,7 +38,7 @@ pub(crate) trait Page: fmt::Debug + Send + Sync {
 
 /// What a verb found: the JSON object of the command line, its words, the files of its report.
 #[pyclass(frozen, module = "switchback._native")]
-pub(crate) struct Answer(Arc<dyn Page>);
+pub struct Answer(Arc<dyn Page>);
 
 impl Answer {
     pub(crate) fn new(page: impl Page + 'static) -> Self {

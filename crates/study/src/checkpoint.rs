@@ -18,7 +18,7 @@ use thiserror::Error;
 pub const KEPT_FILE: &str = "replicates.sums";
 
 /// The same while the study runs.
-pub const UNFINISHED_FILE: &str = "unfinished.sums";
+pub(crate) const UNFINISHED_FILE: &str = "unfinished.sums";
 
 /// Keeping takes at most this share of the time.
 const SHARE: u32 = 20;
@@ -123,7 +123,7 @@ impl Kept {
     ///
     /// # Errors
     /// [`KeptError`] if the system refuses; what was written before is still there.
-    pub fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), KeptError> {
+    pub(crate) fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), KeptError> {
         let begun = Instant::now();
         let folder = self.place.parent().map_or(Ok(()), fs::create_dir_all);
         let written = folder.and_then(|()| self.disk.replace(&self.place, &snapshot.to_bytes(&self.origin)));

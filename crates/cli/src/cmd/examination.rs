@@ -3,8 +3,8 @@
 use super::partial;
 use crate::build::{BUILD, JUDGING_SOURCES};
 use crate::failure::{CommandResult, Outcome};
-use crate::journal::{Journal, SEALED_FILE};
 use crate::interrupt::{self, Heeding};
+use crate::journal::{Journal, SEALED_FILE};
 use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
 use rayon::prelude::*;
@@ -15,9 +15,7 @@ use std::time::{Duration, Instant};
 use switchback_io::input::{read_text, stream};
 use switchback_io::output::{OutputError, OutputFolder, note, sha256};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
-use switchback_lab::examination::{
-    Judged, KEY_FILE, Part, Partial, Report, Sealed, key_file,
-};
+use switchback_lab::examination::{Judged, KEY_FILE, Part, Partial, Report, Sealed, key_file};
 use switchback_report::examination::{Drawn, report};
 use switchback_report::pages;
 use switchback_study::Shard;

@@ -9,9 +9,8 @@ use serde::Serialize;
 use std::path::PathBuf;
 use switchback_io::output::stamped;
 use switchback_io::provenance::Provenance;
-use switchback_study::compare;
-use switchback_study::consistency;
 use switchback_study::results::{self, to_json};
+use switchback_study::{compare, consistency};
 
 /// Run the study of some results again, from what they say alone, and compare: exit code 1 where they differ.
 #[derive(Debug, clap::Args)]

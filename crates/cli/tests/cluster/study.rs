@@ -26,7 +26,7 @@ pub(crate) fn is_full() -> bool {
     std::env::var("SWITCHBACK_CLUSTER").is_ok_and(|value| value == "full")
 }
 
-pub(crate) struct Study {
+pub(super) struct Study {
     pub(crate) folder: Folder,
     whole: OnceCell<Files>,
 }

@@ -12,5 +12,6 @@ mod tests;
 
 pub use self::causal::LooksAhead;
 pub(crate) use self::fitted::Exporter;
-pub use self::portable::{PortableError, PortableModel};
-pub use self::simulate::Simulated;
+pub(crate) use self::portable::PortableError;
+pub use self::portable::PortableModel;
+pub(crate) use self::simulate::Simulated;

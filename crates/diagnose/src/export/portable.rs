@@ -79,7 +79,7 @@ pub(super) struct Moved {
 /// Why parts make no model.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
-pub enum PortableError {
+pub(crate) enum PortableError {
     /// A list has not as many entries as the rest of the model asks for.
     #[error("`{part}` has {found} entries, but the rest of the model makes {expected}")]
     Length {

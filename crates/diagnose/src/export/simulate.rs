@@ -64,7 +64,7 @@ impl PortableModel {
     ///
     /// # Panics
     /// If there is no such record, it is empty, or its input and output differ in length.
-    pub fn outputs(&self, number: usize, v: &[f64], y: &[f64]) -> Vec<f64> {
+    pub(crate) fn outputs(&self, number: usize, v: &[f64], y: &[f64]) -> Vec<f64> {
         assert!(number < self.0.clock.records.len(), "the campaign has no record {number}");
         self.run(v, Some(y), Some(number), false).y
     }

@@ -45,7 +45,7 @@ impl RandomLevels {
     ///
     /// # Errors
     /// [`ExcitationError::DriveSetting`] if zero.
-    pub fn with_longest_move(self, samples: u32) -> Result<Self, ExcitationError> {
+    pub(crate) fn with_longest_move(self, samples: u32) -> Result<Self, ExcitationError> {
         if samples == 0 {
             let remedy = "a move takes at least one sample; give 1 or more";
             return Err(ExcitationError::DriveSetting { setting: "longest_move", value: 0.0, remedy });
@@ -57,7 +57,7 @@ impl RandomLevels {
     ///
     /// # Errors
     /// [`ExcitationError::DriveSetting`] if the probability is not in `[0, 1]`, or positive with `longest` zero.
-    pub fn with_rests(self, probability: f64, longest: u32) -> Result<Self, ExcitationError> {
+    pub(crate) fn with_rests(self, probability: f64, longest: u32) -> Result<Self, ExcitationError> {
         if !(0.0..=1.0).contains(&probability) {
             let remedy = "a probability lies between 0 and 1";
             return Err(ExcitationError::DriveSetting {
@@ -74,7 +74,7 @@ impl RandomLevels {
     }
 
     /// The working interval.
-    pub fn interval(&self) -> Interval {
+    pub(crate) fn interval(&self) -> Interval {
         self.interval
     }
 

@@ -12,7 +12,8 @@ mod pulse;
 mod reversals;
 mod step;
 
-pub use campaign::{Campaign, PlannedRecord};
+pub use campaign::Campaign;
+pub use campaign::PlannedRecord;
 pub use direction::Direction;
 pub use error::ExcitationError;
 pub use free::RandomLevels;

@@ -118,7 +118,7 @@ impl PulseExperiment {
     }
 
     /// The working interval.
-    pub fn interval(&self) -> Interval {
+    pub(crate) fn interval(&self) -> Interval {
         self.interval
     }
 
@@ -173,7 +173,7 @@ impl PulseExperiment {
     }
 
     /// The input at a phase; phases beyond the period wrap around.
-    pub fn v_at_phase(&self, phase: usize) -> f64 {
+    pub(crate) fn v_at_phase(&self, phase: usize) -> f64 {
         let phase = phase % self.period();
         if !phase.is_multiple_of(self.spacing) {
             return self.satellite();

@@ -33,7 +33,7 @@ impl StepExperiment {
     }
 
     /// Holds `h_m`, the satellite of the ascendant experiment.
-    pub fn low(interval: Interval) -> Self {
+    pub(crate) fn low(interval: Interval) -> Self {
         Self::at_satellite_of(Direction::Ascendant, interval)
     }
 
@@ -43,7 +43,7 @@ impl StepExperiment {
     }
 
     /// The level that is held, input units.
-    pub fn satellite(&self) -> f64 {
+    pub(crate) fn satellite(&self) -> f64 {
         self.satellite_of.satellite(self.interval)
     }
 

@@ -58,23 +58,32 @@ mod units;
 mod warning;
 
 pub use basis::Basis;
-pub use branch::{Branches, LookAhead, ReversalRule, Timing};
+pub use branch::Branches;
+pub use branch::LookAhead;
+pub use branch::ReversalRule;
+pub use branch::Timing;
 pub use equation_error::Moments;
 pub use error::FreeError;
 pub use fit::FitKind;
 pub use free_run::Output;
-pub use identify::{Identified, identify, identify_watched};
+pub use identify::Identified;
+pub use identify::identify;
+pub use identify::identify_watched;
 pub use input_noise::InputNoise;
 pub use limit::Limit;
-pub use model::{Coefficients, FreeRun, Model, ModelError, fit_percent};
+pub use model::Coefficients;
+pub use model::Model;
+pub use model::fit_percent;
 pub use nested::NestedRegressions;
-pub use one_shot::{Grid, one_shot};
+pub use one_shot::Grid;
+pub use one_shot::one_shot;
 pub use problem::Structure;
 pub use progress::Progress;
 pub use regression::Regression;
-pub use selection::{Candidate, Selection};
+pub use selection::Candidate;
 pub use sensor::SensorNoise;
-pub use settings::{InputMap, Settings};
+pub use settings::InputMap;
+pub use settings::Settings;
 pub use warning::Warning;
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ pub struct Structure {
 
 impl Structure {
     /// Number of coefficients of `B`: its lags run from `1 + delay` to `n + delay`, or to `n` where the delay is negative.
-    pub fn numerator(&self) -> usize {
+    pub(crate) fn numerator(&self) -> usize {
         self.order + self.lead()
     }
 

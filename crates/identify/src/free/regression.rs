@@ -67,7 +67,7 @@ impl Regression {
     }
 
     /// The first sample that is explained; those before it serve as its past.
-    pub fn start(&self) -> usize {
+    pub(crate) fn start(&self) -> usize {
         self.start
     }
 

@@ -175,7 +175,7 @@ impl PulseData {
     }
 
     /// Order `n` of the autoregression.
-    pub fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.statistics.order()
     }
 

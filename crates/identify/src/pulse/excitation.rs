@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 ///
 /// # Panics
 /// If no experiment is given.
-pub fn excitation(experiments: &[&PulseData]) -> f64 {
+pub(crate) fn excitation(experiments: &[&PulseData]) -> f64 {
     let experiments = Experiments::new(experiments);
     let columns = experiments.rank_free_columns();
     let statistics = &experiments.statistics;

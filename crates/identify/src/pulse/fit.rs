@@ -66,7 +66,7 @@ impl PulseFit {
     }
 
     /// `B̂(1)/Â(1)`, output units per normalised `u`.
-    pub fn gain(&self) -> f64 {
+    pub(crate) fn gain(&self) -> f64 {
         let a: f64 = self.a.iter().map(|x| x.value).sum();
         self.b.iter().map(|x| x.value).sum::<f64>() / (1.0 + a)
     }

@@ -31,7 +31,7 @@ impl Folds {
     }
 
     /// `T`.
-    pub fn period(&self) -> usize {
+    pub(crate) fn period(&self) -> usize {
         self.means.len()
     }
 

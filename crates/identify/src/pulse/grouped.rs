@@ -98,12 +98,12 @@ impl GroupedStatistics {
     }
 
     /// `Σ_t y(t−l)` over all groups.
-    pub fn total(&self, lag: usize) -> f64 {
+    pub(crate) fn total(&self, lag: usize) -> f64 {
         (0..self.groups()).map(|q| self.sum(q, lag)).sum()
     }
 
     /// The statistics of `y − level`, exactly.
-    pub fn shifted(&self, level: f64) -> Self {
+    pub(crate) fn shifted(&self, level: f64) -> Self {
         let width = self.width();
         let samples = self.samples();
         let totals: Vec<f64> = (0..width).map(|l| self.total(l)).collect();
@@ -123,7 +123,7 @@ impl GroupedStatistics {
     ///
     /// # Panics
     /// If the orders differ or there is no record.
-    pub fn stacked(parts: &[&Self]) -> Self {
+    pub(crate) fn stacked(parts: &[&Self]) -> Self {
         let order = parts.first().expect("at least one record").order;
         let mut stacked = Self::new(order, 0);
         for part in parts {

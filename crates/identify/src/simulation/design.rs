@@ -54,7 +54,7 @@ impl PeriodicDesign {
     }
 
     /// The level (from 0) that the input visits at each phase; `None` where it rests.
-    pub fn visits(&self) -> Vec<Option<usize>> {
+    pub(crate) fn visits(&self) -> Vec<Option<usize>> {
         let seen_first = |group: usize| {
             (group > 0 && (group - 1).is_multiple_of(self.order)).then(|| (group - 1) / self.order)
         };

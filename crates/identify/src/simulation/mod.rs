@@ -8,8 +8,14 @@ mod sum_covariance;
 mod superposition;
 
 pub use design::PeriodicDesign;
-pub use lanes::{Grouping, LaneCross, LaneGroupedNoise, LaneMoments, LaneSuperposition};
+pub use lanes::Grouping;
+pub use lanes::LaneCross;
+pub use lanes::LaneGroupedNoise;
+pub use lanes::LaneMoments;
+pub use lanes::LaneSuperposition;
 pub use periodic::periodic_response;
-pub use precision::{PlannedPrecision, PredictedErrors};
+pub use precision::PlannedPrecision;
+pub use precision::PredictedErrors;
 pub use sum_covariance::SumCovariance;
-pub use superposition::{NoiseMoments, superpose};
+pub use superposition::NoiseMoments;
+pub use superposition::superpose;

@@ -42,7 +42,7 @@ impl NoiseMoments {
     ///
     /// # Panics
     /// If `e` has no more than `lags` entries.
-    pub fn from_samples_after(e: &[f64], lags: usize, order: usize, period: usize) -> Self {
+    pub(crate) fn from_samples_after(e: &[f64], lags: usize, order: usize, period: usize) -> Self {
         assert!(e.len() > lags && lags >= order, "the record starts after the first L values");
         let width = order + 1;
         let mut moments = Self {

@@ -12,11 +12,19 @@ mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
 pub use correlation::correlation;
-pub use error_sums::{ErrorSums, KnownControl, Performance, ReplicateError, normal_quantile_975};
-pub use interval_counts::{CLASS_ENDS, CLASSES, IntervalCounts};
+pub use error_sums::ErrorSums;
+pub use error_sums::KnownControl;
+pub use error_sums::Performance;
+pub use error_sums::ReplicateError;
+pub use error_sums::normal_quantile_975;
+pub use interval_counts::CLASS_ENDS;
+pub use interval_counts::CLASSES;
+pub use interval_counts::IntervalCounts;
 pub use jackknife::jackknife_se;
-pub use lane_errors::{LaneErrors, LaneEstimates, LaneSums};
-pub use line::{Line, weighted_line};
+pub use lane_errors::LaneErrors;
+pub use lane_errors::LaneEstimates;
+pub use lane_errors::LaneSums;
+pub use line::weighted_line;
 pub use propagation::propagated;
 pub use whiteness::Whiteness;
 

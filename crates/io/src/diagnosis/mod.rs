@@ -3,7 +3,7 @@
 //! The diagnosis itself is the crate `switchback_diagnose`; here are files, threads and units.
 
 mod error;
-mod examine;
+pub mod examine;
 mod expectation;
 mod experiment;
 mod given;
@@ -13,13 +13,26 @@ mod parameter;
 mod subject;
 mod units;
 
-pub use crate::model::ModelError;
 pub use error::DiagnosisError;
-pub use examine::{Report, examine, examine_watched};
-pub use expectation::{Checked, Expectation};
-pub use experiment::{NEXT_EXPERIMENT, next_experiment, separates};
+pub use examine::Report;
+pub use examine::examine;
+pub use examine::examine_watched;
+pub use expectation::Checked;
+pub use expectation::Expectation;
+pub use experiment::NEXT_EXPERIMENT;
+pub use experiment::next_experiment;
+pub use experiment::separates;
 pub use given::GivenModel;
-pub use number::{closed_percent, digits, edge, fit_percent, whole_percent, with_interval};
-pub use parameter::{Told, told};
-pub use subject::{Source, Subject, SubjectError, met_by};
+pub use number::closed_percent;
+pub use number::digits;
+pub use number::edge;
+pub use number::fit_percent;
+pub use number::whole_percent;
+pub use number::with_interval;
+pub use parameter::Told;
+pub use parameter::told;
+pub use subject::Source;
+pub use subject::Subject;
+pub use subject::SubjectError;
+pub use subject::met_by;
 pub use units::Units;

@@ -4,6 +4,9 @@ mod fmu;
 mod heading;
 mod target;
 
-pub use fmu::{LibraryError, fmu, library, platform};
-pub use heading::{heading, name_from};
+pub use fmu::fmu;
+pub use fmu::library;
+pub use fmu::platform;
+pub use heading::heading;
+pub use heading::name_from;
 pub use target::Target;

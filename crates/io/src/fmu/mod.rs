@@ -12,5 +12,7 @@ mod predict;
 
 pub use error::FmuError;
 pub use host::host;
-pub use map::{Map, map};
-pub use predict::{Simulator, predictions};
+pub use map::Map;
+pub use map::map;
+pub use predict::Simulator;
+pub use predict::predictions;

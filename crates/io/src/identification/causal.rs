@@ -14,7 +14,7 @@ pub struct CausalAlternative {
 }
 
 /// Why a model could not run in real time, with the unit of its input; empty if it could.
-pub fn obstacles(model: &Model, unit: &str) -> Vec<String> {
+pub(crate) fn obstacles(model: &Model, unit: &str) -> Vec<String> {
     if model.is_causal() {
         return Vec::new();
     }

@@ -17,7 +17,7 @@ pub fn identify(rig: &Rig, request: impl Into<Request>) -> Result<Identification
 ///
 /// # Errors
 /// As [`identify`].
-pub fn identify_watched(
+pub(crate) fn identify_watched(
     rig: &Rig,
     request: Request,
     progress: &dyn Progress,

@@ -27,7 +27,7 @@ pub struct Examination {
 ///
 /// # Errors
 /// [`IdentificationError`] if nothing can be identified, or if the result cannot simulate a single record.
-pub fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
+pub(crate) fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
     examined_watched(rig, request, &())
 }
 

@@ -17,11 +17,14 @@ mod table;
 mod yardstick;
 
 pub use causal::CausalAlternative;
-pub use causal::obstacles;
-pub use dispatch::{identify, identify_watched};
+pub(crate) use causal::obstacles;
+pub use dispatch::identify;
+pub(crate) use dispatch::identify_watched;
 pub use error::IdentificationError;
-pub use examine::{Examination, examined, examined_watched};
-pub use flag::Flag;
+pub use examine::Examination;
+pub(crate) use examine::examined;
+pub use examine::examined_watched;
+pub(crate) use flag::Flag;
 pub use json::json;
 pub use method::default_method;
 pub use request::Request;
@@ -96,7 +99,7 @@ pub struct FreeRun {
 
 impl FreeRun {
     /// Judges a simulation against the measured output.
-    pub fn new(measured: &[f64], simulated: Vec<f64>, start: usize) -> Self {
+    pub(crate) fn new(measured: &[f64], simulated: Vec<f64>, start: usize) -> Self {
         let fit_percent = fit_percent(&measured[start..], &simulated[start..]);
         Self { simulated, start, fit_percent }
     }

@@ -30,7 +30,7 @@ impl<'a> EstimatedSystem<'a> {
     }
 
     /// The same for an estimate that may be unstable.
-    pub fn of_any(estimate: &'a Estimate, interval: Interval) -> Self {
+    pub(crate) fn of_any(estimate: &'a Estimate, interval: Interval) -> Self {
         let points =
             |border: &[BorderPoint]| -> Vec<(f64, f64)> { border.iter().map(|p| (p.v, p.f)).collect() };
         let mut descending = points(&estimate.descending);
@@ -61,7 +61,7 @@ impl<'a> EstimatedSystem<'a> {
     ///
     /// The outputs measured until the first sample whose inputs are all known (the first move and the memory of the
     /// system) are the initial state; all later ones are simulated from `v` alone.
-    pub fn run(&self, record: &Record) -> Option<FreeRun> {
+    pub(crate) fn run(&self, record: &Record) -> Option<FreeRun> {
         let v = record.v();
         let first_known = first_move(v)?;
         let start = (first_known + self.memory()).min(v.len());
@@ -72,7 +72,7 @@ impl<'a> EstimatedSystem<'a> {
 
     /// Runs on an input from rest: the input has been at its first value for ever, on the border of the first move where that is known
     /// there. None where it moves along a border that was not estimated.
-    pub fn run_from_rest(&self, v: &[f64]) -> Option<Vec<f64>> {
+    pub(crate) fn run_from_rest(&self, v: &[f64]) -> Option<Vec<f64>> {
         let first_known = first_move(v).unwrap_or(v.len());
         let falls = v.get(first_known).is_some_and(|now| *now < v[0]);
         let [own, other] = if falls {

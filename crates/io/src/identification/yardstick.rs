@@ -54,7 +54,7 @@ impl Yardstick {
     }
 
     /// Points of held-out fit that the identification has above this one.
-    pub fn lead(&self) -> f64 {
+    pub(crate) fn lead(&self) -> f64 {
         self.own_fit_percent - self.fit_percent
     }
 

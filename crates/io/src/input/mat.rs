@@ -22,7 +22,7 @@ pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
 }
 
 #[cfg(not(feature = "matlab"))]
-pub(super) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
+pub fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
     Err(unreadable(path, "this program was built without the feature `matlab`".to_owned()))
 }
 

@@ -87,7 +87,7 @@ impl From<io::Error> for Fault {
 ///
 /// # Errors
 /// A stream that is silent for 10 s, goes on beyond 1 GiB, or cannot be read.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     type Kept = Result<Arc<Vec<u8>>, Fault>;
     static KEPT: Mutex<BTreeMap<PathBuf, Kept>> = Mutex::new(BTreeMap::new());
     let key = if is_standard_input(path) { Path::new(STANDARD_INPUT) } else { path };

@@ -2,7 +2,7 @@
 
 /// What a file's format calls its parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Terms {
+pub(crate) enum Terms {
     Toml,
     Json,
 }
@@ -23,7 +23,7 @@ impl Terms {
     }
 
     /// A reader's message in the words of somebody who writes such files.
-    pub fn told(self, message: &str) -> String {
+    pub(super) fn told(self, message: &str) -> String {
         let message = message.trim_end();
         let kinds = ["invalid type: ", "invalid value: ", "invalid length "];
         let contrast = kinds.into_iter().find_map(|kind| {

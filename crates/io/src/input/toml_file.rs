@@ -75,7 +75,7 @@ impl TomlFile {
 
     /// The same, going on after what is wrong: a line that does not fit is told, taken out, and the rest read again, so that all such lines
     /// are told at once. The value lacks what stood in them; it is none where the file is no TOML.
-    pub fn parse_all<T: DeserializeOwned>(&self) -> (Option<T>, Vec<TomlError>) {
+    pub(crate) fn parse_all<T: DeserializeOwned>(&self) -> (Option<T>, Vec<TomlError>) {
         let mut rest = self.text.clone();
         let mut problems = Vec::new();
         loop {
@@ -129,7 +129,7 @@ impl TomlFile {
     }
 
     /// The line on which a place of this file lies, from 1.
-    pub fn line(&self, span: &Range<usize>) -> usize {
+    pub(crate) fn line(&self, span: &Range<usize>) -> usize {
         1 + self.text[..span.start.min(self.text.len())].matches('\n').count()
     }
 
@@ -157,7 +157,7 @@ impl TomlError {
     }
 
     /// Column of the error in letters, from 1.
-    pub fn column(&self) -> usize {
+    pub(crate) fn column(&self) -> usize {
         self.0.column
     }
 }

@@ -61,7 +61,7 @@ impl ModelFile {
     }
 
     /// What is assumed on records that the model was not made from, one sentence each.
-    pub fn elsewhere(&self) -> Vec<String> {
+    pub(crate) fn elsewhere(&self) -> Vec<String> {
         match &self.system {
             System::Switched(model) => model.elsewhere(),
             System::Curves(_) | System::Points(_) => Vec::new(),

@@ -104,7 +104,7 @@ impl Curves {
     }
 
     /// The same system as borders between which nothing is left out; see [`plain`].
-    pub fn plain(&self) -> Option<NominalModel> {
+    pub(crate) fn plain(&self) -> Option<NominalModel> {
         plain(&self.model)
     }
 
@@ -135,7 +135,7 @@ impl Curves {
 
 /// An identified system as borders between which nothing is left out; none with a delay, a look ahead or a gain of zero, or where it is a
 /// line that goes on beyond its ends.
-pub fn plain(model: &Model) -> Option<NominalModel> {
+pub(crate) fn plain(model: &Model) -> Option<NominalModel> {
     let Coefficients { a, b, .. } = model.coefficients();
     let is_plain = model.structure().delay == 0 && !model.basis().is_line() && b.iter().sum::<f64>() != 0.0;
     let [descending, ascending] = borders(model);

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use switchback_diagnose::PortableModel;
 
 /// The format that is written, and the only one that is read.
-pub const SCHEMA: &str = "switchback/model/1";
+pub(crate) const SCHEMA: &str = "switchback/model/1";
 
 /// A model with all that is known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,7 +84,7 @@ impl System {
     }
 
     /// Whether the errors of its parameters are known.
-    pub fn has_covariance(&self) -> bool {
+    pub(crate) fn has_covariance(&self) -> bool {
         match self {
             Self::Switched(model) => model.has_covariance(),
             Self::Curves(model) => model.covariance().is_some(),

@@ -49,7 +49,7 @@ impl Points {
     ///
     /// # Errors
     /// In words, where the estimate cannot run.
-    pub fn of(
+    pub(crate) fn of(
         estimate: &Estimate,
         interval: Interval,
         covariance: Option<Vec<Vec<f64>>>,
@@ -95,7 +95,7 @@ impl Points {
     }
 
     /// The estimate that it was made from, without standard errors.
-    pub fn estimate(&self) -> Estimate {
+    pub(crate) fn estimate(&self) -> Estimate {
         self.0.estimate()
     }
 

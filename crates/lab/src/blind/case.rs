@@ -95,7 +95,7 @@ impl Case {
     }
 
     /// Whether one effect or one class is given and the single effect put in is that or a twin of it.
-    pub fn class_right(&self) -> bool {
+    pub(crate) fn class_right(&self) -> bool {
         let [truth] = self.truth.as_slice() else { return false };
         match self.reply.status {
             "named" => matches!(self.reply.effects.as_slice(), [named] if same_class(named, truth)),
@@ -107,19 +107,19 @@ impl Case {
     }
 
     /// Whether a cause is named, alone or as a class or rivals.
-    pub fn names_a_cause(&self) -> bool {
+    pub(crate) fn names_a_cause(&self) -> bool {
         matches!(self.reply.status, "named" | "class" | "ambiguous")
     }
 
     /// Whether a twin of the effect put in is given, alone or first among the rivals: nothing else in the library is as near.
-    pub fn names_a_twin(&self) -> bool {
+    pub(crate) fn names_a_twin(&self) -> bool {
         let given = self.reply.effects.first().or(self.reply.class.first());
         let [truth] = self.truth.as_slice() else { return false };
         self.reply.effects.len() < 2 && given.is_some_and(|given| same_class(given, truth))
     }
 
     /// Whether every effect named was put in.
-    pub fn all_named_are_true(&self) -> bool {
+    pub(crate) fn all_named_are_true(&self) -> bool {
         self.reply.status == "named" && self.reply.effects.iter().all(|e| self.truth.contains(e))
     }
 
@@ -135,7 +135,7 @@ impl Case {
     }
 
     /// Whether the likeliest explanation is the true one.
-    pub fn top_is_true(&self) -> bool {
+    pub(crate) fn top_is_true(&self) -> bool {
         match self.reply.top.0 {
             "none" => self.kind == Kind::None,
             "unexplained" => self.kind == Kind::Outside,

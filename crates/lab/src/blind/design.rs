@@ -21,7 +21,7 @@ pub enum Kind {
 
 impl Kind {
     /// The name in tables.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Single => "single",
             Self::None => "none",

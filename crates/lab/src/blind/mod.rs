@@ -19,17 +19,31 @@ mod score;
 mod seal;
 mod twins;
 
-pub use case::{Baseline, Case};
-pub use design::{Kind, Ticket, design};
+pub use case::Case;
+pub use design::Kind;
+pub use design::Ticket;
+pub use design::design;
 pub use examination::Blind;
-pub use examine::{Examiner, examine};
+pub use examine::Examiner;
+pub use examine::examine;
 pub use place::PlaceCheck;
+pub use report::artefacts;
 pub use report::json;
-pub use report::{artefacts, summary};
-pub use scenario::{Expect, Study, is_blind, read};
-pub use score::{
-    AbstentionRow, AccuracyRow, BaselineRow, Calibration, ClosureRow, Confusion, PlaceRow, Scores, SizeRow,
-    TARGETS, score,
-};
-pub use seal::{Sealed, WrittenKeys, seal};
-pub use twins::{class_of, same_class};
+pub(crate) use report::summary;
+pub use scenario::Expect;
+pub use scenario::Study;
+pub use scenario::is_blind;
+pub use scenario::read;
+pub use score::AbstentionRow;
+pub use score::AccuracyRow;
+pub use score::BaselineRow;
+pub use score::ClosureRow;
+pub use score::Confusion;
+pub use score::PlaceRow;
+pub use score::Scores;
+pub use score::SizeRow;
+pub use score::score;
+pub use seal::Sealed;
+pub use seal::WrittenKeys;
+pub use seal::seal;
+pub(crate) use twins::same_class;

@@ -32,7 +32,7 @@ pub(super) fn answers(cases: &[Case]) -> String {
 }
 
 /// The table of measures and that of simpler rules, as printed.
-pub fn summary(scores: &Scores) -> String {
+pub(crate) fn summary(scores: &Scores) -> String {
     let mut text = measures_table(&scores.measures);
     let _ = writeln!(
         text,

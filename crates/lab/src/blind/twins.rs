@@ -25,12 +25,12 @@ const TWINS: [(&str, &str); 13] = [
 ];
 
 /// Whether two effects are the same or twins.
-pub fn same_class(one: &str, other: &str) -> bool {
+pub(crate) fn same_class(one: &str, other: &str) -> bool {
     one == other || TWINS.iter().any(|&(a, b)| (a, b) == (one, other) || (b, a) == (one, other))
 }
 
 /// The effect with all its twins.
-pub fn class_of(effect: &str) -> Vec<&'static str> {
+pub(crate) fn class_of(effect: &str) -> Vec<&'static str> {
     crate::generate::EFFECTS.into_iter().filter(|other| same_class(effect, other)).collect()
 }
 

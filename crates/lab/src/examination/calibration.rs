@@ -14,7 +14,7 @@ pub struct CalibrationBin {
 const BINS: usize = 10;
 
 /// Claims with whether they hold, in ten bins of equal width; empty ones are left out.
-pub fn calibration_bins(claims: &[(f64, bool)]) -> Vec<CalibrationBin> {
+pub(crate) fn calibration_bins(claims: &[(f64, bool)]) -> Vec<CalibrationBin> {
     (0..BINS)
         .filter_map(|k| {
             let inside: Vec<_> =
@@ -28,7 +28,7 @@ pub fn calibration_bins(claims: &[(f64, bool)]) -> Vec<CalibrationBin> {
 }
 
 /// Expected calibration error, `Σ (n_bin/n)·|mean claimed − share held|`; none of nothing.
-pub fn calibration_error(bins: &[CalibrationBin]) -> Option<f64> {
+pub(crate) fn calibration_error(bins: &[CalibrationBin]) -> Option<f64> {
     let all: usize = bins.iter().map(|b| b.held.of).sum();
     let miss = |b: &CalibrationBin| b.held.of as f64 * (b.claimed - b.held.value().unwrap_or(0.0)).abs();
     (all > 0).then(|| bins.iter().map(miss).sum::<f64>() / all as f64)

@@ -14,7 +14,7 @@ pub struct Share {
 
 impl Share {
     /// Counts over some cases.
-    pub fn over<'a, C: 'a>(cases: impl Iterator<Item = &'a C>, holds: impl Fn(&C) -> bool) -> Self {
+    pub(crate) fn over<'a, C: 'a>(cases: impl Iterator<Item = &'a C>, holds: impl Fn(&C) -> bool) -> Self {
         cases.fold(Self::default(), |s, c| Self { count: s.count + usize::from(holds(c)), of: s.of + 1 })
     }
 
@@ -48,7 +48,7 @@ pub enum Bound {
 
 impl Bound {
     /// Whether a figure meets the bound.
-    pub fn holds(self, x: f64) -> bool {
+    pub(crate) fn holds(self, x: f64) -> bool {
         match self {
             Self::AtLeast(low) => x >= low,
             Self::AtMost(high) => x <= high,
@@ -79,14 +79,14 @@ pub struct Measure {
 }
 
 /// What was reached, its interval, and how many rigs tell.
-pub type Reached = (Option<f64>, Option<[f64; 2]>, usize);
+pub(crate) type Reached = (Option<f64>, Option<[f64; 2]>, usize);
 
 /// A measure of an examination whose expectations are `E`: its key, what is measured, where its bound stands among expectations, and what was
 /// reached.
-pub type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
+pub(crate) type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
 
 /// Lines with what must be reached and what a scenario expects; all are shares but those whose keys are given.
-pub fn bounded<E, const N: usize>(
+pub(crate) fn bounded<E, const N: usize>(
     lines: [Line<E>; N],
     (targets, expect): (&E, &E),
     no_shares: &[&str],
@@ -106,12 +106,12 @@ pub fn bounded<E, const N: usize>(
 
 impl Measure {
     /// Whether the target is met, where a rig tells.
-    pub fn meets_target(&self) -> Option<bool> {
+    pub(crate) fn meets_target(&self) -> Option<bool> {
         Some(self.target?.holds(self.reached?))
     }
 
     /// Whether the scenario's expectation is broken. A figure that no rig tells breaks it, too.
-    pub fn is_unexpected(&self) -> bool {
+    pub(crate) fn is_unexpected(&self) -> bool {
         self.expected.is_some_and(|bound| !self.reached.is_some_and(|x| bound.holds(x)))
     }
 
@@ -138,7 +138,7 @@ impl Measure {
 
 /// The table of measures, as printed: measure, what must be reached, what was and its 95 % interval, how many
 /// rigs tell.
-pub fn measures_table(measures: &[Measure]) -> String {
+pub(crate) fn measures_table(measures: &[Measure]) -> String {
     let mut text = format!(
         "{:51} {:>11} {:>9} {:>15} {:>6}\n",
         "measure", "must reach", "reached", "95 % interval", "rigs"

@@ -16,14 +16,36 @@ mod reply;
 mod scenario;
 mod tables;
 
-pub use calibration::{CalibrationBin, calibration_bins, calibration_error};
-pub use json::{BinFile, MeasureFile, ShareFile};
-pub use measure::{Bound, Line, Measure, Reached, Share, bounded, measures_table};
-pub use part::{Part, Whole, case_lines, merged, read_cases};
-pub use random::{scramble, uniform};
-pub use reply::{ClosureCheck, Evidence, PairEvidence, Reply};
-pub use scenario::{ScenarioError, effects_listed, refuse_large_design, refuse_more_than, study_of};
-pub use tables::{csv, share_field};
+pub use calibration::CalibrationBin;
+pub(crate) use calibration::calibration_bins;
+pub(crate) use calibration::calibration_error;
+pub use json::BinFile;
+pub use json::MeasureFile;
+pub use json::ShareFile;
+pub use measure::Bound;
+pub(crate) use measure::Line;
+pub use measure::Measure;
+pub use measure::Share;
+pub(crate) use measure::bounded;
+pub(crate) use measure::measures_table;
+pub use part::Part;
+pub use part::Whole;
+pub use part::case_lines;
+pub use part::merged;
+pub use part::read_cases;
+pub use random::scramble;
+pub(crate) use random::uniform;
+pub use reply::ClosureCheck;
+pub use reply::Evidence;
+pub use reply::PairEvidence;
+pub use reply::Reply;
+pub(crate) use scenario::ScenarioError;
+pub(crate) use scenario::effects_listed;
+pub(crate) use scenario::refuse_large_design;
+pub(crate) use scenario::refuse_more_than;
+pub(crate) use scenario::study_of;
+pub use tables::csv;
+pub(crate) use tables::share_field;
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -33,7 +55,7 @@ use switchback_io::output::Artefacts;
 pub const KEY_FILE: &str = "key.jsonl";
 
 /// Hears of each piece of work that is done.
-pub type Done<'a> = &'a (dyn Fn() + Sync);
+pub(crate) type Done<'a> = &'a (dyn Fn() + Sync);
 
 /// A rig of the design with its key closed.
 pub trait Sealed: Send + Sync {

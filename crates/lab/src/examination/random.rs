@@ -9,6 +9,6 @@ pub fn scramble(seed: u64, position: u64) -> u64 {
 }
 
 /// A number from 0 to 1, 1 excluded, from a seed and a position.
-pub fn uniform(seed: u64, position: u64) -> f64 {
+pub(crate) fn uniform(seed: u64, position: u64) -> f64 {
     (scramble(seed, position) >> 11) as f64 / (1_u64 << 53) as f64
 }

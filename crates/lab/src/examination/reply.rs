@@ -22,13 +22,13 @@ pub struct Reply {
 
 impl Reply {
     /// The reply where a rig was refused.
-    pub fn refused() -> Self {
+    pub(crate) fn refused() -> Self {
         let (effects, class) = (Vec::new(), Vec::new());
         Self { status: "failed", effects, class, stage: None, probability: 0.0, top: ("failed", 0.0) }
     }
 
     /// The effects that it points at.
-    pub fn said(&self) -> &[&'static str] {
+    pub(crate) fn said(&self) -> &[&'static str] {
         match self.status {
             "named" => &self.effects,
             "class" | "ambiguous" => &self.class,
@@ -37,7 +37,7 @@ impl Reply {
     }
 
     /// The one effect that it names, if it names one.
-    pub fn named(&self) -> Option<&'static str> {
+    pub(crate) fn named(&self) -> Option<&'static str> {
         match self.effects[..] {
             [only] if self.status == "named" => Some(only),
             _ => None,
@@ -45,12 +45,12 @@ impl Reply {
     }
 
     /// What a diagnosis said.
-    pub fn of(d: &Diagnosis) -> Self {
+    pub(crate) fn of(d: &Diagnosis) -> Self {
         Self::told(&d.verdict, Self::top(d))
     }
 
     /// What rules said, where a fitted verdict is told instead.
-    pub fn by_rules(d: &Diagnosis) -> Option<Self> {
+    pub(crate) fn by_rules(d: &Diagnosis) -> Option<Self> {
         let opinion = d.second_opinion.as_ref()?;
         let rules = &opinion.by_rules;
         let top = match opinion.likeliest_by_rules {
@@ -68,7 +68,7 @@ impl Reply {
     }
 
     /// A verdict, with the likeliest explanation.
-    pub fn told(verdict: &Verdict, top: (&'static str, f64)) -> Self {
+    pub(crate) fn told(verdict: &Verdict, top: (&'static str, f64)) -> Self {
         let named = if verdict.status == Status::Named { verdict.effects.as_slice() } else { &[] };
         Self {
             status: verdict.status.name(),
@@ -128,7 +128,7 @@ impl Evidence {
     const KEPT: usize = 4;
 
     /// `effect:ΔBIC:nats:closure` of the best candidates, as a field of a table.
-    pub fn gains(&self) -> String {
+    pub(crate) fn gains(&self) -> String {
         let one = |&(effect, gain, nats, closure): &(&str, f64, f64, Option<f64>)| {
             let closure = closure.map_or_else(String::new, |c| format!("{c:.3}"));
             format!("{effect}:{gain:.0}:{nats:.4}:{closure}")
@@ -137,7 +137,7 @@ impl Evidence {
     }
 
     /// What a diagnosis rests on.
-    pub fn of(d: &Diagnosis) -> Self {
+    pub(crate) fn of(d: &Diagnosis) -> Self {
         let mut candidates: Vec<_> = d
             .candidates
             .iter()
@@ -168,12 +168,12 @@ pub struct ClosureCheck {
 
 impl ClosureCheck {
     /// Whether the interval holds what really closes.
-    pub fn is_covered(&self) -> bool {
+    pub(crate) fn is_covered(&self) -> bool {
         (self.ci90[0]..=self.ci90[1]).contains(&self.actual)
     }
 
     /// Distance of what was stated from what really closes.
-    pub fn error(&self) -> f64 {
+    pub(crate) fn error(&self) -> f64 {
         (self.estimate - self.actual).abs()
     }
 }

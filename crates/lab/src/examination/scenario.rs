@@ -28,7 +28,7 @@ impl From<TomlError> for ScenarioError {
 }
 
 /// What a scenario file calls its study; none of one that cannot be read or parsed.
-pub fn study_of(path: &Path) -> Option<String> {
+pub(crate) fn study_of(path: &Path) -> Option<String> {
     let table: toml::Table = TomlFile::read(path).ok()?.parse().ok()?;
     table.get("study").and_then(toml::Value::as_str).map(str::to_owned)
 }
@@ -40,7 +40,7 @@ const MOST_RIGS: u64 = 1_000_000;
 ///
 /// # Errors
 /// A count beyond it, with its key.
-pub fn refuse_more_than(
+pub(crate) fn refuse_more_than(
     file: &TomlFile,
     most: u64,
     (key, count): (&str, &Spanned<usize>),
@@ -58,7 +58,7 @@ pub fn refuse_more_than(
 ///
 /// # Errors
 /// Too many, with the key.
-pub fn refuse_large_design(
+pub(crate) fn refuse_large_design(
     file: &TomlFile,
     counts: &[(&str, &Spanned<usize>)],
     rigs: impl FnOnce() -> u64,
@@ -77,7 +77,7 @@ pub fn refuse_large_design(
 ///
 /// # Errors
 /// A name that is no effect, or is listed twice.
-pub fn effects_listed(
+pub(crate) fn effects_listed(
     file: &TomlFile,
     listed: Option<&[Spanned<String>]>,
 ) -> Result<Vec<&'static str>, TomlError> {

@@ -4,7 +4,7 @@ use super::measure::Share;
 use switchback_io::output::csv_cell;
 
 /// A share as a field of a table; empty of nothing.
-pub fn share_field(share: Share) -> String {
+pub(crate) fn share_field(share: Share) -> String {
     share.value().map_or_else(String::new, |x| format!("{x:.4}"))
 }
 

@@ -39,7 +39,7 @@ pub struct Bases {
 /// Why there are no bases.
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
-pub enum BaseError {
+pub(crate) enum BaseError {
     /// Neither measured nor made ones.
     #[error("{folder}: holds no measured rig, and the scenario makes no base")]
     #[diagnostic(help(
@@ -99,17 +99,17 @@ impl Bases {
     }
 
     /// The bases that faults are put into, by their position.
-    pub fn grounds(&self) -> std::ops::Range<usize> {
+    pub(crate) fn grounds(&self) -> std::ops::Range<usize> {
         0..self.all.len() - self.spare
     }
 
     /// The made ones that stay without fault.
-    pub fn spares(&self) -> std::ops::Range<usize> {
+    pub(crate) fn spares(&self) -> std::ops::Range<usize> {
         self.grounds().end..self.all.len()
     }
 
     /// The measured ones.
-    pub fn measured(&self) -> std::ops::Range<usize> {
+    pub(crate) fn measured(&self) -> std::ops::Range<usize> {
         0..self.all.iter().take_while(|base| base.made.is_none()).count()
     }
 }

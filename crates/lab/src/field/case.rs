@@ -29,12 +29,12 @@ pub struct Fault {
 
 impl Fault {
     /// Whether the records can tell it at all.
-    pub fn is_observable(&self) -> bool {
+    pub(crate) fn is_observable(&self) -> bool {
         self.size >= OBSERVABLE
     }
 
     /// Whether it reaches a size, as near as sizes are met.
-    pub fn reaches(&self, size: f64) -> bool {
+    pub(crate) fn reaches(&self, size: f64) -> bool {
         self.size >= 0.95 * size
     }
 }
@@ -60,7 +60,7 @@ pub struct Answered {
 
 impl Answered {
     /// What rules alone say.
-    pub fn rules(&self) -> &Reply {
+    pub(crate) fn rules(&self) -> &Reply {
         self.by_rules.as_ref().unwrap_or(&self.reply)
     }
 }

@@ -21,7 +21,7 @@ pub enum Kind {
 
 impl Kind {
     /// The name in tables.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Planted => "planted",
             Self::Outside => "outside",
@@ -49,7 +49,7 @@ impl Wanted {
     ///
     /// # Errors
     /// [`MakeError`] for an effect or law that does not exist.
-    pub fn ingredient(&self) -> Result<Ingredient, MakeError> {
+    pub(crate) fn ingredient(&self) -> Result<Ingredient, MakeError> {
         Ingredient::with_law(self.effect, self.law, self.size)
     }
 }
@@ -112,7 +112,7 @@ pub fn design(study: &Study, bases: &Bases) -> Vec<Ticket> {
 }
 
 /// Half of the seeds take the plain law, the rest the effect's others.
-pub fn law(effect: &str, seed: u64) -> usize {
+pub(crate) fn law(effect: &str, seed: u64) -> usize {
     let others = laws_of(effect).len() as u64 - 1;
     let drawn = scramble(seed, 1);
     if drawn.is_multiple_of(2) || others == 0 { 0 } else { 1 + (drawn / 2 % others) as usize }

@@ -11,7 +11,7 @@ use switchback_model::rig::{Rig, RigRecord};
 /// length is that of [`MeanInterval::of_remembering`]. Noise stays what it is, and whatever hangs together for longer than a block is torn apart:
 /// nothing is left that a cause could explain. Samples before the free run stay. `run` gives the free run and the first sample that it simulates;
 /// a record without one stays as it is.
-pub fn resampled(
+pub(crate) fn resampled(
     rig: &Rig,
     run: impl Fn(&Record) -> Option<(Vec<f64>, usize)>,
     seed: u64,
@@ -29,7 +29,7 @@ pub fn resampled(
 }
 
 /// The free run of an identified model, as [`resampled`] takes it.
-pub fn runs_of(model: &Model) -> impl Fn(&Record) -> Option<(Vec<f64>, usize)> {
+pub(crate) fn runs_of(model: &Model) -> impl Fn(&Record) -> Option<(Vec<f64>, usize)> {
     |record| {
         let run = model.free_run(record);
         Some((run.y, run.start))

@@ -19,7 +19,7 @@ pub enum How {
 
 impl How {
     /// The name in tables.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
             Self::Carried => "carried",
@@ -30,7 +30,7 @@ impl How {
 
 /// A fault as it was put in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PutIn {
+pub(crate) struct PutIn {
     /// The effect.
     pub effect: String,
     /// Its law.
@@ -53,7 +53,7 @@ pub struct PutIn {
 
 /// What is withheld about a rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Key {
+pub(crate) struct Key {
     /// Position in the design.
     pub id: usize,
     /// What the rig is for.

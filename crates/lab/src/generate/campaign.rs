@@ -61,7 +61,7 @@ pub struct Passage {
 
 impl Passage {
     /// A record with its lead-in, not in a campaign yet.
-    pub fn of(
+    pub(crate) fn of(
         index: usize,
         name: String,
         (role, usage): (Role, Usage),
@@ -86,7 +86,7 @@ impl Passage {
 
     /// The record in two parts, the first `samples` of it and the rest, which is held out. Both belong to one recording: time, travel and
     /// noise run on.
-    pub fn parted(self, samples: usize) -> [Self; 2] {
+    pub(crate) fn parted(self, samples: usize) -> [Self; 2] {
         let mut first = self.clone();
         first.v.truncate(self.lead + samples);
         let name = format!("{}-held-out", self.name);
@@ -94,12 +94,12 @@ impl Passage {
     }
 
     /// Share of the campaign's time that has passed at sample `t` of the passage, in `[0, 1)`.
-    pub fn clock(&self, t: usize) -> f64 {
+    pub(crate) fn clock(&self, t: usize) -> f64 {
         (self.start + t) as f64 / self.total as f64
     }
 
     /// Share of the campaign's travel that lies behind, sample by sample, in `[0, 1]`.
-    pub fn wear_clock(&self) -> Vec<f64> {
+    pub(crate) fn wear_clock(&self) -> Vec<f64> {
         let mut travel = self.travel_before;
         let mut last = self.v[0];
         self.v
@@ -113,13 +113,13 @@ impl Passage {
     }
 
     /// The part of a signal that is recorded.
-    pub fn recorded<'s>(&self, signal: &'s [f64]) -> &'s [f64] {
+    pub(crate) fn recorded<'s>(&self, signal: &'s [f64]) -> &'s [f64] {
         &signal[self.lead + self.skipped..]
     }
 }
 
 /// Draws the inputs of a campaign on the plant's levels.
-pub fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<Passage> {
+pub(crate) fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<Passage> {
     let interval = plant.interval;
     let (low, high) = (interval.low(), interval.high());
     let settle = plant.settling();
@@ -142,7 +142,7 @@ pub fn campaign(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<Passage
 }
 
 /// The passages of one campaign, clocks and travel running on.
-pub fn one_after_the_other(mut passages: Vec<Passage>) -> Vec<Passage> {
+pub(crate) fn one_after_the_other(mut passages: Vec<Passage>) -> Vec<Passage> {
     let (mut start, mut travel) = (0, 0.0);
     for passage in &mut passages {
         (passage.start, passage.travel_before) = (start, travel);
@@ -156,7 +156,7 @@ pub fn one_after_the_other(mut passages: Vec<Passage>) -> Vec<Passage> {
 }
 
 /// Loads the border that ends at `start`, and lets the output settle there.
-pub fn lead_in(interval: Interval, start: f64, settle: usize) -> Vec<f64> {
+pub(crate) fn lead_in(interval: Interval, start: f64, settle: usize) -> Vec<f64> {
     let (low, high) = (interval.low(), interval.high());
     let (near, far) = if start > low { (high, low) } else { (low, high) };
     let mut v = vec![near, far];

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use std::fmt::Debug;
 
 /// The unit of lengths along the input: shares of the working interval.
-pub const INTERVAL_WIDTHS: &str = "interval widths";
+pub(crate) const INTERVAL_WIDTHS: &str = "interval widths";
 
 /// Where in the block diagram an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

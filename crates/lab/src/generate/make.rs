@@ -104,7 +104,7 @@ impl Ingredient {
     }
 
     /// What is true of it once its magnitude is found, and what size that makes.
-    pub fn found(&self, magnitude: f64, size: f64) -> TrueEffect {
+    pub(crate) fn found(&self, magnitude: f64, size: f64) -> TrueEffect {
         TrueEffect {
             effect: self.law.effect(),
             law: self.law.name(),
@@ -187,7 +187,7 @@ impl MakeRig {
 
     /// The same machine, inputs and noise without the effects that were added: what the rig was before.
     #[must_use]
-    pub fn base(&self) -> Self {
+    pub(crate) fn base(&self) -> Self {
         Self { ingredients: Vec::new(), ..self.clone() }
     }
 
@@ -234,7 +234,11 @@ impl MakeRig {
     ///
     /// # Errors
     /// [`MakeError::Record`] as in [`MakeRig::make`].
-    pub fn from_found(&self, noise_sd: f64, found: &[(f64, f64)]) -> Result<Option<MadeRig>, MakeError> {
+    pub(crate) fn from_found(
+        &self,
+        noise_sd: f64,
+        found: &[(f64, f64)],
+    ) -> Result<Option<MadeRig>, MakeError> {
         if found.len() != self.ingredients.len() {
             return Ok(None);
         }
@@ -253,7 +257,7 @@ impl MakeRig {
     }
 
     /// The system and the campaign of the recipe.
-    pub fn workshop(&self) -> Workshop {
+    pub(crate) fn workshop(&self) -> Workshop {
         if self.setting == Setting::Field {
             return field::workshop(self.seed, self.family, &self.spared);
         }

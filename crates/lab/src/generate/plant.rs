@@ -3,9 +3,11 @@
 mod draw;
 mod table;
 
-pub use draw::{CURVED, multiply};
-pub use draw::{Family, Shape};
-pub use table::Table;
+pub(crate) use draw::CURVED;
+pub use draw::Family;
+pub use draw::Shape;
+pub(crate) use draw::multiply;
+pub(crate) use table::Table;
 
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
 
@@ -40,43 +42,43 @@ pub struct Plant {
 
 impl Plant {
     /// Order `n` of the linear part.
-    pub fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.a.len()
     }
 
     /// Stationary gain `B(1)/A(1)`.
-    pub fn gain(&self) -> f64 {
+    pub(crate) fn gain(&self) -> f64 {
         self.b.iter().sum::<f64>() / (1.0 + self.a.iter().sum::<f64>())
     }
 
     /// Stationary output midway between both satellites'.
-    pub fn y_centre(&self) -> f64 {
+    pub(crate) fn y_centre(&self) -> f64 {
         self.gain() * 0.5 * (self.hysteresis.u_low() + self.hysteresis.u_high())
     }
 
     /// Half of what the stationary output spans between the satellites; positive.
-    pub fn y_half(&self) -> f64 {
+    pub(crate) fn y_half(&self) -> f64 {
         0.5 * self.gain().abs()
     }
 
     /// Impulse response of `1/A`, as long as it matters.
-    pub fn noise_response(&self) -> Vec<f64> {
+    pub(crate) fn noise_response(&self) -> Vec<f64> {
         impulse_response(&self.a)
     }
 
     /// Output noise sd over equation noise sd: `√Σe²`, `e` the impulse response of `1/A`.
-    pub fn noise_amplification(&self) -> f64 {
+    pub(crate) fn noise_amplification(&self) -> f64 {
         amplification(&self.a)
     }
 
     /// Samples after which a transient has fallen below 10⁻⁶ of its start.
-    pub fn settling(&self) -> usize {
+    pub(crate) fn settling(&self) -> usize {
         self.noise_response().len()
     }
 }
 
 /// Standard deviation of white noise of unit variance behind `1/A`: `√Σe²`.
-pub fn amplification(a: &[f64]) -> f64 {
+pub(crate) fn amplification(a: &[f64]) -> f64 {
     impulse_response(a).iter().map(|e| e * e).sum::<f64>().sqrt()
 }
 

@@ -13,7 +13,7 @@ use switchback_model::rig::Usage;
 ///
 /// with a hat function `φ_k` at every level for each of the two borders, and several between two levels where the borders are curved.
 /// The `μ_ik` are left free (not of rank one), so the nominal model can absorb no more than this.
-pub struct Refit {
+pub(crate) struct Refit {
     order: usize,
     columns: usize,
     /// For each passage the active columns at each of its samples; empty where the branch is not known yet.
@@ -26,7 +26,7 @@ pub struct Refit {
 const FINER: usize = 4;
 
 /// What the best nominal re-fit leaves.
-pub struct Leftover {
+pub(crate) struct Leftover {
     /// One-step residuals of every passage over its record; zero before the first predicted sample.
     pub residuals: Vec<Vec<f64>>,
     /// First predicted sample of each record.
@@ -37,7 +37,7 @@ pub struct Leftover {
 
 impl Refit {
     /// Lays out the regression for the commanded inputs of a campaign.
-    pub fn new(plant: &Plant, passages: &[Passage]) -> Self {
+    pub(crate) fn new(plant: &Plant, passages: &[Passage]) -> Self {
         let order = plant.order();
         let knots = 1 + (plant.levels.len() - 1) * if plant.curved { FINER } else { 1 };
         let mut hats = Vec::with_capacity(passages.len());
@@ -77,7 +77,7 @@ impl Refit {
     ///
     /// `outputs` holds the recorded output of each passage. Columns that nothing excites and the constants that lags
     /// share are settled by a ridge far below the noise.
-    pub fn solve(&self, passages: &[Passage], outputs: &[Vec<f64>]) -> Leftover {
+    pub(crate) fn solve(&self, passages: &[Passage], outputs: &[Vec<f64>]) -> Leftover {
         let p = self.columns;
         let centre =
             outputs.iter().flatten().sum::<f64>() / outputs.iter().map(Vec::len).sum::<usize>() as f64;

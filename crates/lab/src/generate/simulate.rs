@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 /// An effect that acts in a rig.
 #[derive(Debug, Clone, Copy)]
-pub struct Active {
+pub(crate) struct Active {
     /// Its law.
     pub law: &'static dyn Law,
     /// How much of it.
@@ -19,7 +19,7 @@ pub struct Active {
 
 /// What noise a simulation has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Noise {
+pub(crate) enum Noise {
     /// All of it, as recorded.
     Recorded,
     /// None: the output that would repeat, noise effects left out.
@@ -28,7 +28,7 @@ pub enum Noise {
 
 /// The signals of one passage, lead-in included.
 #[derive(Debug, Clone)]
-pub struct Trace {
+pub(crate) struct Trace {
     /// Recorded output.
     pub y: Vec<f64>,
     /// The white equation error before any effect acted on it.
@@ -36,7 +36,13 @@ pub struct Trace {
 }
 
 /// Runs one passage: input, operator, dynamics, disturbance, sensor, each with its effects in order.
-pub fn simulate(plant: &Plant, active: &[Active], passage: &Passage, seed: u64, noise: Noise) -> Trace {
+pub(crate) fn simulate(
+    plant: &Plant,
+    active: &[Active],
+    passage: &Passage,
+    seed: u64,
+    noise: Noise,
+) -> Trace {
     let mut effects: Vec<(&dyn Law, Scene<'_>)> = active
         .iter()
         .filter(|e| noise == Noise::Recorded || e.law.nature() == Nature::Systematic)

@@ -12,7 +12,7 @@
 
 /// The magnitude found, and the size it really has.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sized {
+pub(crate) struct Sized {
     /// Magnitude in the law's unit.
     pub magnitude: f64,
     /// Size reached; below the wanted one where the law's limit does not allow more.
@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 0.01;
 ///
 /// Climbs from `limit·2⁻¹⁸` in doublings to the first crossing, then bisects: sizes need not grow with magnitude all
 /// the way (a pole at 1 becomes a constant), but the first crossing is the effect one would call small.
-pub fn magnitude_for(wanted: f64, limit: f64, mut size_of: impl FnMut(f64) -> f64) -> Sized {
+pub(crate) fn magnitude_for(wanted: f64, limit: f64, mut size_of: impl FnMut(f64) -> f64) -> Sized {
     let mut best = Sized { magnitude: 0.0, size: 0.0 };
     let mut below = 0.0;
     for step in (0..=STEPS_UP).rev() {

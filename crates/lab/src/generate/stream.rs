@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 /// What the randomness is for. Streams of different purposes never overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub(crate) enum Purpose {
     /// The nominal system.
     Plant,
     /// The inputs of the records.
@@ -26,7 +26,7 @@ pub enum Purpose {
 }
 
 /// The stream of `purpose` in the rig of `seed`.
-pub fn stream(seed: u64, purpose: Purpose) -> ChaCha8Rng {
+pub(crate) fn stream(seed: u64, purpose: Purpose) -> ChaCha8Rng {
     let number = match purpose {
         Purpose::Plant => 0,
         Purpose::Drive => 1,

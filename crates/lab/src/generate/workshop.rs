@@ -17,7 +17,7 @@ use switchback_model::record::{Record, RecordError};
 use switchback_model::rig::{Rig, RigRecord, Usage};
 
 /// What is told of a machine, openly and in the key.
-pub struct Description {
+pub(crate) struct Description {
     pub setting: Setting,
     /// Order and interval, where they are declared.
     pub order: Option<usize>,
@@ -30,7 +30,7 @@ pub struct Description {
 }
 
 /// A system with its campaign, on which effects are tried.
-pub struct Workshop {
+pub(crate) struct Workshop {
     pub plant: Plant,
     /// What the system has before any effect is put in.
     base: Vec<Active>,
@@ -48,7 +48,7 @@ struct Trial {
 
 impl Workshop {
     /// Lays out the re-fit of a system with what it has by itself, and learns what its output reaches.
-    pub fn new(
+    pub(crate) fn new(
         seed: u64,
         (plant, base): (Plant, Vec<Active>),
         passages: Vec<Passage>,
@@ -62,7 +62,7 @@ impl Workshop {
 
     /// What the system has before any effect is put in.
     #[cfg(test)]
-    pub fn base(&self) -> &[Active] {
+    pub(crate) fn base(&self) -> &[Active] {
         &self.base
     }
 
@@ -105,7 +105,7 @@ impl Workshop {
     }
 
     /// A law at a magnitude; its shape numbers are the rig's.
-    pub fn active(&self, slot: usize, law: &'static dyn Law, magnitude: f64) -> Active {
+    pub(crate) fn active(&self, slot: usize, law: &'static dyn Law, magnitude: f64) -> Active {
         let mut rng = stream(self.seed, Purpose::Shape(slot));
         Active { law, dose: Dose { magnitude, shape: std::array::from_fn(|_| rng.random()) }, slot }
     }
@@ -115,7 +115,7 @@ impl Workshop {
     }
 
     /// Finds the magnitude of one effect, alone in the rig.
-    pub fn sized(&self, slot: usize, ingredient: &Ingredient) -> (Active, TrueEffect) {
+    pub(crate) fn sized(&self, slot: usize, ingredient: &Ingredient) -> (Active, TrueEffect) {
         let law = ingredient.law;
         let active = |magnitude: f64| self.active(slot, law, magnitude);
         let found = magnitude_for(ingredient.size, law.limit(), |x| self.size_of(&[active(x)]));
@@ -127,7 +127,7 @@ impl Workshop {
     /// A gap shorter than any move, or an effect at its limit, leaves no sensible magnitude that fits; the rig then
     /// becomes quieter or louder, between 0.02 % and 6 % of its stationary span in the output. Magnitudes that count
     /// noise sds would scale along and stay.
-    pub fn tune_noise(&mut self, one: &mut Active, entry: &mut TrueEffect) {
+    pub(crate) fn tune_noise(&mut self, one: &mut Active, entry: &mut TrueEffect) {
         const ROUNDS: usize = 4;
         if one.law.nature() == Nature::Noise || one.law.counts_noise() {
             return;
@@ -154,7 +154,7 @@ impl Workshop {
     }
 
     /// What a user's folder would hold.
-    pub fn rig(&self, active: &[Active]) -> Result<Rig, RecordError> {
+    pub(crate) fn rig(&self, active: &[Active]) -> Result<Rig, RecordError> {
         self.rig_of(&self.traces(active, Noise::Recorded))
     }
 
@@ -191,7 +191,7 @@ impl Workshop {
     }
 
     /// The rig with its key and its truth.
-    pub fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
+    pub(crate) fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
         let trial = self.trial(active);
         let rig = self.rig_of(&trial.traces)?;
         let size = match self.description.setting {

@@ -16,7 +16,7 @@ pub enum Answer {
 
 impl Answer {
     /// What a reply is worth to an effect.
-    pub fn of(reply: &Reply, effect: &str) -> Self {
+    pub(crate) fn of(reply: &Reply, effect: &str) -> Self {
         let said = reply.said();
         match reply.status {
             "named" if said.contains(&effect) => Self::Named,

@@ -40,7 +40,7 @@ pub enum Outcome {
 
 /// How often an effect was answered as what.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Answers {
+pub(crate) struct Answers {
     /// By its name.
     pub named: usize,
     /// In a class.
@@ -51,7 +51,7 @@ pub struct Answers {
 
 impl Answers {
     /// By name or in a class.
-    pub fn found(self) -> usize {
+    pub(crate) fn found(self) -> usize {
         self.named + self.in_class
     }
 }
@@ -77,7 +77,7 @@ impl Finding {
     }
 
     /// Largest size that was reached; 0 where nothing was put in.
-    pub fn reached(&self) -> f64 {
+    pub(crate) fn reached(&self) -> f64 {
         self.diagnosed().map(|(fault, _)| fault.size).fold(0.0, f64::max)
     }
 
@@ -97,7 +97,7 @@ impl Finding {
     }
 
     /// Answers to faults with a size in `[low, high)`.
-    pub fn answers(&self, low: f64, high: f64) -> Answers {
+    pub(crate) fn answers(&self, low: f64, high: f64) -> Answers {
         let mut answers = Answers::default();
         for (_, answer) in self.diagnosed().filter(|(fault, _)| (low..high).contains(&fault.size)) {
             answers.of += 1;
@@ -111,7 +111,7 @@ impl Finding {
     }
 
     /// The commonest answer to faults that were missed, and how often it was given; of equals the first by name.
-    pub fn instead(&self) -> Option<(&str, usize)> {
+    pub(crate) fn instead(&self) -> Option<(&str, usize)> {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         for (_, answer) in self.diagnosed() {
             if let Answer::Other(told) = answer {
@@ -122,7 +122,7 @@ impl Finding {
     }
 
     /// The fault whose size is closest to one, as a ratio.
-    pub fn closest_to(&self, size: f64) -> Option<&PlantedFault> {
+    pub(crate) fn closest_to(&self, size: f64) -> Option<&PlantedFault> {
         let off = |fault: &PlantedFault| (fault.size / size).ln().abs();
         self.diagnosed().map(|(fault, _)| fault).min_by(|x, y| off(x).total_cmp(&off(y)))
     }

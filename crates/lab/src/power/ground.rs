@@ -68,7 +68,7 @@ impl<'a> Ground<'a> {
     }
 
     /// Whose model is diagnosed.
-    pub fn source(&self) -> Source {
+    pub(crate) fn source(&self) -> Source {
         if self.model.is_some() { Source::Given } else { Source::Identified }
     }
 
@@ -94,7 +94,7 @@ impl<'a> Ground<'a> {
     ///
     /// # Errors
     /// [`PowerError`] where these give no diagnosis: then none with a fault would.
-    pub fn bare(&self, seed: u64) -> Result<Reply, PowerError> {
+    pub(crate) fn bare(&self, seed: u64) -> Result<Reply, PowerError> {
         let rig = self.without_fault(scramble(seed, NOISE));
         self.diagnosed(rig.map_err(|reason| PowerError::Drawn { data: self.data.clone(), reason })?)
     }

@@ -29,7 +29,7 @@ impl Plan {
     }
 
     /// Draws of one effect, at most.
-    pub fn most(&self) -> usize {
+    pub(crate) fn most(&self) -> usize {
         MOST * self.draws
     }
 
@@ -40,7 +40,7 @@ impl Plan {
     }
 
     /// Seed of a diagnosis without fault.
-    pub fn seed_of_bare(&self, number: usize) -> u64 {
+    pub(crate) fn seed_of_bare(&self, number: usize) -> u64 {
         scramble(scramble(self.seed, EFFECTS.len() as u64 + 1), number as u64)
     }
 }

@@ -21,7 +21,7 @@
 /// assert!((curve.size_for(0.9).unwrap() - 2.0 * 9.0_f64.cbrt()).abs() < 1e-12);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Psychometric {
+pub(crate) struct Psychometric {
     /// `α`: the size at which half of what can be found is.
     pub threshold: f64,
     /// `β`.
@@ -34,13 +34,13 @@ pub struct Psychometric {
 
 impl Psychometric {
     /// `ψ(s)`.
-    pub fn found(&self, size: f64) -> f64 {
+    pub(crate) fn found(&self, size: f64) -> f64 {
         let rises = 1.0 / (1.0 + (self.threshold / size).powf(self.slope));
         self.guess + (1.0 - self.guess) * (1.0 - self.lapse) * rises
     }
 
     /// The size at which a share is found, `ψ⁻¹`; none where no size is found as often, 0 where nothing is found that often already.
-    pub fn size_for(&self, share: f64) -> Option<f64> {
+    pub(crate) fn size_for(&self, share: f64) -> Option<f64> {
         let rises = (share - self.guess) / ((1.0 - self.guess) * (1.0 - self.lapse));
         match rises {
             rises if rises <= 0.0 => Some(0.0),

@@ -6,7 +6,7 @@ use crate::generate::Precision;
 
 /// An effect, its draws so far, and what they say.
 #[derive(Debug, Clone)]
-pub struct Search {
+pub(crate) struct Search {
     /// The effect.
     pub effect: &'static str,
     /// The draws.
@@ -21,12 +21,12 @@ const REFUSED: usize = 3;
 
 impl Search {
     /// No draw yet; `guess` is how often the effect is told where it is not.
-    pub fn new(effect: &'static str, guess: f64, plan: &Plan) -> Self {
+    pub(crate) fn new(effect: &'static str, guess: f64, plan: &Plan) -> Self {
         Self { effect, draws: Vec::new(), staircase: Staircase::new(guess), seed: plan.seed_of(effect) }
     }
 
     /// One draw more.
-    pub fn step(&mut self, ground: &Ground<'_>) {
+    pub(crate) fn step(&mut self, ground: &Ground<'_>) {
         let seed = scramble(self.seed, self.draws.len() as u64);
         // The staircase takes the size that is reached, whatever was asked for.
         let draw = ground.draw(Precision::COARSE, (self.effect, self.staircase.next_size()), seed);
@@ -42,7 +42,7 @@ impl Search {
     }
 
     /// Whether no draw is needed any more: it is settled, cannot be put in, or had the most draws.
-    pub fn is_done(&self, plan: &Plan) -> bool {
+    pub(crate) fn is_done(&self, plan: &Plan) -> bool {
         let last = &self.draws[self.draws.len().saturating_sub(REFUSED)..];
         let is_refused = last.len() == REFUSED && last.iter().all(|draw| matches!(draw, Draw::Refused(_)));
         is_refused || self.draws.len() >= plan.most() || self.staircase.conclusion().is_settled()

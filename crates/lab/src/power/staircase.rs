@@ -29,10 +29,10 @@
 use super::Psychometric;
 
 /// The share that is to be found.
-pub const SHARE: f64 = 0.9;
+pub(crate) const SHARE: f64 = 0.9;
 
 /// Sizes asked for: half-octaves, from the least that counts as observable.
-pub const SIZES: [f64; 9] =
+pub(crate) const SIZES: [f64; 9] =
     [0.5, std::f64::consts::FRAC_1_SQRT_2, 1.0, std::f64::consts::SQRT_2, 2.0, 2.828, 4.0, 5.657, LARGEST];
 
 /// The largest size asked for.
@@ -62,7 +62,7 @@ struct Node {
 
 /// The posterior of one effect's curve.
 #[derive(Debug, Clone)]
-pub struct Staircase {
+pub(crate) struct Staircase {
     /// By increasing `s₉₀`.
     nodes: Vec<Node>,
     /// One a node, of sum 1.
@@ -82,12 +82,12 @@ pub struct Conclusion {
 
 impl Conclusion {
     /// Whether it is all but certain that the effect is not found nine times in ten up to the largest size.
-    pub fn is_beyond(&self) -> bool {
+    pub(crate) fn is_beyond(&self) -> bool {
         is_certain(self.beyond)
     }
 
     /// Whether more draws would tell little more.
-    pub fn is_settled(&self) -> bool {
+    pub(crate) fn is_settled(&self) -> bool {
         self.is_beyond() || self.size.is_some() && self.interval[1] <= NARROW * self.interval[0].max(SIZES[0])
     }
 }
@@ -99,7 +99,7 @@ pub(super) fn is_certain(probability: f64) -> bool {
 
 impl Staircase {
     /// The prior, with the guess rate in [0, 0.9).
-    pub fn new(guess: f64) -> Self {
+    pub(crate) fn new(guess: f64) -> Self {
         let mut prior = Vec::new();
         for threshold in geometric(0.25, LARGEST, 21) {
             for slope in geometric(2.0, 10.0, 5) {
@@ -114,7 +114,7 @@ impl Staircase {
     }
 
     /// Takes in that a fault of a size was found or not.
-    pub fn push(&mut self, size: f64, found: bool) {
+    pub(crate) fn push(&mut self, size: f64, found: bool) {
         let likelihood = |node: &Node| {
             let share = node.curve.found(size);
             if found { share } else { 1.0 - share }
@@ -124,7 +124,7 @@ impl Staircase {
     }
 
     /// The size to ask for next, one of [`SIZES`]; the smallest of equals.
-    pub fn next_size(&self) -> f64 {
+    pub(crate) fn next_size(&self) -> f64 {
         let entropies = (0..SIZES.len()).map(|i| self.expected_entropy(i));
         let best = entropies.enumerate().min_by(|x, y| x.1.total_cmp(&y.1)).map_or(0, |(i, _)| i);
         SIZES[best]
@@ -141,7 +141,7 @@ impl Staircase {
     }
 
     /// What is known by now.
-    pub fn conclusion(&self) -> Conclusion {
+    pub(crate) fn conclusion(&self) -> Conclusion {
         let sizes: Vec<f64> = (0..=OCTAVES * STATED_PER_OCTAVE)
             .map(|k| SIZES[0] * (k as f64 / STATED_PER_OCTAVE as f64).exp2())
             .collect();
@@ -158,12 +158,12 @@ impl Staircase {
     }
 
     /// The probability that at a size less than [`SHARE`] are found.
-    pub fn beyond(&self, size: f64) -> f64 {
+    pub(crate) fn beyond(&self, size: f64) -> f64 {
         self.mean(|node| f64::from(u8::from(node.wanted > size)))
     }
 
     /// What share is found at a size at most, with a probability of 0.95.
-    pub fn found_at_most(&self, size: f64) -> f64 {
+    pub(crate) fn found_at_most(&self, size: f64) -> f64 {
         let shares: Vec<f64> = self.nodes.iter().map(|node| node.curve.found(size)).collect();
         let mut order: Vec<usize> = (0..shares.len()).collect();
         order.sort_by(|i, k| shares[*i].total_cmp(&shares[*k]));
@@ -171,7 +171,7 @@ impl Staircase {
     }
 
     /// The probability that the next fault of a size is found.
-    pub fn predicted(&self, size: f64) -> f64 {
+    pub(crate) fn predicted(&self, size: f64) -> f64 {
         self.mean(|node| node.curve.found(size))
     }
 

@@ -34,7 +34,7 @@ fn rows(finding: &Finding) -> impl Iterator<Item = Vec<String>> {
 
 impl Answer {
     /// The answer in a word or a few.
-    pub fn told(&self) -> &str {
+    pub(crate) fn told(&self) -> &str {
         match self {
             Self::Named => "named",
             Self::InClass => "class",

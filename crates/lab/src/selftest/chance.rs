@@ -6,7 +6,7 @@
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, Normal};
 
 /// Probability that one check fails though nothing is wrong, at most.
-pub const FALSE_ALARM: f64 = 1e-6;
+pub(crate) const FALSE_ALARM: f64 = 1e-6;
 
 /// Probability on each side of each of the figures of a check.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -15,7 +15,12 @@ pub struct Figure {
 
 impl Figure {
     /// A number that chance moves about its expectation, within the range given.
-    pub fn within(what: impl Into<String>, found: f64, expected: f64, (low, high): (f64, f64)) -> Self {
+    pub(crate) fn within(
+        what: impl Into<String>,
+        found: f64,
+        expected: f64,
+        (low, high): (f64, f64),
+    ) -> Self {
         let strain = if found >= low && found <= high {
             let room = if found < expected { expected - low } else { high - expected };
             if found == expected { 0.0 } else { (found - expected).abs() / room }
@@ -37,14 +42,18 @@ impl Figure {
     }
 
     /// A word that must come out.
-    pub fn word(what: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+    pub(crate) fn word(
+        what: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
         let (found, expected) = (found.into(), expected.into());
         let strain = if found == expected { 0.0 } else { f64::INFINITY };
         Self { what: what.into(), found, expected, strain }
     }
 
     /// Whether it is what it must be.
-    pub fn holds(&self) -> bool {
+    pub(crate) fn holds(&self) -> bool {
         self.strain <= 1.0
     }
 }

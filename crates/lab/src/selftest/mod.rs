@@ -25,9 +25,10 @@ mod planted;
 mod small_study;
 mod words;
 
-pub use chance::FALSE_ALARM;
+pub(crate) use chance::FALSE_ALARM;
 pub use figure::Figure;
-pub use words::{json, table};
+pub use words::json;
+pub use words::table;
 
 /// A check: what it is called, what is wrong if it fails, and how it finds its figures from a seed.
 pub struct Check {
@@ -98,13 +99,13 @@ impl Finding {
     }
 
     /// The figure nearest to its limit, or furthest beyond.
-    pub fn nearest(&self) -> Option<&Figure> {
+    pub(crate) fn nearest(&self) -> Option<&Figure> {
         let figures = self.figures.as_ref().ok()?;
         figures.iter().max_by(|x, y| x.strain.total_cmp(&y.strain))
     }
 
     /// The figures that are wrong.
-    pub fn failed(&self) -> impl Iterator<Item = &Figure> {
+    pub(crate) fn failed(&self) -> impl Iterator<Item = &Figure> {
         self.figures.iter().flatten().filter(|figure| !figure.holds())
     }
 }

@@ -14,15 +14,22 @@ mod table;
 
 pub use border_error::BorderError;
 pub use definition::output_by_definition;
-pub use discontinuous::{Discontinuous, Piece};
-pub use general::{General, SaturatingCurve};
-pub use interval::{Interval, IntervalError};
+pub use discontinuous::Discontinuous;
+pub use discontinuous::Piece;
+pub use general::General;
+pub use general::SaturatingCurve;
+pub use interval::Interval;
+pub use interval::IntervalError;
 pub use leaf_spring::LeafSpring;
-pub use non_monotone::{NonMonotone, Wave};
-pub use operator::{HysteresisError, SwitchedHysteresis};
+pub use non_monotone::NonMonotone;
+pub use non_monotone::Wave;
+pub use operator::HysteresisError;
+pub use operator::SwitchedHysteresis;
 pub use relay::Relay;
-pub use straight_lines::{Line, StraightLines};
-pub use table::{Table, TablePoint};
+pub use straight_lines::Line;
+pub use straight_lines::StraightLines;
+pub use table::Table;
+pub use table::TablePoint;
 
 use std::fmt;
 

@@ -10,8 +10,13 @@ mod system;
 
 pub use autocovariance::autocovariance;
 pub use filter::filter;
-pub use frequency::{frequency_response, roots};
+pub use frequency::frequency_response;
+pub use frequency::roots;
 pub use noise_memory::NoiseMemory;
-pub use polynomial::{is_stable, relative_coprimeness, settling_samples, spectral_radius};
+pub use polynomial::is_stable;
+pub use polynomial::relative_coprimeness;
+pub use polynomial::settling_samples;
+pub use polynomial::spectral_radius;
 pub use sum_variance::SumVariance;
-pub use system::{LinearSystem, SystemError};
+pub use system::LinearSystem;
+pub use system::SystemError;

@@ -99,12 +99,12 @@ impl LinearSystem {
     }
 
     /// `A(1)`, positive for a stable system.
-    pub fn a_at_one(&self) -> f64 {
+    pub(crate) fn a_at_one(&self) -> f64 {
         1.0 + self.a.iter().sum::<f64>()
     }
 
     /// `B(1)`, never zero.
-    pub fn b_at_one(&self) -> f64 {
+    pub(crate) fn b_at_one(&self) -> f64 {
         self.b.iter().sum()
     }
 

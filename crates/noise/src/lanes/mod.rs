@@ -3,5 +3,8 @@
 mod lane;
 mod wide;
 
-pub use lane::{LANES, Lane};
-pub use wide::{Work, keep_apart, widest};
+pub use lane::LANES;
+pub use lane::Lane;
+pub use wide::Work;
+pub use wide::keep_apart;
+pub use wide::widest;

@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use switchback::cmd::gap;
-use switchback_io::diagnosis::{self, GivenModel, Report, Subject};
+use switchback_io::diagnosis::{GivenModel, Report, Subject};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
 use switchback_report::diagnosis as text;

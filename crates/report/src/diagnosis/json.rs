@@ -10,11 +10,11 @@ use switchback_io::diagnosis::{Report, Units, told};
 use switchback_io::output::stamped;
 
 /// Name and version of the layout.
-pub const SCHEMA: &str = "switchback/gap/1";
+pub(crate) const SCHEMA: &str = "switchback/gap/1";
 
 /// The object that `gap --json` prints and gap.json holds; figures that do not exist are null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct GapFile {
+pub(crate) struct GapFile {
     /// The rig's name.
     pub rig: String,
     /// Label and unit of the input.
@@ -236,7 +236,7 @@ pub struct Place {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Explanation {
+pub(crate) struct Explanation {
     /// The effect.
     pub effect: String,
     /// The part of the machine.
@@ -265,7 +265,7 @@ pub struct Explanation {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Gain {
+pub(crate) struct Gain {
     /// Samples ahead; null for the whole record.
     pub samples: Option<usize>,
     /// Share of the mean square error that it saves.
@@ -278,7 +278,7 @@ pub struct Gain {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Pair {
+pub(crate) struct Pair {
     /// Both effects.
     pub effects: Vec<String>,
     /// Parameters of each, fitted beside the other.
@@ -317,7 +317,7 @@ pub struct Parameter {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Next {
+pub(crate) struct Next {
     /// Its kind.
     pub experiment: String,
     /// The rivals that it separates.

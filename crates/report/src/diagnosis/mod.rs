@@ -1,6 +1,6 @@
 //! A diagnosis as one JSON object and in words.
 
-pub(crate) mod json;
+pub mod json;
 mod place;
 mod sentences;
 mod why;
@@ -10,4 +10,5 @@ pub use json::json;
 pub(crate) use place::SIGNIFICANT;
 pub(crate) use sentences::probability;
 pub use why::why;
-pub use words::{verdict, words};
+pub use words::verdict;
+pub use words::words;

@@ -5,7 +5,7 @@ use switchback_io::diagnosis::{Report, Units};
 use switchback_io::diagnosis::{edge, whole_percent};
 
 /// Cells with a q-value below this are told of and coloured: at most this share of them is expected to be chance.
-pub const SIGNIFICANT: f64 = 0.05;
+pub(crate) const SIGNIFICANT: f64 = 0.05;
 
 /// Share of the energy that a place must hold to be told of: most of it.
 const MOST: f64 = 0.5;

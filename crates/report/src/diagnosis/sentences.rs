@@ -288,7 +288,7 @@ fn next_best(diagnosis: &Diagnosis) -> String {
 }
 
 /// Two decimals; certainty is never printed.
-pub fn probability(p: f64) -> String {
+pub(crate) fn probability(p: f64) -> String {
     match p {
         p if p.is_nan() => "–".to_owned(),
         p if p > 0.99 => "> 0.99".to_owned(),

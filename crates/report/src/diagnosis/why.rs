@@ -6,8 +6,7 @@ use switchback_diagnose::fitted::{SecondOpinion, Shares};
 use switchback_diagnose::{Candidate, Diagnosis, Horizon, HorizonGain};
 use switchback_io::diagnosis::Report;
 use switchback_io::diagnosis::{closed_percent, digits, whole_percent};
-use switchback_io::output::columns;
-use switchback_io::output::wrapped;
+use switchback_io::output::{columns, wrapped};
 
 /// Standard errors from which a gain is beyond chance (95 %, one side).
 const CERTAIN: f64 = 1.645;

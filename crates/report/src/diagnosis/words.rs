@@ -8,8 +8,7 @@ use switchback_diagnose::Candidate;
 use switchback_io::diagnosis::separates;
 use switchback_io::diagnosis::{NEXT_EXPERIMENT, Report, Units};
 use switchback_io::diagnosis::{closed_percent, digits, fit_percent};
-use switchback_io::output::columns;
-use switchback_io::output::wrapped;
+use switchback_io::output::{columns, wrapped};
 
 /// Explanations listed; the rest is in the JSON.
 pub(super) const LISTED: usize = 6;

@@ -63,7 +63,7 @@ struct Peek {
 
 impl Files {
     /// The files of a command that are to be written.
-    pub fn of(artefacts: &Artefacts) -> Self {
+    pub(crate) fn of(artefacts: &Artefacts) -> Self {
         let shown = artefacts.iter().filter(|(name, _)| is_shown(name));
         let texts = shown.map(|(name, _)| (name.to_owned(), artefacts.text(name)));
         Self { folder: PathBuf::new(), texts: texts.collect() }

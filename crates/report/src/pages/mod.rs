@@ -22,8 +22,9 @@ mod study;
 mod table;
 
 pub use error::PageError;
-pub use files::{Files, Kind};
-pub use study::study;
+pub use files::Files;
+pub use files::Kind;
+pub(crate) use study::study;
 
 use crate::plots;
 use switchback_io::output::Artefacts;

@@ -4,7 +4,7 @@ use super::style::{minus, percent, plain, power_of_ten};
 
 /// An axis from `low` to `high`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
+pub(crate) struct Axis {
     scale: Scale,
     low: f64,
     high: f64,
@@ -27,7 +27,7 @@ enum Scale {
 
 /// A mark on an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tick {
+pub(crate) struct Tick {
     /// The value marked.
     pub at: f64,
     /// What is written there; nothing at a minor tick.
@@ -40,24 +40,24 @@ const LOGARITHMIC_MARGIN: f64 = 0.06;
 
 impl Axis {
     /// A linear axis that holds all values with a margin; around 0 where there is none.
-    pub fn linear(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn linear(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = range(values).unwrap_or((0.0, 1.0));
         let margin = if high > low { LINEAR_MARGIN * (high - low) } else { low.abs().max(1.0) * 0.1 };
         Self::between(low - margin, high + margin)
     }
 
     /// A linear axis with these ends.
-    pub fn between(low: f64, high: f64) -> Self {
+    pub(crate) fn between(low: f64, high: f64) -> Self {
         Self { scale: Scale::Linear, low, high }
     }
 
     /// A linear axis of shares from `low` to `high`, marked in percent, with a margin.
-    pub fn percent(low: f64, high: f64) -> Self {
+    pub(crate) fn percent(low: f64, high: f64) -> Self {
         Self { scale: Scale::Percent, ..Self::linear([low, high]) }
     }
 
     /// A logarithmic axis that holds all positive values with a margin, one decade at least; others have no place on it.
-    pub fn logarithmic(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn logarithmic(values: impl IntoIterator<Item = f64>) -> Self {
         let logs = values.into_iter().filter(|x| *x > 0.0).map(f64::log10);
         let (low, high) = range(logs).unwrap_or((-1.0, 0.0));
         let short = (1.0 - (high - low)).max(0.0) / 2.0;
@@ -66,7 +66,7 @@ impl Axis {
     }
 
     /// A logarithmic axis marked at powers of two, that holds all positive values with a margin.
-    pub fn doublings(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn doublings(values: impl IntoIterator<Item = f64>) -> Self {
         let logs = values.into_iter().filter(|x| *x > 0.0).map(f64::log2);
         let (low, high) = range(logs).unwrap_or((0.0, 1.0));
         let margin = (LOGARITHMIC_MARGIN * (high - low)).max(0.3);
@@ -74,13 +74,13 @@ impl Axis {
     }
 
     /// A vertical axis of so many rows, counted from 0 at the top: row `i` is from `i` to `i + 1`.
-    pub fn rows(rows: f64) -> Self {
+    pub(crate) fn rows(rows: f64) -> Self {
         Self { scale: Scale::Rows, low: rows, high: 0.0 }
     }
 
     /// The same with so large a share of its length added at either end.
     #[must_use]
-    pub fn widened(self, share: f64) -> Self {
+    pub(crate) fn widened(self, share: f64) -> Self {
         let (low, high) = (self.low, self.high);
         match self.scale {
             Scale::Decades | Scale::Doublings => {
@@ -95,27 +95,27 @@ impl Axis {
     }
 
     /// The lower end.
-    pub fn low(&self) -> f64 {
+    pub(crate) fn low(&self) -> f64 {
         self.low
     }
 
     /// The upper end.
-    pub fn high(&self) -> f64 {
+    pub(crate) fn high(&self) -> f64 {
         self.high
     }
 
     /// Whether a value lies between the ends.
-    pub fn holds(&self, x: f64) -> bool {
+    pub(crate) fn holds(&self, x: f64) -> bool {
         (self.low.min(self.high)..=self.high.max(self.low)).contains(&x)
     }
 
     /// The value, or the end that it lies beyond.
-    pub fn clamp(&self, x: f64) -> f64 {
+    pub(crate) fn clamp(&self, x: f64) -> f64 {
         x.clamp(self.low.min(self.high), self.high.max(self.low))
     }
 
     /// Place of a value: 0 at the lower end, 1 at the upper; `None` for what a logarithmic axis cannot hold.
-    pub fn place(&self, x: f64) -> Option<f64> {
+    pub(crate) fn place(&self, x: f64) -> Option<f64> {
         match self.scale {
             Scale::Linear | Scale::Percent | Scale::Rows => Some((x - self.low) / (self.high - self.low)),
             _ if x > 0.0 => Some((x / self.low).ln() / (self.high / self.low).ln()),
@@ -124,7 +124,7 @@ impl Axis {
     }
 
     /// Marks, by increasing value; about `most` of them have a label.
-    pub fn ticks(&self, most: usize) -> Vec<Tick> {
+    pub(crate) fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
             Scale::Linear | Scale::Percent => self.steps(most.max(2)),
             Scale::Decades => self.decades(most.max(2)),

@@ -10,11 +10,11 @@ use std::cell::RefCell;
 const FINE: f64 = 8.0;
 
 /// A point on the sheet, pixels from the top left corner.
-pub type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
 
 /// How a line is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dash {
+pub(crate) enum Dash {
     /// Dashes.
     Dashes,
     /// Dots.
@@ -42,7 +42,7 @@ impl Dash {
 
 /// Where a mark for something beyond the frame points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Towards {
+pub(crate) enum Towards {
     /// Greater values of the vertical axis.
     Up,
     /// Smaller ones.
@@ -54,7 +54,7 @@ pub enum Towards {
 }
 
 /// The sheet.
-pub struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
     hints: RefCell<String>,
 }
@@ -76,7 +76,7 @@ fn stroke(pen: Pen) -> ShapeStyle {
 }
 
 /// Draws a sheet of the given size in pixels and returns the SVG; a screen reader reads `title`.
-pub fn draw((width, height): (f64, f64), title: &str, paint: impl FnOnce(&Canvas<'_>)) -> String {
+pub(crate) fn draw((width, height): (f64, f64), title: &str, paint: impl FnOnce(&Canvas<'_>)) -> String {
     let mut svg = String::new();
     let (w, h) = at((width, height));
     let hints = {
@@ -107,7 +107,7 @@ fn escaped(text: &str) -> String {
 
 impl Canvas<'_> {
     /// What is told of a place under the pointer: nothing is seen of it.
-    pub fn hint(&self, (x, y): Point, radius: f64, told: &str) {
+    pub(crate) fn hint(&self, (x, y): Point, radius: f64, told: &str) {
         let [x, y, r] = [x, y, radius].map(fine);
         let told = escaped(told);
         let mark = format!(
@@ -117,20 +117,20 @@ impl Canvas<'_> {
     }
 
     /// A line through points.
-    pub fn line(&self, points: &[Point], pen: Pen) {
+    pub(crate) fn line(&self, points: &[Point], pen: Pen) {
         let points: Vec<(i32, i32)> = points.iter().copied().map(at).collect();
         self.area.draw(&PathElement::new(points, stroke(pen))).expect(IN_MEMORY);
     }
 
     /// A broken line through points.
-    pub fn dashes(&self, points: &[Point], dash: Dash, pen: Pen) {
+    pub(crate) fn dashes(&self, points: &[Point], dash: Dash, pen: Pen) {
         let points: Vec<(i32, i32)> = points.iter().copied().map(at).collect();
         let style = ShapeStyle { color: pen.colour.mix(dash.opacity()), ..stroke(pen) };
         self.area.draw(&PathElement::new(points, style)).expect(IN_MEMORY);
     }
 
     /// A disc, filled with its colour or hollow.
-    pub fn disc(&self, centre: Point, radius: f64, pen: Pen, filled: bool) {
+    pub(crate) fn disc(&self, centre: Point, radius: f64, pen: Pen, filled: bool) {
         let fill = if filled { pen.colour } else { PAPER };
         let solid = ShapeStyle { color: fill.to_rgba(), filled: true, stroke_width: 1 };
         self.area.draw(&Circle::new(at(centre), fine(radius), solid)).expect(IN_MEMORY);
@@ -140,7 +140,7 @@ impl Canvas<'_> {
     }
 
     /// A mark of a shape as large as a disc of that radius, filled with its colour or hollow.
-    pub fn shape(&self, shape: Shape, (x, y): Point, radius: f64, (pen, filled): (Pen, bool)) {
+    pub(crate) fn shape(&self, shape: Shape, (x, y): Point, radius: f64, (pen, filled): (Pen, bool)) {
         let corners = match shape {
             Shape::Disc => return self.disc((x, y), radius, pen, filled),
             Shape::Square => {
@@ -164,7 +164,7 @@ impl Canvas<'_> {
     }
 
     /// A filled triangle whose tip is at a point: what it stands for lies beyond, in that direction.
-    pub fn arrow(&self, (x, y): Point, towards: Towards, length: f64, colour: RGBColor) {
+    pub(crate) fn arrow(&self, (x, y): Point, towards: Towards, length: f64, colour: RGBColor) {
         let half = 0.6 * length;
         let foot = match towards {
             Towards::Up => [(x - half, y + length), (x + half, y + length)],
@@ -176,25 +176,25 @@ impl Canvas<'_> {
     }
 
     /// A filled area.
-    pub fn polygon(&self, corners: &[Point], colour: RGBColor) {
+    pub(crate) fn polygon(&self, corners: &[Point], colour: RGBColor) {
         let corners: Vec<(i32, i32)> = corners.iter().copied().map(at).collect();
         let solid = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
         self.area.draw(&Polygon::new(corners, solid)).expect(IN_MEMORY);
     }
 
     /// A filled rectangle between two corners.
-    pub fn fill(&self, corner: Point, opposite: Point, colour: RGBColor) {
+    pub(crate) fn fill(&self, corner: Point, opposite: Point, colour: RGBColor) {
         let solid = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
         self.area.draw(&Rectangle::new([at(corner), at(opposite)], solid)).expect(IN_MEMORY);
     }
 
     /// The outline of a rectangle between two corners.
-    pub fn frame(&self, corner: Point, opposite: Point, pen: Pen) {
+    pub(crate) fn frame(&self, corner: Point, opposite: Point, pen: Pen) {
         self.area.draw(&Rectangle::new([at(corner), at(opposite)], stroke(pen))).expect(IN_MEMORY);
     }
 
     /// A text; a hyphen before a number becomes a minus sign.
-    pub fn text(&self, text: &str, point: Point, look: TextLook) {
+    pub(crate) fn text(&self, text: &str, point: Point, look: TextLook) {
         let style = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
         let mut font = FontDesc::new(FontFamily::SansSerif, look.size * FINE, style);
         if look.upwards {

@@ -5,7 +5,7 @@ use super::blind::{confusion, curves};
 use switchback_lab::field::Scores;
 
 /// Every figure.
-pub fn figures(scores: &Scores) -> Vec<Figure> {
+pub(crate) fn figures(scores: &Scores) -> Vec<Figure> {
     let figures = [
         ("confusion.svg", confusion::confusion(&scores.confusion, "size ≥ 2")),
         ("calibration.svg", curves::calibration(&scores.claims.bins)),

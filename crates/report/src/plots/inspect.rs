@@ -6,7 +6,7 @@ use super::style::{TextLook, minus};
 ///
 /// # Errors
 /// What does not.
-pub fn check(svg: &str) -> Result<(), String> {
+pub(crate) fn check(svg: &str) -> Result<(), String> {
     let header = svg.split('>').next().ok_or("no SVG")?;
     let page = numbers(attribute(header, "viewBox").ok_or("no page")?);
     let inside = |x: f64, y: f64| (page[0]..=page[2]).contains(&x) && (page[1]..=page[3]).contains(&y);

@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 
 /// What stands beside a legend's text.
 #[derive(Debug, Clone, Copy)]
-pub enum Sample {
+pub(crate) enum Sample {
     /// A mark, filled or hollow.
     Mark(Shape, Pen, bool),
     /// A line.
@@ -25,7 +25,7 @@ pub enum Sample {
 
 /// One entry.
 #[derive(Debug, Clone)]
-pub struct Entry {
+pub(crate) struct Entry {
     /// What the figure shows.
     pub sample: Sample,
     /// What it means.
@@ -34,22 +34,22 @@ pub struct Entry {
 
 impl Entry {
     /// An entry.
-    pub fn new(sample: Sample, text: impl Into<String>) -> Self {
+    pub(crate) fn new(sample: Sample, text: impl Into<String>) -> Self {
         Self { sample, text: text.into() }
     }
 
     /// A filled disc.
-    pub fn disc(colour: RGBColor, text: impl Into<String>) -> Self {
+    pub(crate) fn disc(colour: RGBColor, text: impl Into<String>) -> Self {
         Self::new(Sample::Mark(Shape::Disc, Pen::data(colour), true), text)
     }
 
     /// A filled rectangle.
-    pub fn patch(colour: RGBColor, text: impl Into<String>) -> Self {
+    pub(crate) fn patch(colour: RGBColor, text: impl Into<String>) -> Self {
         Self::new(Sample::Patch(colour), text)
     }
 
     /// A line.
-    pub fn line(colour: RGBColor, text: impl Into<String>) -> Self {
+    pub(crate) fn line(colour: RGBColor, text: impl Into<String>) -> Self {
         Self::new(Sample::Line(Pen::data(colour)), text)
     }
 }
@@ -63,10 +63,10 @@ const HALF_PATCH: f64 = 5.0;
 const CAP: f64 = 3.0;
 
 /// Height of one line of the legend, pixels.
-pub const LINE: f64 = 23.0;
+pub(crate) const LINE: f64 = 23.0;
 
 /// Breaks entries into lines no wider than `width` pixels.
-pub fn lines(entries: &[Entry], width: f64) -> Vec<Vec<&Entry>> {
+pub(crate) fn lines(entries: &[Entry], width: f64) -> Vec<Vec<&Entry>> {
     let mut lines: Vec<Vec<&Entry>> = Vec::new();
     let mut used = 0.0;
     for entry in entries {
@@ -88,7 +88,7 @@ fn entry_width(entry: &Entry) -> f64 {
 }
 
 /// Draws the lines, the first at `top`.
-pub fn draw(canvas: &Canvas<'_>, (left, top): (f64, f64), lines: &[Vec<&Entry>]) {
+pub(crate) fn draw(canvas: &Canvas<'_>, (left, top): (f64, f64), lines: &[Vec<&Entry>]) {
     for (i, line) in lines.iter().enumerate() {
         let (mut x, y) = (left, top + i as f64 * LINE);
         for entry in line {

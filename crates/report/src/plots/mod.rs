@@ -5,31 +5,32 @@
 //! figures a method (`convergence`, `borders`) and figures of all methods together (`ratios`, `efficiency`, `zip`, `paired`, `forest`).
 
 mod against;
-pub mod axis;
+pub(crate) mod axis;
 pub mod blind;
 mod borders;
-pub mod canvas;
+pub(crate) mod canvas;
 mod convergence;
 mod efficiency;
-pub mod field;
+pub(crate) mod field;
 mod forest;
 pub mod gap;
 pub mod identify;
 #[cfg(test)]
-pub mod inspect;
-pub mod legend;
+pub(crate) mod inspect;
+pub(crate) mod legend;
 mod paired;
-pub mod panel;
+pub(crate) mod panel;
 pub mod power;
 mod quantiles;
 mod ratios;
 mod selection;
-pub mod sheet;
+pub(crate) mod sheet;
 mod spread;
-pub mod style;
+pub(crate) mod style;
 mod zip;
 
-pub use identify::series::{thinned, worst_window};
+pub(crate) use identify::series::thinned;
+pub(crate) use identify::series::worst_window;
 pub use quantiles::quantiles;
 
 use against::{Against, Pairs};
@@ -49,7 +50,7 @@ pub struct Figure {
 
 /// Every figure of a consistency study: for each case and method bias and standard deviation against `N`, and the
 /// borders where the method estimates them; then all methods of a case together, and methods and borders against each other.
-pub fn consistency(results: &Results) -> Vec<Figure> {
+pub(crate) fn consistency(results: &Results) -> Vec<Figure> {
     let of_selection = |selection: &Selection<'_>| of_method(selection, results);
     let of_case = |case: &CaseSelection<'_>| of_case(case, results);
     let single = || selection::selections(results).par_iter().flat_map_iter(of_selection).collect();
@@ -105,7 +106,7 @@ pub fn overlays(baseline: &Results, new: &Results) -> Vec<Figure> {
 }
 
 /// An axis' name with a unit: the label's own, or a word where it names none.
-pub fn labelled(label: &str, otherwise: &str) -> String {
+pub(crate) fn labelled(label: &str, otherwise: &str) -> String {
     match switchback_io::identification::unit(label) {
         "" => format!("{label} [{otherwise}]"),
         _ => label.to_owned(),

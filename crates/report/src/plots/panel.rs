@@ -6,7 +6,7 @@ use super::style::{FAINT, GREY, Pen, Shape, TextLook, rounded};
 use plotters::style::RGBColor;
 
 /// A diagram's place on the sheet and its axes.
-pub struct Panel<'c, 's> {
+pub(crate) struct Panel<'c, 's> {
     canvas: &'c Canvas<'s>,
     /// Top left corner of the frame.
     corner: Point,
@@ -18,7 +18,7 @@ pub struct Panel<'c, 's> {
 
 /// At which axes numbers stand; of diagrams that share an axis only the outer ones need them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Numbers {
+pub(crate) struct Numbers {
     /// Below the frame.
     pub x: bool,
     /// Left of the frame.
@@ -27,7 +27,7 @@ pub struct Numbers {
 
 impl Numbers {
     /// At both.
-    pub const BOTH: Self = Self { x: true, y: true };
+    pub(crate) const BOTH: Self = Self { x: true, y: true };
 }
 
 /// Room that a number takes along the horizontal and the vertical axis, pixels.
@@ -45,7 +45,7 @@ const ARROW: f64 = 8.0;
 
 /// How a figure and its error are marked.
 #[derive(Debug, Clone, Copy)]
-pub struct Mark {
+pub(crate) struct Mark {
     /// Colour and thickness of the bar.
     pub pen: Pen,
     /// What stands at the figure.
@@ -61,24 +61,24 @@ pub struct Mark {
 
 impl Mark {
     /// A filled disc in its place.
-    pub fn disc(pen: Pen, radius: f64) -> Self {
+    pub(crate) fn disc(pen: Pen, radius: f64) -> Self {
         Self { pen, shape: Shape::Disc, radius, filled: true, aside: 0.0 }
     }
 
     /// A bar alone in its place.
-    pub fn bar(pen: Pen) -> Self {
+    pub(crate) fn bar(pen: Pen) -> Self {
         Self::disc(pen, 0.0)
     }
 }
 
 impl<'c, 's> Panel<'c, 's> {
     /// Draws the empty diagram: grid, ticks, numbers and frame.
-    pub fn new(canvas: &'c Canvas<'s>, corner: Point, size: (f64, f64), axes: (Axis, Axis)) -> Self {
+    pub(crate) fn new(canvas: &'c Canvas<'s>, corner: Point, size: (f64, f64), axes: (Axis, Axis)) -> Self {
         Self::with_numbers(canvas, (corner, size), axes, Numbers::BOTH)
     }
 
     /// The same with numbers at some of the axes only.
-    pub fn with_numbers(
+    pub(crate) fn with_numbers(
         canvas: &'c Canvas<'s>,
         (corner, size): (Point, (f64, f64)),
         axes: (Axis, Axis),
@@ -120,32 +120,32 @@ impl<'c, 's> Panel<'c, 's> {
     }
 
     /// Place on the sheet, inside the frame or not; `None` for what a logarithmic axis cannot hold.
-    pub fn place(&self, x: f64, y: f64) -> Option<Point> {
+    pub(crate) fn place(&self, x: f64, y: f64) -> Option<Point> {
         let (px, py) = (self.x.place(x)?, self.y.place(y)?);
         Some((self.corner.0 + px * self.size.0, self.corner.1 + (1.0 - py) * self.size.1))
     }
 
     /// A line through values, cut at the frame.
-    pub fn line(&self, values: &[(f64, f64)], pen: Pen) {
+    pub(crate) fn line(&self, values: &[(f64, f64)], pen: Pen) {
         for part in self.visible(values) {
             self.canvas.line(&part, pen);
         }
     }
 
     /// A broken line through values, cut at the frame.
-    pub fn dashes(&self, values: &[(f64, f64)], dash: Dash, pen: Pen) {
+    pub(crate) fn dashes(&self, values: &[(f64, f64)], dash: Dash, pen: Pen) {
         for part in self.visible(values) {
             self.canvas.dashes(&part, dash, pen);
         }
     }
 
     /// A horizontal line from end to end.
-    pub fn level(&self, y: f64, dash: Option<Dash>, pen: Pen) {
+    pub(crate) fn level(&self, y: f64, dash: Option<Dash>, pen: Pen) {
         self.straight(&[(self.x.low(), y), (self.x.high(), y)], dash, pen);
     }
 
     /// A vertical line from end to end.
-    pub fn upright(&self, x: f64, dash: Option<Dash>, pen: Pen) {
+    pub(crate) fn upright(&self, x: f64, dash: Option<Dash>, pen: Pen) {
         self.straight(&[(x, self.y.low()), (x, self.y.high())], dash, pen);
     }
 
@@ -157,7 +157,7 @@ impl<'c, 's> Panel<'c, 's> {
     }
 
     /// The area between two curves over the same `x`, given as `(x, low, high)`, cut at the frame's lower and upper edge.
-    pub fn band(&self, values: &[(f64, f64, f64)], colour: RGBColor) {
+    pub(crate) fn band(&self, values: &[(f64, f64, f64)], colour: RGBColor) {
         let inside = |y: f64| self.y.clamp(y);
         let held =
             values.iter().filter(|(x, low, high)| self.x.holds(*x) && low.is_finite() && high.is_finite());
@@ -187,7 +187,7 @@ impl<'c, 's> Panel<'c, 's> {
 
     /// A figure with its upright bar from `low` to `high`. A bar that is cut at the frame ends in an arrow there, and so
     /// does a figure beyond the frame.
-    pub fn mark(&self, x: f64, y: f64, (low, high): (f64, f64), mark: Mark) {
+    pub(crate) fn mark(&self, x: f64, y: f64, (low, high): (f64, f64), mark: Mark) {
         let beside = |y: f64| self.place(x, y).map(|(px, py)| (px + mark.aside, py));
         let ends = [(low, Towards::Down), (high, Towards::Up)];
         self.bar((y, self.y), ends, mark, &beside);
@@ -202,7 +202,7 @@ impl<'c, 's> Panel<'c, 's> {
     }
 
     /// A figure with its level bar from `low` to `high`, cut as [`mark`](Self::mark)s are.
-    pub fn level_mark(&self, (low, high): (f64, f64), x: f64, y: f64, mark: Mark) {
+    pub(crate) fn level_mark(&self, (low, high): (f64, f64), x: f64, y: f64, mark: Mark) {
         let beside = |x: f64| self.place(x, y).map(|(px, py)| (px, py + mark.aside));
         let ends = [(low, Towards::Left), (high, Towards::Right)];
         self.bar((x, self.x), ends, mark, &beside);
@@ -241,7 +241,7 @@ impl<'c, 's> Panel<'c, 's> {
     }
 
     /// A mark of a pair of values; at the edge, as an arrow, where it lies beyond the frame.
-    pub fn point(&self, x: f64, y: f64, mark: Mark) {
+    pub(crate) fn point(&self, x: f64, y: f64, mark: Mark) {
         let at_edge = self.place(self.x.clamp(x), self.y.clamp(y));
         let (Some(at_edge), Some(px), Some(py)) = (at_edge, self.x.place(x), self.y.place(y)) else { return };
         let towards = match (px, py) {
@@ -255,32 +255,32 @@ impl<'c, 's> Panel<'c, 's> {
     }
 
     /// A text at a pair of values, so many pixels beside it.
-    pub fn text(&self, text: &str, (x, y): (f64, f64), (right, down): (f64, f64), look: TextLook) {
+    pub(crate) fn text(&self, text: &str, (x, y): (f64, f64), (right, down): (f64, f64), look: TextLook) {
         if let Some((px, py)) = self.place(x, y) {
             self.canvas.text(text, (px + right, py + down), look);
         }
     }
 
     /// A title above the frame.
-    pub fn title(&self, text: &str) {
+    pub(crate) fn title(&self, text: &str) {
         let point = (self.corner.0 + self.size.0 / 2.0, self.corner.1 - TITLE_ABOVE);
         self.canvas.text(text, point, TextLook::heading().middle());
     }
 
     /// The name of the horizontal axis, below its numbers.
-    pub fn x_name(&self, text: &str) {
+    pub(crate) fn x_name(&self, text: &str) {
         let point = (self.corner.0 + self.size.0 / 2.0, self.corner.1 + self.size.1 + NAME_BELOW);
         self.canvas.text(text, point, TextLook::axis().middle());
     }
 
     /// The name of the vertical axis, `distance` pixels left of the frame.
-    pub fn y_name(&self, text: &str, distance: f64) {
+    pub(crate) fn y_name(&self, text: &str, distance: f64) {
         let point = (self.corner.0 - distance, self.corner.1 + self.size.1 / 2.0);
         self.canvas.text(text, point, TextLook::axis().middle().upwards());
     }
 
     /// A remark in the middle of an otherwise empty diagram, on as many lines as it takes.
-    pub fn remark(&self, text: &str) {
+    pub(crate) fn remark(&self, text: &str) {
         let look = TextLook::label().middle().colour(GREY);
         let lines = look.wrapped(text, self.size.0 - 2.0 * CAP);
         let (x, middle) = (self.corner.0 + self.size.0 / 2.0, self.corner.1 + self.size.1 / 2.0);

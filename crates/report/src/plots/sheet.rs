@@ -7,7 +7,7 @@ use super::panel::{Numbers, Panel};
 use super::style::{GREY, MARGIN, TextLook, WIDTH};
 
 /// What a page says and how its diagrams are arranged.
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// Width, pixels.
     pub width: f64,
     /// What the figure shows.
@@ -22,7 +22,7 @@ pub struct Sheet {
 
 /// Rows and columns of diagrams of one size.
 #[derive(Debug, Clone, Copy)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Number of columns.
     pub columns: usize,
     /// Number of rows.
@@ -44,25 +44,25 @@ pub struct Grid {
 impl Grid {
     /// Diagrams of a height with titles above, numbers left of and below each, and room for the axes' names at the first column
     /// and the last row.
-    pub fn new(rows: usize, columns: usize, height: f64) -> Self {
+    pub(crate) fn new(rows: usize, columns: usize, height: f64) -> Self {
         let (rows, columns) = (rows.max(1), columns.max(1));
         Self { columns, rows, height, left: 84.0, between: 66.0, above: 34.0, apart: 84.0, below: 52.0 }
     }
 
     /// The same for diagrams that share their axes: numbers stand at the first column and the last row only, names of rows left of all.
-    pub fn shared(rows: usize, columns: usize, height: f64) -> Self {
+    pub(crate) fn shared(rows: usize, columns: usize, height: f64) -> Self {
         Self { left: 92.0, between: 14.0, apart: 14.0, ..Self::new(rows, columns, height) }
     }
 }
 
 impl Sheet {
     /// A page of full width without a legend.
-    pub fn new(title: impl Into<String>, notes: Vec<String>, grid: Grid) -> Self {
+    pub(crate) fn new(title: impl Into<String>, notes: Vec<String>, grid: Grid) -> Self {
         Self { width: WIDTH, title: title.into(), notes, legend: Vec::new(), grid }
     }
 
     /// Draws the page; `paint` gets the canvas and the frames' places, and fills them.
-    pub fn render(&self, paint: impl FnOnce(&Canvas<'_>, &Frames)) -> String {
+    pub(crate) fn render(&self, paint: impl FnOnce(&Canvas<'_>, &Frames)) -> String {
         let room = self.width - 2.0 * MARGIN;
         let wrapped = |look: TextLook, text: &str| -> Vec<(String, TextLook)> {
             look.wrapped(text, room).into_iter().map(|line| (line, look)).collect()
@@ -90,7 +90,7 @@ impl Sheet {
     }
 
     /// The page with a remark in place of its diagrams: why there is nothing to draw.
-    pub fn empty(mut self, why: &str) -> String {
+    pub(crate) fn empty(mut self, why: &str) -> String {
         self.legend.clear();
         self.grid = Grid { height: 3.0 * TextLook::label().line(), below: MARGIN, ..Grid::new(1, 1, 0.0) };
         self.render(|canvas, frames| {
@@ -104,7 +104,7 @@ impl Sheet {
 }
 
 /// Where the diagrams stand.
-pub struct Frames {
+pub(crate) struct Frames {
     grid: Grid,
     width: f64,
     top: f64,
@@ -112,20 +112,20 @@ pub struct Frames {
 
 impl Frames {
     /// Width and height of every frame.
-    pub fn size(&self) -> (f64, f64) {
+    pub(crate) fn size(&self) -> (f64, f64) {
         let gaps = self.grid.between * (self.grid.columns - 1) as f64;
         ((self.width - self.grid.left - MARGIN - gaps) / self.grid.columns as f64, self.grid.height)
     }
 
     /// Top left corner of a frame.
-    pub fn corner(&self, row: usize, column: usize) -> Point {
+    pub(crate) fn corner(&self, row: usize, column: usize) -> Point {
         let (width, height) = self.size();
         let x = self.grid.left + (width + self.grid.between) * column as f64;
         (x, self.top + self.grid.above + (height + self.grid.apart) * row as f64)
     }
 
     /// The empty diagram at a row and column, with numbers at both axes.
-    pub fn panel<'c, 's>(
+    pub(crate) fn panel<'c, 's>(
         &self,
         canvas: &'c Canvas<'s>,
         (row, column): (usize, usize),
@@ -135,7 +135,7 @@ impl Frames {
     }
 
     /// The empty diagram at a row and column of a grid whose rows and columns share their axes: numbers at the outer ones only.
-    pub fn inner_panel<'c, 's>(
+    pub(crate) fn inner_panel<'c, 's>(
         &self,
         canvas: &'c Canvas<'s>,
         (row, column): (usize, usize),
@@ -146,7 +146,7 @@ impl Frames {
     }
 
     /// Writes what a row shows upwards at its left, and below it in grey what more there is to say.
-    pub fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, more): (&str, &str)) {
+    pub(crate) fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, more): (&str, &str)) {
         let middle = self.corner(row, 0).1 + self.size().1 / 2.0;
         let first = MARGIN;
         canvas.text(name, (first, middle), TextLook::heading().middle().upwards());

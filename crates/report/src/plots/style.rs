@@ -3,16 +3,16 @@
 use plotters::style::RGBColor;
 
 /// Width of a page, pixels.
-pub const WIDTH: f64 = 960.0;
+pub(crate) const WIDTH: f64 = 960.0;
 
 /// Width of a figure of one diagram, pixels.
-pub const NARROW: f64 = 640.0;
+pub(crate) const NARROW: f64 = 640.0;
 
 /// Room between the edge of a page and what stands on it, pixels.
-pub const MARGIN: f64 = 18.0;
+pub(crate) const MARGIN: f64 = 18.0;
 
 /// Okabe and Ito's palette (jfly.uni-koeln.de/color) without black and yellow, which serve badly as data on white.
-pub const OKABE_ITO: [RGBColor; 6] = [
+pub(crate) const OKABE_ITO: [RGBColor; 6] = [
     RGBColor(0x00, 0x72, 0xB2),
     RGBColor(0xD5, 0x5E, 0x00),
     RGBColor(0x00, 0x9E, 0x73),
@@ -22,47 +22,47 @@ pub const OKABE_ITO: [RGBColor; 6] = [
 ];
 
 /// Text, frames and truth.
-pub const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+pub(crate) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 
 /// Secondary text, ticks, and what was measured.
-pub const GREY: RGBColor = RGBColor(0x6E, 0x6E, 0x6E);
+pub(crate) const GREY: RGBColor = RGBColor(0x6E, 0x6E, 0x6E);
 
 /// Grid lines and the ground of bars.
-pub const FAINT: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
+pub(crate) const FAINT: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
 
 /// The background.
-pub const PAPER: RGBColor = RGBColor(0xFF, 0xFF, 0xFF);
+pub(crate) const PAPER: RGBColor = RGBColor(0xFF, 0xFF, 0xFF);
 
 /// The border that the working point follows when the input falls.
-pub const DESCENDING: RGBColor = OKABE_ITO[0];
+pub(crate) const DESCENDING: RGBColor = OKABE_ITO[0];
 
 /// … when it rises.
-pub const ASCENDING: RGBColor = OKABE_ITO[1];
+pub(crate) const ASCENDING: RGBColor = OKABE_ITO[1];
 
 /// A model before it is repaired.
-pub const BEFORE: RGBColor = OKABE_ITO[1];
+pub(crate) const BEFORE: RGBColor = OKABE_ITO[1];
 
 /// … and after.
-pub const AFTER: RGBColor = OKABE_ITO[0];
+pub(crate) const AFTER: RGBColor = OKABE_ITO[0];
 
 /// What is as it should be: found, right, within chance.
-pub const GOOD: RGBColor = OKABE_ITO[0];
+pub(crate) const GOOD: RGBColor = OKABE_ITO[0];
 
 /// What is not: missed, wrong, beyond chance.
-pub const BAD: RGBColor = OKABE_ITO[1];
+pub(crate) const BAD: RGBColor = OKABE_ITO[1];
 
 /// How strongly a colour is mixed with the background where it stands behind the same colour in full.
-pub const PALE: f64 = 0.35;
+pub(crate) const PALE: f64 = 0.35;
 
 /// A colour mixed with the background: 1 keeps it, 0 is the background. Opaque, so that overlaps do not add up.
-pub fn tint(colour: RGBColor, share: f64) -> RGBColor {
+pub(crate) fn tint(colour: RGBColor, share: f64) -> RGBColor {
     let mix = |c: u8| (255.0 - (255.0 - f64::from(c)) * share).round() as u8;
     RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
 }
 
 /// A line's colour and width in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pen {
+pub(crate) struct Pen {
     /// Ink.
     pub colour: RGBColor,
     /// Eighths of a pixel.
@@ -75,34 +75,34 @@ impl Pen {
     }
 
     /// Frames, ticks and grid lines.
-    pub const fn hair(colour: RGBColor) -> Self {
+    pub(crate) const fn hair(colour: RGBColor) -> Self {
         Self::new(colour, 8)
     }
 
     /// Data, and bars of intervals.
-    pub const fn data(colour: RGBColor) -> Self {
+    pub(crate) const fn data(colour: RGBColor) -> Self {
         Self::new(colour, 13)
     }
 
     /// What stands behind data, and is seen where both coincide.
-    pub const fn broad(colour: RGBColor) -> Self {
+    pub(crate) const fn broad(colour: RGBColor) -> Self {
         Self::new(colour, 40)
     }
 
     /// A sample of a filled bar, in a legend.
-    pub const fn bar(colour: RGBColor) -> Self {
+    pub(crate) const fn bar(colour: RGBColor) -> Self {
         Self::new(colour, 80)
     }
 
     /// Width, pixels.
-    pub fn width(self) -> f64 {
+    pub(crate) fn width(self) -> f64 {
         f64::from(self.eighths) / 8.0
     }
 }
 
 /// Where a text stands relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Anchor {
+pub(crate) enum Anchor {
     /// It begins at the point.
     Start,
     /// It is centred on the point.
@@ -113,7 +113,7 @@ pub enum Anchor {
 
 /// How a text looks: what it is for, and how it stands. Vertically it is centred on its point.
 #[derive(Debug, Clone, Copy)]
-pub struct TextLook {
+pub(crate) struct TextLook {
     /// Height of the letters' box, pixels.
     pub size: f64,
     /// Ink.
@@ -132,78 +132,78 @@ impl TextLook {
     }
 
     /// What the figure shows.
-    pub const fn title() -> Self {
+    pub(crate) const fn title() -> Self {
         Self { bold: true, ..Self::new(23.0) }
     }
 
     /// How it is to be read.
-    pub const fn note() -> Self {
+    pub(crate) const fn note() -> Self {
         Self { colour: GREY, ..Self::new(16.0) }
     }
 
     /// Names of series and rows, legends.
-    pub const fn label() -> Self {
+    pub(crate) const fn label() -> Self {
         Self::new(16.0)
     }
 
     /// What a diagram shows.
-    pub const fn heading() -> Self {
+    pub(crate) const fn heading() -> Self {
         Self { bold: true, ..Self::new(16.0) }
     }
 
     /// Names of axes.
-    pub const fn axis() -> Self {
+    pub(crate) const fn axis() -> Self {
         Self::new(15.5)
     }
 
     /// Numbers at axes and beside marks.
-    pub const fn number() -> Self {
+    pub(crate) const fn number() -> Self {
         Self::new(15.0)
     }
 
     /// Numbers where there is little room.
-    pub const fn small() -> Self {
+    pub(crate) const fn small() -> Self {
         Self::new(13.0)
     }
 
     /// The same, centred.
-    pub const fn middle(self) -> Self {
+    pub(crate) const fn middle(self) -> Self {
         Self { anchor: Anchor::Middle, ..self }
     }
 
     /// The same, ending at its point.
-    pub const fn end(self) -> Self {
+    pub(crate) const fn end(self) -> Self {
         Self { anchor: Anchor::End, ..self }
     }
 
     /// The same, thicker.
-    pub const fn bold(self) -> Self {
+    pub(crate) const fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
     /// The same, running upwards.
-    pub const fn upwards(self) -> Self {
+    pub(crate) const fn upwards(self) -> Self {
         Self { upwards: true, ..self }
     }
 
     /// The same in another colour.
-    pub const fn colour(self, colour: RGBColor) -> Self {
+    pub(crate) const fn colour(self, colour: RGBColor) -> Self {
         Self { colour, ..self }
     }
 
     /// Height of a line of such text, pixels.
-    pub fn line(self) -> f64 {
+    pub(crate) fn line(self) -> f64 {
         (1.4 * self.size).round()
     }
 
     /// How wide a text comes out, pixels, roughly: letters are about half as wide as their box is high.
-    pub fn width(self, text: &str) -> f64 {
+    pub(crate) fn width(self, text: &str) -> f64 {
         let letter = if self.bold { 0.49 } else { 0.465 };
         letter * self.size * text.chars().count() as f64
     }
 
     /// A text cut to so many pixels, with an ellipsis where something was cut off.
-    pub fn fitted(self, text: &str, width: f64) -> String {
+    pub(crate) fn fitted(self, text: &str, width: f64) -> String {
         if self.width(text) <= width {
             return text.to_owned();
         }
@@ -212,7 +212,7 @@ impl TextLook {
     }
 
     /// Breaks a text at spaces into lines no wider than so many pixels.
-    pub fn wrapped(self, text: &str, width: f64) -> Vec<String> {
+    pub(crate) fn wrapped(self, text: &str, width: f64) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text.split_whitespace() {
             match lines.last_mut() {
@@ -229,7 +229,7 @@ impl TextLook {
 
 /// What stands at a point of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// A disc.
     Disc,
     /// A square.
@@ -242,17 +242,17 @@ pub enum Shape {
 
 impl Shape {
     /// In the order in which they are used up.
-    pub const ALL: [Self; 4] = [Self::Disc, Self::Square, Self::Diamond, Self::Triangle];
+    pub(crate) const ALL: [Self; 4] = [Self::Disc, Self::Square, Self::Diamond, Self::Triangle];
 }
 
 /// Radius of a mark that stands for itself, pixels.
-pub const RADIUS: f64 = 4.0;
+pub(crate) const RADIUS: f64 = 4.0;
 
 /// … where there are many.
-pub const SMALL_RADIUS: f64 = 2.5;
+pub(crate) const SMALL_RADIUS: f64 = 2.5;
 
 /// U+2212 in place of a hyphen before a number; hyphens within words and names stay.
-pub fn minus(text: &str) -> String {
+pub(crate) fn minus(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut before = ' ';
     let mut letters = text.chars().peekable();
@@ -266,7 +266,7 @@ pub fn minus(text: &str) -> String {
 }
 
 /// A short number: plain where it has few digits, `3·10⁻⁵` elsewhere.
-pub fn plain(x: f64) -> String {
+pub(crate) fn plain(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
         return minus(&format!("{}", (x * 1e9).round() / 1e9));
     }
@@ -277,12 +277,12 @@ pub fn plain(x: f64) -> String {
 }
 
 /// A number to so many digits.
-pub fn rounded(x: f64, digits: usize) -> String {
+pub(crate) fn rounded(x: f64, digits: usize) -> String {
     plain(format!("{x:.*e}", digits.max(1) - 1).parse().unwrap_or(x))
 }
 
 /// `10⁻³`; `1` and `10` as they are.
-pub fn power_of_ten(power: i32) -> String {
+pub(crate) fn power_of_ten(power: i32) -> String {
     if let 0 | 1 = power {
         return if power == 0 { "1" } else { "10" }.to_owned();
     }
@@ -293,7 +293,7 @@ pub fn power_of_ten(power: i32) -> String {
 }
 
 /// A count, its digits in groups of three: `100,000`.
-pub fn count(n: usize) -> String {
+pub(crate) fn count(n: usize) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {
@@ -306,7 +306,7 @@ pub fn count(n: usize) -> String {
 }
 
 /// A share in percent to so many decimals.
-pub fn percent(share: f64, decimals: usize) -> String {
+pub(crate) fn percent(share: f64, decimals: usize) -> String {
     let unit = 10f64.powi(decimals as i32);
     // Adding zero turns the −0 of rounding into 0.
     minus(&format!("{:.decimals$} %", (100.0 * share * unit).round() / unit + 0.0))

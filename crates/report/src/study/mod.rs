@@ -3,8 +3,8 @@
 //! Nothing is printed or written here; callers get text and [`Artefacts`].
 
 mod page;
-pub mod paired;
-pub mod row;
+pub(crate) mod paired;
+pub(crate) mod row;
 pub mod table;
 
 pub use table::table;

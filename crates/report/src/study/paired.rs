@@ -49,7 +49,7 @@ fn header(first: &Overall) -> [String; 5] {
 }
 
 /// A comparison as cells of a table.
-pub fn row(overall: &Overall) -> [String; 5] {
+pub(crate) fn row(overall: &Overall) -> [String; 5] {
     let more = if overall.over.len() > 1 { ", …" } else { "" };
     let over = overall.over.first().map_or("", String::as_str);
     let ratio = &overall.variance_ratio;

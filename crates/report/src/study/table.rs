@@ -48,14 +48,14 @@ fn slopes(results: &Results) -> String {
 }
 
 /// The names of the columns.
-pub fn header() -> Vec<String> {
+pub(crate) fn header() -> Vec<String> {
     ["method", "of", "sd slope", "bias slope", "coverage", "sd/theory", "var/CRB", "verdict"]
         .map(str::to_owned)
         .to_vec()
 }
 
 /// A row as cells of the table.
-pub fn cells(row: &Row<'_>) -> Vec<String> {
+pub(crate) fn cells(row: &Row<'_>) -> Vec<String> {
     vec![
         row.method.to_string(),
         group(row.group).to_owned(),

@@ -5,5 +5,7 @@ mod pairs;
 mod text;
 
 pub use json::json;
-pub use pairs::{Comparison, Difference, Place, compare};
+pub use pairs::Comparison;
+pub use pairs::Difference;
+pub use pairs::compare;
 pub use text::summary;

@@ -67,7 +67,7 @@ pub fn compare(baseline: &Results, new: &Results) -> Comparison {
 
 impl Comparison {
     /// Differences beyond chance, the largest first.
-    pub fn beyond_chance(&self) -> Vec<&Difference> {
+    pub(crate) fn beyond_chance(&self) -> Vec<&Difference> {
         let mut beyond: Vec<&Difference> =
             self.differences.iter().filter(|d| d.z.abs() > self.threshold).collect();
         beyond.sort_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
@@ -80,7 +80,7 @@ impl Comparison {
     }
 
     /// Whether, besides, every measure is the same to the last digit.
-    pub fn identical(&self) -> bool {
+    pub(crate) fn identical(&self) -> bool {
         self.holds_the_same() && self.differences.iter().all(|d| d.baseline == d.new)
     }
 

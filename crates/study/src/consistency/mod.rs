@@ -53,10 +53,19 @@ use workload::Workload;
 
 pub use cost::least_seconds;
 pub use execute::Progress;
-pub use replay::{ReplayedCell, ReplayedExperiment, ReplayedRecords, records, replay};
-pub use single::{Estimated, Single, SingleRecord};
+pub use replay::ReplayedCell;
+pub use replay::ReplayedExperiment;
+pub use replay::records;
+pub use replay::replay;
+pub use single::Estimated;
+pub use single::Single;
+pub use single::SingleRecord;
 pub use sizes::ShareSize;
-pub use standing::{Keeper, Origin, Snapshot, Standing, Unusable};
+pub use standing::Keeper;
+pub(crate) use standing::Origin;
+pub use standing::Snapshot;
+pub use standing::Standing;
+pub(crate) use standing::Unusable;
 
 /// Why a study cannot be run.
 #[derive(Debug, Error)]

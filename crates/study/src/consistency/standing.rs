@@ -2,7 +2,8 @@
 
 mod bytes;
 
-pub use bytes::{Origin, Unusable};
+pub(crate) use bytes::Origin;
+pub(crate) use bytes::Unusable;
 
 use super::batches::Batches;
 use super::cell::CellSpec;

@@ -7,7 +7,7 @@ use switchback_identify::simulation::{PlannedPrecision, PredictedErrors};
 /// Fewest periods planned for a precision. On the machines of the example `design_precision`, achieved over predicted errors (root mean
 /// square over parameters) are off by up to 8 % at three periods and by less than 5 % from ten on. The free records of a shorter campaign
 /// would also be too short to be of use.
-pub const RELIABLE_PERIODS: usize = 10;
+pub(crate) const RELIABLE_PERIODS: usize = 10;
 
 /// The method that will identify from the planned experiments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,17 +76,17 @@ impl Forecast {
     }
 
     /// The method predicted for.
-    pub fn method(&self) -> PlanMethod {
+    pub(crate) fn method(&self) -> PlanMethod {
         self.method
     }
 
     /// The system planned for, in the normalisation `u_M − u_m = 1`: `a`, `b` and the borders' points.
-    pub fn planned(&self) -> &switchback_identify::pulse::PulseFit {
+    pub(crate) fn planned(&self) -> &switchback_identify::pulse::PulseFit {
         self.precision.fit()
     }
 
     /// The levels of the descendant and of the ascendant experiment, in the order of the predicted errors.
-    pub fn levels(&self) -> [&[f64]; 2] {
+    pub(crate) fn levels(&self) -> [&[f64]; 2] {
         [self.pulses[0].levels(), self.pulses[1].levels()]
     }
 

@@ -13,9 +13,15 @@ mod words;
 
 pub use artefacts::artefacts;
 pub use error::DesignError;
-pub use forecast::{Forecast, PlanMethod, Prediction, RELIABLE_PERIODS};
+pub use forecast::Forecast;
+pub use forecast::PlanMethod;
+pub(crate) use forecast::Prediction;
+pub(crate) use forecast::RELIABLE_PERIODS;
 pub use json::json;
-pub use plan::{DEFAULT_PERIODS, Length, Plan, Request};
+pub use plan::DEFAULT_PERIODS;
+pub use plan::Length;
+pub use plan::Plan;
+pub use plan::Request;
 pub use truth::Truth;
 pub use words::words;
 

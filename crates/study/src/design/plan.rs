@@ -106,7 +106,7 @@ impl Plan {
     }
 
     /// Seconds that some samples take.
-    pub fn seconds(&self, samples: usize) -> f64 {
+    pub(crate) fn seconds(&self, samples: usize) -> f64 {
         samples as f64 * self.request.sample_time
     }
 }

@@ -32,7 +32,7 @@ const POSITIONS: usize = 241;
 
 impl BorderCurve {
     /// Samples both borders over the working interval.
-    pub fn sample(case: &str, border: &str, hysteresis: &SwitchedHysteresis) -> Self {
+    pub(crate) fn sample(case: &str, border: &str, hysteresis: &SwitchedHysteresis) -> Self {
         let interval = hysteresis.interval();
         let step = interval.width() / (POSITIONS - 1) as f64;
         let at = |i: usize| {

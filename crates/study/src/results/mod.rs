@@ -15,22 +15,42 @@ mod summary;
 #[cfg(any(test, feature = "synthetic"))]
 pub mod synthetic;
 
-pub use cell::{Cell, Failures, Intervals, Parameter};
+pub use cell::Cell;
+pub(crate) use cell::Failures;
+pub(crate) use cell::Intervals;
+pub use cell::Parameter;
 pub use csv::to_csv;
-pub use curve::{BorderCurve, CurvePoint};
-pub use json::{ResultsError, parse, read, to_json};
-pub use measured::{Measured, MeasuredError};
-pub use paired::{Comparison, Overall, Paired, PairedError, PairedGroup, PairedParameter, Pairing, Subject};
-pub use pooled::{root_mean_square, root_mean_square_exact};
-pub use series::{Group, Series};
-pub use summary::{Expectation, Fitted, Summary, Verdict};
+pub use curve::BorderCurve;
+pub use curve::CurvePoint;
+pub use json::ResultsError;
+pub use json::parse;
+pub use json::read;
+pub use json::to_json;
+pub use measured::Measured;
+pub use measured::MeasuredError;
+pub use paired::Comparison;
+pub use paired::Overall;
+pub use paired::Paired;
+pub use paired::PairedError;
+pub use paired::PairedGroup;
+pub use paired::PairedParameter;
+pub use paired::Pairing;
+pub use paired::Subject;
+pub use pooled::root_mean_square;
+pub use pooled::root_mean_square_exact;
+pub use series::Group;
+pub use series::Series;
+pub(crate) use summary::Expectation;
+pub use summary::Fitted;
+pub use summary::Summary;
+pub use summary::Verdict;
 
 use crate::scenario::{Coupling, Engine, Labels, Scenario, ScenarioError};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Version of the layout of `results.json`; a reader refuses any other.
-pub const SCHEMA: u32 = 1;
+pub(crate) const SCHEMA: u32 = 1;
 
 /// All that a consistency study found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -140,7 +140,7 @@ const ROUNDING: f64 = 1e-9;
 
 impl Paired {
     /// A figure and its two errors; `None` unless all are finite and no error is negative.
-    pub fn new(value: f64, mcse: f64, unpaired_mcse: f64) -> Option<Self> {
+    pub(crate) fn new(value: f64, mcse: f64, unpaired_mcse: f64) -> Option<Self> {
         let valid =
             value.is_finite() && [mcse, unpaired_mcse].iter().all(|error| error.is_finite() && *error >= 0.0);
         let floor = ROUNDING * unpaired_mcse;
@@ -206,7 +206,7 @@ impl Comparison {
 
 impl Pairing {
     /// What a parameter of a cell is compared with, and how: over another method, or over another border.
-    pub fn find(
+    pub(crate) fn find(
         &self,
         methods: bool,
         cell: &Cell,

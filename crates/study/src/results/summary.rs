@@ -56,7 +56,7 @@ impl Fitted {
     }
 
     /// Whether the interval holds `x`.
-    pub fn covers(&self, x: f64) -> bool {
+    pub(crate) fn covers(&self, x: f64) -> bool {
         (self.ci.0..=self.ci.1).contains(&x)
     }
 }
@@ -75,7 +75,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// What tables call it.
-    pub fn label(self) -> &'static str {
+    pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
             Self::Inconsistent => "inconsistent",

@@ -40,7 +40,7 @@ pub struct Width {
 
 impl Expect {
     /// Whether nothing is promised.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 }
@@ -62,11 +62,11 @@ pub enum Check {
 
 impl Check {
     /// Every check, in the order of the report's columns.
-    pub const ALL: [Self; 5] =
+    pub(crate) const ALL: [Self; 5] =
         [Self::SdSlope, Self::BiasSlope, Self::SdOverTheory, Self::Coverage, Self::Efficiency];
 
     /// The name used in scenario files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::SdSlope => "sd_slope",
             Self::BiasSlope => "bias_slope",
@@ -77,7 +77,7 @@ impl Check {
     }
 
     /// The check of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|c| c.name() == name)
     }
 }

@@ -14,8 +14,11 @@ mod tests;
 mod wire;
 
 pub use error::ScenarioError;
-pub use expect::{Check, Coverage, Expect, Width};
-pub use switchback_identify::Method;
+pub use expect::Check;
+pub use expect::Coverage;
+pub use expect::Expect;
+pub use expect::Width;
+pub(crate) use switchback_identify::Method;
 
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -41,7 +44,7 @@ pub struct Scenario {
 
 /// How many replicates each cell takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Replication {
+pub(crate) struct Replication {
     /// Replicates that every cell takes, at least 2.
     pub replicates: usize,
     /// When to go on beyond them; `None` stops there.
@@ -50,7 +53,7 @@ pub struct Replication {
 
 /// The rule that lets cells take more replicates than the first batch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stopping {
+pub(crate) struct Stopping {
     /// Stop when the Monte-Carlo standard error of every bias is at most this many standard deviations of its estimate.
     pub bias_mcse: Option<f64>,
     /// Stop when the Monte-Carlo standard error of every standard deviation is at most this share of it.
@@ -144,10 +147,10 @@ pub enum Knots {
 
 impl Knots {
     /// Every kind, the default first.
-    pub const ALL: [Self; 3] = [Self::Given, Self::Refined, Self::Known];
+    pub(crate) const ALL: [Self; 3] = [Self::Given, Self::Refined, Self::Known];
 
     /// The name used in scenario files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Given => "given",
             Self::Refined => "refined",
@@ -156,7 +159,7 @@ impl Knots {
     }
 
     /// The kind of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|k| k.name() == name)
     }
 }
@@ -174,10 +177,10 @@ pub enum Fit {
 
 impl Fit {
     /// Every kind, the default first.
-    pub const ALL: [Self; 3] = [Self::Equation, Self::FreeRun, Self::Prewhitened];
+    pub(crate) const ALL: [Self; 3] = [Self::Equation, Self::FreeRun, Self::Prewhitened];
 
     /// The name used in scenario files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Equation => "equation error",
             Self::FreeRun => "free run",
@@ -186,7 +189,7 @@ impl Fit {
     }
 
     /// The kind of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|k| k.name() == name)
     }
 }
@@ -233,19 +236,19 @@ pub struct Sweep {
 
 impl Sweep {
     /// The numbers of samples that slopes are fitted over.
-    pub fn slope_samples(&self) -> &[usize] {
+    pub(crate) fn slope_samples(&self) -> &[usize] {
         &self.samples[self.samples.partition_point(|n| *n < self.slope_from)..]
     }
 }
 
 impl Case {
     /// The period of the experiments with `m` points: `T = s(m + 3)` samples.
-    pub fn period(&self, points: usize) -> usize {
+    pub(crate) fn period(&self, points: usize) -> usize {
         self.spacing * (points + 3)
     }
 
     /// The working interval, which all borders share.
-    pub fn interval(&self) -> Interval {
+    pub(crate) fn interval(&self) -> Interval {
         self.borders[0].hysteresis.interval()
     }
 }
@@ -273,22 +276,22 @@ impl Scenario {
     }
 
     /// What the study is to answer.
-    pub fn question(&self) -> &str {
+    pub(crate) fn question(&self) -> &str {
         &self.question
     }
 
     /// The seed of every random stream.
-    pub fn seed(&self) -> u64 {
+    pub(crate) fn seed(&self) -> u64 {
         self.seed
     }
 
     /// How many replicates each cell takes.
-    pub fn replication(&self) -> Replication {
+    pub(crate) fn replication(&self) -> Replication {
         self.replication
     }
 
     /// Whether the cells share their noise.
-    pub fn coupling(&self) -> Coupling {
+    pub(crate) fn coupling(&self) -> Coupling {
         self.coupling
     }
 
@@ -304,7 +307,7 @@ impl Scenario {
     }
 
     /// What the axes are called.
-    pub fn labels(&self) -> &Labels {
+    pub(crate) fn labels(&self) -> &Labels {
         &self.labels
     }
 
@@ -319,7 +322,7 @@ impl Scenario {
     }
 
     /// The file's content as written, for the results to echo.
-    pub fn source(&self) -> &serde_json::Value {
+    pub(crate) fn source(&self) -> &serde_json::Value {
         &self.source
     }
 }

@@ -72,7 +72,7 @@ const ENOUGH: f64 = 1e-9;
 
 /// Coefficients of the highest penalised likelihood: projected gradient steps, accelerated, begun anew where they go astray (A. Beck and M.
 /// Teboulle, SIAM J. Imaging Sciences 2, 2009; B. O'Donoghue and E. Candès, Found. Comput. Math. 15, 2015).
-pub(crate) fn fitted(choices: &[Choice], signs: &[Sign], ridge: f64) -> Vec<f64> {
+pub(super) fn fitted(choices: &[Choice], signs: &[Sign], ridge: f64) -> Vec<f64> {
     let of = |coefficients: &[f64], descent: &mut [f64]| {
         descent.iter_mut().zip(coefficients).for_each(|(d, b)| *d = ridge * b);
         let penalty = 0.5 * ridge * coefficients.iter().map(|b| b * b).sum::<f64>();

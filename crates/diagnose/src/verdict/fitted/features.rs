@@ -91,7 +91,7 @@ const VERY_STRONG: f64 = 10.0;
 
 /// What rules that were tuned by hand say of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RulesSay {
+pub(crate) struct RulesSay {
     /// That nothing is missing but, at the most, other parameters.
     pub nothing: bool,
     /// That the cause is none of the effects.
@@ -102,7 +102,7 @@ pub struct RulesSay {
 
 impl RulesSay {
     /// From the status of their verdict.
-    pub fn of(status: Status, likeliest: Option<(Effect, f64)>) -> Self {
+    pub(crate) fn of(status: Status, likeliest: Option<(Effect, f64)>) -> Self {
         let nothing = matches!(status, Status::None | Status::Refit);
         Self { nothing, unexplained: status == Status::Unexplained, likeliest }
     }

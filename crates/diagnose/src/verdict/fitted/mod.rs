@@ -15,8 +15,12 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::calibration::{CalibrateError, Example, Holds, OutOfFold, calibrate};
-pub use self::features::RulesSay;
+pub use self::calibration::CalibrateError;
+pub use self::calibration::Example;
+pub use self::calibration::Holds;
+pub use self::calibration::OutOfFold;
+pub use self::calibration::calibrate;
+pub(crate) use self::features::RulesSay;
 
 use self::choice::probabilities;
 use self::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
@@ -69,13 +73,13 @@ pub struct Agreed {
 
 impl Agreed {
     /// Probability that the next one is right: Laplace's rule of succession.
-    pub fn rate(self) -> f64 {
+    pub(crate) fn rate(self) -> f64 {
         (self.right as f64 + 1.0) / (self.of as f64 + 2.0)
     }
 
     /// Probability of a cause on which all readings agree: the one that the fitted verdict gives to it, or this rate, where it counts and that is
     /// larger.
-    pub fn probability(self, cause: AgreedOn) -> f64 {
+    pub(crate) fn probability(self, cause: AgreedOn) -> f64 {
         if cause.counts() { cause.fitted.max(self.rate()) } else { cause.fitted }
     }
 }
@@ -301,7 +305,7 @@ fn agreed_on(
 
 impl FittedVerdict {
     /// The one that is compiled in.
-    pub fn built_in() -> &'static Self {
+    pub(crate) fn built_in() -> &'static Self {
         static BUILT_IN: LazyLock<FittedVerdict> = LazyLock::new(|| {
             serde_json::from_str(include_str!("verdict.json")).expect("the file in the repository is whole")
         });
@@ -310,7 +314,7 @@ impl FittedVerdict {
 
     /// The same for rigs with other shares.
     #[must_use]
-    pub fn with_shares(mut self, shares: Shares) -> Self {
+    pub(crate) fn with_shares(mut self, shares: Shares) -> Self {
         let odds = |new: f64, old: f64| (new / old).ln();
         let of_effect = odds(shares.effect, self.shares.effect);
         self.none[0].value += odds(shares.none, self.shares.none) - of_effect;

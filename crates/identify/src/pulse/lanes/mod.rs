@@ -18,9 +18,12 @@ mod statistics;
 mod whole;
 
 pub(crate) use control::FoldControl;
-pub use control::{LaneControl, LaneTerms};
-pub use method::{LaneFit, LaneMethod, LaneSample, LaneStep};
-pub use sized::LARGEST_ORDER;
+pub use control::LaneControl;
+pub use control::LaneTerms;
+pub use method::LaneFit;
+pub use method::LaneMethod;
+pub use method::LaneSample;
+pub use method::LaneStep;
 pub use statistics::LaneStatistics;
 
 pub use switchback_noise::lanes::{LANES, Lane};

@@ -3,7 +3,7 @@
 use switchback_noise::lanes::{Work, widest};
 
 /// The largest order that is compiled; what is larger, or of another shape, goes one by one.
-pub const LARGEST_ORDER: usize = 6;
+pub(crate) const LARGEST_ORDER: usize = 6;
 
 /// A piece of work on `n = N` lags and `D` core parameters.
 pub(super) trait SizedWork {

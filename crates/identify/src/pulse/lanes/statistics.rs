@@ -50,7 +50,7 @@ impl LaneStatistics {
     }
 
     /// The order `n`.
-    pub fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.order
     }
 

@@ -4,6 +4,8 @@ mod grouped;
 mod moments;
 mod superposition;
 
-pub use grouped::{Grouping, LaneGroupedNoise};
+pub use grouped::Grouping;
+pub use grouped::LaneGroupedNoise;
 pub use moments::LaneMoments;
-pub use superposition::{LaneCross, LaneSuperposition};
+pub use superposition::LaneCross;
+pub use superposition::LaneSuperposition;

@@ -11,11 +11,14 @@ mod head;
 mod lines;
 mod memory;
 mod places;
-pub mod unit;
+pub(crate) mod unit;
 
-pub use error::{DataError, DataProblem, Place, Step};
+pub use error::DataError;
+pub use error::DataProblem;
+pub(crate) use error::Place;
+pub use error::Step;
 pub use memory::Cells;
-pub use places::Places;
+pub(crate) use places::Places;
 
 use super::mat;
 use super::text_file::{FileError, read_bytes};
@@ -28,7 +31,7 @@ use std::path::Path;
 
 /// A file's columns, all of the same length.
 #[derive(Debug, Clone)]
-pub struct Table {
+pub(crate) struct Table {
     /// The file, as messages call it.
     pub path: String,
     /// In the order of the file.
@@ -47,7 +50,7 @@ pub struct Table {
 
 /// One column.
 #[derive(Debug, Clone)]
-pub struct Column {
+pub(crate) struct Column {
     /// Its name without the unit; `column 2` where the file has no header.
     pub name: String,
     /// Its unit; empty for a pure number.
@@ -66,7 +69,7 @@ pub struct Column {
 
 /// What the cells of a column are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A number.
     Number,
     /// A time stamp.
@@ -77,14 +80,14 @@ pub enum Kind {
 
 /// A cell that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub(crate) struct Fault {
     pub row: usize,
     pub cell: String,
 }
 
 /// Why a file gives no table at all.
 #[derive(Debug)]
-pub enum TableError {
+pub(crate) enum TableError {
     /// The file cannot be read.
     File(FileError),
     /// The file holds no table of numbers.
@@ -128,7 +131,7 @@ const ENOUGH: usize = 1 << 18;
 
 impl Column {
     /// `force [N]`, or the name alone.
-    pub fn label(&self) -> String {
+    pub(crate) fn label(&self) -> String {
         match &self.unit {
             Some(unit) => format!("{} [{unit}]", self.name),
             None => self.name.clone(),
@@ -136,13 +139,13 @@ impl Column {
     }
 
     /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
-    pub fn is_number(&self) -> bool {
+    pub(crate) fn is_number(&self) -> bool {
         let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
         self.kind == Kind::Number && is_meant()
     }
 
     /// A cell as it stands in the file, a number up to zeros that say nothing.
-    pub fn written(&self, row: usize) -> String {
+    pub(crate) fn written(&self, row: usize) -> String {
         self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
     }
 }
@@ -152,7 +155,7 @@ impl Table {
     ///
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
-    pub fn read(path: &Path, least: usize) -> Result<Self, TableError> {
+    pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
         if mat::is_matlab(path, pieces.first_bytes()) {
             return mat::read(path, read_bytes(path).map_err(TableError::File)?);
@@ -167,7 +170,7 @@ impl Table {
     }
 
     /// The table in a text.
-    pub fn parse(text: &str, least: usize) -> Result<Self, TableError> {
+    pub(crate) fn parse(text: &str, least: usize) -> Result<Self, TableError> {
         let path = Path::new("");
         Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::told)
     }
@@ -232,7 +235,7 @@ impl Table {
     }
 
     /// All columns for a message: number, name, unit.
-    pub fn listing(&self) -> String {
+    pub(crate) fn listing(&self) -> String {
         let listed = self.columns.iter().enumerate().map(|(k, column)| {
             let kind = match column.kind {
                 Kind::Number => "",

@@ -10,7 +10,7 @@ use crate::blind::scenario::Expect;
 use crate::examination::{Bound, ClosureCheck, Line, Measure, Share, bounded};
 
 /// What a diagnosis must reach.
-pub const TARGETS: Expect = Expect {
+pub(crate) const TARGETS: Expect = Expect {
     exact: Some(0.90),
     class: Some(0.95),
     mismatch_class: Some(0.80),

@@ -8,12 +8,14 @@ mod confusion;
 mod measure;
 mod places;
 
-pub use accuracy::{AccuracyRow, SizeRow};
+pub use accuracy::AccuracyRow;
+pub use accuracy::SizeRow;
 pub use baseline::BaselineRow;
-pub use calibration::{AbstentionRow, Calibration};
+pub use calibration::AbstentionRow;
+pub(crate) use calibration::Calibration;
 pub use closure::ClosureRow;
 pub use confusion::Confusion;
-pub use measure::TARGETS;
+pub(crate) use measure::TARGETS;
 pub use places::PlaceRow;
 
 use super::case::Case;

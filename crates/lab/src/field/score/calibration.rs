@@ -23,14 +23,14 @@ const SEED: u64 = 0x4341_4C49_4252;
 
 impl Claims {
     /// Counts them.
-    pub fn of(claims: impl Iterator<Item = (f64, bool)>) -> Self {
+    pub(crate) fn of(claims: impl Iterator<Item = (f64, bool)>) -> Self {
         let claims: Vec<(f64, bool)> = claims.collect();
         let bins = calibration_bins(&claims);
         Self { error: calibration_error(&bins), perfect: perfect(&claims), count: claims.len(), bins }
     }
 
     /// Calibration error over what perfect calibration would show.
-    pub fn excess(&self) -> Option<f64> {
+    pub(crate) fn excess(&self) -> Option<f64> {
         Some(self.error? - self.perfect?)
     }
 }

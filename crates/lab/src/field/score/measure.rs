@@ -8,7 +8,7 @@ use crate::field::design::Kind;
 use crate::field::scenario::Expect;
 
 /// What a diagnosis must reach.
-pub const TARGETS: Expect = Expect {
+pub(crate) const TARGETS: Expect = Expect {
     model_class: Some(0.85),
     model_exact: Some(0.70),
     class: Some(0.75),

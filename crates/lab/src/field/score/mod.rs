@@ -5,10 +5,13 @@ mod measure;
 mod rating;
 mod rows;
 
-pub use calibration::{Claims, Stratum};
-pub use measure::TARGETS;
-pub use rating::WIDEST_CLASS;
-pub use rating::{Asked, BaseVerdicts, Rating};
+pub(crate) use calibration::Claims;
+pub(crate) use calibration::Stratum;
+pub(crate) use measure::TARGETS;
+pub(crate) use rating::Asked;
+pub(crate) use rating::BaseVerdicts;
+pub(crate) use rating::Rating;
+pub(crate) use rating::WIDEST_CLASS;
 pub use rows::AnswerRow;
 
 use super::case::Case;

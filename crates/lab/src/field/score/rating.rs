@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 /// What an answer names beyond what the base shows by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Rating {
+pub(crate) enum Rating {
     /// The fault, and nothing else.
     Exact,
     /// A class of at most three with the fault, or only twins of it.
@@ -20,15 +20,15 @@ pub enum Rating {
 }
 
 /// An answer of more effects than this is no class.
-pub const WIDEST_CLASS: usize = 3;
+pub(crate) const WIDEST_CLASS: usize = 3;
 
 /// What measured bases show by themselves, with their model given and without.
 #[derive(Debug)]
-pub struct BaseVerdicts<'c>(HashMap<(&'c str, bool), &'c [&'static str]>);
+pub(crate) struct BaseVerdicts<'c>(HashMap<(&'c str, bool), &'c [&'static str]>);
 
 impl<'c> BaseVerdicts<'c> {
     /// Those among some cases.
-    pub fn of(cases: &'c [Case]) -> Self {
+    pub(crate) fn of(cases: &'c [Case]) -> Self {
         let bare = cases.iter().filter(|c| c.kind == Kind::Bare && c.is_measured);
         let verdicts = bare.flat_map(|c| {
             c.answers.iter().map(|answer| ((c.base.as_str(), answer.with_model), answer.reply.said()))
@@ -37,7 +37,7 @@ impl<'c> BaseVerdicts<'c> {
     }
 
     /// Every answer with what its base shows by itself.
-    pub fn asked(&self, cases: &'c [Case]) -> Vec<Asked<'c>> {
+    pub(crate) fn asked(&self, cases: &'c [Case]) -> Vec<Asked<'c>> {
         let one = |case: &'c Case| {
             let own = |with_model: bool| match case.is_measured {
                 true => self.0.get(&(case.base.as_str(), with_model)).copied(),
@@ -51,7 +51,7 @@ impl<'c> BaseVerdicts<'c> {
 
 /// One answer.
 #[derive(Debug, Clone, Copy)]
-pub struct Asked<'c> {
+pub(crate) struct Asked<'c> {
     /// The rig.
     pub case: &'c Case,
     /// What was said of it.
@@ -62,20 +62,20 @@ pub struct Asked<'c> {
 
 impl<'c> Asked<'c> {
     /// What is named beyond what the base shows by itself.
-    pub fn news(&self) -> Option<Vec<&'static str>> {
+    pub(crate) fn news(&self) -> Option<Vec<&'static str>> {
         let own = self.own?;
         Some(self.answer.reply.said().iter().copied().filter(|effect| !own.contains(effect)).collect())
     }
 
     /// The effect put in, where the library has it.
-    pub fn truth(&self) -> Option<&'static str> {
+    pub(crate) fn truth(&self) -> Option<&'static str> {
         let fault = self.case.fault.as_ref().filter(|_| self.case.kind == Kind::Planted)?;
         Some(fault.effect)
     }
 
     /// What the answer is worth. None where nobody can tell: a measured base as it is, one whose own verdict is not known, a fault that the
     /// base shows by itself, and one too small to be asked for.
-    pub fn rating(&self) -> Option<Rating> {
+    pub(crate) fn rating(&self) -> Option<Rating> {
         let news = self.news()?;
         let is_told_by_base = self.truth().is_some_and(|truth| self.own.unwrap_or_default().contains(&truth));
         let is_unobservable = self.case.fault.as_ref().is_some_and(|fault| !fault.is_observable());
@@ -98,7 +98,7 @@ impl<'c> Asked<'c> {
 
     /// The probability claimed and whether what it claims holds; none where nobody can tell, as where only what the base shows by itself
     /// is named.
-    pub fn claim(&self) -> Option<(f64, bool)> {
+    pub(crate) fn claim(&self) -> Option<(f64, bool)> {
         let rating = self.rating()?;
         let only_own = rating == Rating::Silent && !self.answer.reply.said().is_empty();
         if only_own || self.answer.reply.status == "failed" {
@@ -117,24 +117,24 @@ impl<'c> Asked<'c> {
     }
 
     /// Whether the one effect named makes a held-out record worse beyond its error; none where not one is named.
-    pub fn harms(&self) -> Option<bool> {
+    pub(crate) fn harms(&self) -> Option<bool> {
         let [named] = self.answer.reply.effects[..] else { return None };
         let effects = &self.answer.evidence.compared.first()?.effects;
         effects.iter().find(|known| known.effect.name() == named).map(|known| known.harms)
     }
 
     /// Whether a fault of the library is large enough that it must be named.
-    pub fn is_large(&self) -> bool {
+    pub(crate) fn is_large(&self) -> bool {
         self.truth().is_some() && self.case.fault.as_ref().is_some_and(|fault| fault.reaches(LARGE))
     }
 
     /// The effect of a large fault.
-    pub fn large_effect(&self) -> Option<String> {
+    pub(crate) fn large_effect(&self) -> Option<String> {
         self.truth().filter(|_| self.is_large()).map(str::to_owned)
     }
 
     /// The size reached by a fault of the library, in classes.
-    pub fn size_class(&self) -> Option<String> {
+    pub(crate) fn size_class(&self) -> Option<String> {
         let fault = self.case.fault.as_ref().filter(|_| self.truth().is_some())?;
         let classes = [(4.0, "4 or more"), (LARGE, "2 to 4"), (1.0, "1 to 2")];
         let class = classes.into_iter().find(|(size, _)| fault.reaches(*size)).map(|(_, class)| class);
@@ -143,7 +143,7 @@ impl<'c> Asked<'c> {
     }
 
     /// Measured or made, and how the fault came in.
-    pub fn stratum(&self) -> String {
+    pub(crate) fn stratum(&self) -> String {
         let base = if self.case.is_measured { "measured" } else { "made" };
         match (&self.case.fault, self.case.kind) {
             (Some(fault), Kind::Outside) => format!("{base}, foreign, {}", fault.how.name()),

@@ -12,7 +12,8 @@ mod reading;
 mod records;
 mod sizing;
 
-pub use sizing::{size_of_all, sized};
+pub(crate) use sizing::size_of_all;
+pub(crate) use sizing::sized;
 
 use crate::generate::plant::Family;
 use crate::generate::setting::Setting;
@@ -25,7 +26,7 @@ const RATES: [f64; 3] = [5.0, 15.0, 50.0];
 const SPREAD: std::ops::Range<f64> = 0.8..1.25;
 
 /// Draws the machine of a seed, without the properties of the given names, and its campaign.
-pub fn workshop(seed: u64, family: Family, spared: &[&str]) -> Workshop {
+pub(crate) fn workshop(seed: u64, family: Family, spared: &[&str]) -> Workshop {
     let mut rng = stream(seed, Purpose::Base);
     let time_constant = RATES[rng.random_range(0..RATES.len())] * rng.random_range(SPREAD);
     let (input, output) = machine::labels(&mut rng);

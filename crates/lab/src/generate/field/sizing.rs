@@ -7,7 +7,7 @@ use crate::generate::simulate::Active;
 use crate::generate::workshop::Workshop;
 
 /// Finds the magnitude of each effect, alone in the machine.
-pub fn sized(
+pub(crate) fn sized(
     workshop: &Workshop,
     ingredients: &[Ingredient],
 ) -> Result<(Vec<Active>, Vec<TrueEffect>), MakeError> {
@@ -30,7 +30,11 @@ pub fn sized(
 }
 
 /// Size of all effects together.
-pub fn size_of_all(workshop: &Workshop, active: &[Active], effects: &[TrueEffect]) -> Result<f64, MakeError> {
+pub(crate) fn size_of_all(
+    workshop: &Workshop,
+    active: &[Active],
+    effects: &[TrueEffect],
+) -> Result<f64, MakeError> {
     match effects {
         [] => Ok(0.0),
         [one] => Ok(one.size),

@@ -33,7 +33,7 @@ pub enum Shape {
 
 impl Shape {
     /// All shapes.
-    pub const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::LeafSpring,
         Self::HardeningSpring,
         Self::Relay,
@@ -48,7 +48,7 @@ impl Shape {
     }
 
     /// The shape's name in a key.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::LeafSpring => "leaf spring",
             Self::HardeningSpring => "hardening spring",
@@ -62,13 +62,13 @@ impl Shape {
 
 impl Plant {
     /// Draws a system: order, poles, zeros, interval, levels, borders, units, noise.
-    pub fn draw(family: Family, rng: &mut ChaCha8Rng) -> Self {
+    pub(crate) fn draw(family: Family, rng: &mut ChaCha8Rng) -> Self {
         Self::draw_with(family, (draw_poles, CURVED), rng)
     }
 
     /// The same with a law of its own for the denominator of a given order, and with so many of the borders that bend curved between the
     /// levels.
-    pub fn draw_with(
+    pub(crate) fn draw_with(
         family: Family,
         (poles, often_curved): (impl FnOnce(usize, &mut ChaCha8Rng) -> Vec<f64>, f64),
         rng: &mut ChaCha8Rng,
@@ -120,7 +120,7 @@ fn draw_interval(rng: &mut ChaCha8Rng) -> Interval {
 }
 
 /// How often borders that bend do so between the levels too, and in how many straight pieces a cell.
-pub const CURVED: f64 = 0.5;
+pub(crate) const CURVED: f64 = 0.5;
 const POINTS: usize = 16;
 
 /// The curves that borders follow.
@@ -233,7 +233,7 @@ fn draw_numerator(a: &[f64], span: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 /// Product of two polynomials, constant term first.
-pub fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
+pub(crate) fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; p.len() + q.len() - 1];
     for (i, x) in p.iter().enumerate() {
         for (j, y) in q.iter().enumerate() {

@@ -4,7 +4,7 @@ use switchback_model::hysteresis::BorderPair;
 
 /// Two borders given by their values at common levels, straight in between, constant outside.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
+pub(crate) struct Table {
     /// Levels, increasing.
     pub levels: Vec<f64>,
     /// `C_a` at the levels.
@@ -15,7 +15,7 @@ pub struct Table {
 
 impl Table {
     /// The value at `v` of a curve that is straight between the levels.
-    pub fn between(&self, values: &[f64], v: f64) -> f64 {
+    pub(crate) fn between(&self, values: &[f64], v: f64) -> f64 {
         let above = self.levels.partition_point(|&level| level <= v);
         if above == 0 {
             return values[0];

@@ -12,7 +12,7 @@ use switchback_model::rig::Rig;
 
 impl PlantingGround<'_> {
     /// The model that sizes are measured against: identified from the fit records as they are.
-    pub fn identified(&self) -> &Identified {
+    pub(crate) fn identified(&self) -> &Identified {
         &self.base.identified
     }
 
@@ -20,7 +20,12 @@ impl PlantingGround<'_> {
     ///
     /// # Errors
     /// [`PlantingError::Record`] where the altered signals are not finite.
-    pub fn again(&self, ingredient: &Ingredient, magnitude: f64, seed: u64) -> Result<Rig, PlantingError> {
+    pub(crate) fn again(
+        &self,
+        ingredient: &Ingredient,
+        magnitude: f64,
+        seed: u64,
+    ) -> Result<Rig, PlantingError> {
         let mut rng = stream(seed, Purpose::Shape(0));
         let shape = std::array::from_fn(|_| rng.random());
         let active = Active { law: ingredient.law, dose: Dose { magnitude, shape }, slot: 0 };

@@ -10,7 +10,7 @@ const NOTHING: f64 = 1e-6;
 
 /// The base's model and what it leaves on the judged records.
 #[derive(Debug)]
-pub struct Base {
+pub(crate) struct Base {
     /// As it was identified.
     pub(super) identified: Identified,
     /// What was chosen, fixed for every identification anew.
@@ -22,7 +22,7 @@ pub struct Base {
 }
 
 impl Base {
-    pub fn new(rig: &Rig) -> Result<Self, PlantingError> {
+    pub(crate) fn new(rig: &Rig) -> Result<Self, PlantingError> {
         let open = Settings {
             order: rig.order,
             interval: rig.interval,
@@ -68,7 +68,7 @@ impl Base {
     }
 
     /// The same with a model identified anew; infinite where there is none.
-    pub fn surviving(&self, planted: &Rig) -> f64 {
+    pub(crate) fn surviving(&self, planted: &Rig) -> f64 {
         match from_fit_records(planted, &self.settings) {
             Ok(anew) => self.added(&anew.model, planted),
             Err(_) => f64::INFINITY,

@@ -21,10 +21,12 @@ mod base;
 mod carrier;
 mod search;
 
-pub use self::base::Base;
+pub(super) use self::base::Base;
 use self::carrier::Carrier;
+pub(crate) use self::search::Goal;
 pub use self::search::Precision;
-pub use self::search::{Goal, Trial, search};
+pub(crate) use self::search::Trial;
+pub(crate) use self::search::search;
 use crate::generate::law::{Nature, Planting, Stage};
 use crate::generate::make::{Ingredient, MakeError};
 use std::sync::Arc;
@@ -135,7 +137,7 @@ impl<'a> PlantingGround<'a> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with_records<'b>(&self, rig: &'b Rig) -> Result<PlantingGround<'b>, PlantingError> {
+    pub(crate) fn with_records<'b>(&self, rig: &'b Rig) -> Result<PlantingGround<'b>, PlantingError> {
         Ok(PlantingGround { rig, base: self.base.of_other(rig)?, carrier: Arc::clone(&self.carrier) })
     }
 
@@ -151,7 +153,7 @@ impl<'a> PlantingGround<'a> {
     ///
     /// # Errors
     /// As [`Self::plant`].
-    pub fn plant_to(
+    pub(crate) fn plant_to(
         &self,
         precision: Precision,
         ingredient: &Ingredient,

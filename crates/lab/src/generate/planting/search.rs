@@ -18,11 +18,11 @@ impl Precision {
     /// To 5 %, in at most ten identifications: where sizes are compared.
     pub const FINE: Self = Self { tolerance: 0.05, rounds: 10 };
     /// To a factor of √2, in at most three: where the size that is reached is all that counts.
-    pub const COARSE: Self = Self { tolerance: 0.35, rounds: 3 };
+    pub(crate) const COARSE: Self = Self { tolerance: 0.35, rounds: 3 };
 }
 
 /// What is searched for.
-pub struct Goal {
+pub(crate) struct Goal {
     /// Size.
     pub size: f64,
     /// Largest magnitude.
@@ -35,7 +35,7 @@ pub struct Goal {
 const STRIDE: f64 = 4.0;
 
 /// The records with the fault at a magnitude, and its size there.
-pub struct Trial {
+pub(crate) struct Trial {
     pub magnitude: f64,
     pub size: f64,
     pub rig: Rig,
@@ -45,7 +45,7 @@ pub struct Trial {
 ///
 /// # Errors
 /// Those of `with`.
-pub fn search(
+pub(crate) fn search(
     base: &Base,
     Goal { size: wanted_size, limit, precision }: Goal,
     with: impl Fn(f64) -> Result<Rig, PlantingError>,

@@ -10,7 +10,7 @@ use switchback_io::model::{Banded, RecordSeries};
 const MOST: usize = 500;
 
 /// A loop a record.
-pub(in crate::pages) fn loops(drawn: &Drawn<'_>) -> Markup {
+pub(crate) fn loops(drawn: &Drawn<'_>) -> Markup {
     html! {
         div class="charts" { @for record in drawn.records() { (chart(drawn, record).html()) } }
         p class="note" {

@@ -5,7 +5,7 @@ mod outputs;
 mod thin;
 
 pub(super) use loops::loops;
-pub(super) use outputs::outputs;
+pub(crate) use outputs::outputs;
 
 use super::chart::Ink;
 use switchback_io::model::{RecordSeries, Series};

@@ -9,7 +9,7 @@ use switchback_io::model::RecordSeries;
 const TIME: &str = "time since the record's start [s]";
 
 /// Two charts a record that zoom together.
-pub(in crate::pages) fn outputs(drawn: &Drawn<'_>) -> Markup {
+pub(crate) fn outputs(drawn: &Drawn<'_>) -> Markup {
     html! {
         @for (k, record) in drawn.records().into_iter().enumerate() {
             (measured(drawn, record, k).html())

@@ -17,7 +17,7 @@ use switchback_study::results::Results;
 ///
 /// # Errors
 /// [`PageError::NoDrawing`] if a figure is none.
-pub fn study(results: &Results, figures: &[Figure]) -> Result<String, PageError> {
+pub(crate) fn study(results: &Results, figures: &[Figure]) -> Result<String, PageError> {
     let drawn = |starts: &[&str]| drawn(figures, starts);
     let lead = html! {
         p class="lead" { (results.question) }

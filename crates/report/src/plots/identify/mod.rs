@@ -2,7 +2,7 @@
 
 mod borders;
 mod outputs;
-pub mod series;
+pub(crate) mod series;
 
 pub use borders::borders;
 pub use outputs::outputs;

@@ -2,7 +2,7 @@
 
 /// At most about `columns` pairs of points that draw the same picture as the whole series: the least and the greatest
 /// value of each stretch, in their order, so that no peak is lost.
-pub fn thinned(points: &[(f64, f64)], columns: usize) -> Vec<(f64, f64)> {
+pub(crate) fn thinned(points: &[(f64, f64)], columns: usize) -> Vec<(f64, f64)> {
     if points.len() <= 2 * columns {
         return points.to_vec();
     }
@@ -18,7 +18,7 @@ pub fn thinned(points: &[(f64, f64)], columns: usize) -> Vec<(f64, f64)> {
 }
 
 /// Where a window of `width` samples misses most: the start of the one with the greatest sum of squared errors.
-pub fn worst_window(errors: &[f64], width: usize) -> usize {
+pub(crate) fn worst_window(errors: &[f64], width: usize) -> usize {
     let mut sum: f64 = errors.iter().take(width).map(|e| e * e).sum();
     let (mut worst, mut start) = (sum, 0);
     for last in width..errors.len() {
