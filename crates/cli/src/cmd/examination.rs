@@ -13,7 +13,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 use switchback_io::input::{read_text, stream};
-use switchback_io::output::{OutputError, OutputFolder, note, sha256};
+use switchback_io::output::{FolderError, OutputFolder, note, sha256};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
 use switchback_lab::examination::{Judged, KEY_FILE, Part, Partial, Report, Sealed, key_file};
 use switchback_report::examination::{Drawn, report};
@@ -40,7 +40,7 @@ impl Order<'_> {
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, OutputError> {
+    pub fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, FolderError> {
         let default = || Path::new("reports").join(examination.name());
         self.force.claim(&self.out.map_or_else(default, Path::to_owned), E::FILES)
     }

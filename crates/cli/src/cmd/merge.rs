@@ -7,7 +7,7 @@ use crate::failure::CommandResult;
 use crate::options::{Force, Quiet, Threads};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
-use switchback_io::output::{sha256, verify_but};
+use switchback_io::output::{sha256, verify};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
 use switchback_lab::blind::{self, Blind};
 use switchback_lab::examination::{Part, Whole, merged};
@@ -56,7 +56,7 @@ pub struct OtherProgram {
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    args.folders.iter().try_for_each(|folder| verify_but(folder, &[KEPT_FILE]))?;
+    args.folders.iter().try_for_each(|folder| verify(folder, |name| name != KEPT_FILE))?;
     let first = scenario_of(&args.folders[0])?;
     if field::is_field(&first) {
         return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));

@@ -1,7 +1,7 @@
 //! `--force`
 
 use std::path::Path;
-use switchback_io::output::{OutputError, OutputFile, OutputFolder};
+use switchback_io::output::{FileError, FolderError, OutputFile, OutputFolder};
 
 /// Whether files that someone else wrote may be replaced.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
@@ -12,23 +12,19 @@ pub struct Force {
 }
 
 impl Force {
-    /// Claims a folder, `names` being files that will be written there, a `*` standing for what is not known of one yet.
+    /// Claims a folder, `names` being files that will be written there, a `*` standing for any part of one.
     ///
     /// # Errors
-    /// [`OutputError`] if the folder cannot be written, or one of those files is someone else's and not given up.
-    pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, OutputError> {
+    /// [`FolderError`] if the folder cannot be written, or one of those files is someone else's, unless forced.
+    pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, FolderError> {
         OutputFolder::claim(folder, self.force)?.expecting(names)
     }
 
-    /// Claims a file by its path, where one was asked for. `inputs` are what the command reads: they are never replaced.
+    /// Claims a file by its path, where one was asked for. `inputs` are the files that the command reads: they are never replaced.
     ///
     /// # Errors
-    /// [`OutputError`] if something is there and not given up, or the file cannot be written.
-    pub fn claim_file(
-        self,
-        path: Option<&Path>,
-        inputs: &[&Path],
-    ) -> Result<Option<OutputFile>, OutputError> {
+    /// [`FileError`] if something is there, unless forced, or the file cannot be written.
+    pub fn claim_file(self, path: Option<&Path>, inputs: &[&Path]) -> Result<Option<OutputFile>, FileError> {
         path.map(|path| OutputFile::claim(path, self.force, inputs)).transpose()
     }
 
@@ -41,7 +37,7 @@ impl Force {
         folder: Option<&Path>,
         names: &[&str],
         inputs: &[&Path],
-    ) -> Result<Option<OutputFolder>, OutputError> {
+    ) -> Result<Option<OutputFolder>, FolderError> {
         let claim = |folder| self.claim(folder, names)?.sparing(inputs.iter().copied());
         folder.map(claim).transpose()
     }

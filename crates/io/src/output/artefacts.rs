@@ -1,6 +1,6 @@
 //! The files of one command, still in memory.
 
-use super::visible;
+use super::text::visible;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Artefacts {
     files: BTreeMap<String, Vec<u8>>,
-    /// Names of those that tell of the run, rather than what came out.
+    /// Names of those that describe the run rather than its results.
     beside: BTreeSet<String>,
 }
 
@@ -16,22 +16,20 @@ impl Artefacts {
     /// Adds a file. In pages and pictures control characters are shown instead of obeyed, see [`visible`].
     ///
     /// # Panics
-    /// If the name holds a path separator or was added before: both are mistakes of the program, not of its user.
+    /// If the name contains a path separator or was added before: both are mistakes of the program, not of its user.
     pub fn add(&mut self, name: impl Into<String>, contents: impl Into<Vec<u8>>) {
-        let name = name.into();
+        let (name, mut contents) = (name.into(), contents.into());
         assert!(!name.is_empty() && !name.contains(['/', '\\']), "`{name}` is no plain file name");
-        let contents = contents.into();
-        let shown =
-            if is_page(&name) { std::str::from_utf8(&contents).map(visible) } else { Ok(Cow::Borrowed("")) };
-        let contents = match shown {
-            Ok(Cow::Owned(shown)) => shown.into_bytes(),
-            _ => contents,
-        };
+        if is_page(&name)
+            && let Ok(Cow::Owned(shown)) = std::str::from_utf8(&contents).map(visible)
+        {
+            contents = shown.into_bytes();
+        }
         let displaced = self.files.insert(name.clone(), contents);
         assert!(displaced.is_none(), "two artefacts are called `{name}`");
     }
 
-    /// Adds a file that tells of the run rather than what came out: it may differ between two runs with equal results, and may be removed.
+    /// Adds a file that describes the run rather than its results: it may differ between two runs with equal results, and may be removed.
     ///
     /// # Panics
     /// As [`add`](Self::add).
@@ -56,7 +54,7 @@ impl Artefacts {
     }
 }
 
-/// Whether a file is read by people, rather than by programs that want every character as it is.
+/// Whether a file is read by people, rather than by programs that need every character as it is.
 fn is_page(name: &str) -> bool {
     [".svg", ".md", ".txt", ".html"].iter().any(|ending| name.ends_with(ending))
 }

@@ -1,6 +1,6 @@
-//! The calls that change the disk, each of which may fail: one place, so that tests can make each of them fail.
+//! The calls that change the disk, each of which may fail: they are in one file so that tests can make each of them fail.
 
-use super::faults::{Faults, VARIABLE, WHILE_RUNNING};
+use super::faults::Faults;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,27 +13,27 @@ pub struct Disk {
 
 impl Default for Disk {
     fn default() -> Self {
-        Self::with(Faults::of(VARIABLE))
+        Self::with(Faults::of("SWITCHBACK_FAULTS"))
     }
 }
 
 impl Disk {
-    /// One with faults.
+    /// A disk with faults.
     pub(super) fn with(faults: Faults) -> Self {
         Self { faults }
     }
 
-    /// For what is kept while a command runs: its faults are others than those of its report.
+    /// The disk for the sums that a study keeps while it runs: its faults differ from those of the report.
     pub fn while_running() -> Self {
-        Self::with(Faults::of(WHILE_RUNNING))
+        Self::with(Faults::of("SWITCHBACK_FAULTS_WHILE_RUNNING"))
     }
 
-    /// Whether what is kept from time to time is kept at every opportunity.
+    /// Whether sums that are kept from time to time are kept at every opportunity.
     pub fn is_eager(&self) -> bool {
         self.faults.eager
     }
 
-    /// Writes a file in place of another, which is there until the new one is whole.
+    /// Writes a file in place of another, which stays until the new one is whole.
     ///
     /// # Errors
     /// If the system refuses; the other is still there.
@@ -65,14 +65,11 @@ impl Disk {
             // Elsewhere a folder cannot be opened as a file is.
             return Ok(());
         }
-        match File::open(folder)?.sync_all() {
-            Err(error)
-                if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) =>
-            {
-                Ok(())
-            }
-            other => other,
-        }
+        let synced = File::open(folder)?.sync_all();
+        let cannot = |error: &io::Error| {
+            matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported)
+        };
+        if synced.as_ref().is_err_and(cannot) { Ok(()) } else { synced }
     }
 
     /// Renames a file or folder; a file that is there already is replaced.
@@ -81,7 +78,7 @@ impl Disk {
         fs::rename(from, to)
     }
 
-    /// Gives a file another name beside its own.
+    /// Gives a file a second name.
     pub(super) fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
         self.faults.before_call()?;
         fs::hard_link(from, to)
@@ -90,10 +87,7 @@ impl Disk {
     /// Exchanges two folders in one step; `Ok(false)`, and nothing is changed, where the system or this file system cannot.
     pub(super) fn exchange(&self, one: &Path, other: &Path) -> io::Result<bool> {
         self.faults.before_call()?;
-        if self.faults.no_exchange {
-            return Ok(false);
-        }
-        exchange(one, other)
+        if self.faults.no_exchange { Ok(false) } else { exchange(one, other) }
     }
 }
 
@@ -113,8 +107,13 @@ pub(super) fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
     }
 }
 
-/// Other systems know no such step.
+/// Other systems have no such step.
 #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
 pub(super) fn exchange(_one: &Path, _other: &Path) -> io::Result<bool> {
     Ok(false)
+}
+
+/// Whether something has this name, be it a link that leads nowhere.
+pub(super) fn is_there(place: &Path) -> bool {
+    fs::symlink_metadata(place).is_ok()
 }

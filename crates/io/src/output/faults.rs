@@ -4,18 +4,12 @@ use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// The variable that injects them into a whole process, as in `no-exchange pause=3 fail=7`. Builds without debug assertions do not read it.
-pub(super) const VARIABLE: &str = "SWITCHBACK_FAULTS";
-
-/// The same for what a study keeps while it runs, as in `eager fail=7`.
-pub(super) const WHILE_RUNNING: &str = "SWITCHBACK_FAULTS_WHILE_RUNNING";
-
-/// What goes wrong, and when: calls that change the disk are counted from 1.
+/// Faults and when they occur: calls that change the disk are counted from 1.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     /// Folders cannot be exchanged, as on network file systems.
     pub(super) no_exchange: bool,
-    /// What is otherwise kept from time to time is kept at every opportunity.
+    /// Sums that are otherwise kept from time to time are kept at every opportunity.
     pub(super) eager: bool,
     /// The call that fails.
     pub(super) fail: Option<usize>,
@@ -26,24 +20,24 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Those that a variable of the environment asks for.
+    /// Those that a variable of the environment asks for, as in `no-exchange pause=3 fail=7`. Builds without debug assertions do not
+    /// read it.
     pub(super) fn of(variable: &str) -> Self {
         if !cfg!(debug_assertions) {
             return Self::default();
         }
         let asked = std::env::var(variable).unwrap_or_default();
-        let number = |key: &str| {
-            let value = asked.split(' ').find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
-            value.and_then(|value| value.parse().ok())
-        };
-        let says = |what: &str| asked.split(' ').any(|word| word == what);
-        Self {
-            no_exchange: says("no-exchange"),
-            eager: says("eager"),
-            fail: number("fail"),
-            pause: number("pause"),
-            calls: AtomicUsize::new(0),
+        let mut faults = Self::default();
+        for word in asked.split(' ') {
+            match word.split_once('=').unwrap_or((word, "")) {
+                ("no-exchange", _) => faults.no_exchange = true,
+                ("eager", _) => faults.eager = true,
+                ("fail", call) => faults.fail = call.parse().ok(),
+                ("pause", call) => faults.pause = call.parse().ok(),
+                _ => {}
+            }
         }
+        faults
     }
 
     /// Comes before each call.

@@ -1,35 +1,34 @@
-//! The folder that artefacts go to.
+//! The folder that a command's files go to.
 
+use super::artefacts::Artefacts;
 use super::disk::Disk;
-use super::moves::is_there;
-use super::replace::{READY, Replacement};
-use super::staging::{Staging, Uninterrupted, Unstaged, nearest};
-use super::written::{Owner, Written};
-use super::{Artefacts, OutputError};
+use super::hash_list::{HashList, Owner};
+use super::lock::LockError;
+use super::replacement::{finish, replace, unfinished};
+use super::staging::{READY, Staging, obstacle, uninterrupted};
+use miette::Diagnostic;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use thiserror::Error;
 
-/// A folder that has been found writable, to be filled in one go.
+/// A folder that has been found writable, to be filled in one step.
 ///
 /// [`claim`](Self::claim) comes before the computation, so that a wrong path costs no time and no other run writes to the same folder
 /// meanwhile; [`commit`](Self::commit) after it. Files are first written whole to a staging folder on the same disk, which then takes
 /// the folder's place. A claim that is dropped leaves nothing behind; a commit that fails leaves the folder as it was, a signal waits
-/// until it is done, and of a process that is killed the next claim finishes what it began.
+/// until it is done, and after a kill the next claim finishes a replacement that was begun.
 ///
 /// Only files that the program wrote itself are replaced. It knows them by a hidden list beside them, `.switchback.sha256`, of names
-/// and SHA-256: a file that is not listed there was written by someone else, and one whose hash differs was changed by
-/// someone else. Both are refused unless the folder is forced, at once where the names are known
-/// ([`expecting`](Self::expecting)), else on commit. `sha256sum -c .switchback.sha256` checks a folder by the same list.
+/// and SHA-256: a file that is not listed there was written by someone else, and one whose hash differs was changed by someone else.
+/// Both are refused unless the folder is forced, at once where the names are known ([`expecting`](Self::expecting)), else on commit.
+/// `sha256sum -c .switchback.sha256` checks a folder by the same list.
 ///
 /// Of the names expected, the program's own unchanged files that are not written anew are removed: they are those of a former run.
-/// What the command was given to read ([`sparing`](Self::sparing)) is never replaced, not even by force.
+/// Files that the command reads ([`sparing`](Self::sparing)) are never replaced, not even by force.
 #[derive(Debug)]
 pub struct OutputFolder {
-    /// As it was given.
     target: PathBuf,
-    /// The same without links.
-    place: PathBuf,
     staging: Staging,
     disk: Disk,
     forced: bool,
@@ -39,44 +38,73 @@ pub struct OutputFolder {
     inputs: Vec<PathBuf>,
 }
 
+/// Why a folder cannot be written. The first value is the folder as given.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// The second value, a part of its path, is a file.
+    #[error("{0}: cannot be an output folder: {1} is a file")]
+    #[diagnostic(help("give the path of a folder, existing or new"))]
+    NotAFolder(String, String),
+    /// The second value, a file of the command, is a folder there.
+    #[error("{0}: cannot write the file {1} there: a folder has that name")]
+    #[diagnostic(help("move that folder away or give another output folder"))]
+    FileIsFolder(String, String),
+    /// A file in it, the only value, is read by the command.
+    #[error("{0}: is read by this command, so it cannot be written by it too")]
+    #[diagnostic(help("give another name: what was measured is never replaced, with --force or without"))]
+    IsInput(String),
+    /// The second value, files that someone else wrote or changed, would be replaced.
+    #[error("{0}: {1} would be lost there")]
+    #[diagnostic(help("give another folder, or --force to replace what is there"))]
+    Foreign(String, String),
+    /// The second value, a process, writes there.
+    #[error("{0}: {1} is writing there")]
+    #[diagnostic(help("wait until it has ended, or give another place"))]
+    Busy(String, String),
+    /// The system refuses.
+    #[error("{0}: cannot write to this output folder: {1}")]
+    #[diagnostic(help("give a folder that you may write to, on a disk with space left"))]
+    Unwritable(String, #[source] io::Error),
+}
+
 impl OutputFolder {
-    /// Makes sure that the folder can be written, and that no other run writes there: a staging folder is made beside it. If `forced`,
-    /// files that someone else wrote or changed may be replaced.
+    /// Makes sure that the folder can be written, and that no other run writes there. If `forced`, files that someone else wrote or
+    /// changed may be replaced.
     ///
     /// # Errors
-    /// [`OutputError`] if part of the path is a file, another run holds the folder, or the system refuses.
-    pub fn claim(target: &Path, forced: bool) -> Result<Self, OutputError> {
+    /// [`FolderError`] if part of the path is a file, another run writes to the folder, or the system refuses.
+    pub fn claim(target: &Path, forced: bool) -> Result<Self, FolderError> {
         Self::claim_on(Disk::default(), target, forced)
     }
 
-    fn claim_on(disk: Disk, target: &Path, forced: bool) -> Result<Self, OutputError> {
+    fn claim_on(disk: Disk, target: &Path, forced: bool) -> Result<Self, FolderError> {
         let shown = target.display().to_string();
-        let nearest = if is_there(target) { target } else { nearest(target) };
-        if !nearest.is_dir() {
-            return Err(OutputError::NotAFolder { target: shown, obstacle: nearest.display().to_string() });
+        if let Some(obstacle) = obstacle(target) {
+            return Err(FolderError::NotAFolder(shown, obstacle.display().to_string()));
         }
-        let (place, staging) = Staging::claim(target, (&disk, forced)).map_err(|why| match why {
-            Unstaged::Busy(holder) => OutputError::Busy { target: shown, holder },
-            Unstaged::Refused(source) => OutputError::Unwritable { target: shown, source },
-            Unstaged::Unfinished(error) => error,
+        let staging = Staging::claim(target).map_err(|error| match error {
+            LockError::Busy(process) => FolderError::Busy(shown, process),
+            LockError::Refused(source) => FolderError::Unwritable(shown, source),
         })?;
         let (target, expected, inputs) = (target.to_owned(), Vec::new(), Vec::new());
-        Ok(Self { target, place, staging, disk, forced, expected, inputs })
-    }
-
-    /// Makes sure that files of these names can be written, as far as names are known before the computation: a `*` stands for
-    /// any part of one.
-    ///
-    /// # Errors
-    /// [`OutputError`] if a file of such a name is someone else's, or a folder has the name.
-    pub fn expecting(self, names: &[&str]) -> Result<Self, OutputError> {
-        let folder = self.clearing(names);
-        let there = folder.there_already();
-        folder.refuse_what_is_not_ours(there.iter().map(String::as_str))?;
+        let folder = Self { target, staging, disk, forced, expected, inputs };
+        folder.finish()?;
         Ok(folder)
     }
 
-    /// Names of which files of a former run are removed, beside those [expected](Self::expecting).
+    /// Makes sure that files of these names can be written, as far as names are known before the computation: a `*` stands for any part
+    /// of one.
+    ///
+    /// # Errors
+    /// [`FolderError`] if a file of such a name is someone else's, or a folder has the name.
+    pub fn expecting(self, names: &[&str]) -> Result<Self, FolderError> {
+        let folder = self.clearing(names);
+        folder.refuse_foreign(&folder.expected_names(), "")?;
+        Ok(folder)
+    }
+
+    /// Adds names of files of a former run that are removed, beside those [expected](Self::expecting).
     pub fn clearing(mut self, names: &[&str]) -> Self {
         self.expected.extend(names.iter().map(|name| (*name).to_owned()));
         self
@@ -85,22 +113,12 @@ impl OutputFolder {
     /// Makes sure that no file is replaced that the command reads.
     ///
     /// # Errors
-    /// [`OutputError`] if one of these has an [expected](Self::expecting) name in this folder.
-    pub fn sparing<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+    /// [`FolderError`] if one of these has an [expected](Self::expecting) name in this folder.
+    pub fn sparing<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, FolderError> {
         let inputs = inputs.into_iter().filter_map(|input| fs::canonicalize(input).ok()).collect();
         let folder = Self { inputs, ..self };
-        let there = folder.there_already();
-        folder.refuse_inputs(there.iter().map(String::as_str))?;
+        folder.refuse_inputs(&folder.expected_names())?;
         Ok(folder)
-    }
-
-    /// Files in the folder of the names expected.
-    fn there_already(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.target).into_iter().flatten().flatten();
-        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        let mut names: Vec<String> = names.filter(|name| fits(name, &self.expected)).collect();
-        names.sort_unstable();
-        names
     }
 
     /// The folder, as it was given.
@@ -111,79 +129,88 @@ impl OutputFolder {
     /// Writes all artefacts. The program's own files of the same names are replaced, those of a former run removed, others left alone.
     ///
     /// # Errors
-    /// [`OutputError`] if a file of such a name is someone else's, or the system refuses; the folder then holds what it held before.
-    pub fn commit(self, artefacts: &Artefacts) -> Result<(), OutputError> {
-        let _until_done = Uninterrupted::new();
-        self.refuse_inputs(artefacts.iter().map(|(name, _)| name))?;
-        let written = self.refuse_what_is_not_ours(artefacts.iter().map(|(name, _)| name))?;
-        let stale = self.stale(&written, artefacts);
-        let lists = written.without(&stale).with(artefacts);
-        self.stage_and_replace((artefacts, &lists), &stale).map_err(|source| self.unwritable(source))
-    }
-
-    /// The program's own unchanged files of the names expected that are not written anew.
-    fn stale(&self, written: &Written, artefacts: &Artefacts) -> Vec<String> {
+    /// [`FolderError`] if a file of such a name is someone else's, or the system refuses; the folder is then as it was before.
+    pub fn commit(self, artefacts: &Artefacts) -> Result<(), FolderError> {
+        let _until_done = uninterrupted();
+        let names: Vec<String> = artefacts.iter().map(|(name, _)| name.to_owned()).collect();
+        self.refuse_inputs(&names)?;
+        let list = self.refuse_foreign(&names, "")?;
         let is_stale = |name: &String| {
-            artefacts.iter().all(|(new, _)| new != name)
-                && matches!(written.owner(&self.target, name), Ok(Owner::Program))
+            !names.contains(name) && matches!(list.owner(&self.target, name), Ok(Owner::Program))
         };
-        self.there_already().into_iter().filter(is_stale).collect()
+        let stale: Vec<String> = self.expected_names().into_iter().filter(is_stale).collect();
+        let list = list.after(artefacts, &stale);
+        self.write(artefacts, &list).map_err(|source| self.unwritable(source))
     }
 
-    fn refuse_inputs<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), OutputError> {
-        for name in names {
-            let place = self.target.join(name);
-            if fs::canonicalize(&place).is_ok_and(|place| self.inputs.contains(&place)) {
-                return Err(OutputError::IsInput { target: place.display().to_string() });
-            }
+    fn write(&self, artefacts: &Artefacts, list: &HashList) -> io::Result<()> {
+        let (staging, disk) = (self.staging.folder(), &self.disk);
+        let fresh = staging.join("fresh");
+        fs::create_dir(&fresh)?;
+        for (name, text) in list.files() {
+            disk.write(&fresh.join(name), text.as_bytes())?;
         }
+        for (name, contents) in artefacts.iter() {
+            disk.write(&fresh.join(name), contents)?;
+        }
+        disk.sync_folder(&fresh)?;
+        fs::rename(fresh, staging.join(READY))?;
+        replace(staging, self.staging.place(), disk)
+    }
+
+    /// Finishes the replacement that a killed run began. That run had made sure that nobody else's files would be lost; those that were
+    /// changed since are replaced only by force.
+    fn finish(&self) -> Result<(), FolderError> {
+        let _until_done = uninterrupted();
+        let names = unfinished(self.staging.folder()).map_err(|source| self.unwritable(source))?;
+        self.refuse_foreign(&names, "a run was killed while it replaced this folder; ")?;
+        finish(self.staging.folder(), self.staging.place(), &self.disk)
+            .map_err(|source| self.unwritable(source))?;
+        self.staging.clear();
         Ok(())
     }
 
-    /// The list of the program's own files, if every file of these names is one of them.
-    fn refuse_what_is_not_ours<'a>(
-        &self,
-        names: impl IntoIterator<Item = &'a str>,
-    ) -> Result<Written, OutputError> {
-        let target = || self.target.display().to_string();
-        let written = Written::in_folder(&self.target).map_err(|source| self.unwritable(source))?;
+    /// Names of the files in the folder that are expected.
+    fn expected_names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.target).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut names: Vec<String> = names.filter(|name| fits(name, &self.expected)).collect();
+        names.sort_unstable();
+        names
+    }
+
+    fn refuse_inputs(&self, names: &[String]) -> Result<(), FolderError> {
+        let is_input =
+            |place: &PathBuf| fs::canonicalize(place).is_ok_and(|place| self.inputs.contains(&place));
+        match names.iter().map(|name| self.target.join(name)).find(is_input) {
+            Some(place) => Err(FolderError::IsInput(place.display().to_string())),
+            None => Ok(()),
+        }
+    }
+
+    /// The list of the program's own files, if every file of these names is one of them or may be replaced by force.
+    fn refuse_foreign(&self, names: &[String], reason: &str) -> Result<HashList, FolderError> {
+        let shown = || self.target.display().to_string();
+        let list = HashList::in_folder(&self.target).map_err(|source| self.unwritable(source))?;
         let mut foreign = Vec::new();
         for name in names {
             if self.target.join(name).is_dir() {
-                return Err(OutputError::FileIsFolder { target: target(), name: name.to_owned() });
+                return Err(FolderError::FileIsFolder(shown(), name.clone()));
             }
-            match written.owner(&self.target, name).map_err(|source| self.unwritable(source))? {
+            match list.owner(&self.target, name).map_err(|source| self.unwritable(source))? {
                 Owner::Program => {}
                 Owner::Editor => foreign.push(format!("{name} (changed since it was written)")),
                 Owner::Stranger => foreign.push(format!("{name} (not written by this program)")),
             }
         }
         if foreign.is_empty() || self.forced {
-            return Ok(written);
+            return Ok(list);
         }
-        Err(OutputError::Foreign { target: target(), files: foreign.join(", ") })
+        Err(FolderError::Foreign(shown(), reason.to_owned() + &foreign.join(", ")))
     }
 
-    fn unwritable(&self, source: io::Error) -> OutputError {
-        OutputError::Unwritable { target: self.target.display().to_string(), source }
-    }
-
-    fn stage_and_replace(
-        &self,
-        (artefacts, lists): (&Artefacts, &Written),
-        stale: &[String],
-    ) -> io::Result<()> {
-        let fresh = self.staging.folder("fresh")?;
-        for (name, list) in lists.files() {
-            self.disk.write(&fresh.join(name), list.as_bytes())?;
-        }
-        for (name, contents) in artefacts.iter() {
-            self.disk.write(&fresh.join(name), contents)?;
-        }
-        self.disk.sync_folder(&fresh)?;
-        fs::rename(fresh, self.staging.path().join(READY))?;
-        let Self { place, disk, staging, .. } = self;
-        Replacement { staging: staging.path(), target: place, stale, disk }.run()
+    fn unwritable(&self, source: io::Error) -> FolderError {
+        FolderError::Unwritable(self.target.display().to_string(), source)
     }
 }
 

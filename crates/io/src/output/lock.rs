@@ -1,102 +1,84 @@
-//! One run at a time for each destination: a staging folder belongs to the process that holds the lock in it.
+//! One run at a time for each destination.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
-/// The file that is locked. The system lets go of it when the process ends, however it ends. It holds the process's number.
+/// The file that is locked, in the staging folder of a destination. It contains the number of the process, and the system unlocks it
+/// when the process ends, however it ends.
 const LOCK: &str = "lock";
 
-/// Who only clears away what a dead process left is done by then.
+/// A process that only removes an abandoned folder unlocks it within this time.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// A staging folder that is this process's until it ends.
+/// A folder that belongs to this process until it ends.
 #[derive(Debug)]
-pub(super) struct Held {
-    path: PathBuf,
-    _lock: File,
+pub(super) struct Lock {
+    folder: PathBuf,
+    _file: File,
 }
 
-/// Why a staging folder is not to be had.
-#[derive(Debug)]
-pub(super) enum Untaken {
-    /// A process that lives holds it: its number, as far as it is known.
+/// Why a folder cannot be locked.
+#[derive(Debug, Error)]
+pub(super) enum LockError {
+    /// A living process has locked it: its number, as far as it is known.
+    #[error("{0} is writing there")]
     Busy(String),
     /// The system refuses.
-    Refused(io::Error),
+    #[error(transparent)]
+    Refused(#[from] io::Error),
 }
 
-impl From<io::Error> for Untaken {
-    fn from(error: io::Error) -> Self {
-        Self::Refused(error)
-    }
-}
-
-impl Held {
-    /// Takes a staging folder, made for it or left by a process that is dead, with all that is in it.
-    pub(super) fn take(path: &Path) -> Result<Self, Untaken> {
-        Self::take_within(path, PATIENCE)
-    }
-
-    /// Takes a staging folder that a dead process left, if it is one.
-    pub(super) fn take_of_dead(path: &Path) -> Option<Self> {
-        if path.join(LOCK).is_file() { Self::take_within(path, Duration::ZERO).ok() } else { None }
-    }
-
-    /// Tries until patience ends: who only clears away what a dead process left will be gone.
-    fn take_within(path: &Path, patience: Duration) -> Result<Self, Untaken> {
+impl Lock {
+    /// Locks a folder, made for it or left by a process that was killed, with everything in it.
+    pub(super) fn take(folder: &Path) -> Result<Self, LockError> {
         let start = Instant::now();
         loop {
-            let taken = Self::try_take(path);
-            let is_passing = match &taken {
-                Ok(_) => false,
-                Err(Untaken::Busy(_)) => true,
-                Err(Untaken::Refused(error)) => {
-                    matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::AlreadyExists)
-                }
-            };
-            if !is_passing || start.elapsed() >= patience {
-                return taken;
+            match Self::try_take(folder) {
+                Err(error) if is_passing(&error) && start.elapsed() < PATIENCE => sleep(PATIENCE / 20),
+                taken => return taken,
             }
-            sleep(PATIENCE / 20);
         }
     }
 
-    fn try_take(path: &Path) -> Result<Self, Untaken> {
-        let (is_new, place) = (make_folder(path)?, path.join(LOCK));
-        let lock = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&place)?;
-        match lock.try_lock() {
-            Ok(()) if is_at(&lock, &place) => Ok(Self::signed(path, lock)?),
-            Ok(()) => Err(io::Error::from(io::ErrorKind::NotFound).into()),
-            Err(TryLockError::WouldBlock) => Err(Untaken::Busy(holder(&place))),
-            // Where the file system knows no locks, a folder is held by whoever made it.
-            Err(TryLockError::Error(_)) if is_new => Ok(Self::signed(path, lock)?),
+    /// Locks a folder that a killed process left, if it is one.
+    pub(super) fn take_abandoned(folder: &Path) -> Option<Self> {
+        if folder.join(LOCK).is_file() { Self::try_take(folder).ok() } else { None }
+    }
+
+    fn try_take(folder: &Path) -> Result<Self, LockError> {
+        let (is_new, place) = (make(folder)?, folder.join(LOCK));
+        let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&place)?;
+        match file.try_lock() {
+            Ok(()) if !is_at(&file, &place) => return Err(io::Error::from(io::ErrorKind::NotFound).into()),
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(LockError::Busy(process(&place))),
+            // Where the file system has no locks, a folder belongs to the process that made it.
+            Err(TryLockError::Error(_)) if is_new => {}
             Err(TryLockError::Error(_)) => {
-                let (holder, path) = (holder(&place), path.display());
-                Err(Untaken::Busy(format!("{holder}, unless it has ended and left {path},")))
+                let (process, folder) = (process(&place), folder.display());
+                return Err(LockError::Busy(format!("{process}, unless it has ended and left {folder},")));
             }
         }
-    }
-
-    fn signed(path: &Path, mut lock: File) -> io::Result<Self> {
-        let signed = lock.set_len(0).and_then(|()| write!(lock, "{}", std::process::id()));
-        if signed.is_err() {
-            let_go(path);
+        if let Err(error) = file.set_len(0).and_then(|()| write!(file, "{}", std::process::id())) {
+            remove_empty(folder);
+            return Err(error.into());
         }
-        signed.map(|()| Self { path: path.to_owned(), _lock: lock })
+        Ok(Self { folder: folder.to_owned(), _file: file })
     }
 
     /// The folder.
-    pub(super) fn path(&self) -> &Path {
-        &self.path
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
     }
 }
 
-/// Removes all that is in a staging folder but the lock.
-pub(super) fn clear(path: &Path) {
-    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
+/// Removes everything in a locked folder but the lock.
+pub(super) fn clear(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if entry.file_name() != LOCK {
             let place = entry.path();
             let _ = fs::remove_dir_all(&place).or_else(|_| fs::remove_file(&place));
@@ -104,48 +86,50 @@ pub(super) fn clear(path: &Path) {
     }
 }
 
-/// Removes a staging folder, the lock last. Nothing can be done about one that will not go: the next start tries again.
-pub(super) fn remove(path: &Path) {
-    clear(path);
-    let_go(path);
-}
-
-/// Removes a staging folder if nothing but the lock is in it: what a dead process left stays for the next start.
-pub(super) fn let_go(path: &Path) {
-    if !is_filled(path) {
-        let _ = fs::remove_file(path.join(LOCK));
-        let _ = fs::remove_dir(path);
+/// Removes a locked folder if only the lock is in it. A failure is not reported: the next run tries again.
+pub(super) fn remove_empty(folder: &Path) {
+    if !is_filled(folder) {
+        let _ = fs::remove_file(folder.join(LOCK));
+        let _ = fs::remove_dir(folder);
     }
 }
 
-/// Whether the folder was not there before. One that is there is cleared later, so that it must be the program's: it holds a lock, or
-/// nothing yet, and no link leads to it.
-fn make_folder(path: &Path) -> io::Result<bool> {
-    match fs::create_dir(path) {
-        Ok(()) => return Ok(true),
+/// Whether the next attempt may succeed, because another process locks or removes the folder at this moment.
+fn is_passing(error: &LockError) -> bool {
+    match error {
+        LockError::Busy(_) => true,
+        LockError::Refused(error) => {
+            matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::AlreadyExists)
+        }
+    }
+}
+
+/// Makes the folder, if it is not there. One that is there will be cleared, so it must be the program's: it contains a lock, or nothing
+/// yet, and is no link.
+fn make(folder: &Path) -> io::Result<bool> {
+    match fs::create_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-        Err(error) => return Err(error),
+        made => return made.map(|()| true),
     }
-    let is_link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
-    if is_link || (is_filled(path) && !path.join(LOCK).is_file()) {
-        let told = format!("something else uses {}, where it would be prepared", path.display());
-        return Err(io::Error::new(io::ErrorKind::AlreadyExists, told));
+    if folder.is_symlink() || (is_filled(folder) && !folder.join(LOCK).is_file()) {
+        let words = format!("something else uses {}, where it would be prepared", folder.display());
+        return Err(io::Error::new(io::ErrorKind::AlreadyExists, words));
     }
     Ok(false)
 }
 
 /// Whether something besides the lock is in a folder.
-fn is_filled(path: &Path) -> bool {
-    fs::read_dir(path).is_ok_and(|entries| entries.flatten().any(|entry| entry.file_name() != LOCK))
+fn is_filled(folder: &Path) -> bool {
+    fs::read_dir(folder).is_ok_and(|entries| entries.flatten().any(|entry| entry.file_name() != LOCK))
 }
 
-/// Whether a file that was opened at a place is there still: a lock of one that was removed meanwhile holds nobody off.
+/// Whether a file that was opened at a place is there still: the lock of a file that was removed meanwhile excludes nobody.
 #[cfg(unix)]
 fn is_at(file: &File, place: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |found: fs::Metadata| (found.dev(), found.ino());
-    let at_place = fs::metadata(place).map(identity).ok();
-    at_place.is_some() && file.metadata().map(identity).ok() == at_place
+    let there = fs::metadata(place).map(identity).ok();
+    there.is_some() && file.metadata().map(identity).ok() == there
 }
 
 #[cfg(not(unix))]
@@ -153,7 +137,8 @@ fn is_at(_file: &File, place: &Path) -> bool {
     place.exists()
 }
 
-fn holder(place: &Path) -> String {
+/// The process that wrote its number into a lock.
+fn process(place: &Path) -> String {
     let number = fs::read_to_string(place).unwrap_or_default();
     if number.is_empty() { "another process".to_owned() } else { format!("process {number}") }
 }
@@ -163,18 +148,23 @@ mod tests {
     use super::*;
     use tempfile::tempdir;
 
+    fn remove(folder: &Path) {
+        clear(folder);
+        remove_empty(folder);
+    }
+
     #[test]
-    fn one_holds_it_and_the_next_has_what_is_left() {
+    fn one_locks_it_and_the_next_has_what_is_left() {
         let root = tempdir().unwrap();
         let path = root.path().join("staging");
-        let held = Held::take(&path).unwrap();
-        let Err(Untaken::Busy(holder)) = Held::take(&path) else { panic!("two hold it") };
-        assert_eq!(holder, format!("process {}", std::process::id()));
+        let lock = Lock::take(&path).unwrap();
+        let Err(LockError::Busy(process)) = Lock::take(&path) else { panic!("two have locked it") };
+        assert_eq!(process, format!("process {}", std::process::id()));
         fs::write(path.join("left"), "").unwrap();
-        drop(held);
-        let again = Held::take(&path).unwrap();
+        drop(lock);
+        let again = Lock::take(&path).unwrap();
         assert!(path.join("left").exists());
-        remove(again.path());
+        remove(again.folder());
         assert!(!path.exists());
     }
 
@@ -184,13 +174,13 @@ mod tests {
         let path = root.path().join("staging");
         fs::create_dir(&path).unwrap();
         fs::write(path.join("measured"), "").unwrap();
-        assert!(matches!(Held::take(&path), Err(Untaken::Refused(_))));
+        assert!(matches!(Lock::take(&path), Err(LockError::Refused(_))));
         #[cfg(unix)]
         {
             let link = root.path().join("link");
             std::os::unix::fs::symlink(&path, &link).unwrap();
             fs::write(path.join(LOCK), "").unwrap();
-            assert!(matches!(Held::take(&link), Err(Untaken::Refused(_))));
+            assert!(matches!(Lock::take(&link), Err(LockError::Refused(_))));
         }
         assert!(path.join("measured").exists());
     }
@@ -203,12 +193,12 @@ mod tests {
         let (inside, turns) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let work = || {
             for _ in 0..30 {
-                let Ok(held) = Held::take(&path) else { continue };
-                assert_eq!(inside.fetch_add(1, SeqCst), 0, "two hold it");
+                let Ok(lock) = Lock::take(&path) else { continue };
+                assert_eq!(inside.fetch_add(1, SeqCst), 0, "two have locked it");
                 sleep(Duration::from_micros(200));
                 inside.fetch_sub(1, SeqCst);
                 turns.fetch_add(1, SeqCst);
-                remove(held.path());
+                remove(lock.folder());
             }
         };
         std::thread::scope(|scope| {

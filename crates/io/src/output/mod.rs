@@ -1,49 +1,39 @@
 //! Writing and printing results: all of a command's files appear, or none does.
 //!
-//! | file | what it is for |
+//! | file | purpose |
 //! |---|---|
 //! | `artefacts` | the files of a command, in memory |
-//! | `folder`, `single` | the folder or file that they go to: found writable before the computation, filled after it |
-//! | `written` | the list of hashes that tells the program's own files from those of others |
-//! | `staging`, `lock` | the place to write in before anything is shown, and one run at a time for each destination |
-//! | `replace`, `moves` | how a folder takes the place of another, and how that is taken back |
-//! | `finish` | what remains to be done for a process that was killed |
-//! | `whole` | whether a folder holds what one run wrote |
-//! | `disk`, `faults` | the calls that change the disk, and how tests make them fail |
-//! | `columns`, `page`, `schema`, `sha256`, `error` | text tables, stdout, JSON with a name, hashes, what is told |
+//! | `folder`, `file` | the folder or file that they go to: found writable before the computation, filled after it |
+//! | `hash_list` | the list that distinguishes the program's own files from those of others |
+//! | `staging`, `lock` | the folder to write in before anything is shown, and one run at a time for each destination |
+//! | `replacement`, `moves` | the replacement of a folder by another, its undoing after a failure, its end after a kill |
+//! | `verify` | the check that a folder's files are those of one run |
+//! | `disk`, `faults` | the calls that change the disk, and the means of tests to make them fail |
+//! | `text`, `terminal`, `sha256` | formats of text, standard output and error, hashes |
 
 mod artefacts;
-mod columns;
 mod disk;
-mod error;
 mod faults;
-mod finish;
+mod file;
 mod folder;
-mod foreign;
+mod hash_list;
 mod lock;
 mod moves;
-mod page;
-mod replace;
-mod schema;
+mod replacement;
 mod sha256;
-mod single;
 mod staging;
-mod visible;
-mod whole;
+mod terminal;
+mod text;
+mod verify;
 mod wrapped;
-mod written;
 
 pub use artefacts::Artefacts;
-pub use columns::columns;
 pub use disk::Disk;
-pub use error::OutputError;
-pub use folder::OutputFolder;
-pub use foreign::{csv_cell, markdown, markdown_code, markdown_text};
-pub use page::{note, print};
-pub use schema::stamped;
+pub use file::{FileError, OutputFile};
+pub use folder::{FolderError, OutputFolder};
 pub use sha256::sha256;
-pub use single::OutputFile;
 pub use staging::abandon;
-pub use visible::visible;
-pub use whole::{NotWhole, verify, verify_but, verify_those};
+pub use terminal::{note, print};
+pub use text::{columns, csv_cell, markdown, markdown_code, markdown_text, stamped, visible};
+pub use verify::{NotWhole, verify};
 pub use wrapped::wrapped;

@@ -1,39 +1,50 @@
-//! Renames that can be taken back.
+//! Renames that can be undone.
 
-use super::disk::Disk;
+use super::disk::{self, Disk};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What was renamed so far.
+/// The renames so far.
 #[derive(Debug)]
 pub(super) struct Moves<'d> {
     disk: &'d Disk,
-    done: Vec<[PathBuf; 2]>,
+    done: Vec<(Undo, PathBuf, PathBuf)>,
 }
 
+/// The call that undoes a move, given its two paths.
+type Undo = fn(&Path, &Path) -> io::Result<()>;
+
 impl<'d> Moves<'d> {
-    /// Nothing yet.
+    /// None yet.
     pub(super) fn new(disk: &'d Disk) -> Self {
         Self { disk, done: Vec::new() }
     }
 
     /// Renames a file or folder to a name that is free.
-    pub(super) fn rename(&mut self, from: PathBuf, to: PathBuf) -> io::Result<()> {
-        self.disk.rename(&from, &to)?;
-        self.done.push([from, to]);
+    pub(super) fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        self.disk.rename(from, to)?;
+        self.done.push((|from, to| fs::rename(to, from), from.to_owned(), to.to_owned()));
         Ok(())
     }
 
-    /// Takes all of it back, the last first. It runs after a failure that is reported already, so its own are not.
+    /// Exchanges two folders, see [`Disk::exchange`].
+    pub(super) fn exchange(&mut self, one: &Path, other: &Path) -> io::Result<bool> {
+        let is_done = self.disk.exchange(one, other)?;
+        if is_done {
+            self.done.push((
+                |one, other| disk::exchange(one, other).map(drop),
+                one.to_owned(),
+                other.to_owned(),
+            ));
+        }
+        Ok(is_done)
+    }
+
+    /// Undoes all of them, the last first. It follows a failure that is reported already, so its own failures are not.
     pub(super) fn undo(self) {
-        for [from, to] in self.done.iter().rev() {
-            let _ = fs::rename(to, from);
+        for (undo, from, to) in self.done.iter().rev() {
+            let _ = undo(from, to);
         }
     }
-}
-
-/// Whether something has this name, be it a link that leads nowhere.
-pub(super) fn is_there(place: &Path) -> bool {
-    fs::symlink_metadata(place).is_ok()
 }

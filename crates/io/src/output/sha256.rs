@@ -1,15 +1,10 @@
 //! Hashes.
 
 use sha2::{Digest, Sha256};
-use std::fmt::Write;
 
 /// SHA-256 of a text or of bytes, in hexadecimal as `sha256sum` prints it.
 pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().fold(String::new(), |mut hex, byte| {
-        let _ = write!(hex, "{byte:02x}");
-        hex
-    })
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use switchback_io::input::json_file;
-use switchback_io::output::{Artefacts, verify_those};
+use switchback_io::output::{Artefacts, verify};
 
 /// Texts by their names, and the folder that messages name.
 #[derive(Debug, Clone)]
@@ -97,7 +97,7 @@ impl Files {
         let files = Self { folder: folder.to_owned(), texts };
         // Whatever is drawn again may be missing: of a study all but its results.
         let is_study = files.kind()? == Kind::Study;
-        verify_those(folder, |name| is_shown(name) && !(is_study && name.ends_with(".svg")))?;
+        verify(folder, |name| is_shown(name) && !(is_study && name.ends_with(".svg")))?;
         Ok(files)
     }
 

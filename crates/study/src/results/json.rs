@@ -63,7 +63,7 @@ pub enum ResultsError {
 pub fn read(path: &Path) -> Result<Results, ResultsError> {
     let is_folder = path.is_dir();
     if is_folder {
-        verify(path)?;
+        verify(path, |_| true)?;
     }
     let path = if is_folder { path.join("results.json") } else { path.to_owned() };
     let text = std::fs::read_to_string(&path)

@@ -1,5 +1,5 @@
 use super::super::faults::Faults;
-use super::super::written::SUMS;
+use super::super::hash_list::SUMS;
 use super::*;
 use tempfile::tempdir;
 
@@ -20,7 +20,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-fn write(folder: &Path, files: &[(&str, &str)]) -> Result<(), OutputError> {
+fn write(folder: &Path, files: &[(&str, &str)]) -> Result<(), FolderError> {
     OutputFolder::claim(folder, false).unwrap().commit(&artefacts(files))
 }
 
@@ -71,9 +71,9 @@ fn names_known_beforehand_are_refused_before_the_computation() {
     let root = tempdir().unwrap();
     fs::write(root.path().join("drive.csv"), "measured").unwrap();
     let claim = || OutputFolder::claim(root.path(), false).unwrap();
-    assert!(matches!(claim().expecting(&["drive.csv"]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(claim().expecting(&["drive.csv"]), Err(FolderError::Foreign(..))));
     assert!(claim().expecting(&["rig.toml"]).is_ok());
-    assert!(matches!(claim().expecting(&["rig.toml", "d*.csv"]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(claim().expecting(&["rig.toml", "d*.csv"]), Err(FolderError::Foreign(..))));
     assert!(claim().expecting(&["drive*.svg", "x*.csv", "drive.csv*v"]).is_ok());
     assert!(OutputFolder::claim(root.path(), true).unwrap().expecting(&["drive.csv"]).is_ok());
 }
@@ -91,9 +91,9 @@ fn a_forced_folder_replaces_all_and_calls_it_its_own() {
 fn a_list_of_sums_that_others_ship_with_their_data_counts_for_nothing() {
     let root = tempdir().unwrap();
     fs::write(root.path().join("drive.csv"), "measured").unwrap();
-    fs::write(root.path().join("SHA256SUMS"), format!("{}  drive.csv\n", super::super::sha256("measured")))
+    fs::write(root.path().join("SHA256SUMS"), format!("{}  drive.csv\n", crate::output::sha256("measured")))
         .unwrap();
-    assert!(matches!(write(root.path(), &[("drive.csv", "new")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(write(root.path(), &[("drive.csv", "new")]), Err(FolderError::Foreign(..))));
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn a_path_below_a_file_is_refused_at_once() {
     let file = root.path().join("file");
     fs::write(&file, "kept").unwrap();
     let error = OutputFolder::claim(&file.join("reports"), false).unwrap_err();
-    assert!(matches!(error, OutputError::NotAFolder { .. }), "{error}");
+    assert!(matches!(error, FolderError::NotAFolder(..)), "{error}");
     assert_eq!(fs::read_to_string(file).unwrap(), "kept");
 }
 
@@ -119,7 +119,7 @@ fn a_commit_that_cannot_finish_keeps_what_was_there() {
     write(root.path(), &[("a", "old")]).unwrap();
     fs::create_dir(root.path().join("b")).unwrap();
     let error = write(root.path(), &[("a", "new"), ("b", "new")]).unwrap_err();
-    assert!(matches!(error, OutputError::FileIsFolder { .. }), "{error}");
+    assert!(matches!(error, FolderError::FileIsFolder(..)), "{error}");
     assert_eq!(text(root.path(), "a"), "old");
     assert_eq!(names(root.path()), [SUMS, "a", "b"]);
 }
@@ -149,9 +149,9 @@ fn what_is_read_is_not_replaced_even_by_force() {
     fs::write(&series, "measured").unwrap();
     let claim = || OutputFolder::claim(root.path(), true).unwrap();
     let error = claim().expecting(&["*.csv"]).unwrap().sparing([series.as_path()]).unwrap_err();
-    assert!(matches!(error, OutputError::IsInput { .. }), "{error}");
+    assert!(matches!(error, FolderError::IsInput(_)), "{error}");
     let error = claim().sparing([series.as_path()]).unwrap().commit(&artefacts(&[("series.csv", "new")]));
-    assert!(matches!(error, Err(OutputError::IsInput { .. })));
+    assert!(matches!(error, Err(FolderError::IsInput(_))));
     assert_eq!(text(root.path(), "series.csv"), "measured");
 }
 
@@ -176,7 +176,7 @@ fn report(target: &Path) {
     fs::write(target.join("deep/x"), "mine").unwrap();
 }
 
-fn replace(target: &Path, faults: Faults) -> Result<(), OutputError> {
+fn replace(target: &Path, faults: Faults) -> Result<(), FolderError> {
     let folder = OutputFolder::claim_on(Disk::with(faults), target, false)?;
     folder.expecting(&["a", "b", "figure_*"])?.commit(&artefacts(&[("a", "new"), ("b", "new")]))
 }
@@ -188,7 +188,7 @@ fn is_new(target: &Path) {
         ["a", "b", "notes.txt", "deep/x"].map(|name| text(target, name)),
         ["new", "new", "mine", "mine"]
     );
-    assert!(crate::output::verify(target).is_ok());
+    assert!(crate::output::verify(target, |_| true).is_ok());
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn a_link_to_a_folder_stays_one() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     fs::remove_dir_all(&target).unwrap();
     let error = replace(&link, Faults::default()).unwrap_err();
-    assert!(matches!(error, OutputError::NotAFolder { .. }), "{error}");
+    assert!(matches!(error, FolderError::NotAFolder(..)), "{error}");
 }
 
 #[test]
@@ -265,7 +265,7 @@ fn a_second_claim_is_refused_while_the_first_lives() {
     let error = OutputFolder::claim(&target, true).unwrap_err();
     let told = error.to_string();
     assert!(
-        matches!(error, OutputError::Busy { .. }) && told.contains(&std::process::id().to_string()),
+        matches!(error, FolderError::Busy(..)) && told.contains(&std::process::id().to_string()),
         "{told}"
     );
     assert!(OutputFolder::claim(&root.path().join("new/other"), false).is_ok());
