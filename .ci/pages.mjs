@@ -22,25 +22,31 @@ const faults = [];
 const WIDTHS = [400, 900, 1600];
 
 // Runs in the page: what is cut off, invisible or wider than the page.
-const layout = () => {
+const layout = screen => {
   const wrong = [];
   const width = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > width) wrong.push(`the page is ${document.documentElement.scrollWidth} px wide`);
   const figures = [...document.querySelectorAll("figure")];
   if (!figures.length) wrong.push("there is no figure");
   for (const figure of figures) {
-    const drawing = figure.querySelector("svg.axes") ?? figure.querySelector(":scope > div > svg");
+    const drawing = figure.querySelector(":scope > div > svg");
     const name = drawing?.getAttribute("aria-label") ?? figure.textContent.slice(0, 40);
     const box = drawing?.getBoundingClientRect();
+    // A drawing that is wider than a narrow screen scrolls in its frame.
+    const frame = drawing?.parentElement.getBoundingClientRect();
     if (!box || box.width < 200 || box.height < 60) wrong.push(`«${name}» is ${box?.width} × ${box?.height} px`);
-    else if (box.left < -0.5 || box.right > width + 0.5) wrong.push(`«${name}» reaches from ${box.left} to ${box.right} px`);
+    else if (frame.left < -0.5 || frame.right > width + 0.5) wrong.push(`«${name}» reaches from ${box.left} to ${box.right} px`);
     else if (!drawing.checkVisibility({ visibilityProperty: true, opacityProperty: true })) wrong.push(`«${name}» is invisible`);
   }
-  for (const chart of document.querySelectorAll("svg.axes")) {
-    for (const text of chart.querySelectorAll("text")) {
+  for (const drawing of document.querySelectorAll(".sheet svg")) {
+    const page = drawing.getBoundingClientRect();
+    const title = drawing.getAttribute("aria-label");
+    for (const text of drawing.querySelectorAll("text")) {
       const box = text.getBoundingClientRect();
-      if (box.left < -0.5 || box.right > width + 0.5) wrong.push(`«${text.textContent}» of «${chart.getAttribute("aria-label")}» is cut off`);
+      if (box.left < page.left - 1 || box.right > page.right + 1) wrong.push(`«${text.textContent.trim()}» of «${title}» is cut off`);
     }
+    const size = 16 * page.width / Number(drawing.getAttribute("width"));
+    if (screen && size < 9) wrong.push(`letters of «${title}» are ${size.toFixed(1)} px high`);
   }
   return wrong;
 };
@@ -62,38 +68,54 @@ const move = async (page, selector, where) => {
   return "";
 };
 
-// What a reader does: point, press keys, sort, hide, zoom.
+// A reader points, presses keys, hides, zooms and sorts.
 const use = async (page, told) => {
   const grid = [...Array(24)].flatMap((_, i) => [...Array(16)].map((_, j) => [(i + 0.5) / 24, (j + 0.5) / 16]));
-  if (await page.$("svg.axes")) {
-    const tip = await move(page, "svg.axes", grid);
-    if (!tip) told("no value under the pointer");
-    await page.$eval("svg.axes", svg => svg.focus());
-    await page.keyboard.press("ArrowRight");
-    await page.keyboard.press("ArrowRight");
-    const output = await page.$eval("figure.chart output", output => output.textContent);
-    if (!/\d/.test(output)) told("no value under the keys");
-    await page.click("figure.chart .keys button");
-    const hidden = await page.$eval("svg.plot g[data-layer]", layer => getComputedStyle(layer).visibility);
-    if (hidden !== "hidden") told("a curve is not hidden");
-    await page.click("figure.chart .keys button");
-  }
-  if (await page.$(".sheet svg .hint")) {
-    await page.$eval(".sheet svg[tabindex]", svg => svg.focus());
-    await page.keyboard.press("ArrowRight");
-    const tip = await page.$eval(".tip", tip => tip.hidden ? "" : tip.textContent);
-    if (!/\d/.test(tip)) told("no value of a figure that is a file");
-    const place = await page.$eval(".sheet svg .hint", hint => { hint.scrollIntoView({ block: "center" }); const box = hint.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; });
+  const note = () => page.$eval(".tip", tip => tip.hidden ? "" : tip.textContent);
+  for (const [kind, part] of [["frame", "[data-frame]"], ["mark", ".hint"]]) {
+    const chosen = `.sheet svg:has(${part})`;
+    if (!(await page.$(chosen))) continue;
+    if (!(await move(page, `${chosen} ${part}`, kind === "frame" ? grid : [[0.5, 0.5]]))) told(`no value of a ${kind} under the pointer`);
     await page.mouse.move(0, 0);
-    await page.mouse.move(...place);
-    if (!/\d/.test(await page.$eval(".tip", tip => tip.hidden ? "" : tip.textContent))) told("no value of a figure under the pointer");
+    await page.$eval(chosen, svg => svg.focus());
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowRight");
+    if (!/\d/.test(await note())) told(`no value of a ${kind} under the keys`);
+    if (!/\d/.test(await page.$eval(`.sheet:has(${part}) output`, output => output.textContent))) told(`no value of a ${kind} is read out`);
   }
-  if (await page.$("figure[data-zoom]")) {
-    const labels = () => page.$eval("figure[data-zoom] .xt", ticks => ticks.textContent);
+  const entries = await page.$$(".sheet svg [data-hides]");
+  for (const entry of entries) {
+    const hidden = () => entry.evaluate(entry => {
+      const groups = [...entry.closest("svg").querySelectorAll("[data-series]")].filter(group => group.dataset.series === entry.dataset.hides);
+      return groups.length > 0 && groups.every(group => getComputedStyle(group).visibility === "hidden");
+    });
+    const name = await entry.evaluate(entry => entry.dataset.hides);
+    const expect = async (wanted, how) => { if ((await hidden()) !== wanted) told(`«${name}» is ${wanted ? "not hidden" : "hidden still"} by ${how}`); };
+    await entry.evaluate(entry => entry.scrollIntoView({ block: "center", inline: "center" }));
+    await entry.click();
+    await expect(true, "the pointer");
+    await entry.evaluate(entry => entry.focus());
+    await page.keyboard.press("Enter");
+    await expect(false, "the keys");
+    await page.keyboard.press("Space");
+    await expect(true, "the keys");
+    await page.keyboard.press("Space");
+  }
+  if (await page.$(".tools")) {
+    const labels = () => page.$eval(".sheet:has(.tools) [data-ticks]", ticks => ticks.textContent);
+    const whole = await labels();
+    await page.click(".tools button");
+    if ((await labels()) === whole) told("it does not zoom by a button");
+    await page.$eval(".tools button[aria-label='the whole record']", button => button.click());
+    await page.$eval(".sheet:has(.tools) [data-zooms]", frame => frame.scrollIntoView({ block: "center" }));
+    const box = await (await page.$(".sheet:has(.tools) [data-zooms]")).boundingBox();
     const before = await labels();
-    await page.click("figure[data-zoom] .tools button");
-    if ((await labels()) === before) told("it does not zoom");
-    await page.$eval("figure[data-zoom] .tools button[aria-label='the whole record']", button => button.click());
+    await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.5 * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.5 * box.height, { steps: 3 });
+    await page.mouse.up();
+    if ((await labels()) === before) told("it does not zoom by dragging");
+    await page.$eval(".tools button[aria-label='the whole record']", button => button.click());
   }
   const head = await page.$("table.sortable thead button");
   if (head) {
@@ -106,11 +128,23 @@ const use = async (page, told) => {
   }
 };
 
+// Nothing runs on a page but its own script: one that is put into it later does not.
+const foreign = async file => {
+  const page = await browser.newPage();
+  const attacked = join(profile, "attacked.html");
+  writeFileSync(attacked, readFileSync(file, "utf8").replace("<main", "<svg onload=\"document.title='PWNED'\"></svg><script>document.title='PWNED'</script><main"));
+  await page.goto(pathToFileURL(attacked).href);
+  const title = await page.title();
+  await page.close();
+  return title === "PWNED";
+};
+
 for (const name of readdirSync(folder).filter(name => existsSync(join(folder, name, "index.html"))).sort()) {
   const file = resolve(folder, name, "index.html");
   const begun = Date.now();
   const size = statSync(file).size;
   if (size > 5e6) faults.push(`${name}: ${size} bytes`);
+  if (await foreign(file)) faults.push(`${name}: a script that is not the page's own runs`);
   for (const scheme of ["light", "dark"]) {
     const page = await browser.newPage();
     page.setDefaultTimeout(300_000);
@@ -122,7 +156,7 @@ for (const name of readdirSync(folder).filter(name => existsSync(join(folder, na
     for (const width of WIDTHS) {
       await page.setViewport({ width, height: 900 });
       if (width === WIDTHS[0]) await page.goto(pathToFileURL(file).href);
-      (await page.evaluate(layout)).forEach(fault => told(`${width} px: ${fault}`));
+      (await page.evaluate(layout, true)).forEach(fault => told(`${width} px: ${fault}`));
       if (shots) {
         mkdirSync(shots, { recursive: true });
         await page.screenshot({ path: join(shots, `${name}-${scheme}-${width}.png`), fullPage: true });
@@ -135,7 +169,7 @@ for (const name of readdirSync(folder).filter(name => existsSync(join(folder, na
       const pdf = await page.pdf({ format: "A4", printBackground: true });
       await page.emulateMediaType("print");
       await page.setViewport({ width: 794, height: 1123 });
-      (await page.evaluate(layout)).forEach(fault => told(`printed: ${fault}`));
+      (await page.evaluate(layout, false)).forEach(fault => told(`printed: ${fault}`));
       const sheets = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
       if (sheets < drawn / 8 || pdf.length < 10_000) told(`printed: ${sheets} sheets, ${pdf.length} bytes for ${drawn} figures`);
       const blank = await page.evaluate(() => [...document.querySelectorAll("section")].filter(s => s.getBoundingClientRect().height < 20).map(s => s.id));

@@ -6,6 +6,7 @@ use crate::options::{Force, Quiet, Threads};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
+use switchback_io::identification::json::EstimateFile;
 use switchback_io::identification::{self, Identification, Method, Request};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
@@ -113,7 +114,7 @@ pub fn artefacts(rig: &Rig, identification: &Identification) -> miette::Result<A
         let name = format!("measured_and_simulated_{}.svg", record.name);
         artefacts.add(name, plots::identify::outputs(rig, record, run));
     }
-    if let Some(svg) = plots::identify::borders(rig, identification) {
+    if let Some(svg) = plots::identify::borders(&EstimateFile::of(rig, identification)) {
         artefacts.add("borders.svg", svg);
     }
     Ok(pages::bound(artefacts)?)

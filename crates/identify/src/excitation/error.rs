@@ -76,28 +76,6 @@ pub enum ExcitationError {
         /// Which experiment.
         direction: Direction,
     },
-    /// Visits on adjacent samples: the memory is not masked.
-    #[error(
-        "spacing = {spacing} puts the visits of V₂, V₃, … on adjacent samples: the input would move from one level to the \
-         next without passing the satellite, and u would land on the wrong border; use at least max(order, 2) = {minimum}"
-    )]
-    MemoryUnmasked {
-        /// The spacing given.
-        spacing: usize,
-        /// The least spacing allowed.
-        minimum: usize,
-    },
-    /// Visits closer than the order: the regressor's pulse columns overlap.
-    #[error(
-        "spacing = {spacing} is below the order {order}: the lagged pulses of neighbouring visits would overlap, and the \
-         columns of the regression with them; use at least max(order, 2) = {order}"
-    )]
-    PulsesOverlap {
-        /// The spacing given.
-        spacing: usize,
-        /// Order of the linear part.
-        order: usize,
-    },
     /// A setting of a random drive is out of its range.
     #[error("{setting} = {value}: {remedy}")]
     DriveSetting {

@@ -1,15 +1,19 @@
 //! Random drives, for methods that need no designed experiment.
 
-use super::ExcitationError;
 use rand::{Rng, RngExt};
 use switchback_model::hysteresis::Interval;
+
+/// Longest move, in samples.
+pub(super) const LONGEST_MOVE: u32 = 20;
+/// A rest follows a move with this probability and lasts up to this many samples.
+pub(super) const REST: (f64, u32) = (0.25, 5);
 
 /// A drive that moves in straight lines between random levels, with occasional rests.
 ///
 /// ```text
 /// level      uniform on [h_m, h_M]
-/// move       to the level, at constant speed, in 1 … longest_move samples, uniform
-/// rest       after a move, with probability rest_probability: 1 … longest_rest further samples at the level, uniform
+/// move       to the level, at constant speed, in 1 … 20 samples, uniform
+/// rest       after one move in four: 1 … 5 further samples at the level, uniform
 /// ```
 ///
 /// Reversals of every amplitude occur, at many speeds, and `v` stands exactly still during rests, so that all three
@@ -27,50 +31,15 @@ use switchback_model::hysteresis::Interval;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RandomLevels {
     interval: Interval,
-    longest_move: u32,
-    longest_rest: u32,
-    rest_probability: f64,
 }
 
 impl RandomLevels {
-    /// Moves of up to 20 samples; after one move in four, a rest of up to 5 samples.
+    /// A drive over an interval.
     ///
     /// A move and its rest take eleven samples on average and two moves in three turn back, so there are about six
     /// reversals in a hundred samples: enough to see both borders everywhere, with room for the output to follow.
     pub fn new(interval: Interval) -> Self {
-        Self { interval, longest_move: 20, longest_rest: 5, rest_probability: 0.25 }
-    }
-
-    /// The same drive with moves of up to `samples` samples.
-    ///
-    /// # Errors
-    /// [`ExcitationError::DriveSetting`] if zero.
-    pub(crate) fn with_longest_move(self, samples: u32) -> Result<Self, ExcitationError> {
-        if samples == 0 {
-            let remedy = "a move takes at least one sample; give 1 or more";
-            return Err(ExcitationError::DriveSetting { setting: "longest_move", value: 0.0, remedy });
-        }
-        Ok(Self { longest_move: samples, ..self })
-    }
-
-    /// The same drive, resting after a move with the given probability for up to `longest` samples.
-    ///
-    /// # Errors
-    /// [`ExcitationError::DriveSetting`] if the probability is not in `[0, 1]`, or positive with `longest` zero.
-    pub(crate) fn with_rests(self, probability: f64, longest: u32) -> Result<Self, ExcitationError> {
-        if !(0.0..=1.0).contains(&probability) {
-            let remedy = "a probability lies between 0 and 1";
-            return Err(ExcitationError::DriveSetting {
-                setting: "rest_probability",
-                value: probability,
-                remedy,
-            });
-        }
-        if probability > 0.0 && longest == 0 {
-            let remedy = "a rest takes at least one sample; give 1 or more, or rest_probability = 0";
-            return Err(ExcitationError::DriveSetting { setting: "longest_rest", value: 0.0, remedy });
-        }
-        Ok(Self { rest_probability: probability, longest_rest: longest, ..self })
+        Self { interval }
     }
 
     /// The working interval.
@@ -95,12 +64,13 @@ impl RandomLevels {
     fn move_and_rest<R: Rng + ?Sized>(&self, v: &mut Vec<f64>, rng: &mut R) {
         let from = v[v.len() - 1];
         let to = rng.random_range(self.interval.low()..=self.interval.high());
-        let steps = rng.random_range(1..=self.longest_move);
+        let steps = rng.random_range(1..=LONGEST_MOVE);
         v.extend((1..steps).map(|k| from + (to - from) * (f64::from(k) / f64::from(steps))));
         // The end is written as it is, so that rounding can neither leave the interval nor shift the level.
         v.push(to);
-        if rng.random_bool(self.rest_probability) {
-            let rest = rng.random_range(1..=self.longest_rest);
+        let (probability, longest) = REST;
+        if rng.random_bool(probability) {
+            let rest = rng.random_range(1..=longest);
             v.extend(std::iter::repeat_n(to, rest as usize));
         }
     }
@@ -164,43 +134,17 @@ mod tests {
     }
 
     #[test]
-    fn without_rests_the_input_never_stands_still() {
-        let restless = drive().with_rests(0.0, 0).unwrap();
-        assert!(input(restless, 5000, 7).windows(2).all(|w| w[0] != w[1]));
-    }
-
-    #[test]
-    fn moves_of_one_sample_jump_from_level_to_level() {
-        let jumps = drive().with_longest_move(1).unwrap().with_rests(1.0, 1).unwrap();
-        let v = input(jumps, 400, 8);
-        assert!(
-            v[1..].chunks_exact(2).all(|pair| pair[0] == pair[1]),
-            "each level is held for one more sample"
-        );
-    }
-
-    #[test]
-    fn settings_out_of_range_are_refused_by_name() {
-        let message = |result: Result<RandomLevels, ExcitationError>| result.unwrap_err().to_string();
-        assert!(message(drive().with_longest_move(0)).starts_with("longest_move = 0"));
-        assert!(message(drive().with_rests(1.5, 3)).starts_with("rest_probability = 1.5"));
-        assert!(message(drive().with_rests(f64::NAN, 3)).starts_with("rest_probability = NaN"));
-        assert!(message(drive().with_rests(0.5, 0)).starts_with("longest_rest = 0"));
-    }
-
-    #[test]
     fn a_seed_keeps_its_values() {
-        let lively = drive().with_longest_move(2).unwrap().with_rests(0.5, 2).unwrap();
         assert_eq!(
-            input(lively, 6, 2009),
+            input(drive(), 6, 2009),
             [
                 -2.0,
-                -1.5589968616005792,
-                0.3827372415238648,
-                2.324471344648309,
-                4.516595733560304,
-                4.516595733560304,
-                -1.766922820384029,
+                -1.9448746077000725,
+                -1.8897492154001447,
+                -1.8346238231002172,
+                -1.7794984308002895,
+                -1.724373038500362,
+                -1.6692476462004344,
             ]
         );
     }

@@ -89,24 +89,8 @@ impl PulseExperiment {
         Ok(Self { interval, direction, levels, order, spacing: least_spacing(order) })
     }
 
-    /// The same experiment with another spacing.
-    ///
-    /// # Errors
-    /// [`ExcitationError::MemoryUnmasked`] below 2, [`ExcitationError::PulsesOverlap`] below the order.
-    pub fn with_spacing(self, spacing: usize) -> Result<Self, ExcitationError> {
-        if spacing == 0 {
-            return Err(ExcitationError::ZeroSpacing);
-        }
-        if spacing < 2 {
-            return Err(ExcitationError::MemoryUnmasked { spacing, minimum: least_spacing(self.order) });
-        }
-        if spacing < self.order {
-            return Err(ExcitationError::PulsesOverlap { spacing, order: self.order });
-        }
-        Ok(Self { spacing, ..self })
-    }
-
-    /// The same experiment with any spacing, for studies that break the memory masking on purpose.
+    /// The same experiment with any spacing, for studies that break the memory masking on purpose: below 2 the input goes from one level to
+    /// the next without the satellite between, and below the order the lagged pulses of neighbouring visits overlap.
     ///
     /// # Errors
     /// [`ExcitationError::ZeroSpacing`].
@@ -155,12 +139,6 @@ impl PulseExperiment {
     /// `T = s(m + 3)`, samples.
     pub fn period(&self) -> usize {
         self.spacing * (self.points() + 3)
-    }
-
-    /// Whether the input passes the satellite between any two visits, so that `u` is a static table of `v`.
-    pub fn masks_memory(&self) -> bool {
-        // V₁ and V₂ are 2s apart; only V₂, V₃, … can be adjacent.
-        self.spacing >= 2 || self.points() <= 2
     }
 
     /// The phase, in `0..T`, at which `levels()[j]` is visited.
@@ -254,31 +232,9 @@ mod tests {
     }
 
     #[test]
-    fn a_spacing_that_unmasks_the_memory_is_refused_with_the_reason() {
-        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 4, 1).unwrap();
-        let message = experiment.with_spacing(1).unwrap_err().to_string();
-        assert!(
-            message.contains("spacing = 1") && message.contains("wrong border") && message.ends_with("= 2")
-        );
-    }
-
-    #[test]
-    fn a_spacing_below_the_order_is_refused_because_pulses_overlap() {
-        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 4, 4).unwrap();
-        assert_eq!(
-            experiment.clone().with_spacing(3),
-            Err(ExcitationError::PulsesOverlap { spacing: 3, order: 4 })
-        );
-        let message = experiment.with_spacing(1).unwrap_err().to_string();
-        assert!(message.ends_with("= 4"), "the remedy counts both reasons: {message}");
-    }
-
-    #[test]
     fn a_study_may_break_the_masking_on_purpose_but_not_the_period() {
-        let experiment = |points| PulseExperiment::evenly_spaced(interval(), Descendant, points, 1).unwrap();
-        assert!(!experiment(3).with_spacing_unmasked(1).unwrap().masks_memory());
-        assert!(experiment(2).with_spacing_unmasked(1).unwrap().masks_memory(), "V₁ and V₂ stay two apart");
-        assert_eq!(experiment(3).with_spacing_unmasked(0), Err(ExcitationError::ZeroSpacing));
-        assert_eq!(experiment(3).with_spacing(0), Err(ExcitationError::ZeroSpacing));
+        let experiment = PulseExperiment::evenly_spaced(interval(), Descendant, 3, 1).unwrap();
+        assert_eq!(experiment.clone().with_spacing_unmasked(1).unwrap().spacing(), 1);
+        assert_eq!(experiment.with_spacing_unmasked(0), Err(ExcitationError::ZeroSpacing));
     }
 }

@@ -1,13 +1,10 @@
 //! A free drive whose reversals come in many sizes.
 
 use super::ExcitationError;
+use super::free::{LONGEST_MOVE, REST};
 use rand::{Rng, RngExt};
 use switchback_model::hysteresis::Interval;
 
-/// Longest move, in samples.
-const LONGEST_MOVE: u32 = 20;
-/// A rest follows a move with this probability and lasts up to this many samples.
-const REST: (f64, u32) = (0.25, 5);
 /// Share of the moves that go to a level drawn from the whole interval.
 const TRAVEL: f64 = 0.25;
 /// The smallest move, as a share of the interval, where none is given.

@@ -20,7 +20,7 @@ const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
 
 /// One candidate and what cross-validation says of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate {
+pub(crate) struct Candidate {
     /// Order and delay.
     pub structure: Structure,
     /// Knots of each curve; 2 for a straight line.

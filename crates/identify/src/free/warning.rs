@@ -1,5 +1,6 @@
 //! Weak points of an identification, told rather than hidden.
 
+use crate::statistics::normal_quantile_975;
 use crate::{BorderDistance, Coefficient, PlusMinus};
 use std::fmt;
 use switchback_model::hysteresis::Branch;
@@ -93,12 +94,9 @@ pub enum Warning {
     },
 }
 
-/// Half-width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
-
 /// A value with its 95 % interval.
 fn interval(value: f64, se: f64) -> PlusMinus {
-    PlusMinus::new(value, Z95 * se)
+    PlusMinus::new(value, normal_quantile_975() * se)
 }
 
 impl Warning {
@@ -195,7 +193,8 @@ impl fmt::Display for Warning {
             ),
             Self::LoopVanished { distance } => {
                 let BorderDistance { clearest, z, limit, places, .. } = distance;
-                let percent = PlusMinus::new(100.0 * clearest.difference, 100.0 * Z95 * clearest.se);
+                let percent =
+                    PlusMinus::new(100.0 * clearest.difference, 100.0 * normal_quantile_975() * clearest.se);
                 write!(
                     out,
                     "the loop vanished: over the whole stroke ({places} places) the borders do not differ beyond their errors; the clearest difference, at {:.4}, is ({percent}) % of u_M − u_m, {z:.1} standard errors where {limit:.1} would tell",

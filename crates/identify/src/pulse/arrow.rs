@@ -128,38 +128,36 @@ impl ArrowFit {
 
     /// Variance of the quantity whose derivative is `gradient`, for white equation error.
     pub(crate) fn variance_of(&self, gradient: &Gradient) -> f64 {
-        let mut through_core = gradient.core.clone();
-        let mut own = 0.0;
-        for &(l, weight) in &gradient.local {
-            own += weight * weight / self.ties[l].own;
-            through_core.axpy(-weight, &self.ties[l].slope, 1.0);
-        }
-        let solved = self.factor.solve(&through_core);
-        self.variance * (own + through_core.dot(&solved))
+        let through = self.through_core(gradient);
+        let own = self.product_of_locals(gradient, gradient);
+        self.variance * (own + through.dot(&self.factor.solve(&through)))
     }
 
     /// Covariances of several parameters with the given derivatives, row by row.
     pub(crate) fn covariances_of(&self, gradients: &[&Gradient]) -> Vec<Vec<f64>> {
-        let through_core = |gradient: &Gradient| {
-            let mut core = gradient.core.clone();
-            gradient.local.iter().for_each(|&(l, weight)| core.axpy(-weight, &self.ties[l].slope, 1.0));
-            core
-        };
-        let through: Vec<_> = gradients.iter().map(|g| through_core(g)).collect();
-        let own = |one: &Gradient, other: &Gradient| -> f64 {
-            let shared = |&(l, weight): &(usize, f64)| {
-                let same = other.local.iter().filter(|(k, _)| *k == l).map(|(_, weight)| weight);
-                same.map(|other| weight * other / self.ties[l].own).sum::<f64>()
-            };
-            one.local.iter().map(shared).sum()
-        };
+        let through: Vec<_> = gradients.iter().map(|g| self.through_core(g)).collect();
         let row = |i: usize| {
             let solved = self.factor.solve(&through[i]);
-            let entry =
-                |j: usize| self.variance * (own(gradients[i], gradients[j]) + through[j].dot(&solved));
-            (0..gradients.len()).map(entry).collect()
+            let own = |j: usize| self.product_of_locals(gradients[i], gradients[j]);
+            (0..gradients.len()).map(|j| self.variance * (own(j) + through[j].dot(&solved))).collect()
         };
         (0..gradients.len()).map(row).collect()
+    }
+
+    /// What a derivative amounts to in the core, where the local columns follow it.
+    pub(super) fn through_core(&self, gradient: &Gradient) -> DVector<f64> {
+        let mut core = gradient.core.clone();
+        gradient.local.iter().for_each(|&(l, weight)| core.axpy(-weight, &self.ties[l].slope, 1.0));
+        core
+    }
+
+    /// `Σ_l x_l y_l / D_l` of two derivatives.
+    pub(super) fn product_of_locals(&self, x: &Gradient, y: &Gradient) -> f64 {
+        let shared = |&(l, weight): &(usize, f64)| {
+            let same = y.local.iter().filter(|(k, _)| *k == l).map(|(_, weight)| weight);
+            same.map(|other| weight * other / self.ties[l].own).sum::<f64>()
+        };
+        x.local.iter().map(shared).sum()
     }
 
     /// Adds the correction for what a pass over the data finds left in the residual, and takes the residual variance from there.
@@ -200,16 +198,22 @@ impl ArrowFit {
         right
     }
 
+    /// [`Self::core_side`] of a target that is one in a single group: one row a group.
+    pub(super) fn core_sides(&self, columns: &Columns, lags: usize) -> Vec<f64> {
+        let groups = columns.offset.len();
+        let probe = |group: usize| (0..groups).map(|q| f64::from(q == group)).collect::<Vec<_>>();
+        let side = |group: usize| self.core_side(columns, &probe(group), &vec![0.0; lags]);
+        (0..groups).flat_map(|group| side(group).iter().copied().collect::<Vec<_>>()).collect()
+    }
+
     /// What a quantity takes of a target: weights of [`Self::core_side`], and weights of single groups.
     pub(crate) fn answer(&self, columns: &Columns, gradient: &Gradient) -> (DVector<f64>, Vec<(usize, f64)>) {
-        let mut through_core = gradient.core.clone();
-        let mut own = Vec::new();
-        for &(l, weight) in &gradient.local {
-            let tie = &self.ties[l];
-            through_core.axpy(-weight, &tie.slope, 1.0);
-            own.extend(columns.local[l].support.iter().map(|&(q, w)| (q, weight * w / tie.own)));
-        }
-        (self.factor.solve(&through_core), own)
+        let of_column = |&(l, weight): &(usize, f64)| {
+            let own = self.ties[l].own;
+            columns.local[l].support.iter().map(move |&(q, w)| (q, weight * w / own))
+        };
+        let own = gradient.local.iter().flat_map(of_column).collect();
+        (self.factor.solve(&self.through_core(gradient)), own)
     }
 
     /// How all parameters move with a constant 1 left in `y`; `statistics` and `columns` are those that were solved.

@@ -1,11 +1,13 @@
 //! The rank-one constrained estimator, at the Cramér–Rao bound.
 
-use super::arrow::{ArrowFit, Columns, Gradient, LocalColumn};
+use super::arrow::{ArrowFit, Columns, LocalColumn};
 use super::data::PulseData;
-use super::experiments::{Experiments, Seen, first_level_value};
+use super::experiments::Experiments;
 use super::fit::PulseFitError;
-use super::joint::rank_free_levels;
-use super::solution::{Level, RelativeLevel, Solution, known_level};
+use super::joint;
+use super::layout::Layout;
+use super::level_rule::LevelRule;
+use super::solution::{Level, Solution};
 use nalgebra::DVector;
 
 /// A change of the parameters below this share of their size ends the iteration.
@@ -30,78 +32,72 @@ pub(super) const MOST_STEPS: usize = 30;
 /// If no experiment is given.
 pub(crate) fn efficient(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
     let experiments = Experiments::new(experiments);
-    let start = experiments.solve(&experiments.rank_free_columns())?;
+    let start = joint::layout(&experiments);
+    let fit = experiments.solve(&start.columns)?;
     let n = experiments.order();
-    let mut b: DVector<f64> = start.core.rows(n, n).into_owned();
-    let mut w: Vec<Vec<f64>> = rank_free_levels(&experiments, &start)
-        .into_iter()
-        .map(|levels| levels.into_iter().map(|level| level.value).collect())
-        .collect();
-    let mut columns = linearised(&experiments, &b, &w);
+    let mut b: DVector<f64> = fit.core.rows(n, n).into_owned();
+    let estimated = start.levels.iter().flatten().filter(|rule| rule.rank_one().is_some());
+    let mut w: Vec<f64> = estimated.map(|rule| rule.read(&fit, n).0).collect();
+    let mut columns = constrained_columns(&experiments);
+    linearise(&mut columns, &b, &w);
     let mut fit = experiments.solve(&columns)?;
     for _ in 0..MOST_STEPS {
-        let moved = update(&experiments, &fit, &mut b, &mut w);
+        let moved = update(&fit, &mut b, &mut w);
         if moved < CONVERGED {
             break;
         }
-        columns = linearised(&experiments, &b, &w);
+        linearise(&mut columns, &b, &w);
         fit = experiments.solve(&columns)?;
     }
-    let levels = constrained_levels(&experiments, &fit);
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
+    let levels = constrained_levels(&start.levels);
+    Solution::new(&experiments, Layout { columns, levels }, fit, Level::Constant)
 }
 
-/// The regression linearised about `b` and `w`.
-fn linearised(experiments: &Experiments<'_>, b: &DVector<f64>, w: &[Vec<f64>]) -> Columns {
-    let n = experiments.order();
-    let shared = experiments.core_columns(|e, level| w[e][level]);
-    let mut offset = vec![0.0; experiments.statistics.groups()];
-    for (group, e, seen) in experiments.groups() {
-        if let Seen::Level { level: level @ 1.., lag } = seen {
-            offset[group] = -b[lag - 1] * w[e][level];
+/// The columns of the constrained regression: one local column an estimated level. [`linearise`] sets the weights.
+pub(super) fn constrained_columns(experiments: &Experiments<'_>) -> Columns {
+    let support =
+        |e, level| (1..=experiments.order()).map(move |lag| (experiments.group(e, level, lag), 0.0));
+    let inner = |(e, part): (usize, &&PulseData)| (1..part.points()).map(move |level| (e, level));
+    let levels = experiments.parts.iter().enumerate().flat_map(inner);
+    Columns {
+        local: levels.map(|(e, level)| LocalColumn { support: support(e, level).collect() }).collect(),
+        bilinear: true,
+        ..experiments.rank_free_columns()
+    }
+}
+
+/// Linearises the columns about `b` and the estimated levels `w`.
+fn linearise(Columns { shared, local, offset, .. }: &mut Columns, b: &DVector<f64>, w: &[f64]) {
+    for (column, w) in local.iter_mut().zip(w) {
+        for (lag, ((q, weight), b)) in column.support.iter_mut().zip(b).enumerate() {
+            shared[(*q, lag)] = *w;
+            offset[*q] = -b * w;
+            *weight = *b;
         }
     }
-    let local = experiments
-        .parts
-        .iter()
-        .enumerate()
-        .flat_map(|(e, part)| (1..part.points()).map(move |level| (e, level)))
-        .map(|(e, level)| LocalColumn {
-            support: (1..=n).map(|lag| (experiments.group(e, level, lag), b[lag - 1])).collect(),
-        })
-        .collect();
-    Columns { shared, local, offset, bilinear: true }
 }
 
-/// Takes over the new parameters; returns the largest change relative to the largest value.
-fn update(experiments: &Experiments<'_>, fit: &ArrowFit, b: &mut DVector<f64>, w: &mut [Vec<f64>]) -> f64 {
-    let n = experiments.order();
-    let new_b = fit.core.rows(n, n).into_owned();
+/// Takes over the new parameters; returns the largest change relative to the largest `b`, or to the level.
+fn update(fit: &ArrowFit, b: &mut DVector<f64>, w: &mut [f64]) -> f64 {
+    let new_b = fit.core.rows(b.len(), b.len()).into_owned();
     let mut moved = (&new_b - &*b).amax() / new_b.amax();
     *b = new_b;
-    let mut local = fit.local.iter();
-    for levels in w.iter_mut() {
-        for (old, &new) in levels.iter_mut().skip(1).zip(local.by_ref()) {
-            moved = moved.max((new - *old).abs() / new.abs().max(1.0));
-            *old = new;
-        }
+    for (old, &new) in w.iter_mut().zip(&fit.local) {
+        moved = moved.max((new - *old).abs() / new.abs().max(1.0));
+        *old = new;
     }
     moved
 }
 
-fn constrained_levels(experiments: &Experiments<'_>, fit: &ArrowFit) -> Vec<Vec<RelativeLevel>> {
-    let mut next = 0..fit.local.len();
-    experiments
-        .parts
-        .iter()
-        .map(|part| {
-            let mut levels = vec![known_level(fit, first_level_value(part.branch))];
-            levels.extend(next.by_ref().take(part.points() - 1).map(|l| RelativeLevel {
-                value: fit.local[l],
-                gradient: Gradient { core: DVector::zeros(fit.core.len()), local: vec![(l, 1.0)] },
-                free_means: None,
-            }));
-            levels
-        })
-        .collect()
+/// The levels of the constrained regression: one local column each in place of the free means of the start.
+pub(super) fn constrained_levels(start: &[Vec<LevelRule>]) -> Vec<Vec<LevelRule>> {
+    let mut next = 0;
+    let mut constrained = |rule: &LevelRule| match rule {
+        LevelRule::RankOne { .. } => {
+            next += 1;
+            LevelRule::Local(next - 1)
+        }
+        other => *other,
+    };
+    start.iter().map(|rules| rules.iter().map(&mut constrained).collect()).collect()
 }

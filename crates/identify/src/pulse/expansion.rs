@@ -2,7 +2,7 @@
 
 use super::arrow::Response;
 use super::grouped::GroupedStatistics;
-use super::solution::{Level, Quantity, Solution};
+use super::solution::{Level, Solution};
 use nalgebra::DVector;
 
 impl Solution {
@@ -76,16 +76,11 @@ impl Solution {
         }
         let second = fit.respond(columns, &along, &lagged).plus(&self.answer_to(&direct));
         let bend_of_base = self.bend_of_base(&first, step_change);
-        let term = |(k, quantity): (usize, &Quantity)| {
-            let bend = match k.checked_sub(2 * n) {
-                None => 0.0,
-                Some(point) => {
-                    bend_of_base + self.free_means[point].map_or(0.0, |l| self.bend_of_rank_one(l, &first))
-                }
-            };
-            second.along(&quantity.gradient) + bend
-        };
-        self.quantities.iter().enumerate().map(term).collect()
+        let of_points = self.rules().map(|rule| {
+            bend_of_base + rule.rank_one().map_or(0.0, |(l, _)| self.bend_of_rank_one(l, &first))
+        });
+        let bends = std::iter::repeat_n(0.0, 2 * n).chain(of_points);
+        self.quantities.iter().zip(bends).map(|(q, bend)| second.along(&q.gradient) + bend).collect()
     }
 
     /// How the parameters answer to a right-hand side of the normal equations that is given column by column.

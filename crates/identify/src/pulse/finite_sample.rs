@@ -77,14 +77,12 @@ impl Solution {
         let errors =
             FirstOrder { solution: self, inverse: InverseForm::of(&self.fit), variance, step_variance };
         let bend_of_base = errors.bend_of_base();
-        let bend = |k: usize| match k.checked_sub(2 * self.order) {
-            None => 0.0,
-            Some(point) => {
-                bend_of_base + self.free_means[point].map_or(0.0, |first| errors.bend_of_rank_one(first))
-            }
-        };
-        let bias = |(k, quantity): (usize, &Quantity)| mean.along(&quantity.gradient) + bend(k);
-        let bias = self.quantities.iter().enumerate().map(bias).collect();
+        let of_points = self.rules().map(|rule| {
+            bend_of_base + rule.rank_one().map_or(0.0, |(first, _)| errors.bend_of_rank_one(first))
+        });
+        let bends = std::iter::repeat_n(0.0, 2 * self.order).chain(of_points);
+        let bias =
+            self.quantities.iter().zip(bends).map(|(q, bend)| mean.along(&q.gradient) + bend).collect();
         FiniteSampleTheory { sd: errors.sd(), bias }
     }
 }

@@ -1,10 +1,8 @@
 //! Both experiments in one regression.
 
-use super::arrow::ArrowFit;
-use super::data::PulseData;
 use super::experiments::{Experiments, first_level_value, satellite_value};
-use super::fit::PulseFitError;
-use super::solution::{Level, RelativeLevel, Solution, known_level, rank_one_level};
+use super::layout::Layout;
+use super::level_rule::LevelRule;
 
 /// Descendant and ascendant experiment together: `a` and `b` shared, a constant column instead of step experiments.
 ///
@@ -16,31 +14,16 @@ use super::solution::{Level, RelativeLevel, Solution, known_level, rank_one_leve
 /// as in (3.24b) with the shared `b̂`. The constant makes a mean output from a step experiment, and its transient, needless.
 /// Consistent for white equation error. An offset that differs between the two records would bias it.
 ///
-/// # Errors
-/// [`PulseFitError`] if the experiments do not excite every parameter.
-pub(crate) fn joint(descendant: &PulseData, ascendant: &PulseData) -> Result<Solution, PulseFitError> {
-    let experiments = Experiments::new(&[descendant, ascendant]);
-    let columns = experiments.rank_free_columns();
-    let fit = experiments.solve(&columns)?;
-    let levels = rank_free_levels(&experiments, &fit);
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
-}
-
-/// Levels of the regression with a free mean for every (level, lag), relative to `u_m`.
-pub(crate) fn rank_free_levels(experiments: &Experiments<'_>, fit: &ArrowFit) -> Vec<Vec<RelativeLevel>> {
-    let n = experiments.order();
+pub(super) fn layout(experiments: &Experiments<'_>) -> Layout {
     let of_experiment = |e: usize| {
-        let branch = experiments.parts[e].branch;
-        (0..experiments.parts[e].points())
-            .map(|j| match j {
-                0 => known_level(fit, first_level_value(branch)),
-                _ => {
-                    let mut level = rank_one_level(fit, n, experiments.rank_free_local(e, j, 1));
-                    level.value += satellite_value(branch);
-                    level
-                }
-            })
-            .collect()
+        let part = experiments.parts[e];
+        let plus = satellite_value(part.branch);
+        let inner = (1..part.points())
+            .map(|j| LevelRule::RankOne { first: experiments.rank_free_local(e, j, 1), plus });
+        std::iter::once(LevelRule::Known(first_level_value(part.branch))).chain(inner).collect()
     };
-    (0..experiments.parts.len()).map(of_experiment).collect()
+    Layout {
+        columns: experiments.rank_free_columns(),
+        levels: (0..experiments.parts.len()).map(of_experiment).collect(),
+    }
 }

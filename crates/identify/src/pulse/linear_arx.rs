@@ -3,31 +3,15 @@
 use super::arrow::Columns;
 use super::data::PulseData;
 use super::experiments::Experiments;
-use super::fit::PulseFitError;
-use super::solution::{Level, Solution, known_level};
+use super::layout::Layout;
+use super::level_rule::LevelRule;
 use switchback_model::hysteresis::Branch;
 
 /// Least squares of `y(t) = −Σ aᵢ y(t−i) + Σ bᵢ v(t−i) + c`: what a user picks who knows of no nonlinearity.
 ///
 /// In the paper's normalisation both borders are the straight line from `(h_m, u_m)` to `(h_M, u_M)`; it is wrong, and
 /// its error stays, unless the borders are that line.
-///
-/// # Errors
-/// [`PulseFitError`] if the experiments do not excite every parameter.
-///
-/// # Panics
-/// If no experiment is given.
-pub(crate) fn linear_arx(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
-    let experiments = Experiments::new(experiments);
-    let (columns, positions) = columns(&experiments);
-    let fit = experiments.solve(&columns)?;
-    let known = |levels: Vec<f64>| levels.into_iter().map(|value| known_level(&fit, value)).collect();
-    let levels = positions.into_iter().map(known).collect();
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
-}
-
-/// The regression, and every level's place on the straight line.
-pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, Vec<Vec<f64>>) {
+pub(super) fn layout(experiments: &Experiments<'_>) -> Layout {
     let position = |e: usize, level: usize| relative_position(experiments.parts[e], level);
     let columns = Columns {
         shared: experiments.core_columns(position),
@@ -35,9 +19,10 @@ pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, Vec<Vec<f64>>)
         offset: vec![0.0; experiments.statistics.groups()],
         bilinear: false,
     };
-    let of_experiment =
-        |(e, part): (usize, &&PulseData)| (0..part.points()).map(|j| position(e, j)).collect();
-    (columns, experiments.parts.iter().enumerate().map(of_experiment).collect())
+    let of_experiment = |(e, part): (usize, &&PulseData)| {
+        (0..part.points()).map(|j| LevelRule::Known(position(e, j))).collect()
+    };
+    Layout { columns, levels: experiments.parts.iter().enumerate().map(of_experiment).collect() }
 }
 
 /// `(V_j − h_m)/(h_M − h_m)`.

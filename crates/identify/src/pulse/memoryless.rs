@@ -3,8 +3,8 @@
 use super::arrow::{Columns, LocalColumn};
 use super::data::PulseData;
 use super::experiments::{Experiments, first_level_value};
-use super::fit::PulseFitError;
-use super::solution::{Level, Solution, known_level, rank_one_level};
+use super::layout::Layout;
+use super::level_rule::LevelRule;
 
 /// Two levels nearer than this share of the interval are one level of the static curve.
 const SAME_LEVEL: f64 = 1e-6;
@@ -17,32 +17,7 @@ const SAME_LEVEL: f64 = 1e-6;
 ///
 /// A level that both experiments visit has one value. On a single experiment it is right (memory is masked there); on both it is wrong wherever the
 /// borders differ, and its error stays.
-///
-/// # Errors
-/// [`PulseFitError`] if the experiments do not excite every parameter.
-///
-/// # Panics
-/// If no experiment is given.
-pub(crate) fn memoryless(experiments: &[&PulseData]) -> Result<Solution, PulseFitError> {
-    let experiments = Experiments::new(experiments);
-    let n = experiments.order();
-    let (columns, curve) = columns(&experiments);
-    let fit = experiments.solve(&columns)?;
-    let levels = curve
-        .of_experiment
-        .iter()
-        .zip(&experiments.parts)
-        .map(|(indices, part)| {
-            std::iter::once(known_level(&fit, first_level_value(part.branch)))
-                .chain(indices.iter().map(|&k| rank_one_level(&fit, n, k * n)))
-                .collect()
-        })
-        .collect();
-    Solution::new(&experiments, columns, fit, levels, Level::Constant)
-}
-
-/// The regression, and the curve that it estimates.
-pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, StaticCurve) {
+pub(super) fn layout(experiments: &Experiments<'_>) -> Layout {
     let n = experiments.order();
     let curve = StaticCurve::through(experiments);
     // At an inner level the shared part is the experiment without the pulse's lag; the local column adds bᵢf(V).
@@ -57,14 +32,21 @@ pub(super) fn columns(experiments: &Experiments<'_>) -> (Columns, StaticCurve) {
         })
         .collect();
     let offset = vec![0.0; experiments.statistics.groups()];
-    (Columns { shared, local, offset, bilinear: false }, curve)
+    let of_experiment = |(indices, part): (&Vec<usize>, &&PulseData)| {
+        let inner = indices.iter().map(|k| LevelRule::RankOne { first: k * n, plus: 0.0 });
+        std::iter::once(LevelRule::Known(first_level_value(part.branch))).chain(inner).collect()
+    };
+    Layout {
+        levels: curve.of_experiment.iter().zip(&experiments.parts).map(of_experiment).collect(),
+        columns: Columns { shared, local, offset, bilinear: false },
+    }
 }
 
 /// The distinct inner levels, and which of them each experiment visits.
-pub(super) struct StaticCurve {
+struct StaticCurve {
     levels: Vec<f64>,
     /// For every experiment, the index into `levels` of its `V₂…V_m`.
-    pub(super) of_experiment: Vec<Vec<usize>>,
+    of_experiment: Vec<Vec<usize>>,
 }
 
 impl StaticCurve {

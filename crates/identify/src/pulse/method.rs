@@ -1,12 +1,14 @@
 //! The methods by name, and what each asks for.
 
 use super::data::{PulseData, StepMean};
+use super::experiments::Experiments;
 use super::fit::{PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
 use super::instrumental::{FoldedSolution, KnownColour, instrumental};
 use super::lanes::LaneControl;
+use super::layout::Layout;
 use super::score::{ErrorTerms, GroupSum};
-use super::solution::Solution;
+use super::solution::{Level, Solution};
 use super::{efficient, joint, linear_arx, memoryless, paper};
 
 /// A method for pulse experiments, with its input.
@@ -41,6 +43,9 @@ impl PulseMethod<'_> {
     ///
     /// # Errors
     /// [`PulseFitError`] if the experiments do not excite every parameter.
+    ///
+    /// # Panics
+    /// If no experiment is given.
     pub fn fit(self) -> Result<PulseFit, PulseFitError> {
         Ok(self.solve()?.fit())
     }
@@ -56,17 +61,34 @@ impl PulseMethod<'_> {
     }
 
     pub(crate) fn solve(self) -> Result<Solved, PulseFitError> {
-        let regression = match self {
-            Self::Paper { experiment, step } => paper::paper(experiment, step),
-            Self::Joint { descendant, ascendant } => joint::joint(descendant, ascendant),
-            Self::Efficient(experiments) => efficient::efficient(experiments),
-            Self::LinearArx(experiments) => linear_arx::linear_arx(experiments),
-            Self::Memoryless(experiments) => memoryless::memoryless(experiments),
+        let solution = match self {
             Self::Instrumental(experiments) => {
                 return instrumental(experiments, None).map(|solution| Solved::Folds(Box::new(solution)));
             }
+            Self::Efficient(experiments) => efficient::efficient(experiments),
+            Self::Paper { experiment, step } => {
+                self.regression(&[&experiment.about(step.mean)], Level::Step(step))
+            }
+            Self::Joint { .. } | Self::LinearArx(_) | Self::Memoryless(_) => {
+                self.regression(&self.experiments(), Level::Constant)
+            }
         };
-        regression.map(|solution| Solved::Regression(Box::new(solution)))
+        solution.map(|solution| Solved::Regression(Box::new(solution)))
+    }
+
+    fn regression(&self, data: &[&PulseData], level: Level) -> Result<Solution, PulseFitError> {
+        let experiments = Experiments::new(data);
+        Solution::of(&experiments, self.layout(&experiments), level)
+    }
+
+    /// The regression of the method; of one that iterates, the regression that it starts from.
+    pub(super) fn layout(&self, experiments: &Experiments<'_>) -> Layout {
+        match self {
+            Self::Paper { .. } => paper::layout(experiments),
+            Self::Joint { .. } | Self::Efficient(_) | Self::Instrumental(_) => joint::layout(experiments),
+            Self::LinearArx(_) => linear_arx::layout(experiments),
+            Self::Memoryless(_) => memoryless::layout(experiments),
+        }
     }
 
     pub(super) fn experiments(&self) -> Vec<&PulseData> {

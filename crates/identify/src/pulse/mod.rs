@@ -17,6 +17,8 @@ mod grouped;
 mod instrumental;
 mod joint;
 pub mod lanes;
+mod layout;
+mod level_rule;
 mod linear_arx;
 mod memoryless;
 mod method;

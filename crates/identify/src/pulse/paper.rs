@@ -1,10 +1,9 @@
 //! The paper's own estimator, one experiment at a time.
 
 use super::arrow::{Columns, LocalColumn};
-use super::data::{PulseData, StepMean};
 use super::experiments::{Experiments, Seen, first_level_value, satellite_value};
-use super::fit::PulseFitError;
-use super::solution::{Level, Solution, known_level, rank_one_level};
+use super::layout::Layout;
+use super::level_rule::LevelRule;
 use nalgebra::DMatrix;
 
 /// Least squares (3.21) on `ỹ = y − ŷ₀`, rank one (3.24a–b), level from the step experiment (3.25).
@@ -15,31 +14,13 @@ use nalgebra::DMatrix;
 /// ```
 ///
 /// with `c₁ = −1/W₁` for the descendant experiment and `+1/W₁` for the ascendant one. Computed with `gᵢⱼ = μᵢⱼW_j`, the height of the pulse, so
-/// that `b̂ᵢ = ∓ĝᵢ₁` and `ĉ_jW_j = Σ b̂ᵢĝᵢⱼ/Σ b̂ᵢ²`: the same numbers without the scaling by `W_j`. `step` is the
-/// settled mean output at the experiment's satellite.
+/// that `b̂ᵢ = ∓ĝᵢ₁` and `ĉ_jW_j = Σ b̂ᵢĝᵢⱼ/Σ b̂ᵢ²`: the same numbers without the scaling by `W_j`. `ŷ₀` is the
+/// settled mean output at the experiment's satellite, and the statistics are about it.
 ///
 /// Consistent for white equation error; its variance exceeds the Cramér–Rao bound, because `μ = bcᵀ` has rank one and is fitted without.
 ///
-/// # Errors
-/// [`PulseFitError`] if the experiment does not excite every parameter.
-pub(crate) fn paper(experiment: &PulseData, step: StepMean) -> Result<Solution, PulseFitError> {
-    let about_step = experiment.about(step.mean);
-    let experiments = Experiments::new(&[&about_step]);
-    let columns = pulse_columns(&experiments);
-    let fit = experiments.solve(&columns)?;
-    let n = experiments.order();
-    let first = first_level_value(experiment.branch) - satellite_value(experiment.branch);
-    let levels = (0..experiment.points())
-        .map(|j| match j {
-            0 => known_level(&fit, first),
-            _ => rank_one_level(&fit, n, (j - 1) * n),
-        })
-        .collect();
-    Solution::new(&experiments, columns, fit, vec![levels], Level::Step(step))
-}
-
 /// One column a (level, lag): `V₁`'s are shared columns because they are `∓bᵢ` themselves, the others are free means.
-pub(super) fn pulse_columns(experiments: &Experiments<'_>) -> Columns {
+pub(super) fn layout(experiments: &Experiments<'_>) -> Layout {
     let n = experiments.order();
     let branch = experiments.parts[0].branch;
     let height = first_level_value(branch) - satellite_value(branch);
@@ -52,5 +33,15 @@ pub(super) fn pulse_columns(experiments: &Experiments<'_>) -> Columns {
             Seen::Level { .. } => local.push(LocalColumn::own(group)),
         }
     }
-    Columns { shared, local, offset: vec![0.0; experiments.statistics.groups()], bilinear: false }
+    let inner = (1..experiments.parts[0].points())
+        .map(|j| LevelRule::RankOne { first: experiments.rank_free_local(0, j, 1), plus: 0.0 });
+    Layout {
+        levels: vec![std::iter::once(LevelRule::Known(height)).chain(inner).collect()],
+        columns: Columns {
+            shared,
+            local,
+            offset: vec![0.0; experiments.statistics.groups()],
+            bilinear: false,
+        },
+    }
 }

@@ -46,24 +46,13 @@ impl<'a> InverseForm<'a> {
 
     /// `xᵀM⁻¹y` of two derivatives.
     pub(super) fn at(&self, x: &Gradient, y: &Gradient) -> f64 {
-        let shared = |&(l, weight): &(usize, f64)| {
-            let same = y.local.iter().filter(|(k, _)| *k == l).map(|(_, weight)| weight);
-            same.map(|other| weight * other / self.fit.ties[l].own).sum::<f64>()
-        };
-        let own: f64 = x.local.iter().map(shared).sum();
-        own + self.through_core(x).dot(&(&self.core * self.through_core(y)))
+        let own = self.fit.product_of_locals(x, y);
+        own + self.fit.through_core(x).dot(&(&self.core * self.fit.through_core(y)))
     }
 
     /// `M⁻¹x` on the core.
     pub(super) fn core_of(&self, x: &Gradient) -> DVector<f64> {
-        &self.core * self.through_core(x)
-    }
-
-    /// What a derivative amounts to in the core, where the local columns follow it.
-    fn through_core(&self, x: &Gradient) -> DVector<f64> {
-        let mut core = x.core.clone();
-        x.local.iter().for_each(|&(l, weight)| core.axpy(-weight, &self.fit.ties[l].slope, 1.0));
-        core
+        &self.core * self.fit.through_core(x)
     }
 }
 

@@ -5,6 +5,8 @@ use super::data::{PulseData, StepMean};
 use super::experiments::Experiments;
 use super::fit::{Estimated, PulseFit, PulseFitError};
 use super::grouped::GroupedStatistics;
+use super::layout::Layout;
+use super::level_rule::LevelRule;
 use super::score::{Covariance, ErrorTerms};
 use crate::LevelErrors;
 use nalgebra::DVector;
@@ -17,34 +19,6 @@ pub(crate) enum Level {
     Constant,
     /// From a step experiment; levels are relative to the satellite's.
     Step(StepMean),
-}
-
-/// A level's value relative to the base, and its derivative.
-pub(crate) struct RelativeLevel {
-    pub(crate) value: f64,
-    pub(crate) gradient: Gradient,
-    /// The first of the free means `hᵢ` of which the level is `Σᵢ bᵢhᵢ / Σᵢ bᵢ²`; `None` where it is linear in the parameters.
-    pub(crate) free_means: Option<usize>,
-}
-
-/// Rank-one value `Σᵢ bᵢhᵢ / Σᵢ bᵢ²` (3.24b) of a level whose free means `hᵢ ≈ bᵢ f` are local columns `first…first+n−1`.
-pub(crate) fn rank_one_level(fit: &ArrowFit, order: usize, first_local: usize) -> RelativeLevel {
-    let b = fit.core.rows(order, order);
-    let h = &fit.local[first_local..first_local + order];
-    let norm: f64 = b.iter().map(|x| x * x).sum();
-    let inner: f64 = b.iter().zip(h).map(|(b, h)| b * h).sum();
-    let mut core = DVector::zeros(fit.core.len());
-    for i in 0..order {
-        core[order + i] = h[i] / norm - 2.0 * b[i] * inner / (norm * norm);
-    }
-    let local = (0..order).map(|i| (first_local + i, b[i] / norm)).collect();
-    RelativeLevel { value: inner / norm, gradient: Gradient { core, local }, free_means: Some(first_local) }
-}
-
-/// A level that the method does not estimate.
-pub(crate) fn known_level(fit: &ArrowFit, value: f64) -> RelativeLevel {
-    let gradient = Gradient { core: DVector::zeros(fit.core.len()), local: Vec::new() };
-    RelativeLevel { value, gradient, free_means: None }
 }
 
 /// A reported parameter: its value, its derivative in the regression's parameters and, in total, in `ŷ₀`.
@@ -71,24 +45,38 @@ pub(crate) struct Solution {
     pub(super) level: Level,
     pub(super) order: usize,
     pub(super) reference: f64,
-    points: Vec<usize>,
+    /// How each border point is read, one list an experiment.
+    levels: Vec<Vec<LevelRule>>,
     pub(super) quantities: Vec<Quantity>,
-    /// What [`RelativeLevel::free_means`] says of each border point.
-    pub(super) free_means: Vec<Option<usize>>,
     /// How all parameters move with the step experiment's mean.
     pub(super) step_response: Option<Response>,
-    /// The gain, `y` held at `u_M` and at `u_m`.
-    levels: [Quantity; 3],
+    /// The gain, and `y` at rest at `u_M` and at `u_m`.
+    at_rest: [Quantity; 3],
     u_low: f64,
 }
 
 impl Solution {
-    /// Reads a regression with core `(a, b[, κ])` whose levels, relative to the base, are given for every experiment.
+    /// Solves a regression over the experiments and reads it.
+    ///
+    /// # Errors
+    /// [`PulseFitError`] if the experiments do not excite every parameter.
+    pub(crate) fn of(
+        experiments: &Experiments<'_>,
+        layout: Layout,
+        level: Level,
+    ) -> Result<Self, PulseFitError> {
+        let fit = experiments.solve(&layout.columns)?;
+        Self::new(experiments, layout, fit, level)
+    }
+
+    /// Reads a solved regression with core `(a, b[, κ])`.
+    ///
+    /// # Errors
+    /// [`PulseFitError::NoGain`] if `B̂(1)` vanishes.
     pub(crate) fn new(
         experiments: &Experiments<'_>,
-        columns: Columns,
+        Layout { columns, levels }: Layout,
         fit: ArrowFit,
-        levels: Vec<Vec<RelativeLevel>>,
         level: Level,
     ) -> Result<Self, PulseFitError> {
         let n = experiments.order();
@@ -101,16 +89,15 @@ impl Solution {
             (Level::Step(_), Branch::Descending) => base.value - 1.0,
             _ => base.value,
         };
-        let points = levels.iter().map(Vec::len).collect();
-        let free_means = levels.iter().flatten().map(|relative| relative.free_means).collect();
         let coefficients = (0..2 * n).map(|k| {
             let mut core = DVector::zeros(fit.core.len());
             core[k] = 1.0;
             (fit.core[k], Gradient { core, local: Vec::new() }, 0.0)
         });
-        let border_points = levels.into_iter().flatten().map(|mut relative| {
-            relative.gradient.core += &base.core;
-            (base.value + relative.value, relative.gradient, base.step)
+        let border_points = levels.iter().flatten().map(|rule| {
+            let (relative, mut gradient) = rule.read(&fit, n);
+            gradient.core += &base.core;
+            (base.value + relative, gradient, base.step)
         });
         let through = match level {
             Level::Constant => None,
@@ -127,7 +114,7 @@ impl Solution {
         of_gain.rows_mut(0, n).fill(-gain / a_at_one);
         of_gain.rows_mut(n, n).fill(1.0 / a_at_one);
         let held = |u: f64| (gain * u, &base.core * gain + &of_gain * u, gain * base.step);
-        let levels = [(gain, of_gain.clone(), 0.0), held(u_low + 1.0), held(u_low)]
+        let at_rest = [(gain, of_gain.clone(), 0.0), held(u_low + 1.0), held(u_low)]
             .map(|(value, core, direct)| quantity((value, Gradient { core, local: Vec::new() }, direct)));
         Ok(Self {
             columns,
@@ -135,11 +122,10 @@ impl Solution {
             level,
             order: n,
             reference: experiments.reference,
-            points,
-            quantities,
-            free_means,
-            step_response: through.map(|r| r.times(-a_at_one)),
             levels,
+            quantities,
+            step_response: through.map(|r| r.times(-a_at_one)),
+            at_rest,
             u_low,
         })
     }
@@ -152,17 +138,26 @@ impl Solution {
             let through_step = quantity.step_slope * quantity.step_slope * step_variance;
             (self.fit.variance_of(&quantity.gradient) + through_step).sqrt()
         };
-        let [gain, y_high, y_low] = self.levels.each_ref().map(se);
+        let [gain, y_high, y_low] = self.at_rest.each_ref().map(se);
         let mut estimated =
             self.quantities.iter().map(|quantity| Estimated { value: quantity.value, se: se(quantity) });
         PulseFit {
             a: estimated.by_ref().take(n).collect(),
             b: estimated.by_ref().take(n).collect(),
-            borders: self.points.iter().map(|&m| estimated.by_ref().take(m).collect()).collect(),
+            borders: self
+                .levels
+                .iter()
+                .map(|points| estimated.by_ref().take(points.len()).collect())
+                .collect(),
             noise_sd: self.fit.variance.sqrt(),
             u_low: self.u_low,
             level_errors: LevelErrors { gain, y_high, y_low },
         }
+    }
+
+    /// How each border point is read, in the order of [`Self::quantities`].
+    pub(super) fn rules(&self) -> impl Iterator<Item = LevelRule> + '_ {
+        self.levels.iter().flatten().copied()
     }
 
     /// Covariance of `a`, `b`, then the borders' points, row by row.

@@ -1,8 +1,7 @@
 //! Running sums over replicates, and the performance measures they give.
 
 use super::Measured;
-use super::lane_errors::TERMS;
-use statrs::distribution::{ContinuousCDF, Normal};
+use super::quantile::normal_quantile_975;
 
 /// What one replicate tells of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,20 +47,22 @@ pub struct KnownControl {
     pub first_order_coverage: Option<f64>,
 }
 
+/// Terms that a replicate adds to the sums of a parameter: error and its powers to the fourth, variance and its square, coverage, remainder
+/// and its square, remainder of the square and its square, remainder of the coverage and its square.
+pub(super) const TERMS: usize = 13;
+
 /// Sums over replicates, from which every measure follows. Constant memory; [`ErrorSums::merge`] adds two.
 ///
 /// Plain sums suffice: errors are taken about the truth, so no large mean cancels. Where an estimate is inconsistent and its bias exceeds
 /// its standard deviation a thousandfold, the latter still keeps ten digits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorSums {
-    count: f64,
-    error: [f64; 4],
-    variance: [f64; 2],
-    covered: f64,
-    controlled: f64,
-    remainder: [f64; 2],
-    square_remainder: [f64; 2],
-    coverage_remainder: [f64; 2],
+    /// Replicates so far.
+    pub(super) count: f64,
+    /// … of which the first-order part is known.
+    pub(super) controlled: f64,
+    /// The sums of their terms.
+    pub(super) terms: [f64; TERMS],
 }
 
 /// Performance of an estimator of one parameter, after Morris, White and Crowther, "Using simulation studies to evaluate
@@ -107,62 +108,31 @@ impl ErrorSums {
     pub fn push_pair(&mut self, replicate: ReplicateError, mirrored: Option<ReplicateError>) {
         let ReplicateError { error, se, .. } = replicate;
         let square = error * error;
+        let of_estimate = [error, square, square * error, square * square, se * se, se * se * se * se];
+        let (estimate, remainders) = self.terms.split_at_mut(of_estimate.len() + 1);
+        let added = of_estimate.into_iter().chain([replicate.is_covered()]);
+        estimate.iter_mut().zip(added).for_each(|(sum, term)| *sum += term);
         self.count += 1.0;
-        for (sum, power) in self.error.iter_mut().zip([error, square, square * error, square * square]) {
-            *sum += power;
-        }
-        self.variance[0] += se * se;
-        self.variance[1] += se * se * se * se;
-        self.covered += replicate.is_covered();
         let Some(own) = replicate.remainders() else { return };
         let partner = mirrored.and_then(|mirrored| mirrored.remainders()).unwrap_or(own);
         self.controlled += 1.0;
-        let sums = [&mut self.remainder, &mut self.square_remainder, &mut self.coverage_remainder];
-        for (sums, (own, partner)) in sums.into_iter().zip(own.into_iter().zip(partner)) {
+        for (sums, (own, partner)) in remainders.chunks_exact_mut(2).zip(own.into_iter().zip(partner)) {
             let mean = (own + partner) * 0.5;
             sums[0] += mean;
             sums[1] += mean * mean;
         }
     }
 
-    /// Sums of so many replicates, of which the first-order part of so many is known, given what their [terms](TERMS) add up to.
-    pub(super) fn from_totals(count: f64, controlled: f64, totals: [f64; TERMS]) -> Self {
-        let [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2, c1, c2] = totals;
-        Self {
-            count,
-            error: [e1, e2, e3, e4],
-            variance: [v1, v2],
-            covered,
-            controlled,
-            remainder: [r1, r2],
-            square_remainder: [s1, s2],
-            coverage_remainder: [c1, c2],
-        }
-    }
-
-    /// What [`from_totals`](Self::from_totals) takes.
-    pub(super) fn totals(&self) -> (f64, f64, [f64; TERMS]) {
-        let Self { error: [e1, e2, e3, e4], variance: [v1, v2], covered, .. } = *self;
-        let ([r1, r2], [s1, s2], [c1, c2]) = (self.remainder, self.square_remainder, self.coverage_remainder);
-        (self.count, self.controlled, [e1, e2, e3, e4, v1, v2, covered, r1, r2, s1, s2, c1, c2])
-    }
-
     /// Adds the sums of other replicates.
     pub fn merge(&mut self, other: &Self) {
-        let add = |into: &mut [f64], from: &[f64]| into.iter_mut().zip(from).for_each(|(i, f)| *i += f);
         self.count += other.count;
-        self.covered += other.covered;
         self.controlled += other.controlled;
-        add(&mut self.error, &other.error);
-        add(&mut self.variance, &other.variance);
-        add(&mut self.remainder, &other.remainder);
-        add(&mut self.square_remainder, &other.square_remainder);
-        add(&mut self.coverage_remainder, &other.coverage_remainder);
+        self.terms.iter_mut().zip(other.terms).for_each(|(into, from)| *into += from);
     }
 
     /// Error and reported standard error of the one replicate that was added; `None` if there is none, or more.
     pub fn single(&self) -> Option<(f64, f64)> {
-        (self.count == 1.0).then(|| (self.error[0], self.variance[0].sqrt()))
+        (self.count == 1.0).then(|| (self.terms[0], self.terms[4].sqrt()))
     }
 
     /// Replicates so far.
@@ -176,14 +146,16 @@ impl ErrorSums {
         if r < 2.0 {
             return None;
         }
-        let mean = self.error[0] / r;
-        let variance = ((self.error[1] - r * mean * mean) / (r - 1.0)).max(0.0);
+        let [error, square, _, fourth, of_variance, of_variance_squared, covered, r1, r2, s1, s2, c1, c2] =
+            self.terms;
+        let mean = error / r;
+        let variance = ((square - r * mean * mean) / (r - 1.0)).max(0.0);
         let sd = variance.sqrt();
-        let mse = self.error[1] / r;
-        let coverage = self.covered / r;
-        let mean_variance = self.variance[0] / r;
+        let mse = square / r;
+        let coverage = covered / r;
+        let mean_variance = of_variance / r;
         let model_sd = mean_variance.sqrt();
-        let variance_of_variance = spread(self.variance, r) * r;
+        let variance_of_variance = spread([of_variance, of_variance_squared], r) * r;
         let (model_mcse, ratio, ratio_mcse) = if model_sd > 0.0 && sd > 0.0 {
             let model_mcse = (variance_of_variance / (4.0 * r * mean_variance)).sqrt();
             let ratio = model_sd / sd;
@@ -193,18 +165,15 @@ impl ErrorSums {
             (0.0, 0.0, 0.0)
         };
         let is_controlled = self.controlled == r;
-        let bias_controlled = is_controlled.then(|| Measured {
-            value: self.remainder[0] / r + known.mean,
-            mcse: spread(self.remainder, r).sqrt(),
-        });
-        let coverage_controlled =
-            known.first_order_coverage.filter(|_| is_controlled).map(|expected| Measured {
-                value: expected + self.coverage_remainder[0] / r,
-                mcse: spread(self.coverage_remainder, r).sqrt(),
-            });
+        let bias_controlled =
+            is_controlled.then(|| Measured { value: r1 / r + known.mean, mcse: spread([r1, r2], r).sqrt() });
+        let coverage_controlled = known
+            .first_order_coverage
+            .filter(|_| is_controlled)
+            .map(|expected| Measured { value: expected + c1 / r, mcse: spread([c1, c2], r).sqrt() });
         let sd_controlled = bias_controlled.zip(known.first_order_variance).and_then(|(bias, known)| {
-            let variance = known + self.square_remainder[0] / r - bias.value * bias.value;
-            let mcse = spread(self.square_remainder, r).sqrt();
+            let variance = known + s1 / r - bias.value * bias.value;
+            let mcse = spread([s1, s2], r).sqrt();
             (variance > 0.0)
                 .then(|| Measured { value: variance.sqrt(), mcse: mcse / (2.0 * variance.sqrt()) })
         });
@@ -213,7 +182,7 @@ impl ErrorSums {
             bias_controlled,
             sd: Measured { value: sd, mcse: sd / (2.0 * (r - 1.0)).sqrt() },
             sd_controlled,
-            mse: Measured { value: mse, mcse: spread([self.error[1], self.error[3]], r).sqrt() },
+            mse: Measured { value: mse, mcse: spread([square, fourth], r).sqrt() },
             coverage: Measured { value: coverage, mcse: (coverage * (1.0 - coverage) / r).sqrt() },
             coverage_controlled,
             model_sd: Measured { value: model_sd, mcse: model_mcse },
@@ -226,12 +195,6 @@ impl ErrorSums {
 fn spread(sums: [f64; 2], r: f64) -> f64 {
     let mean = sums[0] / r;
     ((sums[1] / r - mean * mean) / (r - 1.0)).max(0.0)
-}
-
-/// `Φ⁻¹(0.975)`, the half width of a 95 % interval in standard errors.
-pub fn normal_quantile_975() -> f64 {
-    static VALUE: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *VALUE.get_or_init(|| Normal::standard().inverse_cdf(0.975))
 }
 
 #[cfg(test)]

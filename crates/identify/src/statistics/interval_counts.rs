@@ -1,7 +1,7 @@
 //! Where the truth lies in the intervals that replicates report.
 
-use super::error_sums::normal_quantile_975;
 use super::lane_errors::LaneErrors;
+use super::quantile::normal_quantile_975;
 use switchback_noise::lanes::{LANES, Lane};
 
 /// Upper ends of the classes of `|θ̂ − θ|`, in half widths of the 95 % interval that the replicate reports. What lies beyond the last is

@@ -1,6 +1,7 @@
 //! Adding eight replicates at a time to the running sums.
 
-use super::error_sums::{ErrorSums, normal_quantile_975};
+use super::error_sums::{ErrorSums, TERMS};
+use super::quantile::normal_quantile_975;
 use switchback_noise::lanes::{LANES, Lane, Work, keep_apart, widest};
 
 /// What eight replicates tell of every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
@@ -26,10 +27,6 @@ pub struct LaneEstimates<'a> {
     /// What is known of the second.
     pub second_order: &'a [Lane],
 }
-
-/// Sums of a replicate's terms: error and its powers, variance and its square, coverage, remainder and its square, remainder of the
-/// square and its square, remainder of the coverage and its square.
-pub(super) const TERMS: usize = 13;
 
 /// Sums over the replicates of eight sections, a lane each, of every parameter of a cell.
 ///
@@ -75,16 +72,15 @@ impl LaneSums {
     /// The sums in a lane, one a parameter.
     pub fn lane(&self, lane: usize) -> Vec<ErrorSums> {
         let (count, controlled) = (self.count.0[lane], self.controlled.0[lane]);
-        let of = |terms: &[Lane; TERMS]| ErrorSums::from_totals(count, controlled, terms.map(|t| t.0[lane]));
+        let of = |terms: &[Lane; TERMS]| ErrorSums { count, controlled, terms: terms.map(|t| t.0[lane]) };
         self.terms.iter().map(of).collect()
     }
 
     /// Puts other sums into a lane: what [`lane`](Self::lane) gave, with more replicates added to every parameter.
     pub fn set_lane(&mut self, lane: usize, sums: &[ErrorSums]) {
         for (terms, sums) in self.terms.iter_mut().zip(sums) {
-            let (count, controlled, totals) = sums.totals();
-            (self.count.0[lane], self.controlled.0[lane]) = (count, controlled);
-            terms.iter_mut().zip(totals).for_each(|(term, total)| term.0[lane] = total);
+            (self.count.0[lane], self.controlled.0[lane]) = (sums.count, sums.controlled);
+            terms.iter_mut().zip(sums.terms).for_each(|(term, total)| term.0[lane] = total);
         }
     }
 

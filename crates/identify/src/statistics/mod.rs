@@ -8,6 +8,7 @@ mod jackknife;
 mod lane_errors;
 mod line;
 mod propagation;
+mod quantile;
 mod whiteness;
 
 pub use block_bootstrap::MeanInterval;
@@ -16,7 +17,6 @@ pub use error_sums::ErrorSums;
 pub use error_sums::KnownControl;
 pub use error_sums::Performance;
 pub use error_sums::ReplicateError;
-pub use error_sums::normal_quantile_975;
 pub use interval_counts::CLASS_ENDS;
 pub use interval_counts::CLASSES;
 pub use interval_counts::IntervalCounts;
@@ -24,8 +24,10 @@ pub use jackknife::jackknife_se;
 pub use lane_errors::LaneErrors;
 pub use lane_errors::LaneEstimates;
 pub use lane_errors::LaneSums;
+pub(crate) use line::Line;
 pub use line::weighted_line;
 pub use propagation::propagated;
+pub use quantile::normal_quantile_975;
 pub use whiteness::Whiteness;
 
 /// A measured number with its Monte-Carlo standard error.

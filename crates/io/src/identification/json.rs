@@ -291,63 +291,69 @@ impl<'de> Deserialize<'de> for FitByRecord {
     }
 }
 
+impl EstimateFile {
+    /// The object of an identification.
+    pub fn of(rig: &Rig, identification: &Identification) -> Self {
+        let Identification { estimate, level_errors, examination, .. } = identification;
+        let records: Vec<RecordFit> = {
+            rig.records
+                .iter()
+                .zip(&identification.runs)
+                .map(|(record, run)| RecordFit {
+                    name: record.name.clone(),
+                    r#use: record.usage.name().to_owned(),
+                    samples: record.record.len(),
+                    fit_percent: run.as_ref().map(|run| run.fit_percent),
+                })
+                .collect()
+        };
+        let fits = records.iter().map(|record| (record.name.clone(), record.fit_percent)).collect();
+        Self {
+            rig: rig.name.clone(),
+            input: rig.input_label.clone(),
+            output: rig.output_label.clone(),
+            sample_time: rig.sample_time,
+            method: identification.method.name().to_owned(),
+            order: estimate.a.len(),
+            delay: estimate.delay,
+            a: estimate.a.clone(),
+            a_se: estimate.a_se.clone(),
+            b: estimate.b.clone(),
+            b_se: estimate.b_se.clone(),
+            noise_sd: estimate.noise_sd,
+            gain: estimate.gain,
+            gain_se: level_errors.map(|e| e.gain),
+            y_high: estimate.y_high,
+            y_high_se: level_errors.map(|e| e.y_high),
+            y_low: estimate.y_low,
+            y_low_se: level_errors.map(|e| e.y_low),
+            descendant: points(&estimate.descending),
+            ascendant: points(&estimate.ascending),
+            fit_percent: FitByRecord(fits),
+            excitation: estimate.excitation,
+            samples: estimate.samples,
+            records,
+            causal: identification.obstacles.is_empty(),
+            causal_alternative: examination.causal.as_ref().map(causal),
+            yardsticks: examination.yardsticks.iter().map(Beside::from).collect(),
+            r#loop: identification.distance.map(Loop::from),
+            input_noise: identification.input_noise.map(Moved::from),
+            innovations: examination.innovations.map(|w| Innovations {
+                foretold: w.foretold,
+                ljung_box: w.ljung_box,
+                p_value: w.p_value,
+                lags: w.lags,
+            }),
+            warnings: identification.flags.iter().map(|flag| flag.text.to_string()).collect(),
+            flags: identification.flags.iter().map(reservation).collect(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
 /// One JSON object, indented, with a newline at its end.
 pub fn json(rig: &Rig, identification: &Identification) -> String {
-    let Identification { estimate, level_errors, examination, .. } = identification;
-    let records: Vec<RecordFit> = {
-        rig.records
-            .iter()
-            .zip(&identification.runs)
-            .map(|(record, run)| RecordFit {
-                name: record.name.clone(),
-                r#use: record.usage.name().to_owned(),
-                samples: record.record.len(),
-                fit_percent: run.as_ref().map(|run| run.fit_percent),
-            })
-            .collect()
-    };
-    let fits = records.iter().map(|record| (record.name.clone(), record.fit_percent)).collect();
-    let page = EstimateFile {
-        rig: rig.name.clone(),
-        input: rig.input_label.clone(),
-        output: rig.output_label.clone(),
-        sample_time: rig.sample_time,
-        method: identification.method.name().to_owned(),
-        order: estimate.a.len(),
-        delay: estimate.delay,
-        a: estimate.a.clone(),
-        a_se: estimate.a_se.clone(),
-        b: estimate.b.clone(),
-        b_se: estimate.b_se.clone(),
-        noise_sd: estimate.noise_sd,
-        gain: estimate.gain,
-        gain_se: level_errors.map(|e| e.gain),
-        y_high: estimate.y_high,
-        y_high_se: level_errors.map(|e| e.y_high),
-        y_low: estimate.y_low,
-        y_low_se: level_errors.map(|e| e.y_low),
-        descendant: points(&estimate.descending),
-        ascendant: points(&estimate.ascending),
-        fit_percent: FitByRecord(fits),
-        excitation: estimate.excitation,
-        samples: estimate.samples,
-        records,
-        causal: identification.obstacles.is_empty(),
-        causal_alternative: examination.causal.as_ref().map(causal),
-        yardsticks: examination.yardsticks.iter().map(Beside::from).collect(),
-        r#loop: identification.distance.map(Loop::from),
-        input_noise: identification.input_noise.map(Moved::from),
-        innovations: examination.innovations.map(|w| Innovations {
-            foretold: w.foretold,
-            ljung_box: w.ljung_box,
-            p_value: w.p_value,
-            lags: w.lags,
-        }),
-        warnings: identification.flags.iter().map(|flag| flag.text.to_string()).collect(),
-        flags: identification.flags.iter().map(reservation).collect(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-    };
-    stamped(SCHEMA, &page)
+    stamped(SCHEMA, &EstimateFile::of(rig, identification))
 }
 
 fn reservation(flag: &Flag) -> Reservation {

@@ -58,7 +58,7 @@ pub(crate) struct GapFile {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// `none`: nothing significant; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
     pub status: String,
     /// The effects named; of a class its likeliest member.
@@ -82,7 +82,7 @@ pub struct Verdict {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SecondOpinion {
+pub(crate) struct SecondOpinion {
     /// Diagnoses that it was fitted to.
     pub examples: usize,
     /// How common causes are taken to be.
@@ -104,7 +104,7 @@ pub struct SecondOpinion {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Weighed {
+pub(crate) struct Weighed {
     /// The effect.
     pub effect: String,
     /// Its probability.
@@ -116,7 +116,7 @@ pub struct Weighed {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Prior {
+pub(crate) struct Prior {
     /// The effect.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     pub effect: f64,
@@ -129,7 +129,7 @@ pub struct Prior {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Contribution {
+pub(crate) struct Contribution {
     /// A feature of the evidence.
     pub feature: String,
     /// Its value.
@@ -142,7 +142,7 @@ pub struct Contribution {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Refit {
+pub(crate) struct Refit {
     /// Its order.
     pub order: usize,
     /// Its delay, samples; negative where it looks ahead.
@@ -153,7 +153,7 @@ pub struct Refit {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Gap {
+pub(crate) struct Gap {
     /// Mean square simulation error on held-out records beyond the noise, over the variance of `y`.
     pub before: Interval,
     /// The same with the effects named.
@@ -174,7 +174,7 @@ pub struct Gap {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Interval {
+pub(crate) struct Interval {
     /// The estimate.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     pub estimate: f64,
@@ -185,7 +185,7 @@ pub struct Interval {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RecordGap {
+pub(crate) struct RecordGap {
     /// Its name.
     pub record: String,
     /// As above, on this record.
@@ -206,7 +206,7 @@ pub struct RecordGap {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Place {
+pub(crate) struct Place {
     /// What the map runs over.
     pub axis: String,
     /// The cell in words.
@@ -302,7 +302,7 @@ pub(crate) struct Pair {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Parameter {
+pub(crate) struct Parameter {
     /// Its name.
     pub name: String,
     /// The estimate; null where it is no finite number.

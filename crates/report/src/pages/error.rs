@@ -33,7 +33,7 @@ pub enum PageError {
     Unreadable {
         /// The path tried.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// There is no report in it.
@@ -49,7 +49,7 @@ pub enum PageError {
     Mixture {
         /// The folder asked for.
         folder: PathBuf,
-        /// What is in it.
+        /// The reports in it.
         kinds: String,
     },
     /// Its files were not written together.
@@ -60,11 +60,11 @@ pub enum PageError {
         folder: PathBuf,
         /// A file.
         one: String,
-        /// What it is of.
+        /// Its rig.
         of: String,
         /// Another.
         other: String,
-        /// What that is of.
+        /// The rig of that.
         but: String,
     },
     /// A file that the page needs is not there.
@@ -89,23 +89,25 @@ pub enum PageError {
         /// The format that is read.
         wanted: &'static str,
     },
-    /// A file does not hold what it must.
+    /// The content of a file is wrong.
     #[error("{place}: {message}")]
     #[diagnostic(help("run the command that writes this report again"))]
     Content {
         /// The file, with line and column where these are known.
         place: String,
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
     /// A figure is none.
-    #[error("{file}: is no drawing of this program")]
+    #[error("{file}: is no drawing of this program: {why}")]
     #[diagnostic(help(
-        "run the command that writes this report again: a page holds only what the program drew"
+        "run the command that writes this report again: a page holds only drawings of the program"
     ))]
     NoDrawing {
         /// The file.
         file: String,
+        /// The first thing in it that no drawing holds.
+        why: String,
     },
     /// A model cannot be read.
     #[error(transparent)]

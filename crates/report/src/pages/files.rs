@@ -1,6 +1,6 @@
 //! The files of a report: those of a command before they are written, or those of a folder.
 
-use super::PageError;
+use super::error::PageError;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;

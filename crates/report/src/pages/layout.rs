@@ -1,8 +1,9 @@
 //! How a page is put together: head, contents, sections, foot. A page only says its sections.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
 
-/// A page: what it is of, what comes of it in a sentence, and sections.
+/// A page: its kind and subject, the outcome in a sentence, and sections.
 pub(super) struct Page {
     kind: &'static str,
     title: String,
@@ -16,15 +17,29 @@ struct Section {
     body: Markup,
 }
 
-/// Nothing is fetched from anywhere: a page is one file.
-const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
+/// Nothing is fetched from anywhere, and nothing runs but the page's own script: a page is one file.
+fn policy() -> String {
+    let (style, script) = (digest(STYLE), digest(SCRIPT));
+    format!("default-src 'none'; style-src '{style}'; script-src '{script}'; img-src data:")
+}
+
+/// The name of a text in a policy, `sha256-…`: its digest in base 64.
+fn digest(text: &str) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letters = Sha256::digest(text).chunks(3).fold(String::from("sha256-"), |mut letters, bytes| {
+        let bits = (0..3).fold(0, |bits, k| bits << 8 | usize::from(bytes.get(k).copied().unwrap_or(0)));
+        letters.extend((0..=bytes.len()).map(|k| char::from(LETTERS[bits >> (18 - 6 * k) & 63])));
+        letters
+    });
+    // 32 bytes are ten threes and two.
+    letters + "="
+}
+
 impl Page {
-    /// A page without sections; `kind` says what was done, `lead` what came of it.
+    /// A page without sections; `kind` names the work, `lead` its outcome.
     pub(super) fn new(kind: &'static str, title: impl Into<String>, lead: Markup) -> Self {
         Self { kind, title: title.into(), lead, sections: Vec::new() }
     }
@@ -45,7 +60,7 @@ impl Page {
                 head {
                     meta charset="utf-8";
                     meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta http-equiv="Content-Security-Policy" content=(POLICY);
+                    meta http-equiv="Content-Security-Policy" content=(policy());
                     meta name="color-scheme" content="light dark";
                     link rel="icon" href="data:,";
                     title { (self.title) " – " (self.kind) " – Switchback" }
@@ -75,5 +90,31 @@ impl Page {
             }
         };
         page.into_string() + "\n"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_digest_is_that_of_the_specification() {
+        // https://www.w3.org/TR/CSP2/#script-src-hash-usage
+        assert_eq!(digest("alert('Hello, world.');"), "sha256-qznLcsROx4GACP2dm0UCKCzCG+HiZ1guq6ZZDob/Tng=");
+    }
+
+    #[test]
+    fn a_page_lets_its_own_script_and_style_alone() {
+        let page = Page::new("kind", "title", html! {}).html();
+        assert!(
+            !page.contains("unsafe-inline")
+                && page.contains(&format!("script-src '{}'", html! { (digest(SCRIPT)) }.into_string()))
+        );
+        assert_eq!((page.matches(" style=").count(), page.matches("<script").count()), (0, 1));
+        assert!(
+            !SCRIPT.contains("</script")
+                && !STYLE.contains("</style")
+                && !(SCRIPT.to_owned() + STYLE).contains('\r')
+        );
     }
 }

@@ -1,16 +1,18 @@
-//! `index.html`: a report on one page that is one file. It shows what the files beside it hold, and nothing is simulated for it, so that
-//! `switchback report` draws it again.
+//! `index.html`: a report on one page that is one file. It shows the content of the files beside it, and nothing is simulated for it, so
+//! that `switchback report` draws it again.
 //!
-//! | file | what it is for |
+//! | file | purpose |
 //! |---|---|
 //! | `layout` | how every page is put together: head, contents, sections, foot |
-//! | `style.css`, `script.js` | how it looks, and what the pointer and the keys do |
-//! | `table`, `chart`, `sheet` | sortable tables, charts of the page, figures that are files |
-//! | `files` | the files of a report, in memory or in a folder, and which report they are |
+//! | `style.css`, `script.js` | how it looks, and how it answers the pointer and the keys |
+//! | `table` | sortable tables |
+//! | `sheet`, `drawing` | figures of [`plots`], from files and drawn anew; both are read and written again |
+//! | `series` | sections of series.csv |
+//! | `files` | the files of a report, in memory or in a folder, and the kind of report they are |
 //! | `study` | the page of each kind of report, which only says its sections |
 
-mod chart;
 mod diagnosis;
+mod drawing;
 mod error;
 mod examination;
 mod files;
@@ -32,9 +34,6 @@ use switchback_study::results::{self, Results};
 
 /// Name of the page.
 pub const INDEX: &str = "index.html";
-
-/// Half the width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 
 /// The results of a study among some files.
 ///

@@ -30,7 +30,7 @@ enum Scale {
 pub(crate) struct Tick {
     /// The value marked.
     pub at: f64,
-    /// What is written there; nothing at a minor tick.
+    /// The number written there; none at a minor tick.
     pub label: Option<String>,
 }
 
@@ -104,6 +104,15 @@ impl Axis {
         self.high
     }
 
+    /// How places grow with values, and both ends, as a script reads them.
+    pub fn words(&self) -> String {
+        let scale = match self.scale {
+            Scale::Linear | Scale::Percent | Scale::Rows => "linear",
+            Scale::Decades | Scale::Doublings => "logarithmic",
+        };
+        format!("{scale} {} {}", self.low, self.high)
+    }
+
     /// Whether a value lies between the ends.
     pub(crate) fn holds(&self, x: f64) -> bool {
         (self.low.min(self.high)..=self.high.max(self.low)).contains(&x)
@@ -114,7 +123,7 @@ impl Axis {
         x.clamp(self.low.min(self.high), self.high.max(self.low))
     }
 
-    /// Place of a value: 0 at the lower end, 1 at the upper; `None` for what a logarithmic axis cannot hold.
+    /// Place of a value: 0 at the lower end, 1 at the upper; `None` for a value without a logarithm on a logarithmic axis.
     pub(crate) fn place(&self, x: f64) -> Option<f64> {
         match self.scale {
             Scale::Linear | Scale::Percent | Scale::Rows => Some((x - self.low) / (self.high - self.low)),
@@ -234,6 +243,12 @@ mod tests {
     #[test]
     fn doublings_are_marked_and_nothing_between() {
         assert_eq!(labels(&Axis::doublings([0.5, 4.0])), ["0.5", "1", "2", "4"]);
+    }
+
+    #[test]
+    fn a_script_reads_scale_and_ends() {
+        assert_eq!(Axis::between(-0.5, 10.0).words(), "linear -0.5 10");
+        assert!(Axis::doublings([1.0, 4.0]).words().starts_with("logarithmic 0."));
     }
 
     #[test]

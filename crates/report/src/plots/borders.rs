@@ -99,7 +99,7 @@ fn axes(curve: &[&Cell], truth: Option<&BorderCurve>) -> (Axis, Axis) {
     (Axis::linear(x), Axis::linear(wide.chain([tight.low(), tight.high()])))
 }
 
-fn contents(panel: &Panel<'_, '_>, curve: &[&Cell], truth: Option<&BorderCurve>) {
+fn contents(panel: &Panel<'_>, curve: &[&Cell], truth: Option<&BorderCurve>) {
     let (first, last) = (curve.first(), curve.last());
     for (group, colour, aside) in BORDERS {
         if let Some(cell) = first.filter(|f| last.is_some_and(|l| l.samples > f.samples)) {

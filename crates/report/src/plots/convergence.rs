@@ -208,7 +208,7 @@ struct Curve<'r> {
 
 impl<'r> Curve<'r> {
     /// The limit of a plain study: twice the Monte-Carlo error of the bias without control variate, at the largest `m`.
-    fn draw_floor(&self, panel: &Panel<'_, '_>) {
+    fn draw_floor(&self, panel: &Panel<'_>) {
         panel.dashes(&self.floor(), Dash::Dashes, Pen::data(tint(self.colour, PALE)));
     }
 
@@ -218,11 +218,11 @@ impl<'r> Curve<'r> {
     }
 
     /// Broadly behind the marks, so that both show where they agree.
-    fn draw_theory(&self, panel: &Panel<'_, '_>) {
+    fn draw_theory(&self, panel: &Panel<'_>) {
         panel.line(&self.exact(|p| p.theory_bias), Pen::broad(tint(self.colour, PALE)));
     }
 
-    fn draw_bias(&self, panel: &Panel<'_, '_>) {
+    fn draw_bias(&self, panel: &Panel<'_>) {
         let marks = self.pooled(Parameter::best_bias);
         let told = |n: f64| self.at(n).all(|cell| self.is_told_from_zero(cell));
         let law = !self.has(|p| p.theory_bias.is_some());
@@ -237,19 +237,19 @@ impl<'r> Curve<'r> {
     }
 
     /// The bound broadly behind, theory upon it.
-    fn draw_limits(&self, panel: &Panel<'_, '_>) {
+    fn draw_limits(&self, panel: &Panel<'_>) {
         panel.line(&self.exact(|p| p.bound_sd), Pen::broad(tint(self.colour, PALE)));
         panel.line(&self.exact(|p| p.theory_sd), Pen::hair(self.colour));
     }
 
-    fn draw_sd(&self, panel: &Panel<'_, '_>) {
+    fn draw_sd(&self, panel: &Panel<'_>) {
         for (n, sd) in self.pooled(Parameter::best_sd) {
             panel.mark(n, sd.middle, sd.positive_ends(), self.mark());
         }
     }
 
     /// The marks alone, in grey and further to the left.
-    fn draw_behind(&self, panel: &Panel<'_, '_>, measure: Measure) {
+    fn draw_behind(&self, panel: &Panel<'_>, measure: Measure) {
         let marks = match measure {
             Measure::Bias => self.pooled(Parameter::best_bias),
             Measure::Sd => self.pooled(Parameter::best_sd),

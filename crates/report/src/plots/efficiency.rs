@@ -79,7 +79,7 @@ fn points(rows: &[Row<'_>]) -> Vec<usize> {
     thinned(&points, OKABE_ITO.len())
 }
 
-fn draw(canvas: &Canvas<'_>, frames: &Frames, rows: &[Row<'_>], points: &[usize]) {
+fn draw(canvas: &Canvas, frames: &Frames, rows: &[Row<'_>], points: &[usize]) {
     let ((left, top), (width, height)) = (frames.corner(0, 0), frames.size());
     let size = (width - MEDIAN, height);
     let ends = rows.iter().flat_map(|r| &r.figures).flat_map(|(_, m)| {
@@ -115,7 +115,7 @@ fn draw(canvas: &Canvas<'_>, frames: &Frames, rows: &[Row<'_>], points: &[usize]
     }
 }
 
-fn marks(panel: &Panel<'_, '_>, i: usize, row: &Row<'_>, points: &[usize]) {
+fn marks(panel: &Panel<'_>, i: usize, row: &Row<'_>, points: &[usize]) {
     let looks = points.iter().zip(OKABE_ITO).zip(Shape::ALL.into_iter().cycle());
     for (k, ((m, colour), shape)) in looks.enumerate() {
         let figures: Vec<_> = row.figures.iter().filter(|(s, _)| s.points == *m).collect();

@@ -152,7 +152,7 @@ impl<'r> Forest<'r> {
         entries
     }
 
-    fn draw(&self, canvas: &Canvas<'_>, frames: &Frames, (pairs, lines): (&Pairs<'_>, f64)) {
+    fn draw(&self, canvas: &Canvas, frames: &Frames, (pairs, lines): (&Pairs<'_>, f64)) {
         let (size, rows) = (frames.size(), self.rows.len());
         for (c, column) in Column::ALL.into_iter().enumerate() {
             let corner = frames.corner(0, c);
@@ -232,7 +232,7 @@ impl<'r> Forest<'r> {
     }
 }
 
-fn draw_told(panel: &Panel<'_, '_>, row: usize, told: Option<Told>, mark: Mark) {
+fn draw_told(panel: &Panel<'_>, row: usize, told: Option<Told>, mark: Mark) {
     let Some(told) = told else { return };
     let y = row as f64 + 0.5;
     let behind = Mark { pen: Pen::broad(tint(mark.pen.colour, PALE)), radius: 0.0, ..mark };

@@ -1,17 +1,22 @@
-//! What every figure must keep to, read from its SVG.
+//! Rules that every figure keeps to, read from its SVG.
 
 use super::style::{TextLook, minus};
 
-/// Whether all marks and texts are on the page, and all texts keep to the style.
+/// Whether all marks and texts are on the page, all texts keep to the style, and every legend entry that hides a series has one.
 ///
 /// # Errors
-/// What does not.
+/// The first that does not.
 pub(crate) fn check(svg: &str) -> Result<(), String> {
     let header = svg.split('>').next().ok_or("no SVG")?;
     let page = numbers(attribute(header, "viewBox").ok_or("no page")?);
     let inside = |x: f64, y: f64| (page[0]..=page[2]).contains(&x) && (page[1]..=page[3]).contains(&y);
     if !header.contains("role=\"img\" aria-label=\"") {
         return Err("a screen reader finds no name".to_owned());
+    }
+    for hidden in svg.split(" data-hides=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        if !svg.contains(&format!("<g data-series=\"{hidden}\"")) {
+            return Err(format!("no series is called {hidden}"));
+        }
     }
     let mut texts = 0;
     for (at, element) in svg.match_indices('<').map(|(at, _)| (at, &svg[at..])) {
@@ -75,8 +80,8 @@ fn numbers(text: &str) -> Vec<f64> {
 fn what_leaves_the_page_is_found() {
     use super::canvas::draw;
     use super::style::{INK, Pen};
-    let page = |paint: fn(&super::canvas::Canvas<'_>)| draw((100.0, 50.0), "a page", paint);
-    let word = |canvas: &super::canvas::Canvas<'_>| canvas.text("a word", (10.0, 20.0), TextLook::label());
+    let page = |paint: fn(&super::canvas::Canvas)| draw((100.0, 50.0), "a page", paint);
+    let word = |canvas: &super::canvas::Canvas| canvas.text("a word", (10.0, 20.0), TextLook::label());
     assert_eq!(check(&page(word)), Ok(()));
     assert!(check(&page(|c| c.text("a word too long for it", (10.0, 20.0), TextLook::label()))).is_err());
     assert!(check(&page(|c| c.text("upwards and away", (10.0, 20.0), TextLook::label().upwards()))).is_err());

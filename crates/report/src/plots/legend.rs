@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Dash, Towards};
 use super::style::{Pen, RADIUS, Shape, TextLook};
 use plotters::style::RGBColor;
 
-/// What stands beside a legend's text.
+/// The picture beside a legend's text.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Sample {
     /// A mark, filled or hollow.
@@ -19,23 +19,31 @@ pub(crate) enum Sample {
     Bar(Pen),
     /// A filled rectangle.
     Patch(RGBColor),
-    /// What lies beyond the frame.
+    /// A value beyond the frame.
     Arrow(Towards, RGBColor),
 }
 
 /// One entry.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
-    /// What the figure shows.
+    /// The picture.
     pub sample: Sample,
-    /// What it means.
+    /// Its meaning.
     pub text: String,
+    /// The series that a reader hides and shows by the entry.
+    pub hides: Option<String>,
 }
 
 impl Entry {
     /// An entry.
     pub(crate) fn new(sample: Sample, text: impl Into<String>) -> Self {
-        Self { sample, text: text.into() }
+        Self { sample, text: text.into(), hides: None }
+    }
+
+    /// The same for a series that a reader hides and shows by it.
+    #[must_use]
+    pub(crate) fn hiding(self, series: impl Into<String>) -> Self {
+        Self { hides: Some(series.into()), ..self }
     }
 
     /// A filled disc.
@@ -88,18 +96,28 @@ fn entry_width(entry: &Entry) -> f64 {
 }
 
 /// Draws the lines, the first at `top`.
-pub(crate) fn draw(canvas: &Canvas<'_>, (left, top): (f64, f64), lines: &[Vec<&Entry>]) {
+pub(crate) fn draw(canvas: &Canvas, (left, top): (f64, f64), lines: &[Vec<&Entry>]) {
     for (i, line) in lines.iter().enumerate() {
         let (mut x, y) = (left, top + i as f64 * LINE);
         for entry in line {
-            sample(canvas, (x, y), entry.sample);
-            canvas.text(&entry.text, (x + SAMPLE_WIDTH + BESIDE, y), TextLook::label());
+            let draw = || {
+                sample(canvas, (x, y), entry.sample);
+                canvas.text(&entry.text, (x + SAMPLE_WIDTH + BESIDE, y), TextLook::label());
+            };
+            match &entry.hides {
+                None => draw(),
+                Some(series) => canvas.group(&[("hides", series)], || {
+                    let right = x + entry_width(entry) - GAP + BESIDE;
+                    canvas.ground((x - BESIDE, y - LINE / 2.0), (right, y + LINE / 2.0));
+                    draw();
+                }),
+            }
             x += entry_width(entry);
         }
     }
 }
 
-fn sample(canvas: &Canvas<'_>, (x, y): (f64, f64), sample: Sample) {
+fn sample(canvas: &Canvas, (x, y): (f64, f64), sample: Sample) {
     let ends = [(x, y), (x + SAMPLE_WIDTH, y)];
     let middle = (x + SAMPLE_WIDTH / 2.0, y);
     match sample {

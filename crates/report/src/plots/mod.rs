@@ -23,15 +23,12 @@ pub(crate) mod panel;
 pub mod power;
 mod quantiles;
 mod ratios;
+pub(crate) mod runs;
 mod selection;
 pub(crate) mod sheet;
 mod spread;
 pub(crate) mod style;
 mod zip;
-
-pub(crate) use identify::series::thinned;
-pub(crate) use identify::series::worst_window;
-pub use quantiles::quantiles;
 
 use against::{Against, Pairs};
 use convergence::Measure;
@@ -112,6 +109,8 @@ pub(crate) fn labelled(label: &str, otherwise: &str) -> String {
         _ => label.to_owned(),
     }
 }
+
+pub use quantiles::quantiles;
 
 #[cfg(test)]
 mod tests {

@@ -99,7 +99,7 @@ fn axes(pairs: &Pairs<'_>, ratio: Ratio) -> (Axis, Axis) {
     (samples_axis(groups().map(|g| g.samples), pairs.sides.len()), Axis::logarithmic(ends.chain([1.0])))
 }
 
-fn contents(panel: &Panel<'_, '_>, pairs: &Pairs<'_>, group: Group, ratio: Ratio) {
+fn contents(panel: &Panel<'_>, pairs: &Pairs<'_>, group: Group, ratio: Ratio) {
     panel.level(1.0, Some(Dash::Dashes), Pen::data(GREY));
     let middle = (pairs.sides.len() - 1) as f64 / 2.0;
     let mut is_empty = true;

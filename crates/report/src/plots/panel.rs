@@ -6,14 +6,27 @@ use super::style::{FAINT, GREY, Pen, Shape, TextLook, rounded};
 use plotters::style::RGBColor;
 
 /// A diagram's place on the sheet and its axes.
-pub(crate) struct Panel<'c, 's> {
-    canvas: &'c Canvas<'s>,
+pub(crate) struct Panel<'c> {
+    canvas: &'c Canvas,
     /// Top left corner of the frame.
     corner: Point,
     /// Width and height of the frame.
     size: (f64, f64),
     x: Axis,
     y: Axis,
+    /// Number of the frame, where a reader reads values off.
+    number: Option<usize>,
+}
+
+/// How a reader reads values off a diagram, and the names of its axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reading<'a> {
+    /// Name of the horizontal axis.
+    pub x: &'a str,
+    /// Name of the vertical axis.
+    pub y: &'a str,
+    /// Whether the horizontal axis can be stretched; all such diagrams of a figure stretch together.
+    pub zooms: bool,
 }
 
 /// At which axes numbers stand; of diagrams that share an axis only the outer ones need them.
@@ -38,8 +51,9 @@ const LEAST_TICKS: usize = 4;
 const NUMBERS_BELOW: f64 = 14.0;
 const NUMBERS_LEFT: f64 = 5.0;
 const NAME_BELOW: f64 = 34.0;
+const NAME_LEFT: f64 = 62.0;
 const TITLE_ABOVE: f64 = 13.0;
-/// Half the width of a bar's ends, and length of a mark for what lies beyond the frame, pixels.
+/// Half the width of a bar's ends, and length of a mark for a value beyond the frame, pixels.
 const CAP: f64 = 3.0;
 const ARROW: f64 = 8.0;
 
@@ -48,7 +62,7 @@ const ARROW: f64 = 8.0;
 pub(crate) struct Mark {
     /// Colour and thickness of the bar.
     pub pen: Pen,
-    /// What stands at the figure.
+    /// The mark at the figure.
     pub shape: Shape,
     /// Its radius; zero for a bar alone.
     pub radius: f64,
@@ -71,55 +85,95 @@ impl Mark {
     }
 }
 
-impl<'c, 's> Panel<'c, 's> {
+impl<'c> Panel<'c> {
     /// Draws the empty diagram: grid, ticks, numbers and frame.
-    pub(crate) fn new(canvas: &'c Canvas<'s>, corner: Point, size: (f64, f64), axes: (Axis, Axis)) -> Self {
+    pub(crate) fn new(canvas: &'c Canvas, corner: Point, size: (f64, f64), axes: (Axis, Axis)) -> Self {
         Self::with_numbers(canvas, (corner, size), axes, Numbers::BOTH)
     }
 
     /// The same with numbers at some of the axes only.
     pub(crate) fn with_numbers(
-        canvas: &'c Canvas<'s>,
+        canvas: &'c Canvas,
         (corner, size): (Point, (f64, f64)),
         axes: (Axis, Axis),
         numbers: Numbers,
     ) -> Self {
-        let panel = Self { canvas, corner, size, x: axes.0, y: axes.1 };
-        panel.grid(numbers);
-        let opposite = (corner.0 + size.0, corner.1 + size.1);
-        canvas.frame(corner, opposite, Pen::hair(GREY));
+        let panel = Self { canvas, corner, size, x: axes.0, y: axes.1, number: None };
+        panel.x_ticks(numbers.x);
+        panel.y_ticks(numbers.y);
+        canvas.frame(corner, panel.opposite(), Pen::hair(GREY));
         panel
     }
 
-    fn grid(&self, numbers: Numbers) {
-        let ((left, top), (width, height)) = (self.corner, self.size);
-        let (right, bottom) = (left + width, top + height);
-        let look = TextLook::number();
+    /// Draws the empty diagram with numbers and names at both axes. A reader reads off its values and hides its [series](Self::series).
+    pub(crate) fn readable(
+        canvas: &'c Canvas,
+        (corner, size): (Point, (f64, f64)),
+        axes: (Axis, Axis),
+        reading: Reading<'_>,
+    ) -> Self {
+        let number = canvas.next_frame();
+        let panel = Self { canvas, corner, size, x: axes.0, y: axes.1, number: Some(number) };
+        let number = number.to_string();
+        canvas.group(&[("ticks", &number)], || panel.x_ticks(true));
+        panel.y_ticks(true);
+        canvas.frame(corner, panel.opposite(), Pen::hair(GREY));
+        panel.x_name(reading.x);
+        panel.y_name(reading.y, NAME_LEFT);
+        let (x, y) = (panel.x.words(), panel.y.words());
+        let mut data = vec![("frame", &*number), ("x", &x), ("y", &y), ("name", reading.x)];
+        if reading.zooms {
+            data.push(("zooms", ""));
+        }
+        canvas.frame_data(corner, panel.opposite(), &data);
+        panel
+    }
+
+    /// Draws a series, which a reader hides and shows by its key where the diagram is readable.
+    pub(crate) fn series(&self, key: &str, draw: impl FnOnce()) {
+        match self.number {
+            Some(number) => self.canvas.series(key, number, draw),
+            None => draw(),
+        }
+    }
+
+    fn opposite(&self) -> Point {
+        (self.corner.0 + self.size.0, self.corner.1 + self.size.1)
+    }
+
+    fn x_ticks(&self, has_numbers: bool) {
+        let ((left, top), (right, bottom)) = (self.corner, self.opposite());
+        let width = right - left;
         let mut comb = vec![(left, bottom)];
         for tick in self.x.ticks(((width / NUMBER.0) as usize).max(LEAST_TICKS)) {
             let Some(x) = self.x.place(tick.at).map(|p| left + p * width) else { continue };
             comb.extend([(x, bottom), (x, bottom - length(&tick)), (x, bottom)]);
             let Some(label) = tick.label else { continue };
             self.canvas.line(&[(x, top), (x, bottom)], Pen::hair(FAINT));
-            if numbers.x {
-                self.canvas.text(&label, (x, bottom + NUMBERS_BELOW), look.middle());
+            if has_numbers {
+                self.canvas.text(&label, (x, bottom + NUMBERS_BELOW), TextLook::number().middle());
             }
         }
         self.canvas.line(&comb, Pen::hair(GREY));
+    }
+
+    fn y_ticks(&self, has_numbers: bool) {
+        let ((left, top), (right, bottom)) = (self.corner, self.opposite());
+        let height = bottom - top;
         let mut comb = vec![(left, bottom)];
         for tick in self.y.ticks((height / NUMBER.1) as usize) {
             let Some(y) = self.y.place(tick.at).map(|p| bottom - p * height) else { continue };
             comb.extend([(left, y), (left + length(&tick), y), (left, y)]);
             let Some(label) = tick.label else { continue };
             self.canvas.line(&[(left, y), (right, y)], Pen::hair(FAINT));
-            if numbers.y {
-                self.canvas.text(&label, (left - NUMBERS_LEFT, y), look.end());
+            if has_numbers {
+                self.canvas.text(&label, (left - NUMBERS_LEFT, y), TextLook::number().end());
             }
         }
         self.canvas.line(&comb, Pen::hair(GREY));
     }
 
-    /// Place on the sheet, inside the frame or not; `None` for what a logarithmic axis cannot hold.
+    /// Place on the sheet, inside the frame or not; `None` for a value without a logarithm on a logarithmic axis.
     pub(crate) fn place(&self, x: f64, y: f64) -> Option<Point> {
         let (px, py) = (self.x.place(x)?, self.y.place(y)?);
         Some((self.corner.0 + px * self.size.0, self.corner.1 + (1.0 - py) * self.size.1))
@@ -254,6 +308,13 @@ impl<'c, 's> Panel<'c, 's> {
         self.canvas.arrow(at_edge, towards, ARROW, mark.pen.colour);
     }
 
+    /// Text that the pointer finds at a pair of values, within so many pixels.
+    pub(crate) fn hint(&self, (x, y): (f64, f64), radius: f64, text: &str) {
+        if let Some(place) = self.place(x, y).filter(|_| self.x.holds(x) && self.y.holds(y)) {
+            self.canvas.hint(place, radius, text);
+        }
+    }
+
     /// A text at a pair of values, so many pixels beside it.
     pub(crate) fn text(&self, text: &str, (x, y): (f64, f64), (right, down): (f64, f64), look: TextLook) {
         if let Some((px, py)) = self.place(x, y) {
@@ -339,7 +400,7 @@ mod tests {
         assert_eq!(cut((-5.0, 5.0), (-1.0, 9.0)), None);
     }
 
-    fn drawn(paint: impl FnOnce(&Panel<'_, '_>)) -> (usize, usize) {
+    fn drawn(paint: impl FnOnce(&Panel<'_>)) -> (usize, usize) {
         let axes = (Axis::between(0.0, 10.0), Axis::between(0.0, 10.0));
         let svg = draw((200.0, 200.0), "one diagram", |canvas| {
             paint(&Panel::new(canvas, (50.0, 50.0), (100.0, 100.0), axes));
@@ -358,6 +419,23 @@ mod tests {
         // The figure is beyond, without and with a bar that reaches in.
         assert_eq!(drawn(|panel| panel.mark(5.0, 15.0, (15.0, 15.0), mark)), (0, 1));
         assert_eq!(drawn(|panel| panel.level_mark((8.0, 22.0), 15.0, 5.0, mark)), (0, 1));
+    }
+
+    #[test]
+    fn a_script_finds_frames_series_and_marks() {
+        let axes = (Axis::between(-2.0, 10.0), Axis::logarithmic([1.0, 100.0]));
+        let reading = Reading { x: "time [s]", y: "a < b", zooms: true };
+        let svg = draw((300.0, 300.0), "one diagram", |canvas| {
+            let panel = Panel::readable(canvas, ((80.0, 50.0), (100.0, 100.0)), axes, reading);
+            panel.series("a & b", || panel.line(&[(0.0, 1.0), (5.0, 10.0)], Pen::data(INK)));
+            panel.series("marks", || panel.mark(5.0, 5.0, (4.0, 6.0), Mark::disc(Pen::data(INK), RADIUS)));
+            panel.hint((99.0, 1.0), RADIUS, "beyond the frame");
+        });
+        assert!(svg.contains("<g data-series=\"a &amp; b\" data-in=\"0\">\n<polyline"), "{svg}");
+        assert!(svg.contains("data-frame=\"0\" data-x=\"linear -2 10\" data-y=\"logarithmic 0."), "{svg}");
+        assert!(svg.contains("data-zooms=\"\"") && svg.contains("<g data-ticks=\"0\">"), "{svg}");
+        assert!(svg.contains("<circle class=\"hint\" data-of=\"marks\"") && !svg.contains("beyond"), "{svg}");
+        assert_eq!(crate::plots::inspect::check(&svg), Ok(()));
     }
 
     #[test]

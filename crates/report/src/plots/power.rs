@@ -51,7 +51,7 @@ pub fn figure(power: &Power, rig: &str) -> String {
 }
 
 /// What an effect is called, and the interval of its size.
-fn name(canvas: &Canvas<'_>, frames: &Frames, (index, axis): (usize, Axis), finding: &Finding) {
+fn name(canvas: &Canvas, frames: &Frames, (index, axis): (usize, Axis), finding: &Finding) {
     let ((left, top), width) = (frames.corner(0, 0), frames.size().0);
     let middle = top + ROW * (index as f64 + 0.5);
     canvas.text(finding.effect, (left - 10.0, middle), TextLook::label().end());
@@ -66,7 +66,7 @@ fn name(canvas: &Canvas<'_>, frames: &Frames, (index, axis): (usize, Axis), find
     }
 }
 
-fn row(canvas: &Canvas<'_>, panel: &Panel<'_, '_>, (index, axis): (usize, Axis), finding: &Finding) {
+fn row(canvas: &Canvas, panel: &Panel<'_>, (index, axis): (usize, Axis), finding: &Finding) {
     let middle = index as f64 + 0.5;
     let outcome = finding.outcome();
     if let Outcome::NotPlanted(_) = outcome {

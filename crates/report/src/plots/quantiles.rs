@@ -59,7 +59,7 @@ pub fn quantiles(comparison: &Comparison, title: &str) -> String {
     })
 }
 
-fn contents(panel: &Panel<'_, '_>, shown: &[&Difference], threshold: f64) {
+fn contents(panel: &Panel<'_>, shown: &[&Difference], threshold: f64) {
     panel.line(&[(-5.0, -5.0), (5.0, 5.0)], Pen::data(GREY));
     for limit in [-threshold, threshold] {
         panel.dashes(&[(-5.0, limit), (5.0, limit)], Dash::Dashes, Pen::hair(tint(INK, PALE)));

@@ -122,7 +122,7 @@ fn axes(case: &CaseSelection<'_>, groups: &[Group], row: Row) -> (Axis, Axis) {
     (samples_axis(samples, case.methods.len()), y)
 }
 
-fn contents(panel: &Panel<'_, '_>, case: &CaseSelection<'_>, group: Group, row: Row) {
+fn contents(panel: &Panel<'_>, case: &CaseSelection<'_>, group: Group, row: Row) {
     panel.level(1.0, Some(Dash::Dashes), Pen::data(GREY));
     let samples = case.samples();
     let middle = (case.methods.len() - 1) as f64 / 2.0;

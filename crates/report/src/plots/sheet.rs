@@ -3,18 +3,18 @@
 use super::axis::Axis;
 use super::canvas::{Canvas, Point, draw};
 use super::legend::{self, Entry};
-use super::panel::{Numbers, Panel};
+use super::panel::{Numbers, Panel, Reading};
 use super::style::{GREY, MARGIN, TextLook, WIDTH};
 
-/// What a page says and how its diagrams are arranged.
+/// Texts of a page and arrangement of its diagrams.
 pub(crate) struct Sheet {
     /// Width, pixels.
     pub width: f64,
-    /// What the figure shows.
+    /// The subject of the figure.
     pub title: String,
     /// How it is to be read; an entry begins a line, and goes on on the next where it is long.
     pub notes: Vec<String>,
-    /// What its marks mean.
+    /// The meaning of its marks.
     pub legend: Vec<Entry>,
     /// The arrangement.
     pub grid: Grid,
@@ -22,7 +22,7 @@ pub(crate) struct Sheet {
 
 /// Rows and columns of diagrams of one size.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Grid {
+pub struct Grid {
     /// Number of columns.
     pub columns: usize,
     /// Number of rows.
@@ -62,7 +62,7 @@ impl Sheet {
     }
 
     /// Draws the page; `paint` gets the canvas and the frames' places, and fills them.
-    pub(crate) fn render(&self, paint: impl FnOnce(&Canvas<'_>, &Frames)) -> String {
+    pub(crate) fn render(&self, paint: impl FnOnce(&Canvas, &Frames)) -> String {
         let room = self.width - 2.0 * MARGIN;
         let wrapped = |look: TextLook, text: &str| -> Vec<(String, TextLook)> {
             look.wrapped(text, room).into_iter().map(|line| (line, look)).collect()
@@ -125,28 +125,39 @@ impl Frames {
     }
 
     /// The empty diagram at a row and column, with numbers at both axes.
-    pub(crate) fn panel<'c, 's>(
+    pub(crate) fn panel<'c>(
         &self,
-        canvas: &'c Canvas<'s>,
+        canvas: &'c Canvas,
         (row, column): (usize, usize),
         axes: (Axis, Axis),
-    ) -> Panel<'c, 's> {
+    ) -> Panel<'c> {
         Panel::new(canvas, self.corner(row, column), self.size(), axes)
     }
 
     /// The empty diagram at a row and column of a grid whose rows and columns share their axes: numbers at the outer ones only.
-    pub(crate) fn inner_panel<'c, 's>(
+    pub(crate) fn inner_panel<'c>(
         &self,
-        canvas: &'c Canvas<'s>,
+        canvas: &'c Canvas,
         (row, column): (usize, usize),
         axes: (Axis, Axis),
-    ) -> Panel<'c, 's> {
+    ) -> Panel<'c> {
         let numbers = Numbers { x: row + 1 == self.grid.rows, y: column == 0 };
         Panel::with_numbers(canvas, (self.corner(row, column), self.size()), axes, numbers)
     }
 
-    /// Writes what a row shows upwards at its left, and below it in grey what more there is to say.
-    pub(crate) fn name_row(&self, canvas: &Canvas<'_>, row: usize, (name, more): (&str, &str)) {
+    /// The empty diagram at a row and column whose values a reader reads off.
+    pub(crate) fn readable<'c>(
+        &self,
+        canvas: &'c Canvas,
+        (row, column): (usize, usize),
+        axes: (Axis, Axis),
+        reading: Reading<'_>,
+    ) -> Panel<'c> {
+        Panel::readable(canvas, (self.corner(row, column), self.size()), axes, reading)
+    }
+
+    /// Writes the name of a row upwards at its left, and beside it in grey a remark.
+    pub(crate) fn name_row(&self, canvas: &Canvas, row: usize, (name, more): (&str, &str)) {
         let middle = self.corner(row, 0).1 + self.size().1 / 2.0;
         let first = MARGIN;
         canvas.text(name, (first, middle), TextLook::heading().middle().upwards());

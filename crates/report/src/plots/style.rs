@@ -8,7 +8,7 @@ pub(crate) const WIDTH: f64 = 960.0;
 /// Width of a figure of one diagram, pixels.
 pub(crate) const NARROW: f64 = 640.0;
 
-/// Room between the edge of a page and what stands on it, pixels.
+/// Room between the edge of a page and its contents, pixels.
 pub(crate) const MARGIN: f64 = 18.0;
 
 /// Okabe and Ito's palette (jfly.uni-koeln.de/color) without black and yellow, which serve badly as data on white.
@@ -24,7 +24,7 @@ pub(crate) const OKABE_ITO: [RGBColor; 6] = [
 /// Text, frames and truth.
 pub(crate) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 
-/// Secondary text, ticks, and what was measured.
+/// Secondary text, ticks, and measured values.
 pub(crate) const GREY: RGBColor = RGBColor(0x6E, 0x6E, 0x6E);
 
 /// Grid lines and the ground of bars.
@@ -45,10 +45,10 @@ pub(crate) const BEFORE: RGBColor = OKABE_ITO[1];
 /// … and after.
 pub(crate) const AFTER: RGBColor = OKABE_ITO[0];
 
-/// What is as it should be: found, right, within chance.
+/// Things as they should be: found, right, within chance.
 pub(crate) const GOOD: RGBColor = OKABE_ITO[0];
 
-/// What is not: missed, wrong, beyond chance.
+/// Things as they should not be: missed, wrong, beyond chance.
 pub(crate) const BAD: RGBColor = OKABE_ITO[1];
 
 /// How strongly a colour is mixed with the background where it stands behind the same colour in full.
@@ -84,7 +84,7 @@ impl Pen {
         Self::new(colour, 13)
     }
 
-    /// What stands behind data, and is seen where both coincide.
+    /// Lines behind data, seen where both coincide.
     pub(crate) const fn broad(colour: RGBColor) -> Self {
         Self::new(colour, 40)
     }
@@ -111,7 +111,7 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a text looks: what it is for, and how it stands. Vertically it is centred on its point.
+/// How a text looks: its purpose, and its place. Vertically it is centred on its point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TextLook {
     /// Height of the letters' box, pixels.
@@ -131,7 +131,7 @@ impl TextLook {
         Self { size, colour: INK, anchor: Anchor::Start, bold: false, upwards: false }
     }
 
-    /// What the figure shows.
+    /// The subject of a figure.
     pub(crate) const fn title() -> Self {
         Self { bold: true, ..Self::new(23.0) }
     }
@@ -146,7 +146,7 @@ impl TextLook {
         Self::new(16.0)
     }
 
-    /// What a diagram shows.
+    /// The subject of a diagram.
     pub(crate) const fn heading() -> Self {
         Self { bold: true, ..Self::new(16.0) }
     }
@@ -227,7 +227,7 @@ impl TextLook {
     }
 }
 
-/// What stands at a point of data.
+/// Shapes of marks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// A disc.
@@ -238,10 +238,12 @@ pub(crate) enum Shape {
     Diamond,
     /// A triangle on its side.
     Triangle,
+    /// Two lines that cross.
+    Cross,
 }
 
 impl Shape {
-    /// In the order in which they are used up.
+    /// Those with an inside, in the order in which they are used up.
     pub(crate) const ALL: [Self; 4] = [Self::Disc, Self::Square, Self::Diamond, Self::Triangle];
 }
 

@@ -113,12 +113,12 @@ fn centres(counts: &IntervalCounts, lines: usize) -> Vec<f64> {
     centres
 }
 
-fn zip<'c, 's>(
-    canvas: &'c Canvas<'s>,
+fn zip<'c>(
+    canvas: &'c Canvas,
     frames: &Frames,
     (row, column): (usize, usize),
     (selection, n): (&Selection<'_>, usize),
-) -> Panel<'c, 's> {
+) -> Panel<'c> {
     let axes = (Axis::between(-REACH, REACH), Axis::percent(0.0, 1.0));
     let place = (frames.corner(row, column), frames.size());
     let panel = Panel::with_numbers(canvas, place, axes, Numbers { x: true, y: column == 0 });
@@ -157,7 +157,7 @@ fn mean_coverage(cell: &Cell, group: Group) -> Option<Measured> {
 }
 
 fn coverage(
-    canvas: &Canvas<'_>,
+    canvas: &Canvas,
     frames: &Frames,
     (row, column): (usize, usize),
     (selection, samples, groups): (&Selection<'_>, &[usize], &[Group]),

@@ -9,7 +9,7 @@ use crate::pulse::experiments::Experiments;
 use crate::pulse::fit::{Estimated, PulseFit, PulseFitError};
 use crate::pulse::folds::Folds;
 use crate::pulse::grouped::GroupedStatistics;
-use crate::pulse::joint::rank_free_levels;
+use crate::pulse::joint;
 use crate::pulse::lanes::FoldControl;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 
@@ -106,14 +106,15 @@ fn start(problem: &Problem, folded: &[(&PulseData, &Folds)]) -> Result<DVector<f
     let n = problem.order;
     let periods: Vec<PulseData> = folded.iter().map(|(data, folds)| one_period(data, folds)).collect();
     let experiments = Experiments::new(&periods.iter().collect::<Vec<_>>());
-    let fit = experiments.solve(&experiments.rank_free_columns())?;
+    let layout = joint::layout(&experiments);
+    let fit = experiments.solve(&layout.columns)?;
     let mut theta = DVector::zeros(problem.size());
     theta.rows_mut(0, 2 * n).copy_from(&fit.core.rows(0, 2 * n));
     theta[2 * n] = fit.core[2 * n] / (1.0 + fit.core.rows(0, n).sum());
-    for (part, levels) in problem.parts.iter().zip(rank_free_levels(&experiments, &fit)) {
-        for (level, relative) in levels.iter().enumerate() {
+    for (part, rules) in problem.parts.iter().zip(&layout.levels) {
+        for (level, rule) in rules.iter().enumerate() {
             if let Some(place) = part.place(level) {
-                theta[place] = relative.value;
+                theta[place] = rule.read(&fit, n).0;
             }
         }
     }

@@ -3,11 +3,10 @@
 use super::arrow::{Core, Equations, Locals, Regression};
 use super::columns::{ColumnPlan, ColumnValues};
 use super::factor::dot;
-use super::method::LevelRule;
 use super::statistics::LaneStatistics;
-use crate::pulse::arrow::LocalColumn;
-use crate::pulse::efficient::{CONVERGED, MOST_STEPS};
+use crate::pulse::efficient::{CONVERGED, MOST_STEPS, constrained_columns};
 use crate::pulse::experiments::Experiments;
+use crate::pulse::level_rule::LevelRule;
 use switchback_noise::lanes::{LANES, Lane, keep_apart};
 
 /// What is constant in the Gauss–Newton iteration of `efficient`.
@@ -17,43 +16,16 @@ pub(super) struct Constrained {
     plan: ColumnPlan,
     /// Right where no level is estimated.
     values: ColumnValues,
-    /// The estimated levels.
-    levels: Vec<Level>,
-}
-
-#[derive(Debug, Clone)]
-struct Level {
-    /// Its group at each lag.
-    groups: Vec<usize>,
-    /// Its local columns in the joint regression begin here.
-    first: usize,
-    plus: f64,
+    /// How the joint regression reads each estimated level: `first` and `plus` of [`LevelRule::RankOne`].
+    start: Vec<(usize, f64)>,
 }
 
 impl Constrained {
     /// For experiments whose joint regression reads its levels by `start`.
-    pub(super) fn new(experiments: &Experiments<'_>, start: Vec<LevelRule>) -> Self {
-        let n = experiments.order();
-        let inner =
-            experiments.parts.iter().enumerate().flat_map(|(e, p)| (0..p.points()).map(move |j| (e, j)));
-        let levels: Vec<Level> = inner
-            .zip(start)
-            .filter_map(|((e, j), rule)| match rule {
-                LevelRule::RankOne { first, plus } => Some(Level {
-                    groups: (1..=n).map(|lag| experiments.group(e, j, lag)).collect(),
-                    first,
-                    plus,
-                }),
-                _ => None,
-            })
-            .collect();
-        let mut columns = experiments.rank_free_columns();
-        columns.local = levels
-            .iter()
-            .map(|level| LocalColumn { support: level.groups.iter().map(|q| (*q, 0.0)).collect() })
-            .collect();
-        let (plan, values) = ColumnPlan::of(&columns, false);
-        Self { plan, values, levels }
+    pub(super) fn new(experiments: &Experiments<'_>, start: &[Vec<LevelRule>]) -> Self {
+        let (plan, values) = ColumnPlan::of(&constrained_columns(experiments), false);
+        let start = start.iter().flatten().filter_map(|rule| rule.rank_one()).collect();
+        Self { plan, values, start }
     }
 
     /// From the joint regression to convergence. A replicate that has converged stays where it is while the others go on.
@@ -71,9 +43,9 @@ impl Constrained {
         b.copy_from_slice(&start.parameters[N..2 * N]);
         let inverse = Lane::splat(1.0) / dot(&b, &b);
         let mut w: Vec<Lane> = self
-            .levels
+            .start
             .iter()
-            .map(|l| dot(&b, &locals.values[l.first..l.first + N]) * inverse + Lane::splat(l.plus))
+            .map(|&(first, plus)| dot(&b, &locals.values[first..first + N]) * inverse + Lane::splat(plus))
             .collect();
         values.copy_from(&self.values);
         let mut moving = [true; LANES];
@@ -104,10 +76,10 @@ impl Constrained {
     /// The regression linearised about `b` and `w`.
     #[inline(always)]
     fn linearise<const N: usize>(&self, values: &mut ColumnValues, b: &[Lane; N], w: &[Lane]) {
-        let (weights, _) = values.weights.as_chunks_mut::<N>();
-        for ((level, w), weights) in self.levels.iter().zip(w).zip(weights) {
+        let (groups, weights) = (self.plan.support.as_chunks::<N>().0, values.weights.as_chunks_mut::<N>().0);
+        for ((groups, w), weights) in groups.iter().zip(w).zip(weights) {
             keep_apart();
-            for (lag, (&q, b)) in level.groups.iter().zip(b).enumerate() {
+            for (lag, (&q, b)) in groups.iter().zip(b).enumerate() {
                 values.shared[q * self.plan.width + lag] = *w;
                 values.offset[q] = Lane::ZERO - *b * *w;
             }

@@ -1,9 +1,10 @@
 //! The control variate of eight replicates: the leading terms of their errors.
 
-use super::method::LaneSample;
 use super::profile_control::ProfileControl;
+use super::sample::LaneSample;
 use super::sized::{SizedWork, run};
-use super::whole::{Scratch, WholeControl};
+use super::terms::LaneTerms;
+use super::whole::WholeControl;
 use crate::pulse::GroupedStatistics;
 use crate::pulse::solution::Solution;
 use switchback_noise::lanes::{Lane, Work, keep_apart, widest};
@@ -26,17 +27,6 @@ pub(crate) struct FoldControl {
     pub(crate) responses: Vec<f64>,
     /// `Σ_p R_k,p z_p`.
     pub(crate) rest: Vec<f64>,
-}
-
-/// The leading terms of the errors of eight replicates; memory that is used again and again.
-#[derive(Debug, Clone, Default)]
-pub struct LaneTerms {
-    /// First order, one a parameter.
-    pub first: Vec<Lane>,
-    /// The second, or what the profile score holds of it.
-    pub second: Vec<Lane>,
-    pub(super) residuals: Vec<Lane>,
-    pub(super) whole: Scratch,
 }
 
 impl LaneControl {

@@ -3,7 +3,7 @@
 use switchback_noise::lanes::{LANES, Lane};
 
 /// A replicate whose pivot keeps less than this share of its diagonal entry is left to the solver that goes one by one.
-const SOUND: f64 = 1e-12;
+pub(super) const SOUND: f64 = 1e-12;
 
 /// Cholesky's lower triangle, the inverse pivots on the diagonal.
 ///

@@ -2,7 +2,8 @@
 
 use super::arrow::{Core, Locals, Regression};
 use super::factor::dot;
-use super::method::{LaneStep, LevelRule};
+use super::step::LaneStep;
+use crate::pulse::level_rule::LevelRule;
 use switchback_noise::lanes::Lane;
 
 /// What all levels of a fit share: the base, its gradient, and the step experiment's error.

@@ -1,9 +1,9 @@
 //! What the elimination of the free means makes of the errors of eight replicates, with the first order: a constant linear map of the score.
 
-use super::control::LaneTerms;
-use super::method::LaneSample;
 use super::profile::ProfilePlan;
+use super::sample::LaneSample;
 use super::statistics::LaneStatistics;
+use super::terms::LaneTerms;
 use crate::pulse::solution::{Level, Solution};
 use switchback_noise::lanes::{Lane, keep_apart};
 
@@ -52,19 +52,13 @@ struct Answer {
 impl ProfileControl {
     pub(crate) fn of(solution: &Solution) -> Self {
         let Solution { fit, columns, order, .. } = solution;
-        let means = fit.group_means(columns);
-        let lags = vec![0.0; *order];
-        let to_core = |group: usize| {
-            let probe: Vec<f64> = (0..means.len()).map(|q| f64::from(q == group)).collect();
-            fit.core_side(columns, &probe, &lags)
-        };
         let answers: Vec<_> = solution.quantities.iter().map(|q| fit.answer(columns, &q.gradient)).collect();
         let own = answers.iter().flat_map(|(_, own)| own).copied().collect();
         let mut own_end = 0;
         Self {
             reference: solution.reference,
             a: fit.core.rows(0, *order).iter().copied().collect(),
-            to_core: (0..means.len()).flat_map(|q| to_core(q).iter().copied().collect::<Vec<_>>()).collect(),
+            to_core: fit.core_sides(columns, *order),
             from_core: answers.iter().flat_map(|(core, _)| core.iter().copied()).collect(),
             parameters: answers
                 .iter()
@@ -75,7 +69,7 @@ impl ProfileControl {
                 })
                 .collect(),
             own,
-            means,
+            means: fit.group_means(columns),
             profile: ProfilePlan::of(fit, columns, *order),
             step_mean: match solution.level {
                 Level::Constant => 0.0,

@@ -1,9 +1,11 @@
 //! The whole second-order term of the errors of eight replicates, with the first.
 
-use super::control::LaneTerms;
-use super::method::LaneSample;
+use super::sample::LaneSample;
+use super::scratch::Scratch;
 use super::statistics::LaneStatistics;
+use super::terms::LaneTerms;
 use crate::pulse::GroupedStatistics;
+use crate::pulse::level_rule::LevelRule;
 use crate::pulse::solution::{Base, Level, Solution};
 use std::ops::Range;
 use switchback_noise::lanes::{Lane, keep_apart};
@@ -47,11 +49,11 @@ pub(crate) struct WholeControl {
     /// Their slopes, one row a column.
     slopes: Vec<f64>,
     bilinear: bool,
-    locals: usize,
     base: Held,
-    points: Vec<Point>,
-    /// Free means at the limit, `n` a level of rank one.
-    free_means: Vec<f64>,
+    /// How each border point is read.
+    rules: Vec<LevelRule>,
+    /// The limit's local columns.
+    local: Vec<f64>,
     /// The limit's `b`.
     b: Vec<f64>,
 }
@@ -103,31 +105,6 @@ struct Held {
     constant: bool,
 }
 
-/// How a border point is read.
-#[derive(Debug, Clone, Copy)]
-enum Point {
-    /// Not estimated but for the base.
-    Known,
-    /// A local column.
-    Local(usize),
-    /// `Σᵢ bᵢhᵢ / Σᵢ bᵢ²` of the local columns from `first` on, whose values begin at `means`.
-    RankOne { first: usize, means: usize },
-}
-
-/// Memory of a replicate's second order.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Scratch {
-    /// Mean residuals of the groups.
-    residuals: Vec<Lane>,
-    /// What stands against each group in the second order, over its count.
-    along: Vec<Lane>,
-    /// What the shared columns make of the core's change, a row each.
-    rows: Vec<Lane>,
-    /// First and second order of the local columns.
-    first: Vec<Lane>,
-    second: Vec<Lane>,
-}
-
 impl WholeControl {
     pub(crate) fn of(solution: &Solution, expected: &GroupedStatistics) -> Self {
         let Solution { fit, columns, order: n, reference, .. } = solution;
@@ -158,11 +135,6 @@ impl WholeControl {
         let means = fit.group_means(columns);
         let groups: Vec<Group> =
             (0..means.len()).map(|q| Group { mean: means[q], row: row_of(q), local: local[q] }).collect();
-        let no_lags = vec![0.0; n];
-        let to_core = |group: usize| {
-            let probe: Vec<f64> = (0..means.len()).map(|q| f64::from(q == group)).collect();
-            fit.core_side(columns, &probe, &no_lags).iter().copied().collect::<Vec<_>>()
-        };
         let lag = |q: usize, i: usize| expected.sum(q, i + 1) / expected.count(q);
         let within = |k: usize| {
             let (i, l) = (k / n, k % n);
@@ -171,18 +143,6 @@ impl WholeControl {
         };
         let counts: Vec<f64> = (0..means.len()).map(|q| expected.count(q)).collect();
         let totals: Vec<f64> = (1..=n).map(|i| -expected.total(i)).collect();
-        let mut free_means = Vec::new();
-        let points = solution.quantities[2 * n..].iter().zip(&solution.free_means);
-        let points = points.map(|(quantity, first)| match (first, quantity.gradient.local.as_slice()) {
-            (Some(first), _) => {
-                let start = free_means.len();
-                free_means.extend(&fit.local[*first..first + n]);
-                Point::RankOne { first: *first, means: start }
-            }
-            (None, &[(l, _)]) => Point::Local(l),
-            (None, _) => Point::Known,
-        });
-        let points = points.collect();
         let base = Base::of(fit, n, *reference, &solution.level);
         let a_at_one = 1.0 + fit.core.rows(0, n).sum();
         let v = fit.core.rows(n, n).sum();
@@ -196,7 +156,7 @@ impl WholeControl {
             a_at_one,
             step_mean,
             lags: (0..means.len()).flat_map(|q| (0..n).map(move |i| lag(q, i))).collect(),
-            to_core: (0..means.len()).flat_map(to_core).collect(),
+            to_core: fit.core_sides(columns, n),
             within: (0..n * n).map(within).collect(),
             constant: fit.core_side(columns, &counts, &totals).iter().copied().collect(),
             inverse: fit.factor.inverse().iter().copied().collect(),
@@ -204,7 +164,6 @@ impl WholeControl {
             support,
             slopes,
             bilinear: columns.bilinear,
-            locals: columns.local.len(),
             base: Held {
                 core: base.core.iter().copied().collect(),
                 step: base.step,
@@ -213,8 +172,8 @@ impl WholeControl {
                 output,
                 constant,
             },
-            points,
-            free_means,
+            rules: solution.rules().collect(),
+            local: fit.local.clone(),
             b: fit.core.rows(n, n).iter().copied().collect(),
             rows: rows.concat(),
             groups,
@@ -237,8 +196,8 @@ impl WholeControl {
             Some(step) => step.mean - Lane::splat(self.step_mean),
             None => Lane::ZERO,
         };
-        whole.first.resize(self.locals, Lane::ZERO);
-        whole.second.resize(self.locals, Lane::ZERO);
+        whole.first.resize(self.local.len(), Lane::ZERO);
+        whole.second.resize(self.local.len(), Lane::ZERO);
         let score = self.score::<N, D>(sample.parts, delta, &mut whole.residuals);
         let change = self.solve(&score);
         self.tied_first::<D>(sample.parts, &change, whole);
@@ -515,17 +474,17 @@ impl WholeControl {
             base_second += bent[d] * core[d];
         }
         let squared: f64 = b.iter().map(|b| b * b).sum();
-        for point in &self.points {
+        for rule in &self.rules {
             keep_apart();
             let (mut of_first, mut of_second) = (base_first, base_second);
-            match *point {
-                Point::Known => {}
-                Point::Local(local) => {
+            match *rule {
+                LevelRule::Known(_) => {}
+                LevelRule::Local(local) => {
                     of_first += scratch.first[local];
                     of_second += scratch.second[local];
                 }
-                Point::RankOne { first: l, means } => {
-                    let h = &self.free_means[means..means + N];
+                LevelRule::RankOne { first: l, .. } => {
+                    let h = &self.local[l..l + N];
                     let (of_h, bent_h) = (&scratch.first[l..l + N], &scratch.second[l..l + N]);
                     let (mut value, mut sum, mut product, mut bent_sum) =
                         (0.0, Lane::ZERO, Lane::ZERO, Lane::ZERO);

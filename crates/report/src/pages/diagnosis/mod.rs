@@ -7,11 +7,13 @@ mod experiment;
 mod model;
 mod places;
 
+use super::error::PageError;
+use super::files::Files;
 use super::layout::Page;
-use super::series::{Drawn, loops, outputs};
+use super::series::{loops, outputs};
 use super::sheet::sheets;
-use super::{Files, PageError};
 use crate::diagnosis::json::{GapFile, SCHEMA};
+use crate::plots::runs::Shown;
 use maud::{Markup, html};
 use switchback_io::model::{Series, of_text};
 
@@ -28,7 +30,7 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
     for (file, model) in models.into_iter().filter_map(|(file, model)| Some((file, model.as_ref()?))) {
         files.same_rig(("gap.json", &gap.rig), (file, &model.header.rig))?;
     }
-    let drawn = Drawn {
+    let shown = Shown {
         series: &series,
         input: &gap.input,
         output: &gap.output,
@@ -37,8 +39,8 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
     };
     Ok(Page::new("Diagnosis of the sim-to-real gap", &gap.rig, verdict(&gap))
         .section("stages", "Where in the machine", chain::chain(&gap))
-        .section("loop", "The loop", loops(&drawn))
-        .section("outputs", "Outputs over time", outputs(&drawn))
+        .section("loop", "The loop", loops(&shown)?)
+        .section("outputs", "Outputs over time", outputs(&shown)?)
         .section(
             "where",
             "Where the gap lies",
@@ -51,8 +53,8 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
         )
         .section("closure", "How far it closes", closure::closure(&gap))
         .section("residuals", "What is left, one step ahead", sheets(files.figures("residuals"))?)
-        .section("next", "The next experiment", experiment::experiment(&gap))
-        .section("model", "The model to take away", model::model(&gap, nominal.as_ref(), augmented.as_ref()))
+        .section("next", "The next experiment", experiment::experiment(&gap)?)
+        .section("model", "The model to take away", model::model(&gap, nominal.as_ref(), augmented.as_ref())?)
         .section(
             "figures",
             "Other figures",
@@ -62,7 +64,7 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
         .html())
 }
 
-/// The verdict in words, then what its probability is worth.
+/// The verdict in words, then the worth of its probability.
 fn verdict(gap: &GapFile) -> Markup {
     // That it is not calibrated is one of the sentences.
     let is_calibrated = gap.verdict.calibrated && !matches!(gap.verdict.status.as_str(), "none" | "refit");

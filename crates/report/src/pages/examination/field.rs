@@ -1,10 +1,11 @@
 //! The sections of a field examination.
 
 use super::{Made, measures, partial, share};
+use crate::pages::error::PageError;
+use crate::pages::files::Files;
 use crate::pages::layout::Page;
 use crate::pages::sheet::sheets;
 use crate::pages::table::{Cell, Table};
-use crate::pages::{Files, PageError};
 use maud::{Markup, html};
 use switchback_lab::field::json::{Answers, FieldFile};
 

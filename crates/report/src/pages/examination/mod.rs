@@ -4,7 +4,8 @@ mod blind;
 mod field;
 mod measures;
 
-use super::{Files, PageError};
+use super::error::PageError;
+use super::files::Files;
 use crate::pages::table::Cell;
 use maud::{Markup, html};
 use serde_json::Value;

@@ -1,11 +1,13 @@
 //! Every number of the estimate with its interval.
 
-use crate::pages::Z95;
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
 use switchback_io::diagnosis::digits;
 use switchback_io::identification::json::EstimateFile;
 use switchback_io::identification::unit;
+
+/// Half the width of a 95 % interval in standard errors of a normal estimate.
+const Z95: f64 = 1.959_963_984_540_054;
 
 /// A row a coefficient.
 pub(super) fn coefficients(estimate: &EstimateFile) -> Markup {

@@ -2,20 +2,22 @@
 
 mod borders;
 mod coefficients;
-mod correlations;
 mod linear;
 mod others;
 
+use super::error::PageError;
+use super::files::Files;
 use super::layout::Page;
-use super::series::{Drawn, loops, outputs};
-use super::sheet::sheets;
-use super::{Files, PageError};
+use super::series::{loops, outputs};
+use super::sheet::{figure, sheets};
+use crate::plots::identify;
+use crate::plots::runs::Shown;
 use maud::{Markup, html};
 use switchback_io::diagnosis::fit_percent;
 use switchback_io::identification::json::{EstimateFile, SCHEMA};
 use switchback_io::model::{Series, of_text};
 
-/// Figures that are files and show what the page draws itself, to be read off.
+/// Files whose figures the page draws anew.
 const DRAWN_HERE: [&str; 2] = ["borders", "measured_and_simulated_"];
 
 /// The page of the files of `identify --out`.
@@ -30,7 +32,7 @@ pub(super) fn identification(files: &Files) -> Result<String, PageError> {
         files.same_rig(("estimate.json", &estimate.rig), ("model.json", &model.header.rig))?;
     }
     let held_out = || estimate.records.iter().filter(|record| record.r#use == "holdout");
-    let drawn = Drawn {
+    let shown = Shown {
         series: &series,
         input: &estimate.input,
         output: &estimate.output,
@@ -39,12 +41,12 @@ pub(super) fn identification(files: &Files) -> Result<String, PageError> {
     };
     Ok(Page::new("Identification", &estimate.rig, lead(&estimate))
         .section("fit", "Fit", fits(&estimate))
-        .section("borders", "Borders", borders::borders(&estimate))
-        .section("loop", "The loop over the data", loops(&drawn))
-        .section("outputs", "Outputs over time", outputs(&drawn))
+        .section("borders", "Borders", borders::borders(&estimate)?)
+        .section("loop", "The loop over the data", loops(&shown)?)
+        .section("outputs", "Outputs over time", outputs(&shown)?)
         .section("coefficients", "Coefficients", coefficients::coefficients(&estimate))
-        .section("linear", "The linear part", linear::linear(&estimate, model.as_ref()))
-        .section("residuals", "Residual correlations", correlations::correlations(&estimate, &series))
+        .section("linear", "The linear part", linear::linear(&estimate, model.as_ref())?)
+        .section("residuals", "Residual correlations", residuals(&estimate, &series)?)
         .section("others", "Other models", others::others(&estimate))
         .section("model", "The model to take away", take_away(model.is_some()))
         .section("figures", "Other figures", sheets(files.other_figures(&DRAWN_HERE))?)
@@ -91,6 +93,24 @@ fn fits(estimate: &EstimateFile) -> Markup {
         ]);
     }
     html! { (table.html()) }
+}
+
+/// The correlations of the residuals.
+fn residuals(estimate: &EstimateFile, series: &Series) -> Result<Markup, PageError> {
+    let Some(svg) = identify::correlations(estimate, series) else {
+        return Ok(html! { p { "The fitted records are too short, or have no run." } });
+    };
+    Ok(html! {
+        (figure("correlations", &svg)?)
+        p class="note" {
+            @if let Some(innovations) = &estimate.innovations {
+                "The past of the residuals foretells " (format!("{:.1} %", 100.0 * innovations.foretold)) " of their variance (Ljung–Box "
+                (format!("{:.0}", innovations.ljung_box)) " over " (innovations.lags) " lags). "
+            }
+            "Correlation with the input at negative lags means feedback from output to input, or a model that looks too far ahead. "
+            code { "switchback gap" } " looks for the cause of the rest."
+        }
+    })
 }
 
 fn take_away(is_there: bool) -> Markup {

@@ -6,14 +6,14 @@ mod made;
 mod unresolved;
 mod verdicts;
 
-use super::PageError;
+use super::error::PageError;
 use super::layout::Page;
-use super::sheet;
+use super::sheet::sheets;
 use crate::plots::Figure;
 use maud::{Markup, html};
 use switchback_study::results::Results;
 
-/// The page of some results; `figures` are what [`plots::consistency`](crate::plots::consistency) draws of them.
+/// The page of some results; `figures` are those that [`plots::consistency`](crate::plots::consistency) draws of them.
 ///
 /// # Errors
 /// [`PageError::NoDrawing`] if a figure is none.
@@ -48,7 +48,7 @@ pub(crate) fn study(results: &Results, figures: &[Figure]) -> Result<String, Pag
         .html())
 }
 
-/// What figures are called that have a section of their own.
+/// Names, by their beginning, of figures with a section of their own.
 const PLACED: [&str; 8] = ["bias", "sd", "borders", "paired", "forest", "ratios", "efficiency", "zip"];
 
 fn drawn(figures: &[Figure], starts: &[&str]) -> Result<Markup, PageError> {
@@ -60,11 +60,8 @@ fn others(figures: &[Figure]) -> Result<Markup, PageError> {
 }
 
 fn chosen(figures: &[Figure], is_chosen: impl Fn(&str) -> bool) -> Result<Markup, PageError> {
-    let chosen = figures.iter().enumerate().filter(|(_, figure)| is_chosen(&figure.name));
-    let drawn: Result<Vec<Markup>, PageError> =
-        chosen.map(|(number, figure)| sheet::figure(&figure.name, &figure.svg, number)).collect();
-    let drawn = drawn?;
-    Ok(html! { @for figure in &drawn { (figure) } })
+    let chosen = figures.iter().filter(|figure| is_chosen(&figure.name));
+    sheets(chosen.map(|figure| (&*figure.name, &*figure.svg)))
 }
 
 #[cfg(test)]
@@ -80,8 +77,8 @@ mod tests {
         let page = study(&results, &figures).expect("a page");
         assert!(page.contains(&results.question) && page.contains("23 of 24 verdicts"));
         assert_eq!(page.matches("<figure class=\"sheet\">").count(), figures.len());
-        let addresses = page.matches("://").count() - page.matches("http://www.w3.org/2000/svg").count();
-        assert_eq!(addresses, 0, "a page fetches nothing");
+        let names = page.matches("\"http://www.w3.org/").count();
+        assert_eq!(page.matches("://").count(), names, "a page fetches nothing");
         assert_eq!(page, study(&results, &figures).expect("a page"), "two drawings agree");
     }
 

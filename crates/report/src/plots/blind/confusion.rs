@@ -62,7 +62,7 @@ fn is_right(truth: &str, answer: &str) -> bool {
     truth == answer || matches!((truth, answer), ("outside", "unexplained") | ("none", "refit"))
 }
 
-fn cell(canvas: &Canvas<'_>, (x, y): Point, share: f64, right: bool) {
+fn cell(canvas: &Canvas, (x, y): Point, share: f64, right: bool) {
     let opposite = (x + CELL, y + CELL);
     if share > 0.0 {
         canvas.fill((x, y), opposite, tint(if right { GOOD } else { BAD }, share.max(PALEST)));

@@ -32,7 +32,7 @@ type Curve<R> = (&'static str, fn(&R) -> Share);
 type Curves<R, const N: usize> = [Curve<R>; N];
 
 /// Draws a curve a share, marks a little apart so that intervals do not cover each other.
-fn curves<R, const N: usize>(panel: &Panel<'_, '_>, rows: &[R], x: fn(&R) -> f64, curves: &Curves<R, N>) {
+fn curves<R, const N: usize>(panel: &Panel<'_>, rows: &[R], x: fn(&R) -> f64, curves: &Curves<R, N>) {
     for (k, ((_, share), colour)) in curves.iter().zip(OKABE_ITO).enumerate() {
         let told: Vec<_> =
             rows.iter().filter_map(|r| Some((x(r), share(r).value()?, share(r).interval()?))).collect();

@@ -5,7 +5,8 @@ use crate::plots::legend::{Entry, Sample};
 use crate::plots::sheet::{Frames, Grid, Sheet};
 use crate::plots::style::{FAINT, GREY, INK, MARGIN, OKABE_ITO, PALE, Pen, TextLook, count, tint};
 use plotters::style::RGBColor;
-use switchback_diagnose::{Candidate, Status};
+use switchback_diagnose::Candidate;
+use switchback_diagnose::Status;
 use switchback_io::diagnosis::{Report, closed_percent};
 
 /// Height of a candidate's row, half the height of its bars, and length of an arrow, pixels.
@@ -136,7 +137,7 @@ fn rows(report: &Report) -> Vec<Row> {
 impl Row {
     fn draw(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frames: &Frames,
         (index, strongest): (usize, f64),
         grounds: &[Ground; 3],

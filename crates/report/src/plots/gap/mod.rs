@@ -1,9 +1,15 @@
-//! Figures of a diagnosis: where the gap lies, what the outputs do, what the residuals are, how the candidates rank.
+//! Figures of a diagnosis: where the gap lies, the outputs, the residuals, the ranking of the candidates, the repaired model and the next
+//! experiment.
 
+mod borders;
 mod candidates;
+mod experiment;
 mod outputs;
 mod places;
 mod residuals;
+
+pub use borders::borders;
+pub(crate) use experiment::experiment;
 
 use super::Figure;
 use switchback_io::diagnosis::Report;
@@ -26,9 +32,15 @@ pub fn figures(report: &Report) -> Vec<Figure> {
 mod tests {
     use super::*;
     use crate::plots::inspect::check;
-    use switchback_diagnose::{
-        Candidate, Cell, Diagnosis, Effect, Gap, HoldoutSeries, ResidualPicture, Status, Verdict,
-    };
+    use switchback_diagnose::Candidate;
+    use switchback_diagnose::Cell;
+    use switchback_diagnose::Diagnosis;
+    use switchback_diagnose::Effect;
+    use switchback_diagnose::Gap;
+    use switchback_diagnose::HoldoutSeries;
+    use switchback_diagnose::ResidualPicture;
+    use switchback_diagnose::Status;
+    use switchback_diagnose::Verdict;
     use switchback_io::diagnosis::Source;
     use switchback_model::Record;
     use switchback_model::rig::{Rig, RigRecord, Role, Usage};

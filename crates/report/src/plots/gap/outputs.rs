@@ -82,7 +82,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// Errors over a stretch of samples; over the whole record the enlarged stretch is shaded.
-    fn errors(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize, stretch: Range<usize>) {
+    fn errors(&self, canvas: &Canvas, frames: &Frames, row: usize, stretch: Range<usize>) {
         let (before, after) = (self.timed(&self.before, &stretch), self.timed(&self.after, &stretch));
         let floor = 2.0 * self.report.diagnosis.gap.noise_floor;
         let reach = self.reach();
@@ -111,7 +111,7 @@ impl<'a> Drawing<'a> {
         self.names(&panel, &format!("error [{}]", Units::of(&self.report.rig).output));
     }
 
-    fn outputs(&self, canvas: &Canvas<'_>, frames: &Frames, row: usize) {
+    fn outputs(&self, canvas: &Canvas, frames: &Frames, row: usize) {
         let lines = [
             (&self.series.measured, Pen::broad(tint(GREY, PALE))),
             (&self.series.nominal, Pen::data(BEFORE)),
@@ -136,7 +136,7 @@ impl<'a> Drawing<'a> {
         self.names(&panel, &labelled(&self.report.rig.output_label, "output units"));
     }
 
-    fn names(&self, panel: &Panel<'_, '_>, y: &str) {
+    fn names(&self, panel: &Panel<'_>, y: &str) {
         panel.x_name("time since the record's start [s]");
         panel.y_name(y, 64.0);
     }

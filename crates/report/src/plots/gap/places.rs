@@ -6,7 +6,8 @@ use crate::plots::legend::{Entry, Sample};
 use crate::plots::sheet::{Frames, Grid, Sheet};
 use crate::plots::style::{FAINT, GREY, INK, OKABE_ITO, PALE, Pen, TextLook, percent, rounded, tint};
 use plotters::style::RGBColor;
-use switchback_diagnose::{Cell, CellInterval};
+use switchback_diagnose::Cell;
+use switchback_diagnose::CellInterval;
 use switchback_io::diagnosis::{Report, Units};
 
 const COLUMNS: usize = 2;
@@ -134,7 +135,7 @@ impl Block<'_> {
         NAME + ROW * self.cells.len() as f64 + BELOW
     }
 
-    fn draw(&self, canvas: &Canvas<'_>, frames: &Frames, name: &str) {
+    fn draw(&self, canvas: &Canvas, frames: &Frames, name: &str) {
         let (left, top) = frames.corner(0, self.column);
         let top = top + self.top;
         let width = frames.size().0 - FIGURES;
@@ -146,7 +147,7 @@ impl Block<'_> {
     }
 }
 
-fn row(canvas: &Canvas<'_>, (left, middle): Point, width: f64, cell: &Cell) {
+fn row(canvas: &Canvas, (left, middle): Point, width: f64, cell: &Cell) {
     let kind = Kind::of(cell);
     canvas.text(&cell_name(cell), (left - 8.0, middle), TextLook::number().end());
     let bar = |share: f64, colour: RGBColor| {

@@ -41,7 +41,7 @@ pub(super) fn figure(report: &Report) -> String {
 
 type Picture<'a> = (&'a ResidualPicture, RGBColor, bool);
 
-fn autocorrelation(canvas: &Canvas<'_>, frames: &Frames, pictures: &[Picture<'_>; 2]) {
+fn autocorrelation(canvas: &Canvas, frames: &Frames, pictures: &[Picture<'_>; 2]) {
     let lags = pictures.iter().map(|(p, ..)| p.autocorrelation.len()).max().unwrap_or(1).max(2) - 1;
     let band = pictures[1].0.band;
     let values = pictures.iter().flat_map(|(p, ..)| p.autocorrelation.iter().skip(1).copied());
@@ -64,12 +64,7 @@ fn autocorrelation(canvas: &Canvas<'_>, frames: &Frames, pictures: &[Picture<'_>
     panel.y_name("correlation", 62.0);
 }
 
-fn spectrum(
-    canvas: &Canvas<'_>,
-    frames: &Frames,
-    pictures: &[Picture<'_>; 2],
-    (sample_time, unit): (f64, &str),
-) {
+fn spectrum(canvas: &Canvas, frames: &Frames, pictures: &[Picture<'_>; 2], (sample_time, unit): (f64, &str)) {
     // Per hertz instead of per cycle a sample.
     let lines = pictures.map(|(p, colour, _)| {
         let points = p.frequency.iter().zip(&p.spectrum);

@@ -79,7 +79,7 @@ impl<'a> Drawing<'a> {
     /// One diagram over a stretch of samples: with `shaded`, the whole record; without, the enlarged stretch.
     fn panel(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frames: &Frames,
         (row, stretch): (usize, Range<usize>),
         shaded: Option<Range<usize>>,

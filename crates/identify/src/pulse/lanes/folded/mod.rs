@@ -5,8 +5,10 @@ mod read;
 mod spectrum;
 mod start;
 mod step;
+pub(super) mod work;
 
-use super::method::{LaneFit, LaneSample};
+use super::fit::LaneFit;
+use super::sample::LaneSample;
 use super::sized::{SizedWork, run_with_constant};
 use super::statistics::LaneStatistics;
 use crate::pulse::data::PulseData;
@@ -41,28 +43,6 @@ pub(super) struct LaneFolds {
     gap_of: Vec<usize>,
     /// Where the regression of the start has its rows: the phases whose lag window saw no level but `V₁`, each with the lag at which it did.
     known: Vec<(usize, Option<usize>)>,
-}
-
-/// Memory that is used again and again.
-#[derive(Debug, Clone, Default)]
-pub(super) struct FoldWork {
-    colour: Vec<Lane>,
-    mirrored: Vec<Lane>,
-    /// `2K/(T S v⁻¹)` of each line, or half of it where it is its own mirror image.
-    weights: Vec<Lane>,
-    /// `Ȳ_k`, experiment by experiment.
-    outputs: Vec<[Lane; 2]>,
-    /// `P H*` times `α`, `β` and the residual of each line, experiment by experiment.
-    crosses: Vec<[[Lane; 2]; 3]>,
-    /// `w` of every level, experiment by experiment.
-    levels: Vec<Lane>,
-    gaps: Vec<Lane>,
-    /// The factor of what the levels have in common, the inverse pivots on the diagonal.
-    factor: Vec<Lane>,
-    /// What each level has in common with the core and with the residual, `D + 1` a level.
-    rows: Vec<Lane>,
-    /// The column of an inverse.
-    column: Vec<Lane>,
 }
 
 impl LaneFolds {
@@ -174,10 +154,8 @@ impl LaneFolds {
         let mut spoilt = Lane::ZERO;
         for (value, variance) in values.iter().zip(&*variances) {
             keep_apart();
-            spoilt += (*value + *variance) * 0.0;
+            spoilt += LaneFit::spoilt(*value, *variance);
         }
-        for l in 0..LANES {
-            sound[l] &= spoilt.0[l] == 0.0;
-        }
+        fit.leave_out(spoilt);
     }
 }

@@ -1,6 +1,7 @@
 //! The normal equations of a Gauss–Newton step.
 
-use super::{FoldWork, LaneFolds};
+use super::LaneFolds;
+use super::work::FoldWork;
 use switchback_noise::lanes::{Lane, keep_apart};
 
 /// `x·y`.

@@ -1,7 +1,8 @@
 //! What the last step leaves: parameters and their variances.
 
 use super::super::factor::{Factor, dot};
-use super::{FoldWork, LaneFolds};
+use super::LaneFolds;
+use super::work::FoldWork;
 use switchback_noise::lanes::{Lane, keep_apart};
 
 impl LaneFolds {

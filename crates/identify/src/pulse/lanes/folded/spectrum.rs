@@ -1,7 +1,8 @@
 //! The folds' spectra, and the weights of their lines.
 
 use super::super::statistics::LaneStatistics;
-use super::{FoldWork, LaneFolds};
+use super::LaneFolds;
+use super::work::FoldWork;
 use switchback_noise::lanes::{LANES, Lane, keep_apart};
 
 impl LaneFolds {

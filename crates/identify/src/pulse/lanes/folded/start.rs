@@ -2,7 +2,8 @@
 
 use super::super::factor::Factor;
 use super::super::statistics::LaneStatistics;
-use super::{FoldWork, LaneFolds};
+use super::LaneFolds;
+use super::work::FoldWork;
 use switchback_noise::lanes::{LANES, Lane, keep_apart};
 
 impl LaneFolds {

@@ -1,11 +1,9 @@
 //! One Gauss–Newton step.
 
-use super::super::factor::Factor;
-use super::{FoldWork, LaneFolds};
+use super::super::factor::{Factor, SOUND};
+use super::LaneFolds;
+use super::work::FoldWork;
 use switchback_noise::lanes::{LANES, Lane, keep_apart};
-
-/// A pivot that keeps less than this share of its diagonal entry leaves the replicate to the solver that goes one by one.
-const SOUND: f64 = 1e-12;
 
 impl LaneFolds {
     /// One Gauss–Newton step; the factor of the core's information, the levels eliminated. [`FoldWork::rows`] keeps `L⁻¹C`.

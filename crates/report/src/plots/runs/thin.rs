@@ -1,6 +1,6 @@
 //! Long series drawn with fewer points.
 
-use crate::plots::thinned;
+use crate::plots::identify::series::{thinned, worst_window};
 use std::ops::Range;
 use switchback_io::model::RecordSeries;
 
@@ -34,7 +34,7 @@ pub(super) fn window(record: &RecordSeries, most: usize) -> Range<usize> {
     }
     let misses: Vec<f64> = first
         .map_or_else(|| vec![0.0; length], |run| record.y.iter().zip(&run.y).map(|(y, s)| y - s).collect());
-    let start = crate::plots::worst_window(&misses, most);
+    let start = worst_window(&misses, most);
     start..(start + most).min(length)
 }
 
