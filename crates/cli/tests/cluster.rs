@@ -14,7 +14,7 @@ use hyperqueue::HyperQueue;
 use slurm::Slurm;
 use std::fs;
 use std::path::Path;
-use study::{Launched, PARTS, Study, is_full};
+use study::{Launched, PARTS, Study};
 
 /// An engine with three workers. What it has started ends with it.
 trait Cluster {
@@ -124,44 +124,6 @@ fn begin<C: Cluster>() -> Option<(Study, C)> {
 #[track_caller]
 fn assert_same(study: &Study, run: &Launched) {
     assert!(files(&run.out) == *study.whole(), "another report than that of one run");
-}
-
-/// A study like those that are launched: hundreds of cells, whose sums are written and read.
-#[test]
-fn a_plan_is_what_comes_within_a_fifth() {
-    if !is_full() {
-        eprintln!(
-            "SKIPPED: seconds are compared, which takes a machine that does nothing else; SWITCHBACK_CLUSTER=full does it"
-        );
-        return;
-    }
-    let attempts: Vec<String> = (0..3).map_while(|_| plan_against_measurement().err()).collect();
-    // What else runs on the machine at the same time makes processors slower, or caches smaller.
-    assert!(attempts.len() < 3, "{attempts:#?}");
-}
-
-fn plan_against_measurement() -> Result<(), String> {
-    let parts = 4;
-    let study = Study::of_many_cells(16);
-    let plan = study.plan(parts);
-    let told = |name: &str| plan[name].as_f64().expect("a number");
-    let shards: f64 = (1..=parts).map(|number| study.seconds_of_part(number, parts)).sum();
-    let merge = study.seconds_of_merge(parts);
-    let whole = study.seconds_of_one_run();
-    let figures = [
-        ("parts", told("processor") - told("merge"), shards),
-        ("merge", told("merge"), merge),
-        ("all", told("processor"), shards + merge),
-        ("one run", told("one_run"), whole),
-    ];
-    let off = figures.map(|(what, told, measured)| {
-        format!("{what}: {told:.2} s planned, {measured:.2} s measured, {:.2}", told / measured)
-    });
-    eprintln!("{}", off.join("\n"));
-    match figures.iter().all(|(_, told, measured)| (told / measured - 1.0).abs() < 0.2) {
-        true => Ok(()),
-        false => Err(off.join("; ")),
-    }
 }
 
 macro_rules! on {

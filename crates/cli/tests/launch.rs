@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use crate::common::faults::{files, run};
-use crate::common::{BLIND, Folder, STUDY};
+use crate::common::{Folder, STUDY};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Stdio};
@@ -158,8 +158,6 @@ fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
         (vec!["study.toml", "--slurm", "--time", "an hour"], "hours:minutes:seconds"),
         (vec!["study.toml", "--hq", "--calibrate"], "no field examination"),
         (vec!["study.toml", "--hq", "--cpus", "0"], "from 1"),
-        (vec!["study.toml", "--plan", "--submit"], "--submit"),
-        (vec!["study.toml", "--hq", "--within", "1:00:00"], "--within"),
         (vec!["wrong.toml", "--slurm", "--submit"], "replicates"),
         (vec!["rig.toml", "--slurm", "--submit"], "a rig"),
         (vec!["descendant.csv", "--hq", "--submit"], "data"),
@@ -172,31 +170,6 @@ fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
         );
     }
     assert!(!folder.path("reports").exists());
-}
-
-#[test]
-fn a_plan_tells_how_many_tasks_to_ask_for() {
-    let folder = Folder::with_good_rig();
-    folder.write("study.toml", &STUDY.replace("replicates = 40", "replicates = 100_000"));
-    folder.write("blind.toml", BLIND);
-    let told = |arguments: &[&str]| {
-        let output = folder.switchback(arguments).output().expect("it runs");
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    let words = told(&["launch", "study.toml", "--plan", "--within", "1:00:00"]);
-    for expected in ["study: 782 batches", "noise sample", "\n24  ", "Within 60.0 min: 1 task or more"] {
-        assert!(words.contains(expected), "`{expected}` is missing in: {words}");
-    }
-    let plan: serde_json::Value =
-        serde_json::from_str(&told(&["launch", "blind.toml", "--plan", "--json", "--tasks", "2"]))
-            .expect("JSON");
-    assert_eq!((&plan["schema"], &plan["costs"]["piece"]), (&"switchback/plan/1".into(), &"rig".into()));
-    let of_two =
-        plan["forecasts"].as_array().and_then(|all| all.iter().find(|f| f["tasks"] == 2)).expect("two tasks");
-    let number = |name: &str| of_two[name].as_f64().expect("a number");
-    assert!(number("at_once") >= number("longest") && number("processor") > number("longest"));
-    assert_eq!(folder.listing().len(), 6, "nothing is written: {:?}", folder.listing());
 }
 
 /// Whether a Slurm answers.

@@ -29,11 +29,6 @@ const LEAST: Duration = Duration::from_secs(1);
 /// Seconds of one thread from which on a study's sums are kept with its report, so that more replicates can be added.
 const WORTH_KEEPING: f64 = 30.0;
 
-/// Whether the report of a study that takes so many seconds of one thread keeps its sums.
-pub fn is_worth_keeping(seconds: f64) -> bool {
-    seconds > WORTH_KEEPING
-}
-
 /// Keeps a study in its folder while it runs.
 #[derive(Debug)]
 pub struct Kept {
@@ -145,7 +140,7 @@ impl Kept {
 
     /// Whether a report that took so many seconds of one thread keeps its sums.
     pub fn is_worth_it(&self, seconds: f64) -> bool {
-        is_worth_keeping(seconds) || self.disk.is_eager()
+        seconds > WORTH_KEEPING || self.disk.is_eager()
     }
 
     /// The file as a finished report keeps it.

@@ -1,10 +1,9 @@
-//! `switchback launch SCENARIO.toml --slurm`, `--hq` or `--plan`
+//! `switchback launch SCENARIO.toml --slurm` or `--hq`
 
 use super::study::refuse_other_kinds;
 use crate::failure::{CommandResult, Outcome};
-use crate::launch::plan::{self, Plan};
 use crate::launch::{Engine, Launch, TimeLimit};
-use crate::options::{Force, Quiet, Threads, whole};
+use crate::options::{Force, Quiet, whole};
 use clap::ArgGroup;
 use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::io;
@@ -13,8 +12,7 @@ use std::process::Command;
 use switchback_io::input::stream;
 use switchback_io::output::print;
 use switchback_io::rig::in_shell;
-use switchback_lab::blind::{self, Blind};
-use switchback_lab::field::{self, Field};
+use switchback_lab::{blind, field};
 use switchback_study::scenario::Scenario;
 use thiserror::Error;
 
@@ -32,18 +30,6 @@ pub struct Args {
     /// For HyperQueue: a task array of parts; the script waits for them and merges
     #[arg(long, group = "scheduler")]
     hq: bool,
-
-    /// Run a little of it here, and tell how long it takes in parts, how much memory and disk, and where more tasks stop helping
-    #[arg(long, group = "scheduler")]
-    plan: bool,
-
-    /// With --plan: how many tasks are done within this time, written as for --time
-    #[arg(long, value_name = "TIME", conflicts_with_all = ["slurm", "hq"])]
-    within: Option<TimeLimit>,
-
-    /// With --plan: print JSON instead of words
-    #[arg(long, conflicts_with_all = ["slurm", "hq"])]
-    json: bool,
 
     /// In how many parts
     #[arg(long, value_name = "K", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -70,7 +56,7 @@ pub struct Args {
     out: Option<PathBuf>,
 
     /// Submit it instead of printing it
-    #[arg(long, conflicts_with = "plan")]
+    #[arg(long)]
     submit: bool,
 
     #[command(flatten)]
@@ -97,15 +83,12 @@ enum SubmitError {
 /// Slurm tells a part that its time is up a minute before, or up to two.
 const LEAST_OF_SLURM: u64 = 180;
 
-/// Prints the script, or writes and submits it; or measures what it would take.
+/// Prints the script, or writes and submits it.
 ///
 /// # Errors
 /// A scenario that cannot be run, a folder that cannot be written, a scheduler that refuses.
 pub fn run(args: &Args) -> CommandResult {
     check(args)?;
-    if args.plan {
-        return tell_plan(args);
-    }
     let launch = launch(args)?;
     let script = launch.script();
     if !args.submit {
@@ -151,32 +134,6 @@ fn check(args: &Args) -> miette::Result<()> {
         ));
     }
     Ok(())
-}
-
-/// Measures and tells.
-fn tell_plan(args: &Args) -> CommandResult {
-    let file = &args.scenario;
-    args.quiet.note("measuring on one thread of this machine; for a plan, let nothing else run meanwhile\n");
-    let one = Threads { threads: Some(1) };
-    let told = one.install(|| -> miette::Result<String> {
-        if field::is_field(file) {
-            let study = field::read(file)?;
-            let bases = field::Bases::load(&study, args.quiet.quiet)?;
-            return Ok(told(&plan::measure_examination(&Field::new(study, &bases))?, args));
-        }
-        if blind::is_blind(file) {
-            return Ok(told(&plan::measure_examination(&Blind(blind::read(file)?))?, args));
-        }
-        Ok(told(&plan::measure_study(&Scenario::read(file)?)?, args))
-    })??;
-    print(&told)?;
-    Ok(Outcome::Done)
-}
-
-fn told(plan: &Plan<'_>, args: &Args) -> String {
-    let asked = (args.tasks as usize, args.within.as_ref().map(|time| time.seconds() as f64));
-    let tell = if args.json { plan::to_json } else { plan::to_text };
-    tell(&name(args), plan, asked)
 }
 
 fn name(args: &Args) -> String {

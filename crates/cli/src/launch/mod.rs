@@ -4,7 +4,6 @@
 //! A script begins with what differs from one study to the next, as variables of the shell; the rest is the same text for every study of an
 //! engine, most of it for all engines.
 
-pub mod plan;
 mod time_limit;
 
 pub use time_limit::TimeLimit;

@@ -82,11 +82,6 @@ impl Tally {
         self.nodes.push(last);
     }
 
-    /// Adds to each node the one of another tally at its place.
-    pub(super) fn add_to_each(&mut self, other: &Self) {
-        self.nodes.iter_mut().zip(&other.nodes).for_each(|(into, from)| into.merge(from));
-    }
-
     /// The first gap or overlap between the nodes, and up to `end`: where the next should begin, and where it does.
     pub(super) fn first_break(&self, end: usize) -> Option<(usize, usize)> {
         let starts = self.nodes.iter().map(|node| node.range.start).chain([end]);
@@ -108,13 +103,6 @@ impl Tally {
         };
         self.shape.par_iter().enumerate().map(of_cell).collect()
     }
-}
-
-/// How many nodes the replicates of a run, cut between batches, come to.
-pub(super) fn nodes_of(batches: Batches, run: Range<usize>) -> usize {
-    let mut tally = Tally::new(batches, Vec::new());
-    batches.pieces(run).for_each(|range| tally.add(Node { range, cells: Vec::new() }));
-    tally.nodes.len()
 }
 
 impl Batches {
@@ -212,7 +200,12 @@ mod tests {
     fn a_part_keeps_few_nodes_however_long_it_is() {
         let batches = Batches::with_size(16);
         for (end, of) in [(16 * 469, 24), (16 * 5000, 24), (16 * 5000, 7), (16 * 777, 3)] {
-            let nodes = |number| nodes_of(batches, batches.share(0..end, (number, of)));
+            let nodes = |number| {
+                let mut tally = Tally::new(batches, Vec::new());
+                let pieces = batches.pieces(batches.share(0..end, (number, of)));
+                pieces.for_each(|range| tally.add(Node { range, cells: Vec::new() }));
+                tally.nodes.len()
+            };
             let counts: Vec<usize> = (1..=of).map(nodes).collect();
             assert!(counts.iter().all(|count| *count <= 6), "{counts:?}");
             assert!(counts.iter().sum::<usize>() <= 3 * of + 3, "{counts:?}");
