@@ -205,7 +205,6 @@ fn studies() -> Vec<Written> {
         .into_iter()
         .flat_map(|out| Written::in_report(&folder.path(out)))
         .collect();
-    written.push(printed(&folder, &["rerun", "study", "--json", "--quiet"]));
     written.push(printed(&folder, &["replay", "study", "0:3", "--json"]));
     written.push(printed(&folder, &["compare", "study", "study", "--json"]));
     written

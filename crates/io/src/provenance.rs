@@ -3,9 +3,7 @@
 
 use crate::output::stamped;
 use crate::platform::platform;
-use serde::{Deserialize, Serialize};
-use std::fs;
-use std::path::Path;
+use serde::Serialize;
 use std::time::Instant;
 
 /// Its name.
@@ -29,7 +27,7 @@ pub struct Provenance {
     record: Record,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize)]
 struct Record {
     /// Switchback's version.
     version: String,
@@ -79,32 +77,8 @@ impl Provenance {
         self
     }
 
-    /// How this program and machine differ from those that made the results of a folder, or of a file in it: a line each.
-    pub fn differences(&self, results: &Path, version: &str) -> Vec<String> {
-        let folder = if results.is_dir() { results } else { results.parent().unwrap_or(Path::new("")) };
-        let text = fs::read_to_string(folder.join(PROVENANCE_FILE)).ok();
-        let made = text.and_then(|text| serde_json::from_str::<Record>(&text).ok());
-        let here = &self.record;
-        let line =
-            |what, then: &str, now: &str| (then != now).then(|| format!("{what}: {then} then, {now} now"));
-        let made = made.as_ref();
-        let lines = [
-            line("version", version, &here.version),
-            made.and_then(|made| line("platform", &made.platform, &here.platform)),
-            made.and_then(|made| line("commit", &made.commit, &here.commit)),
-            made.and_then(|made| line("sources", short(&made.sources), short(&here.sources))),
-            made.and_then(|made| line("libraries (Cargo.lock)", short(&made.lock), short(&here.lock))),
-        ];
-        lines.into_iter().flatten().collect()
-    }
-
     /// The file.
     pub fn text(&self) -> String {
         stamped("switchback/provenance/1", &self.record)
     }
-}
-
-/// The beginning of a hash: enough to tell two apart.
-fn short(hash: &str) -> &str {
-    hash.get(..12).unwrap_or(hash)
 }

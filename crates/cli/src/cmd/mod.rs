@@ -20,7 +20,6 @@ pub mod plant;
 pub mod power;
 pub mod replay;
 pub mod report;
-pub mod rerun;
 pub mod rig;
 pub mod selftest;
 pub mod simulate;

@@ -25,7 +25,6 @@ pub(super) fn made(results: &Results) -> Markup {
             @if !slopes.is_empty() { dt { "slopes over" } dd { "N = " (slopes.join(", ")) } }
             dt { "labels" } dd { (results.labels.input) ", " (results.labels.output) }
         }
-        p { code { "switchback rerun FOLDER" } " runs the study again from its results.json alone and compares byte by byte." }
         @if let Ok(scenario) = toml::to_string(&results.scenario) {
             h3 { "The scenario" }
             pre tabindex="0" role="region" aria-label="The scenario" { code { (scenario) } }
