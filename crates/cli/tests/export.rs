@@ -1,6 +1,6 @@
-//! `switchback export`: models run in C and in Python as they do in `switchback simulate`.
+//! `switchback export`: models run in C as they do in `switchback simulate`.
 //!
-//! Without a C compiler, or a Python with NumPy (`SWITCHBACK_PYTHON` or `python3`), what needs them says so and is left out.
+//! Without a C compiler, what needs one says so and is left out.
 
 use crate::common::{Folder, step};
 use std::fs;
@@ -80,26 +80,7 @@ fn in_c(folder: &Folder, model: &str, (v, border): (&[f64], i32)) -> Option<Vec<
     Some(numbers(&mut Command::new(folder.path("main"))))
 }
 
-/// The run of the Python file.
-fn in_python(folder: &Folder, model: &str, v: &[f64]) -> Option<Vec<f64>> {
-    let python = std::env::var("SWITCHBACK_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let has_numpy = Command::new(&python).args(["-c", "import numpy"]).output();
-    if !has_numpy.is_ok_and(|output| output.status.success()) {
-        eprintln!("SKIPPED: {python} has no NumPy; name one that has in SWITCHBACK_PYTHON");
-        return None;
-    }
-    succeed(folder, &["export", model, "--to", "python", "--out", "exported.py", "--force", "--quiet"]);
-    folder.write(
-        "main.py",
-        "import numpy as np, exported\nv = np.loadtxt('input.csv', skiprows=1)\n\
-         for y in exported.simulate(v): print(repr(float(y)))\n",
-    );
-    let run = numbers(Command::new(&python).args(["-W", "error", "main.py"]).current_dir(folder.path("")));
-    assert_eq!(run.len(), v.len());
-    Some(run)
-}
-
-/// Both languages against `simulate`, for each input.
+/// C against `simulate`, for each input.
 fn agrees(folder: &Folder, model: &str, inputs: &[Vec<f64>]) {
     for v in inputs {
         write_input(folder, v);
@@ -113,9 +94,6 @@ fn agrees(folder: &Folder, model: &str, inputs: &[Vec<f64>]) {
         };
         if let Some(run) = in_c(folder, model, (v, border)) {
             compare(&format!("{model} in C"), &run, &expected);
-        }
-        if let Some(run) = in_python(folder, model, v) {
-            compare(&format!("{model} in Python"), &run, &expected);
         }
     }
 }
@@ -243,13 +221,13 @@ fn a_model_that_looks_ahead_is_refused_and_the_causal_one_named() {
 #[test]
 fn what_is_no_model_or_no_target_is_told() {
     let folder = Folder::with_good_rig();
-    refused(&folder, &["export", "rig.toml", "--to", "python"], &["rig.toml"]);
-    refused(&folder, &["export", "none.json", "--to", "python"], &["none.json"]);
+    refused(&folder, &["export", "rig.toml", "--to", "c"], &["rig.toml"]);
+    refused(&folder, &["export", "none.json", "--to", "c"], &["none.json"]);
     succeed(&folder, &["identify", "rig.toml", "--out", "found", "--quiet"]);
     let told =
         folder.switchback(&["export", "found/model.json", "--to", "matlab"]).output().expect("it runs");
     assert_eq!(told.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&told.stderr).contains("python"));
+    assert!(String::from_utf8_lossy(&told.stderr).contains("fmu"));
     refused(
         &folder,
         &["export", "found/model.json", "--to", "fmu", "--library", "nowhere.so"],

@@ -1,4 +1,4 @@
-//! `switchback export MODEL.json --to python`, `c` or `fmu`
+//! `switchback export MODEL.json --to c` or `fmu`
 
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Force, Quiet};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use switchback_io::export::{self, Target, heading, name_from};
 use switchback_io::model::{self, ModelFile};
 
-/// Take a model with you: as a Python file, a C header or an FMU that simulators open.
+/// Take a model with you: as a C header or an FMU that simulators open.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
@@ -16,7 +16,7 @@ pub struct Args {
     #[command(flatten)]
     asked: Asked,
 
-    /// The file to write [default: the model's name with .py, .h or .fmu, in this folder]
+    /// The file to write [default: the model's name with .h or .fmu, in this folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -81,7 +81,6 @@ pub fn made(file: &ModelFile, asked: &Asked, (place, name): (&Path, &str)) -> mi
     let program = file.causal().map_err(|error| error.in_file(place))?.program();
     let heading = heading(file, name);
     Ok(match asked.to {
-        Target::Python => switchback_model::step::python(&program, &heading).into(),
         Target::C => switchback_model::step::c(&program, &heading).into(),
         Target::Fmu => {
             let library = export::library(asked.library.as_deref())?;

@@ -52,7 +52,7 @@ fn sentence(text: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-/// A word of letters, digits and underscores for a name in C and Python: `leaf spring, 2` becomes `leaf_spring_2`.
+/// A word of letters, digits and underscores for a name in C: `leaf spring, 2` becomes `leaf_spring_2`.
 pub fn name_from(text: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     let word: String = text.chars().map(letter).collect();
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_words_of_c_and_python() {
+    fn names_are_words_of_c() {
         for (text, name) in [
             ("leaf spring, 2", "leaf_spring_2"),
             ("Bench", "bench"),

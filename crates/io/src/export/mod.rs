@@ -1,4 +1,4 @@
-//! Models that leave: as Python, as C, as a unit of a simulator.
+//! Models that leave: as C, as a unit of a simulator.
 
 mod fmu;
 mod heading;

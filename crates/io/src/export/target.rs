@@ -3,8 +3,6 @@
 /// A language or format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Target {
-    /// One file that needs NumPy and nothing else
-    Python,
     /// One C99 header without allocation
     C,
     /// A co-simulation FMU of FMI 2.0 for this platform
@@ -13,12 +11,11 @@ pub enum Target {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Python, Self::C, Self::Fmu];
+    pub const ALL: [Self; 2] = [Self::C, Self::Fmu];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Python => "python",
             Self::C => "c",
             Self::Fmu => "fmu",
         }
@@ -32,7 +29,6 @@ impl Target {
     /// The ending of its files.
     pub fn ending(self) -> &'static str {
         match self {
-            Self::Python => "py",
             Self::C => "h",
             Self::Fmu => "fmu",
         }

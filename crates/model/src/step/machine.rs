@@ -208,7 +208,7 @@ impl Operation {
             Self::Multiply => x * y,
             Self::Divide => x / y,
             Self::Power => x.powf(y),
-            // The left one where one is no number: C and Python are told to do the same.
+            // The left one where one is no number: C does the same.
             Self::Least => {
                 if y < x {
                     y

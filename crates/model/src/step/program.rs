@@ -1,6 +1,6 @@
 //! A small program of assignments on a fixed memory: what a causal model does in one sample.
 //!
-//! It has numbers, fixed arrays, branches and counted loops: all that C, Python and the interpreter [`Machine`](crate::step::Machine) share. Its size, and
+//! It has numbers, fixed arrays, branches and counted loops: all that C and the interpreter [`Machine`](crate::step::Machine) share. Its size, and
 //! the most it does in a step, are known before it runs.
 
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub enum Lives {
 /// A variable's name and what it means.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VariableCard {
-    /// A word that is none of C's nor of Python's.
+    /// A word that is none of C's.
     pub name: String,
     /// Where it lives.
     pub lives: Lives,
@@ -44,7 +44,7 @@ pub struct VariableCard {
 /// An array's name, size and, where it never changes, its contents.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ArrayCard {
-    /// A word that is none of C's nor of Python's.
+    /// A word that is none of C's.
     pub name: String,
     /// Its numbers.
     pub length: usize,
@@ -57,7 +57,7 @@ pub struct ArrayCard {
 /// A procedure: parameters, which live in its call, and what it does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProcedureCard {
-    /// A word that is none of C's nor of Python's.
+    /// A word that is none of C's.
     pub name: String,
     /// What it does, in words.
     pub says: String,

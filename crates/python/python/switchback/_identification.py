@@ -145,7 +145,7 @@ class Identification(Result):
         """The response of the linear part: see :meth:`Model.bode`."""
         return self.model.bode(frequencies)
 
-    def export(self, to: Literal["python", "c", "fmu"], file: Optional[PathLike] = None, **options: Any) -> bytes:
+    def export(self, to: Literal["c", "fmu"], file: Optional[PathLike] = None, **options: Any) -> bytes:
         """Takes the model to where it is needed: see :meth:`Model.export`."""
         return self.model.export(to, file, **options)
 

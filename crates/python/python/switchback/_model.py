@@ -283,18 +283,18 @@ class Model:
 
     def export(
         self,
-        to: Literal["python", "c", "fmu"],
+        to: Literal["c", "fmu"],
         file: Optional[PathLike] = None,
         *,
         name: Optional[str] = None,
         library: Optional[PathLike] = None,
     ) -> bytes:
-        """Takes the model to where it is needed: a Python file for NumPy, a C99 header, or a co-simulation FMU (FMI 2.0).
+        """Takes the model to where it is needed: a C99 header, or a co-simulation FMU (FMI 2.0).
 
         Parameters
         ----------
         to
-            ``python``, ``c`` or ``fmu``.
+            ``c`` or ``fmu``.
         file
             Where to write it; what stood there is replaced. Without it nothing is written.
         name

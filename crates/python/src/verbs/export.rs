@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use switchback::cmd::export::{Asked, made};
 use switchback_io::model;
 
-/// The bytes of a model as a Python file, a C header or an FMU; `out` is the file that they are meant for.
+/// The bytes of a model as a C header or an FMU; `out` is the file that they are meant for.
 #[pyfunction]
 #[pyo3(signature = (model, words, out=None, heard=None))]
 pub(crate) fn export<'py>(

@@ -1,6 +1,5 @@
 //! C99: one header, no allocation, a fixed state.
 
-use super::expression::{Words, condition, value};
 use super::{Heading, indented, numbers, wrapped};
 use crate::step::program::{
     Array, Function, Lives, Operation, Procedure, ProcedureCard, Program, Statement, Value, Variable,
@@ -170,7 +169,8 @@ static inline void {name}_copy(double *to, const double *from, int count) {{
     )
 }
 
-struct InC<'a> {
+/// What the parts of a program are called.
+pub(super) struct InC<'a> {
     program: &'a Program,
     prefix: &'a str,
 }
@@ -227,12 +227,12 @@ impl InC<'_> {
         for statement in body {
             let line = match statement {
                 Statement::Note(text) => format!("/* {} */", tame(text)),
-                Statement::Set(variable, x) => format!("{} = {};", self.variable(*variable), value(self, x)),
+                Statement::Set(variable, x) => format!("{} = {};", self.variable(*variable), self.value(x)),
                 Statement::Put(array, index, x) => {
-                    format!("{}[{}] = {};", self.array(*array), value(self, index), value(self, x))
+                    format!("{}[{}] = {};", self.array(*array), self.value(index), self.value(x))
                 }
-                Statement::Fill(array, x) => self.on("fill", *array, value(self, x)),
-                Statement::Push(array, x) => self.on("push", *array, value(self, x)),
+                Statement::Fill(array, x) => self.on("fill", *array, self.value(x)),
+                Statement::Push(array, x) => self.on("push", *array, self.value(x)),
                 Statement::Copy(to, from) => {
                     let (count, to, from) = (self.length(*to), self.array(*to), self.array(*from));
                     format!("{prefix}_copy({to}, {from}, {count});")
@@ -240,11 +240,11 @@ impl InC<'_> {
                 Statement::Leave => "break;".to_owned(),
                 Statement::Run(procedure, parameters) => {
                     let name = &self.program.procedures[procedure.0].name;
-                    let given: Vec<String> = parameters.iter().map(|x| value(self, x)).collect();
+                    let given: Vec<String> = parameters.iter().map(|x| self.value(x)).collect();
                     format!("{prefix}_{name}(s, {});", given.join(", "))
                 }
                 Statement::If(when, then, otherwise) => {
-                    lines.push(format!("{margin}if ({}) {{", condition(self, when)));
+                    lines.push(format!("{margin}if ({}) {{", self.condition(when)));
                     self.body(then, depth + 1, lines);
                     if !otherwise.is_empty() {
                         lines.push(format!("{margin}}} else {{"));
@@ -266,10 +266,8 @@ impl InC<'_> {
     fn on(&self, what: &str, array: Array, x: String) -> String {
         format!("{}_{what}({}, {}, {x});", self.prefix, self.array(array), self.length(array))
     }
-}
 
-impl Words for InC<'_> {
-    fn variable(&self, variable: Variable) -> String {
+    pub(super) fn variable(&self, variable: Variable) -> String {
         let card = &self.program.variables[variable.0];
         match card.lives {
             Lives::State => format!("s->{}", card.name),
@@ -277,7 +275,7 @@ impl Words for InC<'_> {
         }
     }
 
-    fn array(&self, array: Array) -> String {
+    pub(super) fn array(&self, array: Array) -> String {
         let card = &self.program.arrays[array.0];
         match card.constants {
             None => format!("s->{}", card.name),
@@ -285,7 +283,7 @@ impl Words for InC<'_> {
         }
     }
 
-    fn function(&self, function: Function) -> String {
+    pub(super) fn function(&self, function: Function) -> String {
         let name = match function {
             Function::Abs => "fabs",
             Function::Exp => "exp",
@@ -297,7 +295,8 @@ impl Words for InC<'_> {
         name.to_owned()
     }
 
-    fn of_two(&self, operation: Operation) -> String {
+    /// `x` to a power, the smaller or the greater of two.
+    pub(super) fn of_two(&self, operation: Operation) -> String {
         match operation {
             Operation::Least => format!("{}_least", self.prefix),
             Operation::Greatest => format!("{}_greatest", self.prefix),
@@ -305,30 +304,18 @@ impl Words for InC<'_> {
         }
     }
 
-    fn nothing(&self) -> &'static str {
-        "NAN"
-    }
-
-    fn dot(&self, x: Array, y: Array) -> String {
+    pub(super) fn dot(&self, x: Array, y: Array) -> String {
         let count = self.length(x).min(self.length(y));
         format!("{}_dot({}, {}, {count})", self.prefix, self.array(x), self.array(y))
     }
 
-    fn below(&self, array: Array, x: &str) -> String {
+    pub(super) fn below(&self, array: Array, x: &str) -> String {
         format!("{}_below({}, {}, {x})", self.prefix, self.array(array), self.length(array))
     }
 
-    fn curve(&self, knots: Array, values: Array, at: &str) -> String {
+    pub(super) fn curve(&self, knots: Array, values: Array, at: &str) -> String {
         let count = self.length(knots);
         format!("{}_curve({}, {}, {count}, {at})", self.prefix, self.array(knots), self.array(values))
-    }
-
-    fn both(&self) -> &'static str {
-        "&&"
-    }
-
-    fn either(&self) -> &'static str {
-        "||"
     }
 }
 

@@ -1,21 +1,7 @@
-//! Values and conditions as C and Python write them: they differ in the names of things only.
+//! Values and conditions in C.
 
-use crate::step::program::{Array, Condition, Function, Operation, Value, Variable};
-
-/// What a language calls things.
-pub(super) trait Words {
-    fn variable(&self, variable: Variable) -> String;
-    fn array(&self, array: Array) -> String;
-    fn function(&self, function: Function) -> String;
-    /// `x` to a power, the smaller or the greater of two.
-    fn of_two(&self, operation: Operation) -> String;
-    fn nothing(&self) -> &'static str;
-    fn dot(&self, x: Array, y: Array) -> String;
-    fn below(&self, array: Array, x: &str) -> String;
-    fn curve(&self, knots: Array, values: Array, at: &str) -> String;
-    fn both(&self) -> &'static str;
-    fn either(&self) -> &'static str;
-}
+use super::c::InC;
+use crate::step::program::{Condition, Operation, Value};
 
 /// How tightly a value is bound: sums, products, everything else.
 fn strength(value: &Value) -> u8 {
@@ -27,47 +13,49 @@ fn strength(value: &Value) -> u8 {
     }
 }
 
-pub(super) fn value(words: &impl Words, it: &Value) -> String {
-    let bound = |it: &Value, least: u8| match strength(it) >= least {
-        true => value(words, it),
-        false => format!("({})", value(words, it)),
-    };
-    match it {
-        Value::Number(x) => format!("{x:?}"),
-        Value::Whole(k) => k.to_string(),
-        Value::Nothing => words.nothing().to_owned(),
-        Value::Of(variable) => words.variable(*variable),
-        Value::At(array, index) => format!("{}[{}]", words.array(*array), value(words, index)),
-        Value::Call(function, x) => format!("{}({})", words.function(*function), value(words, x)),
-        Value::Dot(x, y) => words.dot(*x, *y),
-        Value::Below(array, x) => words.below(*array, &value(words, x)),
-        Value::Curve { knots, values, at } => words.curve(*knots, *values, &value(words, at)),
-        Value::Join(operation, x, y) => match operation {
-            Operation::Add => format!("{} + {}", bound(x, 1), bound(y, 2)),
-            Operation::Subtract => format!("{} - {}", bound(x, 1), bound(y, 2)),
-            Operation::Multiply if **x == Value::Number(-1.0) => format!("-{}", bound(y, 3)),
-            Operation::Multiply => format!("{} * {}", bound(x, 2), bound(y, 3)),
-            Operation::Divide => format!("{} / {}", bound(x, 2), bound(y, 3)),
-            Operation::Power | Operation::Least | Operation::Greatest => {
-                format!("{}({}, {})", words.of_two(*operation), value(words, x), value(words, y))
-            }
-        },
-    }
-}
-
-pub(super) fn condition(words: &impl Words, it: &Condition) -> String {
-    let compare =
-        |x: &Value, sign: &str, y: &Value| format!("{} {sign} {}", value(words, x), value(words, y));
-    match it {
-        Condition::Less(x, y) => compare(x, "<", y),
-        Condition::AtMost(x, y) => compare(x, "<=", y),
-        Condition::Equal(x, y) => compare(x, "==", y),
-        Condition::Differs(x, y) => compare(x, "!=", y),
-        Condition::Both(x, y) => {
-            format!("({}) {} ({})", condition(words, x), words.both(), condition(words, y))
+impl InC<'_> {
+    pub(super) fn value(&self, it: &Value) -> String {
+        let bound = |it: &Value, least: u8| match strength(it) >= least {
+            true => self.value(it),
+            false => format!("({})", self.value(it)),
+        };
+        match it {
+            Value::Number(x) => format!("{x:?}"),
+            Value::Whole(k) => k.to_string(),
+            Value::Nothing => "NAN".to_owned(),
+            Value::Of(variable) => self.variable(*variable),
+            Value::At(array, index) => format!("{}[{}]", self.array(*array), self.value(index)),
+            Value::Call(function, x) => format!("{}({})", self.function(*function), self.value(x)),
+            Value::Dot(x, y) => self.dot(*x, *y),
+            Value::Below(array, x) => self.below(*array, &self.value(x)),
+            Value::Curve { knots, values, at } => self.curve(*knots, *values, &self.value(at)),
+            Value::Join(operation, x, y) => match operation {
+                Operation::Add => format!("{} + {}", bound(x, 1), bound(y, 2)),
+                Operation::Subtract => format!("{} - {}", bound(x, 1), bound(y, 2)),
+                Operation::Multiply if **x == Value::Number(-1.0) => format!("-{}", bound(y, 3)),
+                Operation::Multiply => format!("{} * {}", bound(x, 2), bound(y, 3)),
+                Operation::Divide => format!("{} / {}", bound(x, 2), bound(y, 3)),
+                Operation::Power | Operation::Least | Operation::Greatest => {
+                    format!("{}({}, {})", self.of_two(*operation), self.value(x), self.value(y))
+                }
+            },
         }
-        Condition::Either(x, y) => {
-            format!("({}) {} ({})", condition(words, x), words.either(), condition(words, y))
+    }
+
+    pub(super) fn condition(&self, it: &Condition) -> String {
+        let compare =
+            |x: &Value, sign: &str, y: &Value| format!("{} {sign} {}", self.value(x), self.value(y));
+        match it {
+            Condition::Less(x, y) => compare(x, "<", y),
+            Condition::AtMost(x, y) => compare(x, "<=", y),
+            Condition::Equal(x, y) => compare(x, "==", y),
+            Condition::Differs(x, y) => compare(x, "!=", y),
+            Condition::Both(x, y) => {
+                format!("({}) && ({})", self.condition(x), self.condition(y))
+            }
+            Condition::Either(x, y) => {
+                format!("({}) || ({})", self.condition(x), self.condition(y))
+            }
         }
     }
 }

@@ -1,11 +1,9 @@
-//! Programs in other languages.
+//! Programs in C.
 
 mod c;
 mod expression;
-mod python;
 
 pub use c::c;
-pub use python::python;
 
 /// What the reader of a written program is told of it.
 #[derive(Debug, Clone, PartialEq)]
