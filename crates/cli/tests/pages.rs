@@ -167,7 +167,7 @@ fn other_formats_and_foreign_figures_are_refused() {
     );
     changed("gap/gap.json", "\"rig\": \"small\"", "\"rig\": 3", &["gap.json:3", "`rig`"]);
     changed("gap/gap.json", "{", "", &["gap.json:2", "no JSON"]);
-    changed("gap/series.csv", ",nominal_band,augmented_band", "", &["series.csv:1", "older version"]);
+    changed("gap/series.csv", ",nominal_band,augmented_band", "", &["series.csv:1", "runs and their bands"]);
     changed(
         "gap/augmented.json",
         "switchback/model/1",

@@ -155,7 +155,7 @@ impl Series {
             || head.len() != known.len() + 2 * runs
             || !(0..runs).all(is_band)
         {
-            return Err(fail(1, "the columns are not record, use, t, v, y, runs and their bands: the file is of an older version".to_owned()));
+            return Err(fail(1, "the columns are not record, use, t, v, y, runs and their bands".to_owned()));
         }
         let mut records: Vec<RecordSeries> = Vec::new();
         for row in reader.records() {

@@ -89,9 +89,8 @@ pub(crate) struct SecondOpinion {
     pub prior: Prior,
     /// What it would say.
     pub verdict: Verdict,
-    /// Absent in files of older versions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub by_rules: Option<Verdict>,
+    /// What the rules say.
+    pub by_rules: Verdict,
     /// Every effect, likeliest first.
     pub effects: Vec<Weighed>,
     /// Probability that nothing is missing.
@@ -403,7 +402,7 @@ fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
         examples: told.examples,
         prior: Prior { effect, none, unexplained: none_of_these },
         verdict: verdict(&told.verdict),
-        by_rules: Some(verdict(&told.by_rules)),
+        by_rules: verdict(&told.by_rules),
         effects: told.effects.iter().map(weighed).collect(),
         probability_none: told.none,
         probability_unexplained: told.none_of_these,

@@ -196,17 +196,6 @@ mod tests {
     }
 
     #[test]
-    fn results_of_versions_that_did_not_count_intervals_have_every_other_figure() {
-        let mut results = synthetic::results();
-        let names =
-            |results: &Results| -> Vec<String> { consistency(results).into_iter().map(|f| f.name).collect() };
-        let all = names(&results);
-        results.cells.iter_mut().for_each(|cell| cell.intervals.clear());
-        let without: Vec<String> = all.into_iter().filter(|name| name != "zip.svg").collect();
-        assert_eq!(names(&results), without);
-    }
-
-    #[test]
     fn the_twin_of_the_variance_ratio_is_the_ratio_of_squared_errors() {
         let figures = consistency(&synthetic::results());
         let paired = figures.iter().find(|f| f.name == "paired-methods.svg").expect("methods are compared");

@@ -19,8 +19,7 @@ pub struct Cell {
     pub precise: Option<bool>,
     /// Replicates that gave no estimate; never redrawn.
     pub failures: Failures,
-    /// Where the truth lies in the 95 % intervals, one entry a group; empty in results of versions that did not count it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    /// Where the truth lies in the 95 % intervals, one entry a group.
     pub intervals: Vec<Intervals>,
     /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.
     pub parameters: Vec<Parameter>,

@@ -78,7 +78,6 @@ pub struct Results {
     /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
     pub coupling: Coupling,
     /// The numbers of samples that slopes are fitted over.
-    #[serde(default)]
     pub slope_samples: Vec<usize>,
     /// What the axes are called.
     pub labels: Labels,
@@ -91,7 +90,6 @@ pub struct Results {
     /// One entry a curve and parameter group.
     pub summaries: Vec<Summary>,
     /// Methods and borders against each other on the same noise; `None` where every cell has its own.
-    #[serde(default)]
     pub paired: Option<Pairing>,
     /// One entry a cell.
     pub cells: Vec<Cell>,

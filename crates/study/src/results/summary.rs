@@ -23,7 +23,6 @@ pub struct Summary {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bias_slope_theory: Option<f64>,
     /// Where that is.
-    #[serde(default)]
     pub bias_slope_samples: Vec<usize>,
     /// What the bias (root mean square over the group) tends to as `N` grows; 0 for a consistent method.
     pub plateau: Option<Fitted>,

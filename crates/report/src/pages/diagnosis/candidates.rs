@@ -186,10 +186,7 @@ fn second(opinion: &SecondOpinion) -> Markup {
         p {
             "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
             (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
-            "."
-            @if let Some(rules) = &opinion.by_rules {
-                " Rules tuned by hand say " (said(rules)) "."
-            }
+            ". Rules tuned by hand say " (said(&opinion.by_rules)) "."
         }
         (table.html())
     }
