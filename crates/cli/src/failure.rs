@@ -1,8 +1,8 @@
 //! How a command ends, and how a failure is told.
 
-use miette::{Diagnostic, GraphicalReportHandler, SourceCode, SourceSpan};
+use miette::{Diagnostic, SourceCode, SourceSpan};
 use std::fmt::Write;
-use std::io::{IsTerminal, Write as _};
+use std::io::Write as _;
 use std::process::ExitCode;
 use switchback_io::output::visible;
 
@@ -37,44 +37,13 @@ pub fn code(result: CommandResult) -> u8 {
         Ok(Outcome::Stopped) => STOPPED,
         Err(report) => {
             let diagnostic: &dyn Diagnostic = report.as_ref();
-            let told =
-                if std::io::stderr().is_terminal() { on_terminal(diagnostic) } else { plain(diagnostic) };
-            let _nobody_listens = writeln!(std::io::stderr(), "{}", told.trim_end());
+            let _nobody_listens = writeln!(std::io::stderr(), "{}", plain(diagnostic).trim_end());
             2
         }
     }
 }
 
-/// What a terminal shows: the picture, where it can be drawn. It shows whole lines as they are, control characters too, and fails on lines of tens
-/// of thousands of letters.
-fn on_terminal(diagnostic: &dyn Diagnostic) -> String {
-    let told = std::iter::once(diagnostic).chain(diagnostic.related().into_iter().flatten());
-    if told.into_iter().all(is_tame) { framed(diagnostic) } else { plain(diagnostic) }
-}
-
-/// Whether neither what is told nor the lines that it points at are long or hold control characters.
-fn is_tame(diagnostic: &dyn Diagnostic) -> bool {
-    let label = diagnostic.labels().and_then(|mut labels| labels.next());
-    let lines = diagnostic.source_code().zip(label).and_then(|(code, label)| {
-        let contents = code.read_span(label.inner(), 1, 1).ok()?;
-        Some(String::from_utf8_lossy(contents.data()).into_owned())
-    });
-    let message = diagnostic.to_string();
-    [message.as_str(), lines.as_deref().unwrap_or_default()]
-        .into_iter()
-        .all(|text| visible(text) == text && text.lines().all(|line| line.chars().count() <= LONG_MESSAGE))
-}
-
-/// The picture for a terminal: colours and a frame around the offending lines.
-fn framed(diagnostic: &dyn Diagnostic) -> String {
-    let mut told = String::new();
-    match GraphicalReportHandler::new().render_report(&mut told, diagnostic) {
-        Ok(()) => told,
-        Err(_) => plain(diagnostic),
-    }
-}
-
-/// The same everywhere else, without colours or widths: the message, the offending line with the place marked, the remedy.
+/// A failure without colours or widths: the message, the offending line with the place marked, the remedy.
 ///
 /// ```text
 /// error: rig.toml:3:1: unknown key `oder`, expected one of …
@@ -190,13 +159,11 @@ mod tests {
         let [_, shown, marks, _] = told.lines().collect::<Vec<_>>()[..] else { panic!("{told}") };
         assert_eq!(shown, format!("  1 | …{}!{}…", "x".repeat(60), "y".repeat(119)));
         assert_eq!(marks, format!("    | {}{}", " ".repeat(61), "^".repeat(60)));
-        assert_eq!(on_terminal(&refused(&line)), told);
-        assert_ne!(on_terminal(&refused("a = 1!")), plain(&refused("a = 1!")));
     }
 
     #[test]
     fn control_characters_are_shown_instead_of_obeyed() {
-        let told = on_terminal(&refused("a = \"\u{1b}[2J!\""));
+        let told = plain(&refused("a = \"\u{1b}[2J!\""));
         assert!(told.contains("␛[2J!") && !told.contains('\u{1b}'), "{told}");
     }
 
