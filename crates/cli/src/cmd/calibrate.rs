@@ -1,7 +1,7 @@
 //! `switchback calibrate DIR… --out VERDICT.json`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::Output;
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use switchback_diagnose::fitted::CalibrateError;
@@ -26,10 +26,7 @@ pub struct Args {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// Name and version of the layout of a fitted verdict.
@@ -83,7 +80,7 @@ fn judged(folder: &Path) -> miette::Result<(String, Vec<Case>)> {
 /// # Errors
 /// Folders without judged rigs, too few of these, or a file that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let out = args.force.claim_file(args.out.as_deref(), &[])?;
+    let out = args.output.force.claim_file(args.out.as_deref(), &[])?;
     let (mut cases, mut studies) = (Vec::new(), Vec::new());
     for folder in &args.folders {
         let (study, found) = judged(folder)?;
@@ -100,6 +97,6 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(out) = out {
         out.commit(stamped(SCHEMA, &calibrated.verdict))?;
     }
-    args.quiet.tell(&calibrated.summary())?;
+    args.output.quiet.tell(&calibrated.summary())?;
     Ok(Outcome::Done)
 }

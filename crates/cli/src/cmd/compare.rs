@@ -1,7 +1,7 @@
 //! `switchback compare BASELINE NEW`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::Output;
 use std::path::PathBuf;
 use switchback_io::output::Artefacts;
 use switchback_report::plots;
@@ -26,10 +26,7 @@ pub struct Args {
     json: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// What the folder gets.
@@ -42,13 +39,18 @@ const FILES: [&str; 3] = ["comparison.txt", "comparison.svg", "overlay-*.svg"];
 pub fn run(args: &Args) -> CommandResult {
     let baseline = results::read(&args.baseline)?;
     let new = results::read(&args.new)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &[&args.baseline, &args.new])?;
+    let folder =
+        args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &[&args.baseline, &args.new])?;
     let comparison = compare::compare(&baseline, &new);
     let summary = compare::summary(&comparison, &baseline, &new);
     if let Some(folder) = folder {
         folder.commit(&artefacts(&comparison, &summary, (&baseline, &new)))?;
     }
-    args.quiet.tell_or(args.json, || compare::json(&comparison, &baseline, &new), || summary.clone())?;
+    args.output.quiet.tell_or(
+        args.json,
+        || compare::json(&comparison, &baseline, &new),
+        || summary.clone(),
+    )?;
     Ok(if comparison.agrees() { Outcome::Done } else { Outcome::Unmet })
 }
 

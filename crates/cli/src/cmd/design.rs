@@ -1,7 +1,7 @@
 //! `switchback design --order 2 --points 8 --interval -40,40 --rate 100 --out DIR` and `switchback design --from RIG --precision P`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, positive, whole};
+use crate::options::{Output, positive, whole};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -32,10 +32,7 @@ pub struct Args {
     json: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// The experiments that are asked for.
@@ -126,14 +123,14 @@ pub fn run(args: &Args) -> CommandResult {
         .chain(&args.asked.from)
         .map(PathBuf::as_path)
         .collect();
-    let folder = args.force.claim_if_asked(out, &[rig::RIG_FILE], &inputs)?;
+    let folder = args.output.force.claim_if_asked(out, &[rig::RIG_FILE], &inputs)?;
     // What a former plan without `--free-only` left, if nothing was measured into it.
     let folder = folder.map(|folder| folder.clearing(&["descendant.csv", "ascendant.csv"]));
     let report = report((&args.asked, out), request, source)?;
     if let Some(folder) = folder {
         folder.commit(&design::artefacts(&report.plan))?;
     }
-    args.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
+    args.output.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
     Ok(Outcome::Done)
 }
 

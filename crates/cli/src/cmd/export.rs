@@ -1,7 +1,7 @@
 //! `switchback export MODEL.json --to c` or `fmu`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::Output;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 use switchback_io::export::{self, Target, heading, name_from};
@@ -21,10 +21,7 @@ pub struct Args {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// What to make of a model.
@@ -58,9 +55,9 @@ pub fn run(args: &Args) -> CommandResult {
     let out = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.{}", args.asked.to.ending())));
     // What is missing is told before anything is claimed.
     let made = made(&file, &args.asked, (&args.model, &name))?;
-    let target = args.force.claim_file(Some(&out), &[&args.model])?.expect("a file was named");
+    let target = args.output.force.claim_file(Some(&out), &[&args.model])?.expect("a file was named");
     target.commit(made)?;
-    args.quiet.tell(&format!("{}\n", out.display()))?;
+    args.output.quiet.tell(&format!("{}\n", out.display()))?;
     Ok(Outcome::Done)
 }
 

@@ -3,7 +3,7 @@
 use super::data_args::DataArgs;
 use super::power::{self, DataPlace, PowerArgs};
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, Threads, prior};
+use crate::options::{Output, Threads, prior};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
@@ -68,10 +68,7 @@ pub struct Args {
     threads: Threads,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// What is asked of the records.
@@ -138,15 +135,15 @@ const FILES: [&str; 11] = [
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let loaded = args.data.load("gap", args.quiet)?;
+    let loaded = args.data.load("gap", args.output.quiet)?;
     if args.power.power {
         return run_power(args, &loaded);
     }
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.told.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
     let subject = Subject::choose(rig, args.asked.model())?.noting(notes);
-    let watch = Watch::new(args.quiet);
+    let watch = Watch::new(args.output.quiet);
     let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
     if let Some(folder) = folder {
@@ -156,7 +153,7 @@ pub fn run(args: &Args) -> CommandResult {
         let why = if args.explain { text::why(&report) } else { String::new() };
         text::words(&report, args.out.as_deref()) + &why
     };
-    args.quiet.tell_or(args.json, || text::json(&report), words)?;
+    args.output.quiet.tell_or(args.json, || text::json(&report), words)?;
     Ok(met(args, &report))
 }
 
@@ -172,7 +169,7 @@ fn met(args: &Args, report: &Report) -> Outcome {
     let checked: Vec<Checked> = args.expect.iter().map(|expected| expected.check(report)).collect();
     for one in &checked {
         // What is broken is told even where nothing else is.
-        if !one.holds || !args.quiet.quiet {
+        if !one.holds || !args.output.quiet.quiet {
             note(&format!("{}\n", one.says));
         }
     }
@@ -204,7 +201,7 @@ fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
         settings: args.asked.settings(),
         out: args.out.as_ref(),
         json: args.json,
-        options: (args.threads, args.quiet, args.force),
+        options: (args.threads, args.output.quiet, args.output.force),
     };
     let inputs = args.data.inputs(loaded);
     power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))

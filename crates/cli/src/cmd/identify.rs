@@ -2,7 +2,7 @@
 
 use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Output, Threads};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
@@ -36,10 +36,7 @@ pub struct Args {
     threads: Threads,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// What is asked of the records.
@@ -64,17 +61,17 @@ const FILES: [&str; 6] =
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let loaded = args.data.load("identify", args.quiet)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let loaded = args.data.load("identify", args.output.quiet)?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
     let rig = loaded.rig;
-    let watch = Watch::new(args.quiet);
+    let watch = Watch::new(args.output.quiet);
     let identification = identified(&rig, &args.asked, (args.data.path(), args.threads, &watch))?;
     watch.finish();
     if let Some(folder) = folder {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
     let json = || identification::json(&rig, &identification);
-    args.quiet.tell_or(args.json, json, || identification::table(&rig, &identification))?;
+    args.output.quiet.tell_or(args.json, json, || identification::table(&rig, &identification))?;
     Ok(Outcome::Done)
 }
 

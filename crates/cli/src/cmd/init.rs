@@ -2,7 +2,7 @@
 
 use super::data_args::DataArgs;
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::Output;
 use std::path::{Path, PathBuf};
 use switchback_io::output::print;
 use switchback_io::rig;
@@ -18,10 +18,7 @@ pub struct Args {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// Reads the files as `gap` would, prints or writes the rig file that says so.
@@ -30,8 +27,8 @@ pub struct Args {
 /// Files that cannot be read, or a rig file that is there already.
 pub fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
-    let loaded = args.data.load("init", args.quiet)?;
-    let file = args.force.claim_file(target, &args.data.inputs(&loaded))?;
+    let loaded = args.data.load("init", args.output.quiet)?;
+    let file = args.output.force.claim_file(target, &args.data.inputs(&loaded))?;
     let manifest = rig::manifest(&loaded, target.map(folder));
     match file {
         Some(file) => file.commit(manifest)?,

@@ -3,7 +3,7 @@
 use super::study::refuse_other_kinds;
 use crate::failure::{CommandResult, Outcome};
 use crate::launch::{Engine, Launch, TimeLimit};
-use crate::options::{Force, Quiet, whole};
+use crate::options::{Force, whole};
 use clap::ArgGroup;
 use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::io;
@@ -58,9 +58,6 @@ pub struct Args {
     /// Submit it instead of printing it
     #[arg(long)]
     submit: bool,
-
-    #[command(flatten)]
-    quiet: Quiet,
 
     #[command(flatten)]
     force: Force,

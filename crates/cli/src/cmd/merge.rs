@@ -4,7 +4,7 @@ use super::consistency::{self, Order};
 use super::examination::{self, Page, conclude};
 use crate::build::{BUILD, JUDGING_SOURCES};
 use crate::failure::CommandResult;
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Output, Threads};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
 use switchback_io::output::{sha256, verify};
@@ -37,10 +37,7 @@ pub struct Args {
     json: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// The parts are of another program.
@@ -72,8 +69,8 @@ pub fn run(args: &Args) -> CommandResult {
         from: None,
         threads: Threads::default(),
         json: args.json,
-        quiet: args.quiet,
-        force: args.force,
+        quiet: args.output.quiet,
+        force: args.output.force,
     };
     consistency::merge(&args.folders, args.next.as_deref(), order)
 }
@@ -93,9 +90,9 @@ fn merge<E: Drawn>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>) -> Co
     let shards = parts.iter().map(|part| part.shard().to_string()).collect();
     let Whole { scenario, keys, cases } = merged(parts)?;
     let examination = read(&scenario)?;
-    let page = Page { json: args.json, quiet: args.quiet };
-    let folder =
-        examination::Order { out: Some(&args.out), force: args.force, threads, page }.claim(&examination)?;
+    let page = Page { json: args.json, quiet: args.output.quiet };
+    let folder = examination::Order { out: Some(&args.out), force: args.output.force, threads, page }
+        .claim(&examination)?;
     let mut report = report(&examination, &sha256(&keys), &cases)?;
     report.files.add_beside(PROVENANCE_FILE, provenance.end(shards).text());
     conclude(report, &keys, folder, page)

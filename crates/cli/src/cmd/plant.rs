@@ -3,7 +3,7 @@
 use super::data_args::DataArgs;
 use super::rig::RigCommandError;
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, number, whole};
+use crate::options::{Output, number, whole};
 use miette::Diagnostic;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -39,10 +39,7 @@ pub struct Args {
     json: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// The fault that is asked for.
@@ -134,14 +131,14 @@ pub fn run(args: &Args) -> CommandResult {
     args.asked.ingredient()?;
     let carrier = args.asked.model().map(model::read).transpose()?;
     let carrier = carrier.as_ref().zip(args.asked.model());
-    let loaded = args.data.load("plant", args.quiet)?;
-    let folder = args.force.claim_if_asked(Some(&args.out), &FILES, &args.data.inputs(&loaded))?;
+    let loaded = args.data.load("plant", args.output.quiet)?;
+    let folder = args.output.force.claim_if_asked(Some(&args.out), &FILES, &args.data.inputs(&loaded))?;
     let planted = planted(&loaded.rig, &args.asked, (args.data.path(), carrier))?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&planted.rig))?;
     }
     let words = || told(&planted.fault, &Units::of(&planted.rig).output);
-    args.quiet.tell_or(args.json, || page(&planted.fault), words)?;
+    args.output.quiet.tell_or(args.json, || page(&planted.fault), words)?;
     Ok(Outcome::Done)
 }
 

@@ -1,7 +1,7 @@
 //! `switchback replay RESULTS ID`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Output, Threads};
 use miette::{Diagnostic, IntoDiagnostic};
 use serde::Serialize;
 use std::fmt::{self, Write};
@@ -34,10 +34,7 @@ pub struct Args {
     threads: Threads,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// Which replicate, in which cell.
@@ -109,7 +106,7 @@ pub fn run(args: &Args) -> CommandResult {
         return Err(ReplayError::NoReplicate { id, replicates }.into());
     }
     let files = ["descendant.csv", "ascendant.csv", "record.csv"];
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &files, &[&args.results])?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &files, &[&args.results])?;
     let scenario = results.to_scenario()?;
     let study = args.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
     let found = args.threads.install(|| study.replicate(id.replicate as usize))?;
@@ -130,7 +127,7 @@ pub fn run(args: &Args) -> CommandResult {
         [(_, cell, single)] if id.cell.is_some() => one_cell(id, cell, single, args.out.as_deref()),
         _ => all_cells(id, &chosen),
     };
-    args.quiet.tell_or(args.json, || json(id, &chosen), words)?;
+    args.output.quiet.tell_or(args.json, || json(id, &chosen), words)?;
     Ok(Outcome::Done)
 }
 

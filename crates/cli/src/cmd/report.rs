@@ -1,7 +1,7 @@
 //! `switchback report FOLDER`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Output, Threads};
 use std::path::PathBuf;
 use switchback_io::output::Artefacts;
 use switchback_report::pages::{self, Files, INDEX, Kind};
@@ -17,10 +17,7 @@ pub struct Args {
     threads: Threads,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// Reads the files, draws, replaces what was drawn.
@@ -40,7 +37,7 @@ pub fn run(args: &Args) -> CommandResult {
             (&[INDEX], page)
         }
     };
-    args.force.claim(&args.folder, names)?.commit(&artefacts)?;
-    args.quiet.tell(&format!("written to {}\n", args.folder.join(INDEX).display()))?;
+    args.output.force.claim(&args.folder, names)?.commit(&artefacts)?;
+    args.output.quiet.tell(&format!("written to {}\n", args.folder.join(INDEX).display()))?;
     Ok(Outcome::Done)
 }

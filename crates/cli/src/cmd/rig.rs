@@ -1,7 +1,7 @@
 //! `switchback rig [--field] --effect EFFECT --size 2 --seed 7 --out DIR`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, number, whole};
+use crate::options::{Output, number, whole};
 use miette::Diagnostic;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -56,10 +56,7 @@ pub struct Args {
     list: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// Why no rig was made.
@@ -92,12 +89,12 @@ pub fn run(args: &Args) -> CommandResult {
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
-    let folder = args.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
     let made = recipe.make().map_err(RigCommandError::from)?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    args.quiet.tell_or(args.json, || stamped(SCHEMA, &key_json(&made)), || told(&made))?;
+    args.output.quiet.tell_or(args.json, || stamped(SCHEMA, &key_json(&made)), || told(&made))?;
     Ok(Outcome::Done)
 }
 

@@ -1,7 +1,7 @@
 //! `switchback simulate MODEL.json INPUT.csv`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet};
+use crate::options::Output;
 use miette::Diagnostic;
 use serde::Serialize;
 use std::fmt::Write;
@@ -31,10 +31,7 @@ pub struct Args {
     json: bool,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// The input that a model is to run on.
@@ -101,16 +98,16 @@ pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let place = args.asked.file.as_path();
     let input = played(&args.asked, (&file, &args.model))?;
-    let target = args.force.claim_file(args.out.as_deref(), &[place, &args.model])?;
+    let target = args.output.force.claim_file(args.out.as_deref(), &[place, &args.model])?;
     let simulation = Simulation::new(file, input, place)?;
     match target {
         Some(file) => {
             file.commit(simulation.csv())?;
-            args.quiet.tell_or(args.json, || simulation.json(), || simulation.words())?;
+            args.output.quiet.tell_or(args.json, || simulation.json(), || simulation.words())?;
         }
         None if args.json => print(&simulation.json())?,
         None => {
-            if !args.quiet.quiet {
+            if !args.output.quiet.quiet {
                 note(&simulation.words());
             }
             print(&simulation.csv())?;

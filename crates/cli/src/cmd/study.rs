@@ -3,7 +3,7 @@
 use super::consistency::{self, Order};
 use super::examination::{self, Page, run_part};
 use crate::failure::CommandResult;
-use crate::options::{Force, Quiet, Threads, Yes};
+use crate::options::{Output, Threads, Yes};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::{Diagnostic, miette};
 use std::path::{Path, PathBuf};
@@ -51,10 +51,7 @@ pub struct Args {
     yes: Yes,
 
     #[command(flatten)]
-    quiet: Quiet,
-
-    #[command(flatten)]
-    force: Force,
+    output: Output,
 }
 
 /// By which engine.
@@ -114,12 +111,12 @@ pub fn run(args: &Args) -> CommandResult {
     if field::is_field(file) {
         refuse_engine_and_rounds(args, "a field examination")?;
         let study = field::read(file)?;
-        let bases = field::Bases::load(&study, args.quiet.quiet)?;
+        let bases = field::Bases::load(&study, args.output.quiet.quiet)?;
         return examined(args, file, &Field::new(study, &bases));
     }
     let scenario = args.engine.of(Scenario::read(file)?);
     let parts = args.shard.map_or(1.0, |shard| shard.of as f64);
-    args.yes.permit(least_seconds(&scenario) / parts, args.threads, args.quiet)?;
+    args.yes.permit(least_seconds(&scenario) / parts, args.threads, args.output.quiet)?;
     let order = Order {
         file,
         command: &args.engine.command(file),
@@ -128,8 +125,8 @@ pub fn run(args: &Args) -> CommandResult {
         from: args.from.as_deref(),
         threads: args.threads,
         json: args.json,
-        quiet: args.quiet,
-        force: args.force,
+        quiet: args.output.quiet,
+        force: args.output.force,
     };
     consistency::run(&scenario, order)
 }
@@ -137,10 +134,14 @@ pub fn run(args: &Args) -> CommandResult {
 /// Runs an examination, or the part of it that is asked for.
 fn examined<E: Drawn>(args: &Args, file: &Path, examination: &E) -> CommandResult {
     let rigs = examination.design()?.len().div_ceil(args.shard.map_or(1, |shard| shard.of));
-    args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.quiet)?;
-    let page = Page { json: args.json, quiet: args.quiet };
-    let order =
-        examination::Order { out: args.out.as_deref(), force: args.force, threads: args.threads, page };
+    args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.output.quiet)?;
+    let page = Page { json: args.json, quiet: args.output.quiet };
+    let order = examination::Order {
+        out: args.out.as_deref(),
+        force: args.output.force,
+        threads: args.threads,
+        page,
+    };
     match args.shard {
         Some(shard) => run_part(examination, (file, shard), order),
         None => examination::run(examination, order),

@@ -1,6 +1,7 @@
 //! Options that several verbs share, to be flattened into their arguments.
 
 mod force;
+mod output;
 mod positive;
 mod prior;
 mod quiet;
@@ -9,6 +10,7 @@ mod whole;
 mod yes;
 
 pub use force::Force;
+pub use output::Output;
 pub use positive::{number, positive};
 pub use prior::prior;
 pub use quiet::Quiet;

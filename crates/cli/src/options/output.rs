@@ -1,0 +1,15 @@
+//! `--quiet` and `--force`
+
+use super::{Force, Quiet};
+
+/// The options of a verb that tells words and writes files.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct Output {
+    /// Whether anything but errors is told.
+    #[command(flatten)]
+    pub quiet: Quiet,
+
+    /// Whether files that someone else wrote may be replaced.
+    #[command(flatten)]
+    pub force: Force,
+}
