@@ -1,14 +1,11 @@
 //! Whether the held-out records were taken under other conditions than the fit records.
 
-use switchback_identify::statistics::MeanInterval;
+use switchback_identify::statistics::{MeanInterval, Z95};
 use switchback_model::rig::Usage;
 
 use super::Plan;
 use crate::likelihood::engine::Fit;
 use crate::residuals::score::innovations;
-
-/// Half-width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 
 impl Plan {
     /// How many times as large, in root mean square, the errors of a model are on the held-out records as on those it was fitted to, where

@@ -1,6 +1,7 @@
 //! Free runs of a model on its own.
 
 use std::sync::Arc;
+use switchback_identify::statistics::Z95;
 
 use switchback_identify::free::fit_percent;
 use switchback_model::rig::{Role, Usage};
@@ -12,9 +13,6 @@ use crate::records::campaign::{Campaign, Track, dimensionless, first_counted, le
 use crate::records::motion::{Play, motions};
 use crate::records::passes::Passes;
 use crate::simulation::simulate::{Begins, Prepared, sensed};
-
-/// Half-width of a 95 % interval in standard deviations of a normal distribution.
-const Z95: f64 = 1.959_963_984_540_054;
 
 /// A free run over an input, output units.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,7 +13,7 @@
 
 use std::sync::Arc;
 
-use switchback_identify::statistics::MeanInterval;
+use switchback_identify::statistics::{MeanInterval, Z95};
 
 use crate::diagnosis::{Horizon, HorizonGain};
 use crate::likelihood::design::Design;
@@ -24,8 +24,6 @@ use crate::simulation::simulate::sensed;
 
 /// Longest autoregression of the equation errors: that of the longest law of coloured noise.
 const MEMORY: usize = 20;
-/// Half the width of a 95 % interval in standard errors.
-const Z95: f64 = 1.959_963_984_540_054;
 
 /// A model at all horizons, ready to be compared with others on the same samples.
 pub(crate) struct Reference {

@@ -27,6 +27,7 @@ pub use lane_errors::LaneSums;
 pub(crate) use line::Line;
 pub use line::weighted_line;
 pub use propagation::propagated;
+pub use quantile::Z95;
 pub use quantile::normal_quantile_975;
 pub use whiteness::Whiteness;
 

@@ -3,11 +3,9 @@
 use super::{Identification, unit};
 use crate::output::columns;
 use std::fmt::Write;
+use switchback_identify::statistics::Z95;
 use switchback_identify::{BorderPoint, Coefficient, LevelErrors, PlusMinus};
 use switchback_model::rig::{Rig, Usage};
-
-/// Half-width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 
 /// What to beware of, then parameters with 95 % intervals, the fit of every record, and the borders.
 pub fn table(rig: &Rig, identification: &Identification) -> String {

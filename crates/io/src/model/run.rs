@@ -2,9 +2,7 @@
 
 use super::{ModelFile, System};
 use crate::identification::FreeRun;
-
-/// Half-width of a 95 % interval in standard deviations of a normal distribution.
-const Z95: f64 = 1.959_963_984_540_054;
+use switchback_identify::statistics::Z95;
 
 /// A free run over an input, output units.
 #[derive(Debug, Clone, PartialEq)]

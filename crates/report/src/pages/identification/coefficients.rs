@@ -2,12 +2,10 @@
 
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
+use switchback_identify::statistics::Z95;
 use switchback_io::diagnosis::digits;
 use switchback_io::identification::json::EstimateFile;
 use switchback_io::identification::unit;
-
-/// Half the width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 
 /// A row a coefficient.
 pub(super) fn coefficients(estimate: &EstimateFile) -> Markup {

@@ -7,10 +7,8 @@ use crate::plots::panel::{Mark, Reading};
 use crate::plots::sheet::{Grid, Sheet};
 use crate::plots::style::{ASCENDING, DESCENDING, OKABE_ITO, PALE, Pen, SMALL_RADIUS, tint};
 use plotters::style::RGBColor;
+use switchback_identify::statistics::Z95;
 use switchback_io::identification::json::{EstimateFile, Point};
-
-/// Half-width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.96;
 
 /// Both borders over the input, each point with its 95 % interval; none where the method sees no border.
 pub fn borders(estimate: &EstimateFile) -> Option<String> {

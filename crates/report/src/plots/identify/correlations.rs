@@ -6,12 +6,10 @@ use crate::plots::legend::{Entry, Sample};
 use crate::plots::panel::{Mark, Reading};
 use crate::plots::sheet::{Frames, Grid, Sheet};
 use crate::plots::style::{GREY, OKABE_ITO, Pen, SMALL_RADIUS, rounded};
-use switchback_identify::statistics::{Whiteness, correlation};
+use switchback_identify::statistics::{Whiteness, Z95, correlation};
 use switchback_io::identification::json::EstimateFile;
 use switchback_io::model::{RecordSeries, Series};
 
-/// Half the width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 /// Lags drawn.
 const LAGS: isize = 30;
 const CORRELATION: &str = "correlation";

@@ -8,11 +8,10 @@ use crate::plots::panel::{Mark, Reading};
 use crate::plots::sheet::{Frames, Grid, Sheet};
 use crate::plots::style::{AFTER, BEFORE, GREY, PALE, Pen, RADIUS, Shape, tint};
 use std::f64::consts::TAU;
+use switchback_identify::statistics::Z95;
 use switchback_io::diagnosis::digits;
 use switchback_io::identification::unit;
 
-/// Half the width of a 95 % interval in standard errors of a normal estimate.
-const Z95: f64 = 1.959_963_984_540_054;
 const HEIGHT: f64 = 270.0;
 /// Roots beyond are drawn there: zeros far outside tell little, and would make the unit circle a dot.
 const FAR: f64 = 2.5;
