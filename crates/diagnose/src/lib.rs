@@ -122,5 +122,6 @@ pub use settings::Model;
 pub use settings::NominalModel;
 pub use settings::Settings;
 pub use verdict::fitted;
+#[cfg(test)]
 pub(crate) use workers::Serial;
 pub use workers::Workers;

@@ -3,7 +3,7 @@
 //! One stream of ChaCha8 a replicate ([`StreamId`]), one replicate a SIMD lane ([`Width`]), normals by Box
 //! and Muller's transform without a branch ([`WhiteNoise`]). [`NoisePass`] filters them by C/A and keeps, at
 //! each checkpoint, what the estimators need: lag products, folds and edges ([`NoiseRecord`]). Where they need
-//! the mean only, [`MeanNoise`] draws it from its law. [`samples`] gives the same noise in the open, and [`record_by_definition`] the same record the slow way.
+//! the mean only, [`MeanNoise`] draws it from its law. [`samples`] gives the same noise in the open.
 
 mod aligned;
 mod chacha;
@@ -12,6 +12,7 @@ mod lane_records;
 pub mod lanes;
 mod means;
 mod normal;
+#[cfg(test)]
 mod oracle;
 mod pass;
 mod plan;
@@ -25,9 +26,11 @@ mod width;
 pub use lane_records::LaneRecords;
 pub use lane_records::LaneView;
 pub use means::MeanNoise;
+#[cfg(test)]
 pub(crate) use oracle::record_by_definition;
 pub use pass::NoisePass;
 pub use plan::NoisePlan;
+#[cfg(test)]
 pub(crate) use plan::NoisePlanError;
 pub use record::Checkpoint;
 pub use record::NoiseRecord;

@@ -30,7 +30,7 @@ use switchback_model::linear::SumVariance;
 /// MeanNoise::new(&plan)?.draw(Width::detect(), 1, 2, 0..2000, |_, means| squares += means[1] * means[1]);
 /// // A(1) = 1/2, so the mean of N samples has a variance of nearly 4/N.
 /// assert!((squares / 2000.0 * 10_000.0 - 4.0).abs() < 0.5);
-/// # Ok::<(), switchback_noise::NoisePlanError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanNoise {

@@ -30,7 +30,7 @@ use super::width::Width;
 /// });
 /// let mean = variances.iter().sum::<f64>() / 20.0;
 /// assert!((mean - 1.0 / (1.0 - 0.25)).abs() < 0.02);
-/// # Ok::<(), switchback_noise::NoisePlanError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct NoisePass {

@@ -29,6 +29,7 @@ pub struct StreamId {
 
 impl StreamId {
     /// The stream number `experiment·2³² + replicate`.
+    #[cfg(test)]
     pub(crate) fn number(self) -> u64 {
         u64::from(self.experiment) << 32 | u64::from(self.replicate)
     }

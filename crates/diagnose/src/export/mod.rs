@@ -12,6 +12,4 @@ mod tests;
 
 pub use self::causal::LooksAhead;
 pub(crate) use self::fitted::Exporter;
-pub(crate) use self::portable::PortableError;
 pub use self::portable::PortableModel;
-pub(crate) use self::simulate::Simulated;

@@ -59,18 +59,16 @@ impl PortableModel {
     }
 
     /// The run alone over a record of the campaign, given by its number: without band and figures.
-    ///
-    /// # Panics
-    /// If there is no such record, it is empty, or its input and output differ in length.
+    #[cfg(test)]
     pub(crate) fn outputs(&self, number: usize, v: &[f64], y: &[f64]) -> Vec<f64> {
         assert!(number < self.0.clock.records.len(), "the campaign has no record {number}");
         self.run(v, Some(y), Some(number), false).y
     }
 
-    /// The same run with its band.
+    /// The run over a record of the campaign, given by its number, with its band.
     ///
     /// # Panics
-    /// As [`outputs`](Self::outputs).
+    /// If there is no such record, it is empty, or its input and output differ in length.
     pub fn banded(&self, number: usize, v: &[f64], y: &[f64]) -> Simulated {
         assert!(number < self.0.clock.records.len(), "the campaign has no record {number}");
         self.run(v, Some(y), Some(number), true)

@@ -238,7 +238,7 @@ pub(crate) struct Saturation {
 /// Noise on the input that acts: its variance over that of the equation error.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct InputNoise {
+pub(crate) struct InputNoise {
     /// What comes by the slope of the borders.
     pub(crate) by_slope: f64,
     /// What comes by the distance between them, where noise switches the operator.

@@ -7,7 +7,7 @@ use crate::records::motion::Play;
 /// Knots of both borders on the dimensionless input axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Descending border, then ascending border; each non-decreasing, a repeated knot is a jump.
     pub(crate) knots: [Vec<f64>; 2],
 }

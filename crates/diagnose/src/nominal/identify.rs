@@ -14,7 +14,7 @@ use crate::nominal::knots::{first_grid, refine};
 use crate::records::campaign::{Campaign, Track};
 
 /// Identifies the nominal model of a given order and places the border knots.
-pub fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
+pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
     Ok(refine(campaign, first_fit(campaign, order)?, &|_| Assembly::default()))
 }
 

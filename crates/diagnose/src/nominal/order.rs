@@ -81,7 +81,7 @@ const ROUNDS: usize = 10;
 
 /// What is chosen besides the criterion.
 #[derive(Debug, Clone, Copy)]
-pub struct Structure {
+pub(crate) struct Structure {
     pub(crate) order: usize,
     /// Samples by which the output follows the input sooner than in the paper, or later where it is negative.
     pub(crate) lead: isize,

@@ -33,7 +33,7 @@ pub(crate) struct Motion {
 /// What counts as a reversal.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReversalRule {
+pub(crate) struct ReversalRule {
     /// A move smaller than this against the branch is no reversal (noise on `v`).
     pub(crate) threshold: f64,
     /// Where the new branch begins.

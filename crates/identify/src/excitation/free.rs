@@ -43,6 +43,7 @@ impl RandomLevels {
     }
 
     /// The working interval.
+    #[cfg(test)]
     pub(crate) fn interval(&self) -> Interval {
         self.interval
     }

@@ -80,7 +80,6 @@ pub use one_shot::one_shot;
 pub use problem::Structure;
 pub use progress::Progress;
 pub use regression::Regression;
-pub(crate) use selection::Candidate;
 pub use sensor::SensorNoise;
 pub use settings::InputMap;
 pub use settings::Settings;

@@ -37,7 +37,7 @@ pub(crate) struct Candidate {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
     /// Every candidate tried, best first; empty where the settings left nothing to choose.
-    pub candidates: Vec<Candidate>,
+    pub(crate) candidates: Vec<Candidate>,
     /// Blocks of time that were left out in turn.
     pub folds: usize,
     /// Order and delay chosen.

@@ -24,7 +24,6 @@ pub use jackknife::jackknife_se;
 pub use lane_errors::LaneErrors;
 pub use lane_errors::LaneEstimates;
 pub use lane_errors::LaneSums;
-pub(crate) use line::Line;
 pub use line::weighted_line;
 pub use propagation::propagated;
 pub use quantile::Z95;

@@ -27,14 +27,6 @@ pub struct Examination {
 ///
 /// # Errors
 /// [`IdentificationError`] if nothing can be identified, or if the result cannot simulate a single record.
-pub(crate) fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
-    examined_watched(rig, request, &())
-}
-
-/// [`examined`], which shows how far it has come.
-///
-/// # Errors
-/// As [`examined`].
 pub fn examined_watched(
     rig: &Rig,
     request: Request,
@@ -60,6 +52,12 @@ pub fn examined_watched(
     found.flags = flags(rig, &found, &examination, useless);
     found.examination = examination;
     Ok(found)
+}
+
+/// [`examined_watched`] by nobody.
+#[cfg(test)]
+pub(crate) fn examined(rig: &Rig, request: Request) -> Result<Identification, IdentificationError> {
+    examined_watched(rig, request, &())
 }
 
 /// A model that no record bears out is no result.

@@ -22,6 +22,7 @@ pub use dispatch::identify;
 pub(crate) use dispatch::identify_watched;
 pub use error::IdentificationError;
 pub use examine::Examination;
+#[cfg(test)]
 pub(crate) use examine::examined;
 pub use examine::examined_watched;
 pub(crate) use flag::Flag;

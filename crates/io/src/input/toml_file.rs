@@ -155,9 +155,4 @@ impl TomlError {
     pub fn line(&self) -> usize {
         self.0.line
     }
-
-    /// Column of the error in letters, from 1.
-    pub(crate) fn column(&self) -> usize {
-        self.0.column
-    }
 }

@@ -30,6 +30,7 @@ pub(crate) fn same_class(one: &str, other: &str) -> bool {
 }
 
 /// The effect with all its twins.
+#[cfg(test)]
 pub(crate) fn class_of(effect: &str) -> Vec<&'static str> {
     crate::generate::EFFECTS.into_iter().filter(|other| same_class(effect, other)).collect()
 }

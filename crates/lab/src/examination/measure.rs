@@ -83,7 +83,7 @@ pub(crate) type Reached = (Option<f64>, Option<[f64; 2]>, usize);
 
 /// A measure of an examination whose expectations are `E`: its key, what is measured, where its bound stands among expectations, and what was
 /// reached.
-pub type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
+pub(crate) type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
 
 /// Lines with what must be reached and what a scenario expects; all are shares but those whose keys are given.
 pub(crate) fn bounded<E, const N: usize>(

@@ -36,14 +36,6 @@ impl Reply {
         }
     }
 
-    /// The one effect that it names, if it names one.
-    pub(crate) fn named(&self) -> Option<&'static str> {
-        match self.effects[..] {
-            [only] if self.status == "named" => Some(only),
-            _ => None,
-        }
-    }
-
     /// What a diagnosis said.
     pub(crate) fn of(d: &Diagnosis) -> Self {
         Self::told(&d.verdict, Self::top(d))

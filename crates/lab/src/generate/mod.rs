@@ -46,8 +46,8 @@ pub use key::TrueEffect;
 pub(crate) use key::Truth;
 pub(crate) use law::INTERVAL_WIDTHS;
 pub use law::Nature;
-pub(crate) use law::Planting;
-pub(crate) use law::Stage;
+#[cfg(test)]
+pub(crate) use law::{Planting, Stage};
 pub use make::Ingredient;
 pub use make::MadeRig;
 pub use make::MakeError;

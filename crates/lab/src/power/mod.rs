@@ -29,6 +29,7 @@ mod words;
 
 pub(crate) use answer::Answer;
 pub use error::PowerError;
+#[cfg(test)]
 pub(crate) use finding::Answers;
 pub use finding::Finding;
 pub use finding::Outcome;

@@ -18,7 +18,7 @@ use switchback_model::rig::Rig;
 /// Identifies the linear part and both borders.
 #[pyfunction]
 #[pyo3(signature = (records, words, heard=None))]
-pub fn identify(
+pub(crate) fn identify(
     py: Python<'_>,
     records: &Records,
     words: Vec<OsString>,

@@ -17,7 +17,7 @@ use switchback::cli;
 use switchback::options::Threads;
 
 /// A model in memory: what messages call it, and its text.
-pub type Model = (PathBuf, String);
+pub(crate) type Model = (PathBuf, String);
 
 /// Options of a verb with the number of threads.
 #[derive(Debug, Args)]

@@ -15,7 +15,7 @@ const READABLE: usize = 8;
 const MANY: f64 = 10.0;
 
 /// The sentences of the verdict, in the order in which they are read.
-pub fn verdict(report: &Report) -> Vec<String> {
+pub(super) fn verdict(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
     let diagnosis = &report.diagnosis;
     let mut sentences = vec![size(report)];

@@ -24,7 +24,7 @@ pub(super) fn loops(shown: &Shown<'_>) -> Result<Markup, PageError> {
 ///
 /// # Errors
 /// A figure that is no drawing.
-pub fn outputs(shown: &Shown<'_>) -> Result<Markup, PageError> {
+pub(super) fn outputs(shown: &Shown<'_>) -> Result<Markup, PageError> {
     let figures = runs::outputs(shown);
     Ok(html! {
         (sheets(figures.iter().map(|svg| ("outputs", &**svg)))?)

@@ -105,7 +105,7 @@ impl Axis {
     }
 
     /// How places grow with values, and both ends, as a script reads them.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let scale = match self.scale {
             Scale::Linear | Scale::Percent | Scale::Rows => "linear",
             Scale::Decades | Scale::Doublings => "logarithmic",

@@ -90,7 +90,7 @@ fn groups(holds: impl Fn(Group) -> bool) -> Vec<Group> {
 
 impl<'r> Selection<'r> {
     /// Names of the borders, in the order of the table.
-    pub fn borders(&self) -> Vec<&'r str> {
+    pub(super) fn borders(&self) -> Vec<&'r str> {
         distinct(self.cells.iter().map(|c| c.series.border.as_str()))
     }
 

@@ -22,7 +22,7 @@ pub(crate) struct Sheet {
 
 /// Rows and columns of diagrams of one size.
 #[derive(Debug, Clone, Copy)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Number of columns.
     pub columns: usize,
     /// Number of rows.
@@ -154,14 +154,5 @@ impl Frames {
         reading: Reading<'_>,
     ) -> Panel<'c> {
         Panel::readable(canvas, (self.corner(row, column), self.size()), axes, reading)
-    }
-
-    /// Writes the name of a row upwards at its left, and beside it in grey a remark.
-    pub(crate) fn name_row(&self, canvas: &Canvas, row: usize, (name, more): (&str, &str)) {
-        let middle = self.corner(row, 0).1 + self.size().1 / 2.0;
-        let first = MARGIN;
-        canvas.text(name, (first, middle), TextLook::heading().middle().upwards());
-        let look = TextLook::axis().middle().upwards().colour(GREY);
-        canvas.text(more, (first + look.line() - 3.0, middle), look);
     }
 }

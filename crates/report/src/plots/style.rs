@@ -89,11 +89,6 @@ impl Pen {
         Self::new(colour, 40)
     }
 
-    /// A sample of a filled bar, in a legend.
-    pub(crate) const fn bar(colour: RGBColor) -> Self {
-        Self::new(colour, 80)
-    }
-
     /// Width, pixels.
     pub(crate) fn width(self) -> f64 {
         f64::from(self.eighths) / 8.0

@@ -58,7 +58,7 @@ impl Row<'_> {
     }
 
     /// `consistent` where all curves agree, else how many say what: `inconsistent 17, undecided 1`.
-    pub fn verdict(&self) -> String {
+    pub(crate) fn verdict(&self) -> String {
         let kinds = [Verdict::Inconsistent, Verdict::Undecided, Verdict::Consistent];
         let count = |v: Verdict| self.summaries.iter().filter(|s| s.verdict == v).count();
         match kinds.into_iter().find(|v| count(*v) == self.summaries.len()) {

@@ -53,11 +53,6 @@ impl Fitted {
     pub fn new(estimate: f64, ci: (f64, f64)) -> Option<Self> {
         [estimate, ci.0, ci.1].iter().all(|x| x.is_finite()).then_some(Self { estimate, ci })
     }
-
-    /// Whether the interval holds `x`.
-    pub(crate) fn covers(&self, x: f64) -> bool {
-        (self.ci.0..=self.ci.1).contains(&x)
-    }
 }
 
 /// Whether the estimates converge to the truth.

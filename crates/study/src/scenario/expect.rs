@@ -38,13 +38,6 @@ pub struct Width {
     pub at_most: f64,
 }
 
-impl Expect {
-    /// Whether nothing is promised.
-    pub(crate) fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 /// A measure that theory predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Check {

@@ -7,7 +7,7 @@ use switchback_noise::lanes::{LANES, Lane, keep_apart};
 
 /// A regression to be solved: statistics of `y − shift`, experiments side by side, and its columns.
 #[derive(Clone, Copy)]
-pub struct Regression<'a> {
+pub(super) struct Regression<'a> {
     pub(super) parts: &'a [&'a LaneStatistics],
     pub(super) shift: Lane,
     pub(super) plan: &'a ColumnPlan,

@@ -65,7 +65,7 @@ impl LaneMethod {
     /// The estimates from each sample, in as many of `fits`.
     ///
     /// Several samples are fitted in the time that one spends on waiting for its divisions and roots. Orders above
-    /// [`LARGEST_ORDER`](super::LARGEST_ORDER) are all left to the solver that goes one by one.
+    /// [`LARGEST_ORDER`](super::sized::LARGEST_ORDER) are all left to the solver that goes one by one.
     ///
     /// # Panics
     /// If there are fewer fits than samples.

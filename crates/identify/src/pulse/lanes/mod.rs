@@ -27,7 +27,6 @@ pub use control::LaneControl;
 pub use fit::LaneFit;
 pub use method::LaneMethod;
 pub use sample::LaneSample;
-pub(crate) use sized::LARGEST_ORDER;
 pub use statistics::LaneStatistics;
 pub use step::LaneStep;
 pub use terms::LaneTerms;

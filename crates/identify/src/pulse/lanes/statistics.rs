@@ -49,11 +49,6 @@ impl LaneStatistics {
         self.counts.extend_from_slice(counts);
     }
 
-    /// The order `n`.
-    pub(crate) fn order(&self) -> usize {
-        self.order
-    }
-
     /// `m_q,0…n`.
     fn mean(&self, group: usize) -> &[Lane] {
         &self.means[group * (self.order + 1)..(group + 1) * (self.order + 1)]

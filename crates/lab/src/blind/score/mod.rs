@@ -15,7 +15,6 @@ pub use calibration::AbstentionRow;
 pub(crate) use calibration::Calibration;
 pub use closure::ClosureRow;
 pub use confusion::Confusion;
-pub(crate) use measure::TARGETS;
 pub use places::PlaceRow;
 
 use super::case::Case;

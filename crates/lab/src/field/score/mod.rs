@@ -7,7 +7,6 @@ mod rows;
 
 pub(crate) use calibration::Claims;
 pub(crate) use calibration::Stratum;
-pub(crate) use measure::TARGETS;
 pub(crate) use rating::Asked;
 pub(crate) use rating::BaseVerdicts;
 pub(crate) use rating::Rating;

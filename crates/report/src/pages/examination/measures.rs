@@ -21,7 +21,7 @@ pub(super) fn answer(measures: &[MeasureFile]) -> Markup {
 }
 
 /// A row a measure.
-pub fn table(measures: &[MeasureFile]) -> Markup {
+pub(super) fn table(measures: &[MeasureFile]) -> Markup {
     let mut table = Table::new(
         "What must be reached, and what was",
         ["measure", "must reach", "reached", "95 % interval", "rigs", "verdict"],

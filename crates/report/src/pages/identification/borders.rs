@@ -11,7 +11,7 @@ use switchback_io::identification::json::EstimateFile;
 ///
 /// # Errors
 /// A figure that is no drawing.
-pub fn borders(estimate: &EstimateFile) -> Result<Markup, PageError> {
+pub(super) fn borders(estimate: &EstimateFile) -> Result<Markup, PageError> {
     let Some(svg) = identify::borders(estimate) else { return Ok(html! {}) };
     Ok(html! {
         (figure("borders", &svg)?)

@@ -6,7 +6,7 @@ mod shown;
 mod thin;
 
 pub(crate) use loops::loops;
-pub use outputs::outputs;
+pub(crate) use outputs::outputs;
 pub(crate) use shown::Shown;
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ const HEIGHT: f64 = 210.0;
 const FLOOR: &str = "± 2 sd of the noise";
 
 /// A figure a record.
-pub fn outputs(shown: &Shown<'_>) -> Vec<String> {
+pub(crate) fn outputs(shown: &Shown<'_>) -> Vec<String> {
     shown.records().into_iter().map(|record| figure(shown, record)).collect()
 }
 
