@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `v` and `y` are measured. Both borders `C_a` and `C_d`, the coefficients, and their standard errors are estimated: from designed experiments by
-//! [`estimators::pulse`], from any record by [`estimators::free`]. From vectors:
+//! [`pulse`], from any record by [`free`]. From vectors:
 //!
 //! ```
 //! use switchback_model::Record;
@@ -30,15 +30,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | module | what it holds |
+//! | module | contents |
 //! |---|---|
-//! | [`record`], [`rig`] | measurements: one record; the records of one machine with what is known about them |
-//! | [`hysteresis`], [`linear`] | the two parts of a system |
 //! | [`excitation`] | experiments that mask the memory of the hysteresis |
-//! | [`simulation`] | periodic responses in closed form, noise, and the sufficient statistics of both by superposition |
-//! | [`estimators`] | the paper's estimator, the efficient one, that for any record, and simpler models to compare with |
+//! | [`simulation`] | periodic responses in closed form, and the sufficient statistics of an experiment by superposition |
+//! | [`pulse`] | estimators for the designed experiments: the paper's, the efficient one, simpler models to compare with |
+//! | [`free`] | the estimator for any record |
 //! | [`statistics`] | standard errors, jackknife, block bootstrap, tests of whiteness |
-//! | [`lanes`] | the same arithmetic on eight replicates at a time |
 //!
 //! Source: Y. Rochdi, F. Giri, F. Z. Chaoui, "Identification of Hammerstein systems including a nonparametric switched-hysteresis element", SYSID 2009,
 //! pp. 342–347, doi 10.3182/20090706-3-FR-2004.0370. Equation numbers in these pages are that paper's; `examples/corrections.rs` shows where it must be read
