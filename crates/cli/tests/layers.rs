@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use syn::visit::{self, Visit};
-use syn::{Attribute, Item, ItemMod, ItemUse, UseTree};
+use syn::{Attribute, Item, ItemMod, ItemUse, Macro, UseTree, VisRestricted};
 
 /// Crates from the ground up: each may use those before it.
 const FLOORS: [&str; 11] = [
@@ -67,7 +67,7 @@ struct Module {
     imported: BTreeMap<String, Vec<String>>,
     /// Modules taken in by `use path::*`.
     globs: Vec<Vec<String>>,
-    /// Every path of the module's code, absolute where it begins with `crate`, `self` or `super`.
+    /// Every path of the module's code from the root of the crate; what begins with no keyword is looked up in the module.
     named: BTreeSet<Vec<String>>,
 }
 
@@ -97,19 +97,19 @@ impl Modules {
     /// The module that defines what a path names, as far as it is one of this crate.
     fn home(&self, path: &[String], depth: usize) -> Option<Vec<String>> {
         let module = (0..=path.len()).rev().map(|k| path[..k].to_vec()).find(|k| self.0.contains_key(k))?;
-        let Some(name) = path.get(module.len()) else { return Some(module) };
-        let found = &self.0[&module];
-        if found.defined.contains(name) || depth == 0 {
+        // A module's bare name takes nothing from it, but may name what the parent defines or takes in under the same name.
+        let module = if module.len() == path.len() { path.split_last()?.1.to_vec() } else { module };
+        let (name, rest) = path[module.len()..].split_first()?;
+        let found = self.0.get(&module)?;
+        if found.defined.contains(name) {
             return Some(module);
         }
-        if let Some(target) = found.imported.get(name) {
-            return self.home(target, depth - 1);
+        let depth = depth.checked_sub(1)?;
+        let target = found.imported.get(name).filter(|target| target[..] != path[..]);
+        if let Some(target) = target {
+            return self.home(&[&target[..], rest].concat(), depth);
         }
-        let through = |glob: &Vec<String>| {
-            let home = self.home(&[glob.clone(), vec![name.clone()]].concat(), depth - 1)?;
-            self.0[&home].defined.contains(name).then_some(home)
-        };
-        found.globs.iter().find_map(through)
+        found.globs.iter().find_map(|glob| self.home(&[&glob[..], &[name.clone()], rest].concat(), depth))
     }
 
     /// Which modules each module takes something from.
@@ -130,6 +130,14 @@ struct Reader {
 }
 
 impl Reader {
+    /// A path of the code from the root of the crate.
+    fn looked_up(&self, path: &[String]) -> Option<Vec<String>> {
+        match path.first()?.as_str() {
+            "crate" | "self" | "super" => self.absolute(path),
+            _ => Some([&self.path[..], path].concat()),
+        }
+    }
+
     /// A path from the root of the crate, where it begins there.
     fn absolute(&self, path: &[String]) -> Option<Vec<String>> {
         let (first, rest) = path.split_first()?;
@@ -221,6 +229,21 @@ impl<'ast> Visit<'ast> for Reader {
         }
     }
 
+    fn visit_vis_restricted(&mut self, _: &'ast VisRestricted) {
+        // Whom an item is for is nothing that it takes.
+    }
+
+    fn visit_macro(&mut self, item: &'ast Macro) {
+        // What stands within a macro is no syntax yet, so its paths are read from its words.
+        let text = item.tokens.to_string().replace(" :: ", "::").replace(":: ", "::");
+        let is_word = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == ':';
+        for path in text.split(|letter| !is_word(letter)).filter(|path| path.contains("::")) {
+            let words: Vec<String> = path.split("::").map(str::to_owned).collect();
+            self.module.named.extend(self.looked_up(&words));
+        }
+        visit::visit_macro(self, item);
+    }
+
     fn visit_item_use(&mut self, item: &'ast ItemUse) {
         // A re-export is no use of its own: whoever names it leads to where it is defined.
         if matches!(item.vis, syn::Visibility::Inherited) {
@@ -234,9 +257,7 @@ impl<'ast> Visit<'ast> for Reader {
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let words: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
-        if let Some(path) = self.absolute(&words) {
-            self.module.named.insert(path);
-        }
+        self.module.named.extend(self.looked_up(&words));
         visit::visit_path(self, path);
     }
 }
@@ -290,6 +311,17 @@ fn a_circle_through_a_re_export_is_found() {
     modules.0.insert(vec!["b".to_owned()], module(&["B"], &[], &[]));
     assert!(circles(&modules.arrows()).is_empty());
     modules.0.insert(vec!["b".to_owned()], module(&["B"], &["a::A"], &[]));
+    assert_eq!(circles(&modules.arrows()), ["a", "b"]);
+    let read = |path: &str, text: &str| {
+        let path = vec![path.to_owned()];
+        let mut reader = Reader { path, module: Module::default(), children: Vec::new() };
+        reader.visit_file(&syn::parse_str(text).expect("Rust"));
+        reader.module
+    };
+    modules.0.insert(vec!["a".to_owned()], read("a", "pub(super) struct A;"));
+    modules.0.insert(vec!["b".to_owned()], read("b", "use super::a; pub struct B(a::A); pub struct C;"));
+    assert!(circles(&modules.arrows()).is_empty());
+    modules.0.insert(vec!["a".to_owned()], read("a", "use super::b; pub struct A; fn f() { g!(b::C); }"));
     assert_eq!(circles(&modules.arrows()), ["a", "b"]);
 }
 
