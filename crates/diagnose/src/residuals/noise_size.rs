@@ -2,8 +2,7 @@
 
 use crate::least_squares::normal::Normal;
 use crate::records::campaign::Campaign;
-use crate::residuals::omnibus::LAGS;
-use crate::residuals::spectrum::{autocorrelation, portmanteau};
+use crate::residuals::spectrum::{LAGS, autocorrelation, portmanteau};
 
 /// Squares of the counted innovations about their mean, cut at nine variances so that a few outliers do not decide.
 struct Sizes {

@@ -10,6 +10,7 @@ use crate::model::assembly::convolve;
 use crate::records::campaign::Campaign;
 use crate::residuals::noise_size::{Evenness, unweighted};
 use crate::residuals::quantisation_grid::{is_material, quantisation_step, worth};
+use crate::residuals::spectrum::LAGS;
 use crate::residuals::spectrum::portmanteau;
 
 /// What the tests found.
@@ -68,9 +69,6 @@ const TAILS: f64 = 0.02;
 
 /// The same where the sensor rounds coarsely.
 const ROUNDED_TAILS: f64 = 0.3;
-
-/// Lags of the Ljung–Box statistic.
-pub(crate) const LAGS: usize = 20;
 
 impl Omnibus {
     /// Deviance that causes in general would still gain, beyond what chance gives them.

@@ -173,6 +173,9 @@ pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
     short
 }
 
+/// Lags of the Ljung–Box statistic.
+pub(super) const LAGS: usize = 20;
+
 #[cfg(test)]
 mod tests {
     use super::*;
