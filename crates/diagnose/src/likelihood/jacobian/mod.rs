@@ -8,6 +8,7 @@
 
 mod dense;
 mod sparse;
+mod tapped;
 
 pub(crate) use self::dense::filtered_rows;
 use self::dense::{Active, dense_rows};
@@ -176,17 +177,6 @@ fn parts<'a>(
 ) -> impl Iterator<Item = (&'a DesignTrack, Option<&'a [f64]>)> {
     let factors = |k: usize| weights.scale.as_ref().map(|s| &s[k][..]);
     design.tracks.iter().enumerate().map(move |(k, track)| (track, factors(k)))
-}
-
-/// `taps ∗ ũ`: what the coefficients of B multiply.
-fn tapped(design: &Design, track: &DesignTrack, p: &Linear) -> Vec<f64> {
-    let u = design.input(track, &p.f);
-    if design.taps.len() == 1 && design.taps[0] == 1.0 {
-        return u;
-    }
-    (0..u.len())
-        .map(|t| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum())
-        .collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::tapped;
+use super::tapped::tapped;
 use crate::likelihood::design::{Design, DesignTrack};
 use crate::likelihood::whitener::{LEAD, Whitener};
 use crate::model::assembly::convolve;

@@ -2,7 +2,7 @@
 
 use libm::erfc;
 
-use super::Rows;
+use super::sparse_rows::Rows;
 use crate::model::borders::{Grid, side};
 use crate::records::campaign::Track;
 
