@@ -1,7 +1,6 @@
 //! Jumps: where cells collapse to one, and where one moves to.
 
-use super::Model;
-use super::carried_over;
+use super::model::{Model, carried_over};
 use super::passages::Steps;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, Ground, fit};

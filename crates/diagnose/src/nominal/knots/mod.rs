@@ -3,6 +3,7 @@
 mod first;
 mod improve;
 mod jumps;
+mod model;
 mod passages;
 mod prune;
 mod rough;
@@ -11,28 +12,16 @@ pub(crate) use self::first::first_grid;
 use self::first::{FEWEST, visited};
 use self::improve::{KNOT_GAIN, improved_grid};
 use self::jumps::{collapsed, polished};
+pub(crate) use self::model::carried_over;
+use self::model::{Model, refitted};
 use self::passages::Passages;
 use self::prune::pruned;
 use self::rough::roughness;
-use crate::likelihood::engine::{Build, Fit, Ground, fit};
-use crate::model::borders::Grid;
+use crate::likelihood::engine::{Build, Fit};
 use crate::records::campaign::Campaign;
 
 /// Rounds of refinement.
 const ROUNDS: usize = 4;
-
-/// What knots are placed for.
-struct Model<'a> {
-    campaign: &'a Campaign,
-    build: &'a Build<'a>,
-    passages: &'a Passages,
-}
-
-impl Model<'_> {
-    fn refitted(&self, fitted: &Fit, grid: &Grid) -> Option<Fit> {
-        refitted(self.campaign, fitted, grid, self.build)
-    }
-}
 
 /// Adds knots and jumps while the data ask for them.
 pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
@@ -124,29 +113,4 @@ pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> F
         Some(f) if bic(&f) < bic(fitted) => f,
         _ => refine(campaign, fitted.clone(), build),
     }
-}
-
-/// The same model re-fitted on another grid.
-fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
-    let start = carried_over(fitted, grid);
-    let known = Some(&**fitted.near());
-    fit(Ground { campaign, grid, known }, build, &fitted.nonlinear, &start, 5)
-}
-
-/// The linear parameters on a finer grid: the same borders.
-pub(crate) fn carried_over(fit: &Fit, grid: &Grid) -> crate::likelihood::design::Linear {
-    let mut p = fit.linear.clone();
-    let old = fit.grid.len();
-    let mut f = Vec::with_capacity(grid.len() + p.f.len() - old);
-    for s in 0..2 {
-        let knots = &grid.knots[s];
-        for (i, &v) in knots.iter().enumerate() {
-            // The right end of a jump takes the value just above it.
-            let at = if i > 0 && knots[i - 1] == v { v + 1e-9 } else { v };
-            f.push(fit.grid.hat(s, at).iter().map(|&(j, w)| w * p.f[j]).sum());
-        }
-    }
-    f.extend(&p.f[old..]);
-    p.f = f;
-    p
 }

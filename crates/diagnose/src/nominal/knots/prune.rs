@@ -1,6 +1,7 @@
 //! Knots that earn less than they cost.
 
-use super::{Model, first_grid};
+use super::first::first_grid;
+use super::model::Model;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, priors};
 use crate::likelihood::jacobian::normal_equations;
