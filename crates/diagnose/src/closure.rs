@@ -3,7 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::diagnosis::{Figure, Gap, RecordGap};
+use crate::diagnosis::{Gap, RecordGap};
+use crate::figure::Figure;
 use crate::records::campaign::{Campaign, Track};
 
 /// Simulations of one record, dimensionless.

@@ -3,108 +3,11 @@
 use crate::effect::{Effect, Stage};
 use crate::evidence::Compared;
 use crate::export::PortableModel;
+use crate::figure::Figure;
+use crate::fitted_parameter::FittedParameter;
+use crate::horizon::HorizonGain;
+use crate::verdict::answer::Verdict;
 use crate::verdict::fitted::SecondOpinion;
-use std::fmt;
-
-/// How far the verdict goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Status {
-    /// Nothing significant, or no gap that the judged records resolve.
-    None,
-    /// The parameters of the model under diagnosis are off, or its order: identifying it anew closes the gap.
-    Refit,
-    /// The effects found.
-    Named,
-    /// One of several twins that no record here separates.
-    Class,
-    /// Several explanations that the next experiment would separate.
-    Ambiguous,
-    /// A gap whose cause is none of the candidates.
-    Unexplained,
-}
-
-impl Status {
-    /// Every status.
-    pub const ALL: [Self; 6] =
-        [Self::None, Self::Refit, Self::Named, Self::Class, Self::Ambiguous, Self::Unexplained];
-
-    /// The name used in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Refit => "refit",
-            Self::Named => "named",
-            Self::Class => "class",
-            Self::Ambiguous => "ambiguous",
-            Self::Unexplained => "unexplained",
-        }
-    }
-}
-
-/// The answer.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
-    /// How far it goes.
-    pub status: Status,
-    /// The effects named (status `named`: all of them act; `class`: the likeliest member). Empty otherwise.
-    pub effects: Vec<Effect>,
-    /// The twins or rivals left standing (status `class` or `ambiguous`), likeliest first.
-    pub class: Vec<Effect>,
-    /// The stage that the gap points at, also when unexplained.
-    pub stage: Option<Stage>,
-    /// Probability that the verdict holds (for `class`: that one of its members is the cause).
-    pub probability: f64,
-    /// Whether the probability was calibrated for records like these: an order declared, models identified here and compared one step
-    /// ahead, a record held out. Elsewhere it only ranks.
-    pub calibrated: bool,
-    /// An effect in the augmented model that is no cause of its own: it takes the little that the law of the one named leaves.
-    pub corrected_by: Option<Effect>,
-    /// The model identified anew (status `refit`).
-    pub refit: Option<Refit>,
-    /// How many times as much, in root mean square, the model errs on the held-out records as on those it was fitted to, where these show
-    /// nothing missing and that is beyond chance (status `unexplained`): the records were taken under other conditions.
-    pub held_out_error_ratio: Option<f64>,
-}
-
-impl fmt::Display for Verdict {
-    /// One line: `named: backlash (operator), probability 0.97`.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.status.name())?;
-        let told = if self.status == Status::Named { &self.effects } else { &self.class };
-        let names: Vec<&str> = told.iter().map(|effect| effect.name()).collect();
-        if let Some((last, others)) = names.split_last() {
-            let joint = if self.status == Status::Named { "and" } else { "or" };
-            let others =
-                if others.is_empty() { String::new() } else { format!("{} {joint} ", others.join(", ")) };
-            write!(f, ": {others}{last}")?;
-        }
-        if let Some(stage) = self.stage {
-            write!(f, " ({stage})")?;
-        }
-        write!(f, ", probability {:.2}", self.probability)?;
-        if self.calibrated { Ok(()) } else { f.write_str(", not calibrated for such records") }
-    }
-}
-
-/// A model of the same kind, identified anew, that closes the gap without any cause.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refit {
-    /// Its order.
-    pub order: usize,
-    /// Samples by which its output follows the input later than in the paper; −1 where it follows within the sample.
-    pub delay: isize,
-    /// Share of the gap on the judged records that it closes.
-    pub closure: Figure,
-}
-
-/// A figure with its 90 % interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Figure {
-    /// The estimate.
-    pub estimate: f64,
-    /// Lower and upper end of the 90 % interval.
-    pub ci90: [f64; 2],
-}
 
 /// The gap `G²` (noise-corrected mean square simulation error over the variance of `y`) on one hold-out record.
 #[derive(Debug, Clone, PartialEq)]
@@ -189,61 +92,6 @@ pub enum CellUnit {
     Hertz,
     /// Share of the samples of all records, in the order of the file.
     ShareOfCampaign,
-}
-
-/// One fitted parameter of an effect.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FittedParameter {
-    /// Its name.
-    pub name: &'static str,
-    /// Its unit in words, e.g. `samples` or `input units`.
-    pub unit: &'static str,
-    /// The estimate.
-    pub value: f64,
-    /// Its 90 % interval; NaN where the likelihood gives none.
-    pub ci90: [f64; 2],
-}
-
-/// How far ahead models predict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Horizon {
-    /// The next sample, given the measured ones before it and the colour of the errors.
-    Step,
-    /// So many samples, given the measured ones before them.
-    Samples(usize),
-    /// The whole record, given its beginning.
-    FreeRun,
-}
-
-impl Horizon {
-    /// Samples ahead; 0 for the whole record.
-    pub(crate) fn samples(self) -> usize {
-        match self {
-            Self::Step => 1,
-            Self::Samples(h) => h,
-            Self::FreeRun => 0,
-        }
-    }
-
-    /// The horizon so many samples ahead.
-    pub(crate) fn of_samples(samples: usize) -> Self {
-        match samples {
-            0 => Self::FreeRun,
-            1 => Self::Step,
-            h => Self::Samples(h),
-        }
-    }
-}
-
-/// What a model gains over another at one horizon, on the fit records.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HorizonGain {
-    /// How far ahead both predict.
-    pub horizon: Horizon,
-    /// Share of the mean square error that it saves; negative where it adds.
-    pub share: f64,
-    /// The same in units of its standard error, which comes from the errors themselves.
-    pub certainty: f64,
 }
 
 /// One effect as an explanation.
@@ -419,38 +267,4 @@ pub struct Diagnosis {
     pub limitations: Vec<String>,
     /// The models to take along; absent in a diagnosis that was put together by hand.
     pub models: Option<Models>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_verdict_is_one_line() {
-        let verdict = Verdict {
-            status: Status::Named,
-            effects: vec![Effect::Backlash, Effect::Creep],
-            class: Vec::new(),
-            stage: Some(Stage::Operator),
-            probability: 0.974,
-            calibrated: true,
-            corrected_by: None,
-            refit: None,
-            held_out_error_ratio: None,
-        };
-        assert_eq!(verdict.to_string(), "named: backlash and creep (operator), probability 0.97");
-        let class = vec![Effect::Backlash, Effect::Creep, Effect::InputDelay];
-        let rivals = Verdict {
-            status: Status::Class,
-            effects: vec![Effect::Backlash],
-            class,
-            calibrated: false,
-            stage: None,
-            ..verdict
-        };
-        let told = "class: backlash, creep or input_delay, probability 0.97, not calibrated for such records";
-        assert_eq!(rivals.to_string(), told);
-        let none = Verdict { status: Status::None, class: Vec::new(), calibrated: true, ..rivals };
-        assert_eq!(none.to_string(), "none, probability 0.97");
-    }
 }

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnosis::{Horizon, HorizonGain};
 use crate::effect::Effect;
+use crate::horizon::{Horizon, HorizonGain};
 
 /// How explanations were compared with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -9,10 +9,11 @@ use std::f64::consts::PI;
 use switchback_model::rig::{Role, Usage};
 
 use crate::attribution::explain::Explanation;
-use crate::diagnosis::{ExperimentKind, NextExperiment, Status, Verdict};
+use crate::diagnosis::{ExperimentKind, NextExperiment};
 use crate::records::campaign::{Campaign, Track, WARM_UP};
 use crate::records::motion::{Play, motions};
 use crate::simulation::simulate::free_run;
+use crate::verdict::answer::{Status, Verdict};
 
 /// Samples of a proposed record.
 const LENGTH: usize = 1500;

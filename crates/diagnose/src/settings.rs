@@ -1,6 +1,7 @@
 //! What is diagnosed, and how.
 
 use crate::effect::Effect;
+use crate::nominal_model::NominalModel;
 use crate::verdict::fitted::Shares;
 
 /// Knobs of a diagnosis; the defaults are the calibrated ones.
@@ -67,19 +68,6 @@ impl Default for Settings {
             resamples: 400,
         }
     }
-}
-
-/// A model somebody else identified: `A(q⁻¹) y = B(q⁻¹) u` with `u` on two tabulated borders, linear in between.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NominalModel {
-    /// `a₁…aₙ`.
-    pub a: Vec<f64>,
-    /// `b₁…bₙ`.
-    pub b: Vec<f64>,
-    /// Points `(v, C_d(v))`, by increasing `v`; at least two.
-    pub descending: Vec<(f64, f64)>,
-    /// Points `(v, C_a(v))`, by increasing `v`; at least two.
-    pub ascending: Vec<(f64, f64)>,
 }
 
 /// Which model meets the records.

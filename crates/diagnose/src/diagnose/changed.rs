@@ -7,7 +7,8 @@
 use switchback_model::rig::Rig;
 
 use super::given_model::{GivenModel, predicted};
-use super::{Nominal, Plan};
+use super::nominal::Nominal;
+use super::plan::{Plan, judged_tracks, note_what_the_records_lack};
 use crate::attribution::PairEffort;
 use crate::attribution::explain::Explanation;
 use crate::error::DiagnoseError;
@@ -48,9 +49,9 @@ pub(super) fn plan(
     let Some((campaign, nominal)) = compared_by_simulation(&led, &known) else { return Ok(None) };
     let mut limitations =
         vec!["effects were added to the given model, whose own parameters stayed as they are".to_owned()];
-    let judged = super::judged_tracks(&campaign, &mut limitations);
+    let judged = judged_tracks(&campaign, &mut limitations);
     let Some(given) = GivenModel::of(model, rig, records, &judged)? else { return Ok(None) };
-    super::note_what_the_records_lack(&campaign, &mut limitations);
+    note_what_the_records_lack(&campaign, &mut limitations);
     let mut settings = Settings { max_effects: 1, ..settings.clone() };
     // Noise moves no simulation, and the given borders have the details that they have.
     settings.effects.retain(|e| !e.moves_no_simulation() && !e.card().lies_in_the_grid);

@@ -1,6 +1,6 @@
 //! What one way of comparing says of every effect.
 
-use super::Plan;
+use super::plan::Plan;
 use super::report::Conclusion;
 use crate::attribution::explain::Explanation;
 use crate::closure::measure;

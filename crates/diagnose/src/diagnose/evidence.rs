@@ -1,6 +1,6 @@
 //! What the fits say before anything is weighed.
 
-use super::Plan;
+use super::plan::Plan;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::{Firsts, Pair};
 use crate::attribution::search::{beside_the_model, on_a_free_drift_path};

@@ -1,10 +1,10 @@
 //! A model that misses nothing worth a cause.
 
-use super::Plan;
+use super::plan::Plan;
 use super::report::Conclusion;
-use crate::diagnosis::Status;
 use crate::residuals::spectrum::mean_square;
-use crate::verdict::decide::naming_nothing;
+use crate::verdict::answer::Status;
+use crate::verdict::answer::naming_nothing;
 use crate::verdict::odds::Odds;
 
 /// Mean square error over the output's variance up to which a model is exact: a thousandth of the spread in root mean square, about what a

@@ -5,8 +5,8 @@
 
 use switchback_identify::statistics::MeanInterval;
 
-use super::Plan;
 use super::held_out::told_by_rounding;
+use super::plan::Plan;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Causes;
 use crate::effect::Effect;

@@ -1,6 +1,6 @@
 //! What the held-out records say about the explanations.
 
-use super::Plan;
+use super::plan::Plan;
 use crate::attribution::explain::Explanation;
 use crate::closure::measure;
 use crate::diagnosis::Gap;

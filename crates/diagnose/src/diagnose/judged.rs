@@ -1,6 +1,6 @@
 //! Simulations of the judged records and the noise in them.
 
-use super::Plan;
+use super::plan::Plan;
 use crate::closure::Simulated;
 use crate::likelihood::engine::Fit;
 use crate::model::sensor::SensorCurve;

@@ -3,7 +3,7 @@
 use switchback_identify::statistics::{MeanInterval, Z95};
 use switchback_model::rig::Usage;
 
-use super::Plan;
+use super::plan::Plan;
 use crate::likelihood::engine::Fit;
 use crate::residuals::score::innovations;
 

@@ -1,8 +1,8 @@
 //! The parameters of an effect as it is told: those that were searched for, and those read off the data or the fit.
 
 use crate::attribution::explain::Explanation;
-use crate::diagnosis::FittedParameter;
 use crate::effects::Reading;
+use crate::fitted_parameter::FittedParameter;
 use crate::records::campaign::Campaign;
 
 /// The parameters of one effect of an explanation, given by its number, as fitted beside the others; `intervals` are those of all nonlinear

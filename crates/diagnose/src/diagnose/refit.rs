@@ -1,14 +1,14 @@
 //! Whether the model under diagnosis lacks a cause or only the right parameters.
 
-use super::Plan;
 use super::harm::differences;
+use super::plan::Plan;
 use super::report::{Conclusion, Other};
-use crate::diagnosis::{Status, Verdict};
 use crate::effects::Room;
 use crate::likelihood::engine::Fit;
 use crate::nominal::order::Chosen;
 use crate::records::campaign::Campaign;
 use crate::simulation::simulate::free_run;
+use crate::verdict::answer::{Status, Verdict};
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
 /// Whether a verdict names, alone or among others, an effect that a higher order or another delay could describe as well.

@@ -1,23 +1,23 @@
 //! From conclusions to the diagnosis that is handed out.
 
-use super::Plan;
 use super::given_model::GivenModel;
 use super::parameters::parameters;
+use super::plan::Plan;
 use crate::attribution::explain::Explanation;
 use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, closures, measure};
-use crate::diagnosis::{
-    Candidate, Cell, Diagnosis, Figure, FittedParameter, HoldoutSeries, Models, Refit, Status, Together,
-    Verdict,
-};
+use crate::diagnosis::{Candidate, Cell, Diagnosis, HoldoutSeries, Models, Together};
 use crate::effect::Effect;
 use crate::evidence::Compared;
 use crate::export::PortableModel;
+use crate::figure::Figure;
+use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
 use crate::nominal::order::Structure;
 use crate::residuals::score::{innovations, picture};
+use crate::verdict::answer::{Refit, Status, Verdict};
 use crate::verdict::odds::Odds;
 use crate::workers::Workers;
 

@@ -1,15 +1,16 @@
 //! The ways in which explanations were compared, and what is told of every effect in the end.
 
-use super::Plan;
 use super::parameters::parameters;
+use super::plan::Plan;
 use super::report::Conclusion;
 use crate::attribution::explain::Explanation;
 use crate::attribution::search::profiled;
-use crate::diagnosis::{Candidate, Diagnosis, Status};
+use crate::diagnosis::{Candidate, Diagnosis};
 use crate::effect::Effect;
 use crate::evidence::{Compared, EffectEvidence};
 use crate::nominal::order::Chosen;
 use crate::phase::Phase;
+use crate::verdict::answer::Status;
 use crate::verdict::fitted::{FittedVerdict, SecondOpinion};
 use crate::workers::Workers;
 

@@ -1,8 +1,8 @@
 //! The card of an effect: what the diagnosis knows about it beside its laws.
 
 use super::{Scene, Variant};
-use crate::diagnosis::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
 use crate::records::campaign::Campaign;
 

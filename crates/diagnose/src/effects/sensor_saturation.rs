@@ -9,7 +9,7 @@
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
 use super::{Card, Follows, Reading, Scene, Variant, parameter};
-use crate::diagnosis::FittedParameter;
+use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
 use crate::model::assembly::Saturation;
 use crate::model::sensor::Knee;

@@ -8,9 +8,9 @@ use super::place::Known;
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
+use crate::nominal_model::NominalModel;
 use crate::records::campaign::{Criterion, HIGHEST_ORDER};
 use crate::records::motion::ReversalRule;
-use crate::settings::NominalModel;
 
 /// A fitted model as plain data: all that its free runs depend on, to the last bit.
 ///

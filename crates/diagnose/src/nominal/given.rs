@@ -7,8 +7,8 @@ use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::engine::{Fit, FitRecords};
 use crate::model::assembly::Assembly;
 use crate::model::borders::Grid;
+use crate::nominal_model::NominalModel;
 use crate::records::campaign::{Campaign, dimensionless};
-use crate::settings::NominalModel;
 
 /// Checks a given model and scales it: `u' = u/s − A(1)·μ/(B(1)·s)` keeps `A y = B u` for `y' = (y − μ)/s`.
 pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, DiagnoseError> {

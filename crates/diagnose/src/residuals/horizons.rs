@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use switchback_identify::statistics::{MeanInterval, Z95};
 
-use crate::diagnosis::{Horizon, HorizonGain};
+use crate::horizon::{Horizon, HorizonGain};
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::likelihood::whitener::LEAD;

@@ -1,8 +1,7 @@
 //! From fitted probabilities to a verdict.
 
-use crate::diagnosis::{Status, Verdict};
 use crate::effect::Effect;
-use crate::verdict::decide::naming_nothing;
+use crate::verdict::answer::{Status, Verdict, naming_nothing};
 use crate::verdict::fitted::Weighed;
 
 /// Effects in one answer at most.

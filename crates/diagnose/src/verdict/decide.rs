@@ -1,10 +1,10 @@
 //! From probabilities to a verdict.
 
 use crate::attribution::pairs::Causes;
-use crate::diagnosis::{Status, Verdict};
-use crate::effect::{Effect, Stage};
+use crate::effect::Effect;
 use crate::residuals::omnibus::Omnibus;
 use crate::settings::Settings;
+use crate::verdict::answer::{Status, Verdict, naming_nothing};
 use crate::verdict::odds::{Odds, UNEXPLAINED};
 
 /// Least probability of a rival.
@@ -16,20 +16,6 @@ const WIDEST: usize = 3;
 /// half (0.57 to 0.73) all held the cause among the first three, twelve as the first; set just above a stand-in at 0.576 for a drift
 /// that is no candidate, which costs one of the fourteen.
 const PROBABLE: f64 = 0.58;
-
-pub(crate) fn naming_nothing(status: Status, stage: Option<Stage>, probability: f64) -> Verdict {
-    Verdict {
-        status,
-        effects: Vec::new(),
-        class: Vec::new(),
-        stage,
-        probability,
-        calibrated: true,
-        corrected_by: None,
-        refit: None,
-        held_out_error_ratio: None,
-    }
-}
 
 /// The verdict where no gap is resolved on the judged records and no candidate explains what remains of the error.
 pub(crate) fn unresolved(odds: &Odds) -> Verdict {
@@ -112,6 +98,7 @@ fn sum(rivals: &[(Effect, f64)]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect::Stage;
 
     fn of_rivals(probabilities: &[f64]) -> Verdict {
         let effects = [Effect::GainDrift, Effect::ExtraPole, Effect::SensorDrift, Effect::Backlash];

@@ -1,6 +1,6 @@
 //! Laws that may explain more, and where a search for them begins.
 
-use super::Question;
+use super::question::Question;
 use crate::attribution::explain::{Part, assembled};
 use crate::attribution::starts::{Known, Score, ScoreTest};
 use crate::effects::{Scene, Variant};

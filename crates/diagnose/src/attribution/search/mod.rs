@@ -4,18 +4,19 @@ mod candidate_laws;
 mod drift_path;
 mod knots;
 mod profile;
+mod question;
 mod reidentification;
 mod screening;
 
 use self::candidate_laws::CandidateLaw;
 pub(crate) use self::drift_path::on_a_free_drift_path;
 pub(crate) use self::profile::profiled;
+pub(crate) use self::question::Question;
 pub(crate) use self::reidentification::reidentified;
 pub(crate) use self::screening::screened;
 use crate::attribution::explain::{Explanation, assembled};
 use crate::attribution::starts::Known;
-use crate::effect::Effect;
-use crate::effects::{Search, Variant};
+use crate::effects::Search;
 use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::engine::{Build, Fit, Ground, NonlinearParameter, fit};
 use crate::model::assembly::Assembly;
@@ -33,43 +34,6 @@ const RELAXED: usize = 6;
 /// Points of a pattern search at most: to see whether a law may still win, and in the end.
 const SCOUTED: usize = 8;
 const TRIALS: usize = 30;
-
-/// An effect whose laws may explain more, and what is known about it.
-#[derive(Debug, Clone)]
-pub(crate) struct Question {
-    pub(crate) effect: Effect,
-    /// The law that served it best alone, with the nonlinear parameters that it had; all laws from all their starts where none is
-    /// given.
-    pub(crate) alone: Option<(usize, Vec<NonlinearParameter>)>,
-}
-
-impl Question {
-    /// Every law of an effect.
-    pub(crate) fn open(effect: Effect) -> Self {
-        Self { effect, alone: None }
-    }
-
-    /// The law of an effect that was fitted alone, from where it ended.
-    pub(crate) fn after(single: &Explanation) -> Self {
-        let part = &single.parts[0];
-        let (effect, law) = part.law;
-        Self { effect, alone: Some((law, single.fit.nonlinear.clone())) }
-    }
-
-    /// The law, with fewer starts where something is known; none where another law is asked for.
-    fn narrowed(&self, number: usize, mut law: Variant) -> Option<Variant> {
-        let Some((known, nonlinear)) = &self.alone else { return Some(law) };
-        if *known != number {
-            return None;
-        }
-        // Where the likelihood has corners what was found alone may be far off: all starts are needed.
-        if !law.search.is_by_pattern() && nonlinear.len() == law.starts[0].len() {
-            let middle = law.starts.swap_remove(law.starts.len() / 2);
-            law.starts = vec![nonlinear.clone(), middle];
-        }
-        Some(law)
-    }
-}
 
 /// A sketch some rounds on: enough to see whether it may still win.
 pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {

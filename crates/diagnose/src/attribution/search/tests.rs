@@ -1,5 +1,6 @@
 use super::*;
 use crate::Serial;
+use crate::effect::Effect;
 use crate::testing::{noise_free, small_campaign, small_model, white};
 
 /// Least squares draws `A` towards zero; what is solved for in turn with the filter that follows from it does not stay there.

@@ -11,9 +11,9 @@ use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT, RulesSay};
 use super::{
     Agreed, AgreedOn, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on, harms, told,
 };
-use crate::diagnosis::Verdict;
 use crate::effect::Effect;
 use crate::evidence::Compared;
+use crate::verdict::answer::Verdict;
 use crate::verdict::by_fit;
 
 /// Folds of the base rigs, and of the laws.

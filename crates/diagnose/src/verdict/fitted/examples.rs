@@ -1,11 +1,12 @@
 //! Made evidence for tests.
 
 use super::calibration::{Example, Holds};
-use crate::diagnosis::{Horizon, HorizonGain, Status};
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
+use crate::horizon::{Horizon, HorizonGain};
 use crate::testing::white;
-use crate::verdict::decide::naming_nothing;
+use crate::verdict::answer::Status;
+use crate::verdict::answer::naming_nothing;
 
 /// What is said of an effect of two parameters that gains the same at all horizons.
 pub(in crate::verdict) fn says(effect: Effect, delta_bic: f64, share: f64, certainty: f64) -> EffectEvidence {

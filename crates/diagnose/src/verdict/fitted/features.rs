@@ -27,9 +27,10 @@
 //! that none of these is the cause (`unexplained_by_rules`).
 
 use super::choice::Sign;
-use crate::diagnosis::{Horizon, HorizonGain, Status};
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
+use crate::horizon::{Horizon, HorizonGain};
+use crate::verdict::answer::Status;
 
 /// A feature of an effect.
 #[derive(Debug, Clone, Copy)]

@@ -10,6 +10,8 @@ mod choice;
 #[cfg(test)]
 pub(super) mod examples;
 mod features;
+mod shares;
+mod weighed;
 
 use std::sync::LazyLock;
 
@@ -21,13 +23,15 @@ pub use self::calibration::Holds;
 pub use self::calibration::OutOfFold;
 pub use self::calibration::calibrate;
 pub(crate) use self::features::RulesSay;
+pub use self::shares::Shares;
+pub(crate) use self::weighed::Weighed;
 
 use self::choice::probabilities;
 use self::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
-use crate::diagnosis::{Status, Verdict};
 use crate::effect::Effect;
 use crate::evidence::Compared;
 use crate::verdict::agreement::agrees;
+use crate::verdict::answer::{Status, Verdict};
 use crate::verdict::by_fit;
 
 /// A feature with its coefficient and the range of what was met.
@@ -47,17 +51,6 @@ impl Coefficient {
         let margin = 1e-5 * (1.0 + x.abs());
         (self.met[0] - margin..=self.met[1] + margin).contains(&x)
     }
-}
-
-/// How common causes are: shares of all rigs, summing to one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Shares {
-    /// One of the effects.
-    pub effect: f64,
-    /// Nothing is missing.
-    pub none: f64,
-    /// A cause that the library does not have.
-    pub none_of_these: f64,
 }
 
 /// How often a cause that rules name was the right one where all readings of the records agree on it, and the fitted verdict finds it
@@ -256,28 +249,6 @@ pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_
     }
 }
 
-/// Probabilities of the alternatives of a diagnosis.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Weighed {
-    /// Of every effect with a fit, the likeliest first.
-    pub(crate) effects: Vec<(Effect, f64)>,
-    pub(crate) none: f64,
-    pub(crate) none_of_these: f64,
-    /// Whether evidence like this was met when the verdict was fitted.
-    pub(crate) is_met: bool,
-}
-
-impl Weighed {
-    /// From the probabilities of the effects, of nothing and of none of these, as if evidence like this was met.
-    fn new(alternatives: &Alternatives, p: &[f64]) -> Self {
-        let (of_effects, rest) = p.split_at(alternatives.effects.len());
-        let mut effects: Vec<(Effect, f64)> =
-            alternatives.effects.iter().copied().zip(of_effects.iter().copied()).collect();
-        effects.sort_by(|x, y| y.1.total_cmp(&x.1));
-        Self { effects, none: rest[0], none_of_these: rest[1], is_met: true }
-    }
-}
-
 /// Whether the likeliest effect makes a held-out record worse in every way of comparing.
 fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
     let first = weighed.effects.first();
@@ -384,7 +355,7 @@ impl FittedVerdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verdict::decide::naming_nothing;
+    use crate::verdict::answer::naming_nothing;
 
     fn saying(status: Status, effects: &[Effect], probability: f64) -> Verdict {
         Verdict { effects: effects.to_vec(), ..naming_nothing(status, None, probability) }

@@ -1,0 +1,148 @@
+//! What is known before any effect is tried.
+
+use switchback_model::rig::Rig;
+
+use super::given_model::GivenModel;
+use super::nominal::Nominal;
+use crate::attribution::PairEffort;
+use crate::attribution::explain::Explanation;
+use crate::error::DiagnoseError;
+use crate::export::Exporter;
+use crate::nominal::order::{Chosen, Structure};
+use crate::records::campaign::Campaign;
+use crate::settings::{Model, Settings};
+
+/// What is known before any effect is tried.
+#[derive(Debug)]
+pub(super) struct Plan {
+    pub(super) settings: Settings,
+    pub(super) campaign: Campaign,
+    /// The nominal model as identified here.
+    pub(super) nominal: Nominal,
+    /// The model under diagnosis, where it is not the identified one.
+    pub(super) given: Option<GivenModel>,
+    /// Tracks the gap is measured on, and what the model under diagnosis makes of them.
+    pub(super) judged: Vec<usize>,
+    pub(super) runs: Vec<Vec<f64>>,
+    /// That of the nominal model.
+    pub(super) structure: Structure,
+    /// How far two effects are looked for.
+    pub(super) pair_effort: PairEffort,
+    /// Whether the colour of the noise belongs to the model, and is no cause: of records that nobody designed.
+    pub(super) owns_colour: bool,
+    /// Whether probabilities were calibrated on records and models like these.
+    pub(super) is_calibrated: bool,
+    pub(super) limitations: Vec<String>,
+    pub(super) exporter: Exporter,
+}
+
+impl Plan {
+    /// Lays out what a diagnosis of the chosen nominal model starts from.
+    pub(super) fn new(
+        rig: &Rig,
+        model: &Model,
+        settings: &Settings,
+        chosen: Chosen,
+    ) -> Result<Self, DiagnoseError> {
+        let Chosen { campaign, fit, structure, told } = chosen;
+        let declared = told.is_none();
+        let mut settings = settings.clone();
+        let mut limitations = Vec::from_iter(told);
+        if campaign.criterion.simulates() {
+            // What changes only the noise moves no simulation.
+            settings.effects.retain(|e| !e.moves_no_simulation());
+        }
+        let judged = judged_tracks(&campaign, &mut limitations);
+        let given = GivenModel::of(model, rig, &campaign, &judged)?;
+        note_what_the_records_lack(&campaign, &mut limitations);
+        let nominal = Nominal::new(&campaign, &settings, Explanation::nominal(fit));
+        let runs = match &given {
+            Some(given) => given.runs.clone(),
+            None => nominal.runs(&campaign, &judged),
+        };
+        let pair_effort = if campaign.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
+        let owns_colour =
+            !declared && !campaign.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
+        let exporter = Exporter::new(rig);
+        let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
+        let is_calibrated = declared && holds_out && given.is_none() && !campaign.criterion.simulates();
+        Ok(Self {
+            settings,
+            campaign,
+            nominal,
+            given,
+            judged,
+            runs,
+            structure,
+            pair_effort,
+            owns_colour,
+            is_calibrated,
+            limitations,
+            exporter,
+        })
+    }
+
+    /// Whether the nominal model was identified from records that nobody designed, its order unknown.
+    pub(super) fn is_of_the_field(&self) -> bool {
+        self.owns_colour && !self.campaign.holds_nominal()
+    }
+
+    /// Founds the diagnosis on another optimum of the nominal model.
+    pub(super) fn found_on(&mut self, nominal: Nominal) {
+        if self.given.is_none() {
+            self.runs = nominal.runs(&self.campaign, &self.judged);
+        }
+        self.nominal = nominal;
+    }
+}
+
+/// The hold-out records; without any, the fit records, with a word about it.
+pub(super) fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {
+    let numbers = |fit: bool| {
+        campaign
+            .tracks
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| t.is_fit() == fit && t.from + 20 < t.v.len())
+            .map(|(i, _)| i)
+            .collect::<Vec<usize>>()
+    };
+    let held_out = numbers(false);
+    if held_out.is_empty() {
+        limitations.push(
+            "no held-out record can be judged (there is none, it is too short, or its input never moves): gap and closure are \
+             measured on the records the models were fitted to, which flatters them; hold a record out in which the input moves"
+                .into(),
+        );
+        return numbers(true);
+    }
+    held_out
+}
+
+pub(super) fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {
+    for track in campaign.tracks.iter().filter(|t| t.y.iter().all(|y| *y == t.y[0])) {
+        limitations.push(format!(
+            "y never moves in `{}`: its sensor may have been off; check the record, or leave it out",
+            track.name
+        ));
+    }
+    if campaign.fit().all(|t| t.is_pulsed()) {
+        limitations.push(
+            "no free record among the fit records: pulse experiments cannot see backlash or gradual transition, and hardly \
+             rate dependence; add a free record with reversals of many sizes"
+                .into(),
+        );
+    }
+    if campaign.tracks.iter().all(|t| t.period.is_none()) {
+        limitations.push(
+            "no record repeats its input three times: noise is told from the systematic part by the model's floor alone"
+                .into(),
+        );
+    }
+    if campaign.rule.threshold > 0.0 {
+        limitations.push(format!(
+            "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
+            campaign.rule.threshold * campaign.v_width
+        ));
+    }
+}
