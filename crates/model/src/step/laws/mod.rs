@@ -2,6 +2,7 @@
 
 mod borders;
 mod builder;
+mod by_border;
 mod columns;
 mod input;
 mod linear;

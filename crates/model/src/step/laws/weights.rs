@@ -5,9 +5,9 @@
 
 use super::borders::Written;
 use super::builder::{Builder, Part, choose, note, when};
+use super::by_border::by_border;
 use super::input::Ends;
 use super::motion::Motion;
-use super::working_point::by_border;
 use crate::step::model::{Direction, Effects, Model, Transition, TransitionLaw, Widening};
 use crate::step::program::{Array, Procedure, Statement, Value, Variable};
 

@@ -2,11 +2,12 @@
 
 use super::borders::{Written, or_other};
 use super::builder::{Builder, Part, choose, note, when};
+use super::by_border::by_border;
 use super::input::Ends;
 use super::motion::Motion;
 use super::weights;
 use crate::step::model::{Direction, Effects, Model};
-use crate::step::program::{Statement, Value, Variable};
+use crate::step::program::{Value, Variable};
 
 /// The working point, and how it is followed from the position `x`.
 pub(super) fn part(
@@ -54,15 +55,6 @@ fn on_borders(
         None => on,
     };
     Part { start: start.into_iter().chain(gap).collect(), step }
-}
-
-/// What is done where a run is to begin on the descending border, where that is left to the model, and on the ascending one.
-pub(super) fn by_border(
-    ends: &Ends,
-    [descending, by_itself, ascending]: [Vec<Statement>; 3],
-) -> Vec<Statement> {
-    let border = || ends.branch.get();
-    vec![choose(border().less(0.0), descending, vec![choose(border().more(0.0), ascending, by_itself)])]
 }
 
 /// The mean over both borders where noise on the position decides the branch: it rises with the probability
