@@ -2,7 +2,7 @@
 
 use crate::effect::Effect;
 use crate::verdict::answer::{Status, Verdict, naming_nothing};
-use crate::verdict::fitted::Weighed;
+use crate::verdict::fitted::weighed::Weighed;
 
 /// Effects in one answer at most.
 const WIDEST: usize = 3;

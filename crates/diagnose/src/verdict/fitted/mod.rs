@@ -11,7 +11,7 @@ mod choice;
 pub(super) mod examples;
 mod features;
 mod shares;
-mod weighed;
+pub(super) mod weighed;
 
 use std::sync::LazyLock;
 
@@ -24,7 +24,7 @@ pub use self::calibration::OutOfFold;
 pub use self::calibration::calibrate;
 pub(crate) use self::features::RulesSay;
 pub use self::shares::Shares;
-pub(crate) use self::weighed::Weighed;
+use self::weighed::Weighed;
 
 use self::choice::probabilities;
 use self::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
