@@ -1,9 +1,11 @@
 //! From a plan to a [`Rig`] that cannot be wrong.
 
 use super::cut::{self, Part};
+use super::divided::Divided;
 use super::measured::{Measured, Request};
 use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
+use super::samples_needed::samples_needed;
 use super::told::{self, Told};
 use super::voice::Voice;
 use crate::input::{Column, DataError, DataProblem, Table, stream};
@@ -29,12 +31,6 @@ pub struct Loaded {
 pub(super) struct Located {
     pub(super) record: Option<usize>,
     pub(super) problem: RigProblem,
-}
-
-/// One record of the plan, read and divided.
-pub(super) struct Divided {
-    pub(super) measured: Measured,
-    pub(super) parts: Vec<Part>,
 }
 
 /// Reads all files of a plan.
@@ -170,12 +166,6 @@ fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located
         .collect();
     debug_assert_eq!(measured.len(), plan.records.len());
     if problems.is_empty() { Ok(()) } else { Err(problems) }
-}
-
-/// Equations of order n reach back n samples and have 2n coefficients and at least two border values; one sample more
-/// leaves a residual. Ten at the least, since no order at all can be chosen from fewer.
-pub(super) fn samples_needed(order: Option<usize>) -> usize {
-    order.map_or(10, |n| (3 * n + 3).max(10))
 }
 
 fn divide(

@@ -1,6 +1,6 @@
 //! Records that can be read and are no likely measurements of the system that is declared.
 
-use super::assemble::Divided;
+use super::divided::Divided;
 use super::measured::Measured;
 use super::plan::{Plan, PlannedRecord};
 use super::standing;

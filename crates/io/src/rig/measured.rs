@@ -4,8 +4,10 @@ use super::clock::Clock;
 use super::plan::{ColumnNames, NO_TIME, Sampling};
 use super::problem::RigProblem;
 use super::resample::{self, Resampled};
+use super::samples_needed::samples_needed;
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
+use super::taken::Series;
 use super::voice::Voice;
 use super::{faults, guess};
 use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
@@ -149,14 +151,6 @@ struct Even {
     notes: Vec<String>,
 }
 
-/// The columns taken, and the rows they come from.
-pub(super) struct Series {
-    pub(super) v: Vec<f64>,
-    pub(super) y: Option<Vec<f64>>,
-    pub(super) predicted: Option<Vec<f64>>,
-    pub(super) rows: Vec<usize>,
-}
-
 impl Even {
     fn measured(self, mut table: Table, selection: Selection) -> Measured {
         table.notes.extend(self.notes);
@@ -269,10 +263,7 @@ impl Signals<'_> {
         }
         let timing = stamps.judge(declared)?;
         if timing.sample_time.is_nan() {
-            return Err((
-                None,
-                DataProblem::TooShort { found: t.len(), needed: super::assemble::samples_needed(None) },
-            ));
+            return Err((None, DataProblem::TooShort { found: t.len(), needed: samples_needed(None) }));
         }
         let source = match declared {
             Some(_) => ClockSource::GivenAndTime,
@@ -290,8 +281,7 @@ impl Signals<'_> {
 
     fn resampled(&self, series: Series, stamps: &Stamps<'_>, declared: Option<f64>) -> Result<Even, Fault> {
         stamps.check_order()?;
-        let too_short =
-            DataProblem::TooShort { found: series.v.len(), needed: super::assemble::samples_needed(None) };
+        let too_short = DataProblem::TooShort { found: series.v.len(), needed: samples_needed(None) };
         let step = declared.or_else(|| stamps.mean_step()).ok_or((None, too_short))?;
         let (even, pieces, told) = resample::resample(&series, stamps.t, step);
         let interruptions =

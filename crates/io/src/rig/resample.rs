@@ -1,6 +1,6 @@
 //! Unevenly sampled rows, interpolated linearly to even ones.
 
-use super::measured::Series;
+use super::taken::Series;
 use std::ops::Range;
 
 /// What was done.

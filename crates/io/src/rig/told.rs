@@ -1,6 +1,6 @@
 //! What was inferred, in a few lines.
 
-use super::assemble::Divided;
+use super::divided::Divided;
 use super::measured::{ClockSource, Measured};
 use super::plan::{HELD_OUT, Plan};
 use super::sampling::rounded;
