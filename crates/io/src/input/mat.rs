@@ -5,14 +5,6 @@ use super::table::{Column, Kind, Place};
 use super::table::{DataError, DataProblem, Table, TableError};
 use std::path::Path;
 
-/// A numeric array: its name, rows and columns, and the values column by column.
-#[cfg(feature = "matlab")]
-struct Array {
-    name: String,
-    size: [usize; 2],
-    values: Vec<f64>,
-}
-
 /// Whether a file is MATLAB's: by its ending, or its first bytes where it has none.
 pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
     /// How a file in format v5 or v7.3 begins.
@@ -44,7 +36,11 @@ fn unreadable(path: &Path, reason: String) -> TableError {
 }
 
 #[cfg(feature = "matlab")]
+mod array;
+#[cfg(feature = "matlab")]
 mod formats;
+#[cfg(feature = "matlab")]
+use array::Array;
 #[cfg(feature = "matlab")]
 use formats::{hdf5, matlab5};
 
@@ -94,15 +90,6 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         faults: Vec::new(),
         cut_off: None,
     })
-}
-
-#[cfg(feature = "matlab")]
-impl Array {
-    /// Whether it has as many values as its size says, which a damaged file may not: sizes there are of any number and sign.
-    fn is_whole(&self) -> bool {
-        let [rows, columns] = self.size;
-        rows.checked_mul(columns) == Some(self.values.len())
-    }
 }
 
 /// A vector lies either way; the columns of a matrix get their number after its name.

@@ -1,6 +1,7 @@
 //! Reading what users write: measurements in any dialect, text files, and TOML whose errors point into the file.
 
 mod closest;
+mod file_error;
 pub mod json_file;
 mod kinds;
 mod mat;
@@ -14,6 +15,7 @@ mod toml_file;
 mod two_numbers;
 
 pub use closest::closest;
+pub use file_error::FileError;
 pub use kinds::FileKind;
 pub use table::Cells;
 pub(crate) use table::Column;
@@ -25,7 +27,6 @@ pub use table::Step;
 pub(crate) use table::Table;
 pub(crate) use table::TableError;
 pub(crate) use table::unit;
-pub use text_file::FileError;
 pub use text_file::read_text;
 pub use toml_file::TomlError;
 pub use toml_file::TomlFile;

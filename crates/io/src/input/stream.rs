@@ -1,6 +1,6 @@
 //! Inputs that are no files on a disk: the standard input, pipes, FIFOs, devices.
 
-use super::text_file::FileError;
+use super::file_error::FileError;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs::File;

@@ -1,7 +1,8 @@
 //! A text file read piece by piece and decoded on the way, so that it is never whole in memory.
 
+use super::file_error::FileError;
 use super::stream::{self, is_stream};
-use super::text_file::{FileError, open};
+use super::text_file::open;
 use encoding_rs::{Decoder, Encoding, UTF_8, WINDOWS_1252};
 use std::io::{Cursor, Read};
 use std::path::Path;

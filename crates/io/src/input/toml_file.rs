@@ -1,8 +1,9 @@
 //! A TOML file, and errors that point into it.
 
 use super::closest::closest;
+use super::file_error::FileError;
 use super::terms::Terms;
-use super::text_file::{FileError, read_text};
+use super::text_file::read_text;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use serde::de::DeserializeOwned;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! The arrays of the two formats that MATLAB writes.
 
-use super::Array;
+use super::array::Array;
 use hdf5_pure::{File, Group};
 use matfile::{MatFile, NumericData};
 

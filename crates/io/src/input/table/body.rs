@@ -1,10 +1,11 @@
 //! The rows of a table.
 
 use super::cell::{self, Cell, Decimal};
+use super::column::{Column, Fault, Kind};
 use super::dialect::Dialect;
 use super::error::{DataError, DataProblem, Place};
 use super::lines::is_idle;
-use super::{Column, Fault, Kind, Table};
+use super::measurements::Table;
 
 /// Faults kept of a column or of the rows; of others only the count is told.
 pub(super) const KEPT: usize = 3;

@@ -2,8 +2,10 @@
 
 use super::body::Reader;
 use super::cell::Decimal;
+use super::column::{Column, Fault, Kind, empty_column};
 use super::error::Place;
-use super::{Column, Fault, Kind, Table, empty_column, unit};
+use super::measurements::Table;
+use super::unit;
 
 /// The cells of one column.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,94 +5,37 @@
 
 mod body;
 mod cell;
+mod column;
 mod dialect;
 mod error;
 mod head;
 mod lines;
+mod measurements;
 mod memory;
 mod places;
+mod table_error;
 pub(crate) mod unit;
 
+pub(crate) use column::Column;
+pub(crate) use column::Kind;
+use column::empty_column;
 pub use error::DataError;
 pub use error::DataProblem;
 pub(crate) use error::Place;
 pub use error::Step;
+pub(crate) use measurements::Table;
 pub use memory::Cells;
 pub(crate) use places::Places;
+pub(crate) use table_error::TableError;
 
 use super::mat;
-use super::text_file::{FileError, read_bytes};
+use super::text_file::read_bytes;
 use super::text_pieces::{PieceError, TextPieces};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
 use lines::Delimiter;
 use std::path::Path;
-
-/// A file's columns, all of the same length.
-#[derive(Debug, Clone)]
-pub(crate) struct Table {
-    /// The file, as messages call it.
-    pub path: String,
-    /// In the order of the file.
-    pub columns: Vec<Column>,
-    /// Where each row stands.
-    pub places: Places,
-    /// Whether the names of the columns are the file's own.
-    pub has_header: bool,
-    /// What was recognised and is not how such files usually look.
-    pub notes: Vec<String>,
-    /// Rows that could not be read.
-    pub faults: Vec<DataError>,
-    /// The last line, where it ends in the middle of a row; such a row is left out.
-    pub cut_off: Option<DataError>,
-}
-
-/// One column.
-#[derive(Debug, Clone)]
-pub(crate) struct Column {
-    /// Its name without the unit; `column 2` where the file has no header.
-    pub name: String,
-    /// Its unit; empty for a pure number.
-    pub unit: Option<String>,
-    /// Form of `model`.
-    pub kind: Kind,
-    /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
-    pub values: Vec<f64>,
-    /// The cells as they stand in the file, of stamps only.
-    pub stamps: Vec<String>,
-    /// The first cells that are neither a value nor missing.
-    pub faults: Vec<Fault>,
-    /// How many such cells there are.
-    pub fault_count: usize,
-}
-
-/// What the cells of a column are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// A number.
-    Number,
-    /// A time stamp.
-    Stamp,
-    /// Text.
-    Text,
-}
-
-/// A cell that cannot be read.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
-    pub row: usize,
-    pub cell: String,
-}
-
-/// Why a file gives no table at all.
-#[derive(Debug)]
-pub(crate) enum TableError {
-    /// The file cannot be read.
-    File(FileError),
-    /// The file holds no table of numbers.
-    Data(DataError),
-}
 
 /// Why a text gives no table.
 enum Unread {
@@ -128,27 +71,6 @@ impl From<PieceError> for Unread {
 
 /// Bytes of text looked at for its dialect at first: more than most preambles and headers take.
 const ENOUGH: usize = 1 << 18;
-
-impl Column {
-    /// `force [N]`, or the name alone.
-    pub(crate) fn label(&self) -> String {
-        match &self.unit {
-            Some(unit) => format!("{} [{unit}]", self.name),
-            None => self.name.clone(),
-        }
-    }
-
-    /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
-    pub(crate) fn is_number(&self) -> bool {
-        let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
-        self.kind == Kind::Number && is_meant()
-    }
-
-    /// A cell as it stands in the file, a number up to zeros that say nothing.
-    pub(crate) fn written(&self, row: usize) -> String {
-        self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
-    }
-}
 
 impl Table {
     /// Reads a file of measurements of so many columns at least, one or two: text, or with the feature `matlab` a `.mat` file.
@@ -233,23 +155,6 @@ impl Table {
         table.columns.retain(|column| !is_blank(column));
         Ok(table)
     }
-
-    /// All columns for a message: number, name, unit.
-    pub(crate) fn listing(&self) -> String {
-        let listed = self.columns.iter().enumerate().map(|(k, column)| {
-            let kind = match column.kind {
-                Kind::Number => "",
-                Kind::Stamp => ", times",
-                Kind::Text => ", text",
-            };
-            if self.has_header {
-                format!("{} `{}`{kind}", k + 1, column.label())
-            } else {
-                (k + 1).to_string()
-            }
-        });
-        listed.collect::<Vec<_>>().join(", ")
-    }
 }
 
 fn columns(head: &Head, width: usize) -> Vec<Column> {
@@ -258,18 +163,6 @@ fn columns(head: &Head, width: usize) -> Vec<Column> {
         None => (format!("column {}", k + 1), None),
     });
     named.map(|(name, unit)| empty_column(name, unit)).collect()
-}
-
-fn empty_column(name: String, unit: Option<String>) -> Column {
-    Column {
-        name,
-        unit,
-        kind: Kind::Number,
-        values: Vec::new(),
-        stamps: Vec::new(),
-        faults: Vec::new(),
-        fault_count: 0,
-    }
 }
 
 fn notes(head: &Head, dialect: &Dialect) -> Vec<String> {

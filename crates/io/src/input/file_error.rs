@@ -1,0 +1,65 @@
+//! Why a file gives no text.
+
+use miette::Diagnostic;
+use std::io;
+use thiserror::Error;
+
+/// Why a file could not be read as text.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum FileError {
+    /// Nothing exists at the path.
+    #[error("{path}: no such file")]
+    #[diagnostic(help("check the path; it is taken relative to the folder that the command runs in"))]
+    Missing {
+        /// The path as given.
+        path: String,
+    },
+    /// The path leads to a folder.
+    #[error("{path}: is a folder, not a file")]
+    #[diagnostic(help("{help}"))]
+    Directory {
+        /// The path as given.
+        path: String,
+        /// What to give instead.
+        help: String,
+    },
+    /// The bytes are not UTF-8.
+    #[error("{path}:{line}: the text is not UTF-8")]
+    #[diagnostic(help("save the file as UTF-8 text; spreadsheets call it \"CSV UTF-8\""))]
+    NotUtf8 {
+        /// The path as given.
+        path: String,
+        /// Line of the first byte that is no UTF-8, from 1.
+        line: usize,
+    },
+    /// Nothing came from a stream for long.
+    #[error("{path}: nothing came for {seconds} s")]
+    #[diagnostic(help(
+        "a pipe or terminal gives bytes only while something writes into it: start its writer first, or give a file"
+    ))]
+    Silent {
+        /// The path as given.
+        path: String,
+        /// How long that was.
+        seconds: u64,
+    },
+    /// A stream goes on for too long.
+    #[error("{path}: goes on beyond {gibibytes} GiB, the most that is read from a stream")]
+    #[diagnostic(help("give a file, or a stream that ends: a device as /dev/zero never does"))]
+    Endless {
+        /// The path as given.
+        path: String,
+        /// The limit.
+        gibibytes: usize,
+    },
+    /// The system refused to read it.
+    #[error("{path}: cannot be read: {source}")]
+    #[diagnostic(help("check that the file may be read and that its disk is present"))]
+    Unreadable {
+        /// The path as given.
+        path: String,
+        /// What the system said.
+        source: io::Error,
+    },
+}

@@ -1,0 +1,71 @@
+//! A column of a table.
+
+/// One column.
+#[derive(Debug, Clone)]
+pub(crate) struct Column {
+    /// Its name without the unit; `column 2` where the file has no header.
+    pub name: String,
+    /// Its unit; empty for a pure number.
+    pub unit: Option<String>,
+    /// Form of `model`.
+    pub kind: Kind,
+    /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
+    pub values: Vec<f64>,
+    /// The cells as they stand in the file, of stamps only.
+    pub stamps: Vec<String>,
+    /// The first cells that are neither a value nor missing.
+    pub faults: Vec<Fault>,
+    /// How many such cells there are.
+    pub fault_count: usize,
+}
+
+/// What the cells of a column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// A number.
+    Number,
+    /// A time stamp.
+    Stamp,
+    /// Text.
+    Text,
+}
+
+/// A cell that cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Fault {
+    pub row: usize,
+    pub cell: String,
+}
+
+impl Column {
+    /// `force [N]`, or the name alone.
+    pub(crate) fn label(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} [{unit}]", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
+    pub(crate) fn is_number(&self) -> bool {
+        let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
+        self.kind == Kind::Number && is_meant()
+    }
+
+    /// A cell as it stands in the file, a number up to zeros that say nothing.
+    pub(crate) fn written(&self, row: usize) -> String {
+        self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
+    }
+}
+
+pub(super) fn empty_column(name: String, unit: Option<String>) -> Column {
+    Column {
+        name,
+        unit,
+        kind: Kind::Number,
+        values: Vec::new(),
+        stamps: Vec::new(),
+        faults: Vec::new(),
+        fault_count: 0,
+    }
+}
