@@ -2,6 +2,7 @@
 //!
 //! The diagnosis itself is the crate `switchback_diagnose`; here are files, threads and units.
 
+mod choice;
 mod error;
 pub mod examine;
 mod expectation;
