@@ -1,17 +1,8 @@
 //! What a model costs that could run in real time.
 
-use super::{Flag, Identification, Yardstick};
+use super::{CausalAlternative, Flag};
 use switchback_identify::PlusMinus;
 use switchback_identify::free::{LookAhead, Model};
-
-/// The best model that could run in real time, beside one that could not.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CausalAlternative {
-    /// The model, as `--causal` gives it.
-    pub identification: Box<Identification>,
-    /// How both simulate the held-out records; `None` if nothing is held out.
-    pub held_out: Option<Yardstick>,
-}
 
 /// Why a model could not run in real time, with the unit of its input; empty if it could.
 pub(crate) fn obstacles(model: &Model, unit: &str) -> Vec<String> {

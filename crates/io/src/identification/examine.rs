@@ -1,24 +1,12 @@
 //! An identification, examined: beside simpler models, beside one for real time, and by its residuals.
 
 use super::{
-    CausalAlternative, Flag, Identification, IdentificationError, Method, Request, Yardstick,
-    identify_watched, lacks_holdout, residuals,
+    CausalAlternative, Examination, Flag, Identification, IdentificationError, Method, Request, Yardstick,
+    identify_watched, residuals,
 };
 use crate::progress::Stages;
 use rayon::prelude::*;
-use switchback_identify::statistics::Whiteness;
 use switchback_model::rig::Rig;
-
-/// What other models and the residuals say of an identification.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Examination {
-    /// Simpler models on the held-out records.
-    pub yardsticks: Vec<Yardstick>,
-    /// The best model that could run in real time, where this one could not and something is held out to compare them.
-    pub causal: Option<CausalAlternative>,
-    /// How white the innovations are over the fit records.
-    pub innovations: Option<Whiteness>,
-}
 
 /// Identifies a rig and examines the result: [`Identification::flags`] then holds every reservation, weightiest first.
 ///
@@ -122,4 +110,9 @@ fn flags(rig: &Rig, found: &Identification, examination: &Examination, useless: 
 /// The yardstick that comes nearest to the identification, or surpasses it most.
 fn preferable(examination: &Examination) -> Option<&Yardstick> {
     examination.yardsticks.iter().max_by(|x, y| x.fit_percent.total_cmp(&y.fit_percent))
+}
+
+/// Whether nothing is held out, so that no fit figure proves anything.
+fn lacks_holdout(rig: &Rig) -> bool {
+    rig.holdout_records().next().is_none()
 }

@@ -1,11 +1,11 @@
 //! A model file in memory, and as text.
 
+use super::Domain;
 use super::described::Described;
-use super::{Curves, Domain, Points};
+use super::system::System;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt::Write;
-use switchback_diagnose::PortableModel;
 
 /// The format that is written, and the only one that is read.
 pub(crate) const SCHEMA: &str = "switchback/model/1";
@@ -60,46 +60,6 @@ pub struct Parameter {
     pub ci90: [Option<f64>; 2],
     /// Its unit; empty for a pure number.
     pub unit: String,
-}
-
-/// A model that runs.
-#[derive(Debug, Clone, PartialEq)]
-pub enum System {
-    /// Of `gap`: borders with effects.
-    Switched(Box<PortableModel>),
-    /// Of the methods for any record: piecewise-linear curves.
-    Curves(Curves),
-    /// Of the methods for pulse experiments: points of the borders.
-    Points(Points),
-}
-
-impl System {
-    /// The name of its form.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Switched(_) => "switched",
-            Self::Curves(_) => "curves",
-            Self::Points(_) => "points",
-        }
-    }
-
-    /// Whether the errors of its parameters are known.
-    pub(crate) fn has_covariance(&self) -> bool {
-        match self {
-            Self::Switched(model) => model.has_covariance(),
-            Self::Curves(model) => model.covariance().is_some(),
-            Self::Points(model) => model.covariance().is_some(),
-        }
-    }
-
-    fn value(&self) -> Value {
-        let value = match self {
-            Self::Switched(model) => serde_json::to_value(model),
-            Self::Curves(model) => serde_json::to_value(model),
-            Self::Points(model) => serde_json::to_value(model),
-        };
-        value.expect("finite numbers, strings and lists of them are JSON")
-    }
 }
 
 impl ModelFile {

@@ -1,6 +1,7 @@
 //! From what a command found to the model file that it writes.
 
-use super::file::{Added, Header, ModelFile, Parameter, System};
+use super::file::{Added, Header, ModelFile, Parameter};
+use super::system::System;
 use super::{Domain, PortableModel};
 use crate::diagnosis::{Report, Units, told};
 use crate::identification::{Found, Identification};

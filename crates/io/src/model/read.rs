@@ -1,6 +1,7 @@
 //! From a model file to a model that runs.
 
-use super::file::{Header, ModelFile, SCHEMA, System};
+use super::file::{Header, ModelFile, SCHEMA};
+use super::system::System;
 use crate::input::json_file::{self, JsonError};
 use crate::input::{FileError, read_text};
 use miette::Diagnostic;

@@ -1,6 +1,5 @@
-//! Free runs of any model.
+//! A free run and its band.
 
-use super::{ModelFile, System};
 use crate::identification::FreeRun;
 use switchback_identify::statistics::Z95;
 
@@ -48,45 +47,5 @@ impl Run {
         let (measured, simulated): (Vec<f64>, Vec<f64>) = judged.map(|t| (measured[t], self.y[t])).unzip();
         let fit_percent = (!measured.is_empty()).then(|| FreeRun::new(&measured, simulated, 0).fit_percent);
         Self { fit_percent, ..self }
-    }
-}
-
-impl ModelFile {
-    /// Runs on an input. With measured outputs, one a sample, the first of them are the initial state, as in the command that wrote the
-    /// model; without, the run begins at rest at the first input. None where the input runs along a border that the model does not know.
-    ///
-    /// # Panics
-    /// If the input is empty or the outputs have another length.
-    pub fn run(&self, v: &[f64], y: Option<&[f64]>) -> Option<Run> {
-        let mut run = match &self.system {
-            System::Switched(model) => {
-                let run = model.simulate(v, y);
-                let known = run.record.map(|name| {
-                    format!("these are the samples of `{name}`, a record of the rig: slow changes keep its place among the records")
-                });
-                let known = known.filter(|_| model.follows_clock());
-                Run {
-                    y: run.y,
-                    low: run.low,
-                    high: run.high,
-                    start: run.start,
-                    fit_percent: run.fit_percent,
-                    notes: run.notes.into_iter().chain(known).collect(),
-                }
-            }
-            System::Curves(model) => model.run(v, y),
-            System::Points(model) => model.run(v, y)?,
-        };
-        if !self.system.has_covariance() {
-            run.notes.push(
-                "the errors of the model's parameters are unknown: the band holds the noise only".to_owned(),
-            );
-        }
-        if y.is_none() {
-            run.notes.push(
-                "the run begins at rest, as if the input had always been at its first value".to_owned(),
-            );
-        }
-        Some(run)
     }
 }

@@ -1,0 +1,46 @@
+//! A model that runs.
+
+use super::curves::Curves;
+use super::points::Points;
+use serde_json::Value;
+use switchback_diagnose::PortableModel;
+
+/// A model that runs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum System {
+    /// Of `gap`: borders with effects.
+    Switched(Box<PortableModel>),
+    /// Of the methods for any record: piecewise-linear curves.
+    Curves(Curves),
+    /// Of the methods for pulse experiments: points of the borders.
+    Points(Points),
+}
+
+impl System {
+    /// The name of its form.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Switched(_) => "switched",
+            Self::Curves(_) => "curves",
+            Self::Points(_) => "points",
+        }
+    }
+
+    /// Whether the errors of its parameters are known.
+    pub(crate) fn has_covariance(&self) -> bool {
+        match self {
+            Self::Switched(model) => model.has_covariance(),
+            Self::Curves(model) => model.covariance().is_some(),
+            Self::Points(model) => model.covariance().is_some(),
+        }
+    }
+
+    pub(super) fn value(&self) -> Value {
+        let value = match self {
+            Self::Switched(model) => serde_json::to_value(model),
+            Self::Curves(model) => serde_json::to_value(model),
+            Self::Points(model) => serde_json::to_value(model),
+        };
+        value.expect("finite numbers, strings and lists of them are JSON")
+    }
+}
