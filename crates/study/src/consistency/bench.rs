@@ -1,6 +1,6 @@
 //! One system, hysteresis and number of points on the bench: everything about its experiments that noise does not touch.
 
-use super::StudyError;
+use super::error::StudyError;
 use super::pulse_kind::PulseKind;
 use crate::scenario::{Border, Case, Disturbance};
 use switchback_identify::excitation::{Direction, PulseExperiment};

@@ -1,6 +1,5 @@
-//! How long a study takes, before it is run.
+//! How long a replicate takes, before it is run.
 
-use super::standing::Rule;
 use crate::scenario::{Case, Coupling, Engine, Scenario};
 use switchback_identify::Method;
 
@@ -14,12 +13,6 @@ const SOLVED: f64 = 0.1e-6;
 
 /// Seconds of one thread for a sample of a cell of `free`: 53 ns in scenarios/any-record.toml, seven times as many where knots are refined.
 const FREE: f64 = 50e-9;
-
-/// Seconds of one thread that a study takes at least. Cells that share their noise cost the pulse methods next to nothing beside it; what a
-/// precision adds is known only as far as the error of a standard deviation goes, which depends on the number of replicates alone.
-pub fn least_seconds(scenario: &Scenario) -> f64 {
-    Rule::of(scenario).forecast() as f64 * of_a_replicate(scenario)
-}
 
 /// The same of one replicate.
 pub(super) fn of_a_replicate(scenario: &Scenario) -> f64 {

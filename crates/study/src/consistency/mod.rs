@@ -12,6 +12,7 @@ mod bench;
 mod cell;
 mod cost;
 mod direct;
+mod error;
 mod execute;
 mod expectations;
 mod family;
@@ -20,6 +21,7 @@ mod free;
 mod intervals;
 mod judge;
 mod lane_batch;
+mod least_seconds;
 mod memory;
 mod noise;
 mod noise_group;
@@ -47,11 +49,11 @@ use standing::Rule;
 use std::ops::{ControlFlow, Range};
 use switchback_io::output::sha256;
 use switchback_io::platform::platform;
-use thiserror::Error;
 use workload::Workload;
 
-pub use cost::least_seconds;
+pub use error::StudyError;
 pub use execute::Progress;
+pub use least_seconds::least_seconds;
 pub use replay::ReplayedCell;
 pub use replay::ReplayedExperiment;
 pub use replay::records;
@@ -64,52 +66,6 @@ pub(crate) use standing::Origin;
 pub use standing::Snapshot;
 pub use standing::Standing;
 pub(crate) use standing::Unusable;
-
-/// Why a study cannot be run.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum StudyError {
-    /// A method has no limit on some cell: its information matrix is singular even with endless data.
-    #[error(
-        "{method} cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; drop the method, or change the case"
-    )]
-    NoLimit {
-        /// Name of the method.
-        method: &'static str,
-        /// Name of the case.
-        case: String,
-        /// Name of the border.
-        border: String,
-        /// Points `m`.
-        points: usize,
-        /// What the method says.
-        source: switchback_identify::pulse::PulseFitError,
-    },
-    /// The estimate from any record does not exist on some cell.
-    #[error(
-        "free cannot be run on case `{case}`, border `{border}`, m = {points}: {source}; lower sweep.points, raise sweep.samples, or drop the method"
-    )]
-    NotFromDrive {
-        /// Name of the case.
-        case: String,
-        /// Name of the border.
-        border: String,
-        /// Knots `m` on each border.
-        points: usize,
-        /// What the method says.
-        source: switchback_identify::free::FreeError,
-    },
-    /// An experiment of the sweep cannot be built.
-    #[error("case `{case}`, m = {points}: {reason}")]
-    NoExperiment {
-        /// Name of the case.
-        case: String,
-        /// Points `m`.
-        points: usize,
-        /// Why.
-        reason: String,
-    },
-}
 
 /// A scenario with everything laid out that its replicates share.
 #[derive(Debug)]

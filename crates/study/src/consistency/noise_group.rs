@@ -1,8 +1,8 @@
 //! Common-noise groups: cells that share their noise.
 
-use super::StudyError;
 use super::bench::NoiseFilter;
 use super::cell::{ActiveCells, CellSpec, CellTheory};
+use super::error::StudyError;
 use super::family::Family;
 use super::family_plan::FamilyPlan;
 use super::noise::{LaneNoise, NoiseSource, STREAMS, draw_lanes, eights};

@@ -1,8 +1,8 @@
 //! One replicate again: its estimates in every cell, and the records they are made from, sample by sample.
 
-use super::StudyError;
 use super::bench::DIRECTIONS;
 use super::direct::{OpenNoise, OpenRecord};
+use super::error::StudyError;
 use super::noise::{ReplicateNoise, draw};
 use super::noise_group::{self, NoiseGroup};
 use super::setting::{Contender, Setting};

@@ -1,8 +1,8 @@
 //! Benches at a noise level, and the methods that are tried there.
 
-use super::StudyError;
 use super::bench::Bench;
 use super::cell::ParameterName;
+use super::error::StudyError;
 use super::pulse_kind::PulseKind;
 use super::sections::Outcome;
 use crate::results::{Group, Series};

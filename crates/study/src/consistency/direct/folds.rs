@@ -1,8 +1,8 @@
 //! `instrumental` by its definition: the model's response and its derivatives from dense circulant systems, weighted by the inverse covariance
 //! of the means over periods.
 
-use super::fit::{Solved, slopes};
 use super::regression::{Experiment, Inner, Regression};
+use super::solved::{Solved, slopes};
 use nalgebra::{DMatrix, DVector};
 use switchback_identify::pulse::{Folds, PulseFitError};
 

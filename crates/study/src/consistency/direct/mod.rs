@@ -9,6 +9,7 @@ mod folds;
 mod qr;
 mod record;
 mod regression;
+mod solved;
 
 pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 

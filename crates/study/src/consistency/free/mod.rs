@@ -11,7 +11,7 @@ mod simulate;
 
 pub(super) use noise_group::FreeNoiseGroup;
 
-use super::StudyError;
+use super::error::StudyError;
 use crate::scenario::{Case, Coupling, Scenario, Sweep};
 use drive::Program;
 use noise_group::Design;

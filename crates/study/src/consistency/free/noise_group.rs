@@ -3,9 +3,9 @@
 use super::drive::{self, Program};
 use super::setting::{GridOnDrive, Ingredients, NoiseSums, Regressions, Response, Setting, Way};
 use super::simulate::Simulator;
-use crate::consistency::StudyError;
 use crate::consistency::bench::NoiseFilter;
 use crate::consistency::cell::{ActiveCells, CellSpec, CellTheory};
+use crate::consistency::error::StudyError;
 use crate::consistency::sections::SectionSums;
 use crate::consistency::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Engine, Fit, Knots, Sweep};

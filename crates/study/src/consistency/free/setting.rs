@@ -1,9 +1,9 @@
 //! One border, grid and noise level: everything about its cells that noise does not touch.
 
 use super::drive;
-use crate::consistency::StudyError;
 use crate::consistency::bench::NoiseFilter;
 use crate::consistency::cell::{CellSpec, CellTheory, ParameterName};
+use crate::consistency::error::StudyError;
 use crate::results::{Group, Series};
 use crate::scenario::{Border, Case, Disturbance, Fit, Knots};
 use nalgebra::DMatrix;
