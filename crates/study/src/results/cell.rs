@@ -116,3 +116,10 @@ impl Parameter {
         self.sd_controlled.or(self.sd)
     }
 }
+
+impl Series {
+    /// Whether a cell lies on this curve.
+    pub fn holds(&self, cell: &Cell) -> bool {
+        cell.series == *self
+    }
+}

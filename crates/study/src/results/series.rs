@@ -1,6 +1,5 @@
 //! Which cells belong on one curve.
 
-use super::Cell;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use switchback_identify::Method;
@@ -19,13 +18,6 @@ pub struct Series {
     pub points: usize,
     /// Standard deviation of the noise, output units.
     pub noise: f64,
-}
-
-impl Series {
-    /// Whether a cell lies on this curve.
-    pub fn holds(&self, cell: &Cell) -> bool {
-        cell.series == *self
-    }
 }
 
 impl fmt::Display for Series {
