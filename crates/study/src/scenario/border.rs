@@ -2,7 +2,7 @@
 
 use super::border_kind::{self, Shape};
 use super::error::Fault;
-use super::read::take;
+use super::take::take;
 use serde::Deserialize;
 use std::ops::Range;
 use switchback_io::input::closest;

@@ -9,6 +9,7 @@ mod convert;
 mod error;
 mod expect;
 mod read;
+mod take;
 #[cfg(test)]
 mod tests;
 mod wire;
@@ -21,9 +22,7 @@ pub use expect::Width;
 pub(crate) use switchback_identify::Method;
 
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 use std::sync::Arc;
-use switchback_io::input::TomlFile;
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
 use switchback_model::linear::LinearSystem;
 
@@ -254,22 +253,6 @@ impl Case {
 }
 
 impl Scenario {
-    /// Reads and checks a scenario file; its stem becomes the scenario's name.
-    ///
-    /// # Errors
-    /// [`ScenarioError`] if the file cannot be read or holds anything that is not a valid scenario.
-    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
-        read::scenario(&TomlFile::read(path)?)
-    }
-
-    /// Checks a scenario given as text. `file` is what messages call it; its stem becomes the scenario's name.
-    ///
-    /// # Errors
-    /// [`ScenarioError::Invalid`] if the text is not a valid scenario.
-    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
-        read::scenario(&TomlFile::from_text(Path::new(file), text))
-    }
-
     /// The file's stem; names the report folder.
     pub fn name(&self) -> &str {
         &self.name

@@ -2,15 +2,34 @@
 
 use super::border::{self, WireBorder};
 use super::error::Fault;
+use super::take::take;
 use super::wire::WireScenario;
 use super::{Scenario, ScenarioError, convert};
 use serde::Deserialize;
+use std::path::Path;
 use switchback_io::input::{TomlFile, stream};
-use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
+impl Scenario {
+    /// Reads and checks a scenario file; its stem becomes the scenario's name.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] if the file cannot be read or holds anything that is not a valid scenario.
+    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
+        scenario(&TomlFile::read(path)?)
+    }
+
+    /// Checks a scenario given as text. `file` is what messages call it; its stem becomes the scenario's name.
+    ///
+    /// # Errors
+    /// [`ScenarioError::Invalid`] if the text is not a valid scenario.
+    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
+        scenario(&TomlFile::from_text(Path::new(file), text))
+    }
+}
+
 /// Reads a scenario; its name is the file's stem.
-pub(super) fn scenario(file: &TomlFile) -> Result<Scenario, ScenarioError> {
+fn scenario(file: &TomlFile) -> Result<Scenario, ScenarioError> {
     let name = stream::stem(file.path()).unwrap_or_else(|| file.path().display().to_string());
     checked(name, file.text()).map_err(|fault| fault.locate(file))
 }
@@ -50,10 +69,4 @@ fn take_borders(document: &mut DeTable<'_>) -> Result<Vec<WireBorder>, Fault> {
         DeValue::Array(array) => array.into_iter().map(border::read).collect(),
         _ => Err(Fault::new(span, "border must be a list of tables", "write each as [[border]]")),
     }
-}
-
-/// Removes a key from a table and hands over its value.
-pub(super) fn take<'i>(table: &mut DeTable<'i>, name: &str) -> Option<Spanned<DeValue<'i>>> {
-    let key = table.keys().find(|k| k.get_ref() == name).cloned()?;
-    table.remove(&key)
 }

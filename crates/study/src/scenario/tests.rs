@@ -1,6 +1,7 @@
 //! Every refusal names file, line, key, value and remedy; what is accepted keeps its values.
 
 use super::*;
+use std::path::Path;
 
 const GOOD: &str = r#"
 study = "consistency"
