@@ -3,7 +3,7 @@
 use super::design::{Kind, Ticket};
 use super::place::{PlaceCheck, check};
 use super::twins::same_class;
-use crate::examination::{ClosureCheck, Evidence, Judged, Reply};
+use crate::examination::{ClosureCheck, Evidence, Reply};
 use crate::generate::{MadeRig, Nature};
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::Diagnosis;
@@ -141,16 +141,6 @@ impl Case {
             "unexplained" => self.kind == Kind::Outside,
             effect => self.truth == [effect],
         }
-    }
-}
-
-impl Judged for Case {
-    fn id(&self) -> usize {
-        self.id
-    }
-
-    fn answers(cases: &[Self]) -> String {
-        super::report::answers(cases)
     }
 }
 

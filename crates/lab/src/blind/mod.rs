@@ -12,6 +12,7 @@ mod case;
 mod design;
 mod examination;
 mod examine;
+mod judged;
 mod place;
 mod report;
 mod scenario;

@@ -3,7 +3,7 @@
 use super::bases::Base;
 use super::design::Kind;
 use super::seal::{How, Sealed};
-use crate::examination::{ClosureCheck, Evidence, Judged, Reply};
+use crate::examination::{ClosureCheck, Evidence, Reply};
 use crate::generate::OBSERVABLE;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::{Diagnosis, Gap};
@@ -135,15 +135,5 @@ impl Case {
             refused: key.refused.clone(),
             answers: diagnoses.into_iter().map(answered).collect(),
         }
-    }
-}
-
-impl Judged for Case {
-    fn id(&self) -> usize {
-        self.id
-    }
-
-    fn answers(cases: &[Self]) -> String {
-        super::report::answers(cases)
     }
 }

@@ -2,8 +2,9 @@
 
 use super::bases::Bases;
 use super::scenario::{LARGE, Study};
+use super::wanted::Wanted;
 use crate::examination::scramble;
-use crate::generate::{FOREIGN, Ingredient, MakeError, laws_of};
+use crate::generate::{FOREIGN, laws_of};
 use serde::{Deserialize, Serialize};
 
 /// What a rig is for.
@@ -28,29 +29,6 @@ impl Kind {
             Self::Bare => "bare",
             Self::Resampled => "resampled",
         }
-    }
-}
-
-/// A fault that is wanted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
-    /// The effect.
-    pub effect: &'static str,
-    /// Which of its laws.
-    pub law: usize,
-    /// What should survive identification anew.
-    pub size: f64,
-    /// Whether the maker puts it into the machine, rather than into its records.
-    pub by_maker: bool,
-}
-
-impl Wanted {
-    /// What the maker needs to know.
-    ///
-    /// # Errors
-    /// [`MakeError`] for an effect or law that does not exist.
-    pub(crate) fn ingredient(&self) -> Result<Ingredient, MakeError> {
-        Ingredient::with_law(self.effect, self.law, self.size)
     }
 }
 

@@ -2,13 +2,14 @@
 
 use super::bases::{Base, Bases};
 use super::case::Case;
-use super::design::{Kind, Ticket, Wanted, design};
+use super::design::{Kind, Ticket, design};
 use super::fault::{by_maker, left, mean_square, nominal, planted, told};
 use super::made;
 use super::resample::{resampled, runs_of};
 use super::scenario::Study;
 use super::score::Scores;
 use super::seal::{Key, PutIn, Sealed, WrittenKeys};
+use super::wanted::Wanted;
 use super::{report, score};
 use crate::examination::{Done, Examination, KEY_FILE, Report};
 use crate::generate::{Nature, PlantingGround, laws_of};

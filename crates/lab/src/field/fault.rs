@@ -1,8 +1,8 @@
 //! A fault as it is put in, and what the base's model makes of it.
 
-use super::design::Wanted;
 use super::made;
 use super::seal::{How, PutIn};
+use super::wanted::Wanted;
 use crate::generate::PlantedFault;
 use switchback_identify::free::{FreeError, Identified, InputMap, Model, Settings, identify};
 use switchback_model::Record;

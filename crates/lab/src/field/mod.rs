@@ -14,12 +14,14 @@ mod case;
 mod design;
 mod examination;
 mod fault;
+mod judged;
 mod made;
 mod report;
 mod resample;
 mod scenario;
 mod score;
 mod seal;
+mod wanted;
 
 pub use bases::Base;
 pub use bases::Bases;

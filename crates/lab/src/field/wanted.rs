@@ -1,0 +1,26 @@
+//! The fault that a rig is to have.
+
+use crate::generate::{Ingredient, MakeError};
+
+/// A fault that is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// The effect.
+    pub effect: &'static str,
+    /// Which of its laws.
+    pub law: usize,
+    /// What should survive identification anew.
+    pub size: f64,
+    /// Whether the maker puts it into the machine, rather than into its records.
+    pub by_maker: bool,
+}
+
+impl Wanted {
+    /// What the maker needs to know.
+    ///
+    /// # Errors
+    /// [`MakeError`] for an effect or law that does not exist.
+    pub(crate) fn ingredient(&self) -> Result<Ingredient, MakeError> {
+        Ingredient::with_law(self.effect, self.law, self.size)
+    }
+}
