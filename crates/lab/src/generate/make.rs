@@ -1,124 +1,16 @@
 //! Making a rig.
 
 use crate::generate::campaign::{Plan, campaign};
-use crate::generate::effects::laws_of;
 use crate::generate::field;
-use crate::generate::key::{Key, TrueEffect, Truth};
-use crate::generate::law::Law;
+use crate::generate::ingredient::Ingredient;
+use crate::generate::key::{Key, TrueEffect};
+use crate::generate::made_rig::MadeRig;
+use crate::generate::make_error::MakeError;
 use crate::generate::plant::{Family, Plant};
 use crate::generate::setting::Setting;
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
 use crate::generate::workshop::{Description, Workshop};
-use switchback_model::record::RecordError;
-use switchback_model::rig::Rig;
-use thiserror::Error;
-
-/// Why no rig could be made.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum MakeError {
-    /// The effect's name is unknown.
-    #[error("`{name}` is no effect; known are {known}")]
-    UnknownEffect {
-        /// The name given.
-        name: String,
-        /// All names, comma-separated.
-        known: String,
-    },
-    /// The effect has fewer laws.
-    #[error("`{effect}` has {laws} laws, numbered from 0; law {law} does not exist")]
-    UnknownLaw {
-        /// The effect.
-        effect: String,
-        /// Laws it has.
-        laws: usize,
-        /// The law asked for.
-        law: usize,
-    },
-    /// The size is no size.
-    #[error("an effect of size {0} cannot be made; the size is a number above 0")]
-    Size(f64),
-    /// The key belongs to another recipe.
-    #[error(
-        "the key is of the rig with seed {key}, its setting and its effects, not of this recipe with seed {recipe}"
-    )]
-    ForeignKey {
-        /// Seed of the recipe.
-        recipe: u64,
-        /// Seed in the key.
-        key: u64,
-    },
-    /// The machine's records without effects give no model that a size could be measured against.
-    #[error("the size of an effect cannot be measured in this machine ({0}); take another seed")]
-    NoSize(String),
-    /// A simulated signal was no record.
-    #[error("the drawn system and effect gave no finite record ({0}); take another seed")]
-    Record(#[from] RecordError),
-}
-
-/// An effect to be put into a rig.
-#[derive(Debug, Clone, Copy)]
-pub struct Ingredient {
-    /// Its law.
-    pub law: &'static dyn Law,
-    /// Whether that is the plain one.
-    pub plain: bool,
-    /// Size of all effects together.
-    pub size: f64,
-}
-
-impl Ingredient {
-    /// The plain law of an effect, at a size in noise standard deviations.
-    ///
-    /// # Errors
-    /// [`MakeError::UnknownEffect`] or [`MakeError::Size`].
-    pub fn plain(effect: &str, size: f64) -> Result<Self, MakeError> {
-        Self::with_law(effect, 0, size)
-    }
-
-    /// The `law`-th law of an effect (0 is the plain one).
-    ///
-    /// # Errors
-    /// [`MakeError::UnknownEffect`], [`MakeError::UnknownLaw`] or [`MakeError::Size`].
-    pub fn with_law(effect: &str, law: usize, size: f64) -> Result<Self, MakeError> {
-        let laws = laws_of(effect);
-        if laws.is_empty() {
-            let known = crate::generate::EFFECTS
-                .iter()
-                .chain(&crate::generate::FOREIGN)
-                .copied()
-                .collect::<Vec<_>>()
-                .join(", ");
-            return Err(MakeError::UnknownEffect { name: effect.to_owned(), known });
-        }
-        if !(size.is_finite() && size > 0.0) {
-            return Err(MakeError::Size(size));
-        }
-        let chosen = laws.get(law).ok_or_else(|| MakeError::UnknownLaw {
-            effect: effect.to_owned(),
-            laws: laws.len(),
-            law,
-        })?;
-        Ok(Self { law: *chosen, plain: law == 0, size })
-    }
-
-    /// What is true of it once its magnitude is found, and what size that makes.
-    pub(crate) fn found(&self, magnitude: f64, size: f64) -> TrueEffect {
-        TrueEffect {
-            effect: self.law.effect(),
-            law: self.law.name(),
-            plain: self.plain,
-            stage: self.law.stage(),
-            nature: self.law.nature(),
-            magnitude,
-            unit: self.law.unit(),
-            quantity: self.law.quantity(),
-            wanted: self.size,
-            size,
-        }
-    }
-}
 
 /// A recipe: everything else about the rig is drawn from the seed.
 #[derive(Debug, Clone)]
@@ -130,17 +22,6 @@ pub struct MakeRig {
     ingredients: Vec<Ingredient>,
     /// Effects that the machine does not have by itself.
     spared: Vec<&'static str>,
-}
-
-/// A rig and, apart from it, its key.
-#[derive(Debug)]
-pub struct MadeRig {
-    /// What a user's folder would hold.
-    pub rig: Rig,
-    /// What is withheld.
-    pub key: Key,
-    /// What is true of each record, in the rig's order.
-    pub truth: Vec<Truth>,
 }
 
 impl MakeRig {
@@ -199,14 +80,14 @@ impl MakeRig {
         let mut workshop = self.workshop();
         if self.setting == Setting::Field {
             let (active, effects) = field::sized(&workshop, &self.ingredients)?;
-            return workshop.assemble(&active, effects);
+            return workshop.assemble(&active, effects, field::size_of_all);
         }
         let (mut active, mut effects): (Vec<_>, Vec<_>) =
             self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
         if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
             workshop.tune_noise(one, entry);
         }
-        workshop.assemble(&active, effects)
+        workshop.assemble(&active, effects, field::size_of_all)
     }
 
     /// The same rig once more from its key, without searching for the magnitudes: equal to the bit, and much faster.
@@ -253,7 +134,7 @@ impl MakeRig {
         let sized = self.ingredients.iter().zip(&effects).enumerate();
         let active: Vec<Active> =
             sized.map(|(slot, (i, e))| workshop.active(slot, i.law, e.magnitude)).collect();
-        workshop.assemble(&active, effects)
+        workshop.assemble(&active, effects, field::size_of_all)
     }
 
     /// The system and the campaign of the recipe.

@@ -1,12 +1,13 @@
 //! The nominal system of a rig, drawn at random over wide ranges.
 
 mod draw;
+mod shape;
 mod table;
 
 pub(crate) use draw::CURVED;
 pub use draw::Family;
-pub use draw::Shape;
 pub(crate) use draw::multiply;
+pub use shape::Shape;
 pub(crate) use table::Table;
 
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};

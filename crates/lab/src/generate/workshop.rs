@@ -1,10 +1,11 @@
 //! A system with its campaign, on which effects are tried.
 
 use crate::generate::campaign::Passage;
-use crate::generate::field;
+use crate::generate::ingredient::Ingredient;
 use crate::generate::key::{Key, TrueEffect, Truth};
 use crate::generate::law::{Dose, Law, Nature, Scene};
-use crate::generate::make::{Ingredient, MadeRig, MakeError};
+use crate::generate::made_rig::MadeRig;
+use crate::generate::make_error::MakeError;
 use crate::generate::plant::Plant;
 use crate::generate::refit::{Leftover, Refit};
 use crate::generate::setting::Setting;
@@ -190,13 +191,18 @@ impl Workshop {
         passage.recorded(&v).to_vec()
     }
 
-    /// The rig with its key and its truth.
-    pub(crate) fn assemble(&self, active: &[Active], effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
+    /// The rig with its key and its truth; `of_the_field` is the size of all effects where the machine is one of the field.
+    pub(crate) fn assemble(
+        &self,
+        active: &[Active],
+        effects: Vec<TrueEffect>,
+        of_the_field: impl FnOnce(&Self, &[Active], &[TrueEffect]) -> Result<f64, MakeError>,
+    ) -> Result<MadeRig, MakeError> {
         let trial = self.trial(active);
         let rig = self.rig_of(&trial.traces)?;
         let size = match self.description.setting {
             Setting::Laboratory => self.size(active, &trial),
-            Setting::Field => field::size_of_all(self, active, &effects)?,
+            Setting::Field => of_the_field(self, active, &effects)?,
         };
         let truth = self.truth(active, &trial);
         let key = Key {

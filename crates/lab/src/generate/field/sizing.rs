@@ -1,7 +1,8 @@
 //! How large an effect in a machine of the field is.
 
+use crate::generate::ingredient::Ingredient;
 use crate::generate::key::TrueEffect;
-use crate::generate::make::{Ingredient, MakeError};
+use crate::generate::make_error::MakeError;
 use crate::generate::planting::{Base, Goal, PlantingError, Precision, search};
 use crate::generate::simulate::Active;
 use crate::generate::workshop::Workshop;

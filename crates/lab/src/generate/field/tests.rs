@@ -1,7 +1,9 @@
 use super::*;
 use crate::generate::effects::{EFFECTS, FOREIGN, laws_of};
+use crate::generate::ingredient::Ingredient;
 use crate::generate::law::{Dose, Nature};
-use crate::generate::make::{Ingredient, MadeRig, MakeRig};
+use crate::generate::made_rig::MadeRig;
+use crate::generate::make::MakeRig;
 use crate::generate::simulate::{Active, Noise, simulate};
 use std::collections::HashSet;
 use switchback_model::rig::{Role, Usage};

@@ -2,8 +2,8 @@
 
 use super::alter::altered;
 use super::{PlantingError, PlantingGround};
+use crate::generate::ingredient::Ingredient;
 use crate::generate::law::Dose;
-use crate::generate::make::Ingredient;
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
 use rand::RngExt;

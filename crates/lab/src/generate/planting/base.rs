@@ -1,6 +1,6 @@
 //! What the model of the records as they are leaves, and what a fault adds to that.
 
-use super::PlantingError;
+use super::planting_error::PlantingError;
 use switchback_identify::free::{FreeError, Identified, InputMap, Model, Settings, identify};
 use switchback_model::record::Record;
 use switchback_model::rig::{Rig, RigRecord};

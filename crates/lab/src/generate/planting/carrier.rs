@@ -1,7 +1,7 @@
 //! The model that carries faults into measured records.
 
-use super::PlantingError;
 use super::base::Base;
+use super::planting_error::PlantingError;
 use crate::generate::campaign::{Passage, lead_in, one_after_the_other};
 use crate::generate::plant::{Plant, Shape, Table};
 use switchback_identify::free::{InputMap, Model, Settings, identify};

@@ -19,46 +19,24 @@ mod again;
 mod alter;
 mod base;
 mod carrier;
+mod planting_error;
 mod search;
 
 pub(super) use self::base::Base;
 use self::carrier::Carrier;
+pub use self::planting_error::PlantingError;
 pub(crate) use self::search::Goal;
 pub use self::search::Precision;
 pub(crate) use self::search::Trial;
 pub(crate) use self::search::search;
+use crate::generate::ingredient::Ingredient;
 use crate::generate::law::{Nature, Planting, Stage};
-use crate::generate::make::{Ingredient, MakeError};
 use std::sync::Arc;
-use switchback_identify::free::{FreeError, Model};
-use switchback_model::hysteresis::HysteresisError;
-use switchback_model::record::RecordError;
+use switchback_identify::free::Model;
 use switchback_model::rig::Rig;
-use thiserror::Error;
 
 /// Sizes below this are told as not observable: less than half of what the model misses anyway.
 pub const OBSERVABLE: f64 = 0.5;
-
-/// Why no fault could be planted.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum PlantingError {
-    /// The records give no model.
-    #[error("no model can be identified from the fit records: {0}")]
-    Base(#[from] FreeError),
-    /// The model misses nothing, so that nothing can be large against it.
-    #[error("the model identified from the fit records leaves no residual: a size has no meaning")]
-    NoResidual,
-    /// The model that should carry the fault has no loop.
-    #[error("the identified loop cannot carry the fault: {0}")]
-    NoLoop(#[from] HysteresisError),
-    /// An altered signal was no record.
-    #[error("the fault gave no finite record ({0}); take a smaller size or another seed")]
-    Record(#[from] RecordError),
-    /// The effect or law is unknown, or the size is none.
-    #[error(transparent)]
-    Recipe(#[from] MakeError),
-}
 
 /// A fault as it was planted.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! The magnitude that gives a wanted size.
 
-use super::PlantingError;
 use super::base::Base;
+use super::planting_error::PlantingError;
 use crate::generate::size::magnitude_for;
 use switchback_model::rig::Rig;
 

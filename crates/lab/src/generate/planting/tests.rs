@@ -5,6 +5,7 @@ use crate::generate::effects::{EFFECTS, FOREIGN, laws_of};
 use crate::generate::law::Dose;
 use crate::generate::make::MakeRig;
 use crate::generate::simulate::{Active, Noise, simulate};
+use switchback_identify::free::FreeError;
 use switchback_model::record::Record;
 use switchback_model::rig::{RigRecord, Role, Usage};
 
