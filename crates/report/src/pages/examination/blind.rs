@@ -1,6 +1,9 @@
 //! The sections of a blind examination.
 
-use super::{Made, measures, partial, share};
+use super::made::Made;
+use super::measures;
+use super::partial::partial;
+use super::share::share;
 use crate::pages::error::PageError;
 use crate::pages::files::Files;
 use crate::pages::layout::Page;
