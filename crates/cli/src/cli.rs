@@ -143,7 +143,7 @@ impl Cli {
         match self.verb {
             Some(Verb::Calibrate(args)) => cmd::calibrate::run(&args),
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
-            Some(Verb::Completions(args)) => cmd::completions::run(&args),
+            Some(Verb::Completions(args)) => cmd::completions::run(&args, Self::command()),
             Some(Verb::Design(args)) => cmd::design::run(&args),
             Some(Verb::FmuHost(args)) => cmd::fmu_host::run(&args),
             Some(Verb::Export(args)) => cmd::export::run(&args),
@@ -151,7 +151,7 @@ impl Cli {
             Some(Verb::Identify(args)) => cmd::identify::run(&args),
             Some(Verb::Init(args)) => cmd::init::run(&args),
             Some(Verb::Launch(args)) => cmd::launch::run(&args),
-            Some(Verb::Man(args)) => cmd::man::run(&args),
+            Some(Verb::Man(args)) => cmd::man::run(&args, Self::command()),
             Some(Verb::Merge(args)) => cmd::merge::run(&args),
             Some(Verb::Plant(args)) => cmd::plant::run(&args),
             Some(Verb::Replay(args)) => cmd::replay::run(&args),

@@ -1,8 +1,6 @@
 //! `switchback completions SHELL`
 
-use crate::cli::Cli;
 use crate::failure::{CommandResult, Outcome};
-use clap::CommandFactory;
 use clap_complete::Shell;
 use switchback_io::output::print;
 
@@ -17,13 +15,13 @@ pub struct Args {
     shell: Shell,
 }
 
-/// Prints the script.
+/// Prints the script that completes a program.
 ///
 /// # Errors
 /// If stdout cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub fn run(args: &Args, mut program: clap::Command) -> CommandResult {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "switchback", &mut script);
+    clap_complete::generate(args.shell, &mut program, "switchback", &mut script);
     print(&String::from_utf8_lossy(&script))?;
     Ok(Outcome::Done)
 }

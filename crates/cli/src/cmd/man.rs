@@ -1,9 +1,8 @@
 //! `switchback man [--out DIR]`
 
-use crate::cli::Cli;
 use crate::failure::{CommandResult, Outcome};
 use crate::options::Force;
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 use miette::IntoDiagnostic;
 use std::path::PathBuf;
@@ -20,13 +19,13 @@ pub struct Args {
     force: Force,
 }
 
-/// Prints the program's page or writes all of them.
+/// Prints a program's page or writes all of them.
 ///
 /// # Errors
 /// A folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub fn run(args: &Args, program: Command) -> CommandResult {
     // `help` explains itself.
-    let mut program = Cli::command().disable_help_subcommand(true);
+    let mut program = program.disable_help_subcommand(true);
     program.build();
     let Some(out) = &args.out else {
         print(&page(program)?.1)?;

@@ -1,16 +1,18 @@
 //! `switchback SCENARIO.toml` where it describes a consistency study: all of it, or one of equal parts.
 
 mod merge;
+mod order;
 mod part;
 
 pub use crate::build::BUILD;
 use crate::interrupt;
 pub use merge::merge;
+pub use order::Order;
 
 use super::partial;
 use crate::failure::{CommandResult, Outcome};
 use crate::interrupt::Heeding;
-use crate::options::{Force, Quiet, Threads};
+use crate::options::{Quiet, Threads};
 use crate::progress::Meter;
 use miette::IntoDiagnostic;
 use part::Part;
@@ -32,29 +34,6 @@ const FILES: [&str; report::FILES.len() + 2] = {
     files[report::FILES.len() + 1] = PROVENANCE_FILE;
     files
 };
-
-/// What is to be run, and how it is told.
-#[derive(Debug, Clone, Copy)]
-pub struct Order<'a> {
-    /// The scenario's file.
-    pub file: &'a Path,
-    /// The command that makes the results again.
-    pub command: &'a str,
-    /// The folder asked for.
-    pub out: Option<&'a Path>,
-    /// The part asked for.
-    pub shard: Option<Shard>,
-    /// The folder of the rounds before.
-    pub from: Option<&'a Path>,
-    /// Worker threads.
-    pub threads: Threads,
-    /// Whether results.json is printed.
-    pub json: bool,
-    /// Whether words are not.
-    pub quiet: Quiet,
-    /// Whether files of others may be replaced.
-    pub force: Force,
-}
 
 /// Claims the folder, takes up what a former run left, runs, writes, prints.
 ///

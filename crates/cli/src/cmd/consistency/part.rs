@@ -1,6 +1,6 @@
 //! A part of a study on disk: which part of which scenario, the scenario as it was, and what its replicates left behind.
 
-use super::Order;
+use super::order::Order;
 use crate::build::BUILD;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
