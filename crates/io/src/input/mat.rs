@@ -1,8 +1,8 @@
 //! MATLAB files: v5 to v7 and, as HDF5, v7.3. Numeric vectors of equal length are columns, matrices are several.
 
 #[cfg(feature = "matlab")]
-use super::table::{Column, Kind, Place};
-use super::table::{DataError, DataProblem, Table, TableError};
+use super::{Column, Kind, Place};
+use super::{DataError, DataProblem, Table, TableError};
 use std::path::Path;
 
 /// Whether a file is MATLAB's: by its ending, or its first bytes where it has none.
@@ -70,7 +70,7 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         notes.push(format!("arrays of another length left out: {}", names.join(", ")));
     }
     let column = |(name, values): (String, Vec<f64>)| {
-        let (name, unit) = super::table::unit::split(&name);
+        let (name, unit) = super::unit::split(&name);
         Column {
             name,
             unit,
