@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._model import Model, model_of
+from ._native import SwitchbackError
 from ._progress import shown
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
@@ -189,7 +190,24 @@ class Diagnosis(Result):
         model; needs matplotlib. Returns the axes."""
         from . import _plots
 
-        return _plots.diagnosis(self, kind, ax)
+        if kind == "loop":
+            return _plots.loop(self._texts["series.csv"], ["nominal", "augmented"], ("input", "output"), ax)
+        if kind == "borders":
+            model = self.augmented or self.nominal
+            if model is None:
+                raise SwitchbackError("nothing but predictions is known of the model under diagnosis; it has no borders to show")
+            return model.plot(ax)
+        if kind == "candidates":
+            first = self.candidates[:10]
+            return _plots.probabilities([one.effect for one in first], [one.probability for one in first], ax)
+        if kind == "where":
+            # The places in which most more of the gap lies than of the samples.
+            known = [place for place in self.where if place.axis != "record" and place.enrichment is not None]
+            places = sorted(known, key=lambda place: place.share - place.exposure, reverse=True)[:10]
+            names = [f"{place.axis} {place.cell} {place.unit or ''}".rstrip() for place in places]
+            shares = {"of the gap's energy": [place.share for place in places], "of the samples": [place.exposure for place in places]}
+            return _plots.bars(names, shares, "share", ax)
+        raise _plots.unknown(kind, "where, candidates, loop and borders")
 
     def __repr__(self) -> str:
         verdict = self.verdict

@@ -153,7 +153,15 @@ class Identification(Result):
         """``borders`` with 95 % intervals, or the ``loop`` of a held-out record beside the model's; needs matplotlib. Returns the axes."""
         from . import _plots
 
-        return _plots.identification(self, kind, ax)
+        try:
+            labels = self.model.input, self.model.output
+        except SwitchbackError:
+            labels = "input", "output"
+        if kind == "loop":
+            return _plots.loop(self._texts["series.csv"], ["simulated"], labels, ax)
+        if kind != "borders":
+            raise _plots.unknown(kind, "borders and loop")
+        return _plots.borders(self.borders, (labels[0], "u, for u_M − u_m = 1"), ax)
 
     def __repr__(self) -> str:
         fits = ", ".join(f"{name} {fit:.1f} %" for name, fit in self.fit_percent.items() if fit is not None)

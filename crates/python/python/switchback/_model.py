@@ -58,7 +58,7 @@ class Bode:
         """Magnitude and phase over the frequency; needs matplotlib. ``axes`` are two, or made here; they are returned."""
         from . import _plots
 
-        return _plots.bode(self, axes)
+        return _plots.bode(self.frequency, self.magnitude, self.phase, axes)
 
 
 class Simulation(Result):
@@ -131,7 +131,7 @@ class Simulation(Result):
         """The outputs with their band; needs matplotlib. Returns the axes."""
         from . import _plots
 
-        return _plots.simulation(self, ax)
+        return _plots.simulation(self.y, self.low, self.high, ax)
 
 
 class Model:
@@ -332,7 +332,7 @@ class Model:
         """Both borders; needs matplotlib. Returns the axes."""
         from . import _plots
 
-        return _plots.borders(self, ax)
+        return _plots.borders({"descending": self.descending, "ascending": self.ascending}, (self.input, f"u, {self.output}"), ax)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and self._text == other._text

@@ -7,15 +7,11 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
+from ._arrays import Floats
 from ._native import SwitchbackError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ._diagnosis import Diagnosis
-    from ._identification import Identification
-    from ._model import Bode, Model, Simulation
-    from ._study import Study
 
 
 def _axes(ax: Optional[Axes], rows: int = 1) -> Any:
@@ -36,77 +32,39 @@ def _finished(ax: Axes, x: str, y: str = "") -> Axes:
     return ax
 
 
-def _unknown(kind: str, known: str) -> SwitchbackError:
+def unknown(kind: str, known: str) -> SwitchbackError:
+    """The refusal of a kind of figure."""
     return SwitchbackError(f"there is no plot `{kind}`; the plots are {known}")
 
 
-def bode(found: Bode, axes: Any) -> Any:
+def bode(frequency: Floats, magnitude: Floats, phase: Floats, axes: Any) -> Any:
     """Magnitude over phase."""
-    magnitude, phase = axes = _axes(axes, rows=2)
-    magnitude.loglog(found.frequency, found.magnitude)
-    magnitude.set_ylabel("magnitude")
-    phase.semilogx(found.frequency, found.phase)
-    _finished(phase, "frequency [Hz]", "phase [°]")
+    upper, lower = axes = _axes(axes, rows=2)
+    upper.loglog(frequency, magnitude)
+    upper.set_ylabel("magnitude")
+    lower.semilogx(frequency, phase)
+    _finished(lower, "frequency [Hz]", "phase [°]")
     return axes
 
 
-def simulation(run: Simulation, ax: Optional[Axes]) -> Axes:
+def simulation(y: Floats, low: Floats, high: Floats, ax: Optional[Axes]) -> Axes:
     """The outputs with their band."""
     ax = _axes(ax)
-    samples = np.arange(len(run.y))
-    ax.fill_between(samples, run.low, run.high, alpha=0.3, linewidth=0, label="95 % band")
-    ax.plot(samples, run.y, label="simulated")
+    samples = np.arange(len(y))
+    ax.fill_between(samples, low, high, alpha=0.3, linewidth=0, label="95 % band")
+    ax.plot(samples, y, label="simulated")
     return _finished(ax, "sample")
 
 
-def borders(model: Model, ax: Optional[Axes]) -> Axes:
-    """Both borders of a model."""
-    return _borders({"descending": model.descending, "ascending": model.ascending}, (model.input, f"u, {model.output}"), ax)
+def probabilities(names: list[str], values: list[float], ax: Optional[Axes]) -> Axes:
+    """Bars from 0 to 1."""
+    ax = bars(names, {"probability": values}, "probability", ax)
+    ax.set_xlim(0, 1)
+    return ax
 
 
-def identification(found: Identification, kind: str, ax: Optional[Axes]) -> Axes:
-    """Borders with their errors, or a loop."""
-    try:
-        labels = found.model.input, found.model.output
-    except SwitchbackError:
-        labels = "input", "output"
-    if kind == "loop":
-        return _loop(found._texts["series.csv"], ["simulated"], labels, ax)
-    if kind != "borders":
-        raise _unknown(kind, "borders and loop")
-    return _borders(found.borders, (labels[0], "u, for u_M − u_m = 1"), ax)
-
-
-def diagnosis(found: Diagnosis, kind: str, ax: Optional[Axes]) -> Axes:
-    """One of the figures of a diagnosis."""
-    if kind == "loop":
-        return _loop(found._texts["series.csv"], ["nominal", "augmented"], ("input", "output"), ax)
-    if kind == "borders":
-        model = found.augmented or found.nominal
-        if model is None:
-            raise SwitchbackError("nothing but predictions is known of the model under diagnosis; it has no borders to show")
-        return borders(model, ax)
-    if kind == "candidates":
-        shown = found.candidates[:10]
-        ax = _bars([one.effect for one in shown], {"probability": [one.probability for one in shown]}, "probability", ax)
-        ax.set_xlim(0, 1)
-        return ax
-    if kind == "where":
-        # The places in which most more of the gap lies than of the samples.
-        known = [place for place in found.where if place.axis != "record" and place.enrichment is not None]
-        places = sorted(known, key=lambda place: place.share - place.exposure, reverse=True)[:10]
-        names = [f"{place.axis} {place.cell} {place.unit or ''}".rstrip() for place in places]
-        shares = {"of the gap's energy": [place.share for place in places], "of the samples": [place.exposure for place in places]}
-        return _bars(names, shares, "share", ax)
-    raise _unknown(kind, "where, candidates, loop and borders")
-
-
-def study(found: Study, group: str, ax: Optional[Axes]) -> Axes:
-    """Root mean squares over a group's parameters and cells."""
-    cells = [cell for cell in found.cells if cell.group == group and cell.bias is not None and cell.sd is not None]
-    if not cells:
-        groups = ", ".join(dict.fromkeys(cell.group for cell in found.cells))
-        raise SwitchbackError(f"there is no group `{group}`; the groups are {groups}")
+def consistency(cells: list[Any], group: str, ax: Optional[Axes]) -> Axes:
+    """Root mean squares over the parameters and cells of a group."""
     ax = _axes(ax)
     for number, method in enumerate(dict.fromkeys(cell.method for cell in cells)):
         own = [cell for cell in cells if cell.method == method]
@@ -117,7 +75,8 @@ def study(found: Study, group: str, ax: Optional[Axes]) -> Axes:
     return _finished(ax, "samples N", f"bias (solid) and sd (dashed) of {group}")
 
 
-def _borders(found: Any, labels: tuple[str, str], ax: Optional[Axes]) -> Axes:
+def borders(found: Any, labels: tuple[str, str], ax: Optional[Axes]) -> Axes:
+    """Borders by their names, with 95 % intervals where errors are known."""
     ax = _axes(ax)
     for name, border in found.items():
         points = [(point.v, point.f, 1.96 * (point.se or 0.0)) for point in border]
@@ -127,7 +86,7 @@ def _borders(found: Any, labels: tuple[str, str], ax: Optional[Axes]) -> Axes:
     return _finished(ax, *labels)
 
 
-def _bars(names: list[str], values: dict[str, list[float]], label: str, ax: Optional[Axes]) -> Axes:
+def bars(names: list[str], values: dict[str, list[float]], label: str, ax: Optional[Axes]) -> Axes:
     """Bars of shares, later ones narrower and upon the first."""
     ax = _axes(ax)
     for number, (name, lengths) in enumerate(values.items()):
@@ -136,7 +95,7 @@ def _bars(names: list[str], values: dict[str, list[float]], label: str, ax: Opti
     return _finished(ax, label)
 
 
-def _loop(text: str, runs: list[str], labels: tuple[str, str], ax: Optional[Axes]) -> Axes:
+def loop(text: str, runs: list[str], labels: tuple[str, str], ax: Optional[Axes]) -> Axes:
     """The first held-out record, or else the first one, as a loop in the plane of input and output."""
     rows = list(csv.DictReader(text.splitlines()))
     record = next((row["record"] for row in rows if row["use"] == "holdout"), rows[0]["record"])

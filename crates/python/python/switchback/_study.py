@@ -138,7 +138,11 @@ class Study(Result):
         matplotlib. Returns the axes."""
         from . import _plots
 
-        return _plots.study(self, group, ax)
+        cells = [cell for cell in self.cells if cell.group == group and cell.bias is not None and cell.sd is not None]
+        if not cells:
+            groups = ", ".join(dict.fromkeys(cell.group for cell in self.cells))
+            raise SwitchbackError(f"there is no group `{group}`; the groups are {groups}")
+        return _plots.consistency(cells, group, ax)
 
     def __repr__(self) -> str:
         kept = "as expected" if self.as_expected else "not as expected"
