@@ -109,7 +109,10 @@ impl Modules {
         if let Some(target) = target {
             return self.home(&[&target[..], rest].concat(), depth);
         }
-        found.globs.iter().find_map(|glob| self.home(&[&glob[..], &[name.clone()], rest].concat(), depth))
+        found
+            .globs
+            .iter()
+            .find_map(|glob| self.home(&[&glob[..], std::slice::from_ref(name), rest].concat(), depth))
     }
 
     /// Which modules each module takes something from.
