@@ -2,12 +2,6 @@
 //!
 //! Without a C compiler the test says so and passes.
 
-#![expect(
-    clippy::disallowed_methods,
-    clippy::disallowed_macros,
-    reason = "a program in C is a file that a compiler reads"
-)]
-
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -191,7 +191,6 @@ fn effects(file: &TomlFile, wire: &WireStudy) -> Result<Vec<&'static str>, TomlE
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "a test writes the scenario that it reads")]
 mod tests {
     use super::*;
     use std::fs;

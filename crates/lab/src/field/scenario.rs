@@ -193,7 +193,6 @@ fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "a test writes the scenario that it reads")]
 mod tests {
     use super::*;
     use std::fs;

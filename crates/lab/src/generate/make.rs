@@ -115,7 +115,7 @@ impl MakeRig {
     ///
     /// # Errors
     /// [`MakeError::Record`] as in [`MakeRig::make`].
-    pub(crate) fn make_found(
+    pub(crate) fn from_found(
         &self,
         noise_sd: f64,
         found: &[(f64, f64)],
