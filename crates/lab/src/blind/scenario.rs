@@ -115,11 +115,14 @@ pub fn is_blind(path: &Path) -> bool {
 /// # Errors
 /// [`ScenarioError`] if it cannot be read, holds unknown keys or impossible values; content errors name the place.
 pub fn read(path: &Path) -> Result<Study, ScenarioError> {
-    let file = TomlFile::read(path)?;
+    checked(path, &TomlFile::read(path)?)
+}
+
+fn checked(path: &Path, file: &TomlFile) -> Result<Study, ScenarioError> {
     let wire: WireStudy = file.parse()?;
-    check(&file, &wire)?;
-    let effects = effects(&file, &wire)?;
-    refuse_large(&file, &wire, effects.len())?;
+    check(file, &wire)?;
+    let effects = effects(file, &wire)?;
+    refuse_large(file, &wire, effects.len())?;
     Ok(Study {
         name: stream::stem(path).unwrap_or_else(|| "blind".to_owned()),
         question: wire.question,
@@ -193,14 +196,12 @@ fn effects(file: &TomlFile, wire: &WireStudy) -> Result<Vec<&'static str>, TomlE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
 
     fn refused(change: (&str, &str)) -> String {
         let text = "study = \"blind\"\nquestion = \"q\"\nseed = 1\nsystems = 3\nsizes = [0.5, 1.0]\nseeds = 2\nnone = 3\noutside = 3\npairs = 2\n";
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("blind.toml");
-        fs::write(&path, text.replace(change.0, change.1)).unwrap();
-        read(&path).unwrap_err().to_string()
+        let path = Path::new("blind.toml");
+        let file = TomlFile::from_text(path, &text.replace(change.0, change.1));
+        checked(path, &file).unwrap_err().to_string()
     }
 
     #[test]

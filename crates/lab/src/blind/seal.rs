@@ -93,7 +93,7 @@ impl WrittenKeys {
     fn reopened(&self, ticket: &Ticket) -> Result<Option<Key>, MakeError> {
         let Some((line, Found { noise_sd, effects, .. })) = self.0.get(&ticket.id) else { return Ok(None) };
         let found: Vec<(f64, f64)> = effects.iter().map(|e| (e.magnitude, e.size)).collect();
-        let made = ticket.recipe.from_found(*noise_sd, &found)?;
+        let made = ticket.recipe.made_with(*noise_sd, &found)?;
         Ok(made.map(|made| made.key).filter(|key| key_line(ticket, key) == *line))
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn again(
     (noise_sd, magnitude, size): (f64, f64, f64),
 ) -> Result<Option<Found>, MakeError> {
     let recipe = recipe(seed).with(fault.ingredient()?);
-    let made = recipe.from_found(noise_sd, &[(magnitude, size)])?;
+    let made = recipe.made_with(noise_sd, &[(magnitude, size)])?;
     made.map(|made| found(recipe, made)).transpose()
 }
 

@@ -118,11 +118,14 @@ pub fn is_field(path: &Path) -> bool {
 /// # Errors
 /// [`ScenarioError`] if it cannot be read, holds unknown keys or impossible values; content errors name the place.
 pub fn read(path: &Path) -> Result<Study, ScenarioError> {
-    let file = TomlFile::read(path)?;
+    checked(path, &TomlFile::read(path)?)
+}
+
+fn checked(path: &Path, file: &TomlFile) -> Result<Study, ScenarioError> {
     let wire: WireStudy = file.parse()?;
-    check(&file, &wire)?;
-    let effects = effects_listed(&file, wire.effects.as_deref())?;
-    refuse_large(&file, &wire, effects.len())?;
+    check(file, &wire)?;
+    let effects = effects_listed(file, wire.effects.as_deref())?;
+    refuse_large(file, &wire, effects.len())?;
     Ok(Study {
         name: stream::stem(path).unwrap_or_else(|| "field".to_owned()),
         question: wire.question,
@@ -195,14 +198,12 @@ fn check(file: &TomlFile, wire: &WireStudy) -> Result<(), TomlError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
 
     fn refused(change: (&str, &str)) -> String {
         let text = "study = \"field\"\nquestion = \"q\"\nseed = 1\nsizes = [1.0, 2.0]\nseeds = 1\nmade = 2\nnone = 3\noutside = 3\n";
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("field.toml");
-        fs::write(&path, text.replace(change.0, change.1)).unwrap();
-        read(&path).unwrap_err().to_string()
+        let path = Path::new("field.toml");
+        let file = TomlFile::from_text(path, &text.replace(change.0, change.1));
+        checked(path, &file).unwrap_err().to_string()
     }
 
     #[test]

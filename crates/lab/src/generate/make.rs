@@ -115,7 +115,7 @@ impl MakeRig {
     ///
     /// # Errors
     /// [`MakeError::Record`] as in [`MakeRig::make`].
-    pub(crate) fn from_found(
+    pub(crate) fn made_with(
         &self,
         noise_sd: f64,
         found: &[(f64, f64)],

@@ -193,7 +193,7 @@ fn sizes_are_met_and_the_same_recipe_or_key_gives_the_same_rig() {
         same(recipe.make().expect("a rig"));
         same(recipe.again(&made.key).expect("a rig"));
         let searched = [(found.magnitude, found.size)];
-        same(recipe.from_found(made.key.noise_sd, &searched).expect("a rig").expect("as many as effects"));
+        same(recipe.made_with(made.key.noise_sd, &searched).expect("a rig").expect("as many as effects"));
         assert!(recipe.base().again(&made.key).is_err());
         assert!(recipe.clone().setting(Setting::Laboratory).again(&made.key).is_err());
     }
