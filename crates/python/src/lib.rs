@@ -1,5 +1,6 @@
-//! `switchback._native`: what the Python package calls. Everything that is computed is computed by the library of the program `switchback`;
-//! here are threads, signals and the way from one language to the other.
+//! `switchback._native`: the functions behind the Python package.
+//!
+//! The libraries of the workspace compute; threads, signals and the conversion between the languages stand here.
 //!
 //! | file | what it is for |
 //! |---|---|
