@@ -10,8 +10,8 @@
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance, creep.
 
 use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, parameter};
-use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
 use crate::model::assembly::EquationColumn;
 use crate::simulation::beginnings::begins_as_a_filter;

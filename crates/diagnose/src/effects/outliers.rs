@@ -8,8 +8,8 @@
 //! Confused with: input noise, a border jump between grid points.
 
 use super::{Card, Follows, Reading, Scene, Variant, known};
-use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::records::campaign::Track;
 
 pub(super) const CARD: Card = Card {

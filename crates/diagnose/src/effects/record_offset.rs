@@ -10,8 +10,8 @@
 //! record lies above or below the simulation by a constant. Confused with: sensor drift, of which it is the limit where the zero moves in the pauses only.
 
 use super::{Card, Reading, Scene, Variant, fitted_tracks};
-use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::model::assembly::EquationColumn;
 use crate::simulation::beginnings::offsets;
 

@@ -9,8 +9,8 @@
 //! lies beyond: they are left out of the sum of squares. Stage: sensor. Confused with: sensor nonlinearity.
 
 use super::{Card, Follows, Reading, Scene, Variant, parameter};
-use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::model::assembly::Saturation;
 use crate::model::sensor::Knee;
 

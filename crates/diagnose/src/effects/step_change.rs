@@ -20,8 +20,8 @@
 
 use super::gain_drift::{drift, turns_about_an_output};
 use super::{Card, Reading, Scene, Variant, known, parameter};
-use crate::fitted_parameter::FittedParameter;
 use crate::effect::{Effect, Stage};
+use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::assembly::{Assembly, Clock, Slow};
