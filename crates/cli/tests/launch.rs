@@ -86,7 +86,8 @@ fn a_part_told_twice_that_its_time_is_up_goes_back_into_the_queue() {
         "part",
         "trap 'echo told >> part-told; sleep 0.3; exit 3' TERM; touch part-begun; while :; do sleep 0.02; done",
     );
-    stand_in("scontrol", "touch asked; sleep 0.3; echo \"$@\" > requeued");
+    // Renamed once it is whole: whoever waits for the file reads all of it.
+    stand_in("scontrol", "touch asked; sleep 0.3; echo \"$@\" > requeued.new; mv requeued.new requeued");
     let ours = script.lines().map(|line| match line.starts_with("switchback=") {
         true => format!("switchback={}", folder.path("part").display()),
         false => line.to_owned(),
