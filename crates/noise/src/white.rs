@@ -16,7 +16,7 @@ pub const BLOCK: usize = 128;
 /// Names the noise of one replicate of one experiment of one study.
 ///
 /// The noise is ChaCha8 under the key that `ChaCha8Rng::seed_from_u64(seed)` derives, on stream number
-/// [`Self::number`], from its first block. Different streams of one key do not overlap.
+/// `experiment·2³² + replicate`, from its first block. Different streams of one key do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StreamId {
     /// Seed of the study.

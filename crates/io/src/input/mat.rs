@@ -14,7 +14,7 @@ pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
 }
 
 #[cfg(not(feature = "matlab"))]
-pub fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
     Err(unreadable(path, "this program was built without the feature `matlab`".to_owned()))
 }
 
