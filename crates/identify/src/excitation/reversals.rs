@@ -79,7 +79,7 @@ impl Reversals {
     /// The input of a whole record: one sample at `h_m`, then `samples` samples of the drive.
     ///
     /// The same generator state gives the same input, and a longer record begins with the shorter one.
-    pub(crate) fn record_input<R: Rng + ?Sized>(&self, samples: usize, rng: &mut R) -> Vec<f64> {
+    pub fn record_input<R: Rng + ?Sized>(&self, samples: usize, rng: &mut R) -> Vec<f64> {
         let length = samples + 1;
         let mut v = vec![self.interval.low()];
         let mut rising = true;

@@ -33,7 +33,7 @@ impl StepExperiment {
     }
 
     /// Holds `h_m`, the satellite of the ascendant experiment.
-    pub(crate) fn low(interval: Interval) -> Self {
+    pub fn low(interval: Interval) -> Self {
         Self::at_satellite_of(Direction::Ascendant, interval)
     }
 

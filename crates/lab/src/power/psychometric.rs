@@ -12,14 +12,6 @@
 ///
 /// Source: F. A. A. Kingdom and N. Prins, *Psychophysics: A Practical Introduction*, 2nd ed., Academic Press 2016, chapter 4; there `λ` is a share
 /// of all faults, here of those that are not guessed, so that both rates are free in [0, 1].
-///
-/// ```
-/// # use switchback_lab::power::Psychometric;
-/// let curve = Psychometric { threshold: 2.0, slope: 3.0, lapse: 0.0, guess: 0.0 };
-/// assert_eq!(curve.found(2.0), 0.5);
-/// // (s/2)³ = 9 where nine in ten are found.
-/// assert!((curve.size_for(0.9).unwrap() - 2.0 * 9.0_f64.cbrt()).abs() < 1e-12);
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Psychometric {
     /// `α`: the size at which half of what can be found is.
@@ -53,6 +45,14 @@ impl Psychometric {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn half_are_found_at_the_threshold() {
+        let curve = Psychometric { threshold: 2.0, slope: 3.0, lapse: 0.0, guess: 0.0 };
+        assert_eq!(curve.found(2.0), 0.5);
+        // (s/2)³ = 9 where nine in ten are found.
+        assert!((curve.size_for(0.9).unwrap() - 2.0 * 9.0_f64.cbrt()).abs() < 1e-12);
+    }
 
     #[test]
     fn the_size_for_a_share_is_found_that_often() {
