@@ -69,19 +69,19 @@ const move = async (page, selector, where) => {
 };
 
 // A reader points, presses keys, hides, zooms and sorts.
-const use = async (page, told) => {
+const use = async (page, reported) => {
   const grid = [...Array(24)].flatMap((_, i) => [...Array(16)].map((_, j) => [(i + 0.5) / 24, (j + 0.5) / 16]));
   const note = () => page.$eval(".tip", tip => tip.hidden ? "" : tip.textContent);
   for (const [kind, part] of [["frame", "[data-frame]"], ["mark", ".hint"]]) {
     const chosen = `.sheet svg:has(${part})`;
     if (!(await page.$(chosen))) continue;
-    if (!(await move(page, `${chosen} ${part}`, kind === "frame" ? grid : [[0.5, 0.5]]))) told(`no value of a ${kind} under the pointer`);
+    if (!(await move(page, `${chosen} ${part}`, kind === "frame" ? grid : [[0.5, 0.5]]))) reported(`no value of a ${kind} under the pointer`);
     await page.mouse.move(0, 0);
     await page.$eval(chosen, svg => svg.focus());
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("ArrowRight");
-    if (!/\d/.test(await note())) told(`no value of a ${kind} under the keys`);
-    if (!/\d/.test(await page.$eval(`.sheet:has(${part}) output`, output => output.textContent))) told(`no value of a ${kind} is read out`);
+    if (!/\d/.test(await note())) reported(`no value of a ${kind} under the keys`);
+    if (!/\d/.test(await page.$eval(`.sheet:has(${part}) output`, output => output.textContent))) reported(`no value of a ${kind} is read out`);
   }
   const entries = await page.$$(".sheet svg [data-hides]");
   for (const entry of entries) {
@@ -90,7 +90,7 @@ const use = async (page, told) => {
       return groups.length > 0 && groups.every(group => getComputedStyle(group).visibility === "hidden");
     });
     const name = await entry.evaluate(entry => entry.dataset.hides);
-    const expect = async (wanted, how) => { if ((await hidden()) !== wanted) told(`«${name}» is ${wanted ? "not hidden" : "hidden still"} by ${how}`); };
+    const expect = async (wanted, how) => { if ((await hidden()) !== wanted) reported(`«${name}» is ${wanted ? "not hidden" : "hidden still"} by ${how}`); };
     await entry.evaluate(entry => entry.scrollIntoView({ block: "center", inline: "center" }));
     await entry.click();
     await expect(true, "the pointer");
@@ -105,7 +105,7 @@ const use = async (page, told) => {
     const labels = () => page.$eval(".sheet:has(.tools) [data-ticks]", ticks => ticks.textContent);
     const whole = await labels();
     await page.click(".tools button");
-    if ((await labels()) === whole) told("it does not zoom by a button");
+    if ((await labels()) === whole) reported("it does not zoom by a button");
     await page.$eval(".tools button[aria-label='the whole record']", button => button.click());
     await page.$eval(".sheet:has(.tools) [data-zooms]", frame => frame.scrollIntoView({ block: "center" }));
     const box = await (await page.$(".sheet:has(.tools) [data-zooms]")).boundingBox();
@@ -114,7 +114,7 @@ const use = async (page, told) => {
     await page.mouse.down();
     await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.5 * box.height, { steps: 3 });
     await page.mouse.up();
-    if ((await labels()) === before) told("it does not zoom by dragging");
+    if ((await labels()) === before) reported("it does not zoom by dragging");
     await page.$eval(".tools button[aria-label='the whole record']", button => button.click());
   }
   const head = await page.$("table.sortable thead button");
@@ -124,7 +124,7 @@ const use = async (page, told) => {
     const up = await column();
     await head.click();
     const down = await column();
-    if (new Set(up).size > 1 && up.join() === down.join()) told("a table does not sort");
+    if (new Set(up).size > 1 && up.join() === down.join()) reported("a table does not sort");
   }
 };
 
@@ -148,32 +148,32 @@ for (const name of readdirSync(folder).filter(name => existsSync(join(folder, na
   for (const scheme of ["light", "dark"]) {
     const page = await browser.newPage();
     page.setDefaultTimeout(300_000);
-    const told = fault => faults.push(`${name}, ${scheme}: ${fault}`);
-    page.on("console", message => { if (["error", "warn"].includes(message.type())) told(`console: ${message.text()}`); });
-    page.on("pageerror", error => told(`script: ${error.message}`));
-    page.on("request", request => { if (!/^(file|data|blob):/.test(request.url())) told(`fetches ${request.url()}`); });
+    const reported = fault => faults.push(`${name}, ${scheme}: ${fault}`);
+    page.on("console", message => { if (["error", "warn"].includes(message.type())) reported(`console: ${message.text()}`); });
+    page.on("pageerror", error => reported(`script: ${error.message}`));
+    page.on("request", request => { if (!/^(file|data|blob):/.test(request.url())) reported(`fetches ${request.url()}`); });
     await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
     for (const width of WIDTHS) {
       await page.setViewport({ width, height: 900 });
       if (width === WIDTHS[0]) await page.goto(pathToFileURL(file).href);
-      (await page.evaluate(layout, true)).forEach(fault => told(`${width} px: ${fault}`));
+      (await page.evaluate(layout, true)).forEach(fault => reported(`${width} px: ${fault}`));
       if (shots) {
         mkdirSync(shots, { recursive: true });
         await page.screenshot({ path: join(shots, `${name}-${scheme}-${width}.png`), fullPage: true });
       }
     }
-    (await axeRun(page)).forEach(told);
-    await use(page, told);
+    (await axeRun(page)).forEach(reported);
+    await use(page, reported);
     if (scheme === "light") {
       const drawn = await page.$$eval("figure", figures => figures.length);
       const pdf = await page.pdf({ format: "A4", printBackground: true });
       await page.emulateMediaType("print");
       await page.setViewport({ width: 794, height: 1123 });
-      (await page.evaluate(layout, false)).forEach(fault => told(`printed: ${fault}`));
+      (await page.evaluate(layout, false)).forEach(fault => reported(`printed: ${fault}`));
       const sheets = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
-      if (sheets < drawn / 8 || pdf.length < 10_000) told(`printed: ${sheets} sheets, ${pdf.length} bytes for ${drawn} figures`);
+      if (sheets < drawn / 8 || pdf.length < 10_000) reported(`printed: ${sheets} sheets, ${pdf.length} bytes for ${drawn} figures`);
       const blank = await page.evaluate(() => [...document.querySelectorAll("section")].filter(s => s.getBoundingClientRect().height < 20).map(s => s.id));
-      if (blank.length) told(`printed: nothing in ${blank}`);
+      if (blank.length) reported(`printed: nothing in ${blank}`);
       if (shots) writeFileSync(join(shots, `${name}.pdf`), pdf);
     }
     await page.close();

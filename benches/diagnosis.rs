@@ -6,14 +6,14 @@
 //! that come first after `--` choose the rigs whose names contain one of them.
 
 mod diagnosis {
+    pub(crate) mod baseline;
     pub(crate) mod cost;
     pub(crate) mod rigs;
-    pub(crate) mod yardstick;
 }
 
+use diagnosis::baseline::least_squares_seconds;
 use diagnosis::cost::{Cost, PEAK};
 use diagnosis::rigs::{made, measured};
-use diagnosis::yardstick::least_squares_seconds;
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]

@@ -151,7 +151,7 @@ fn nanoseconds(run: &mut dyn FnMut()) -> f64 {
 }
 
 /// Two digits, in nanoseconds or microseconds.
-fn told(nanoseconds: f64) -> String {
+fn reported(nanoseconds: f64) -> String {
     let (value, unit) = if nanoseconds < 1000.0 { (nanoseconds, "ns") } else { (1e-3 * nanoseconds, "µs") };
     if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
 }
@@ -166,7 +166,7 @@ fn write_page() {
     let mut table =
         String::from("| a step, 16 knots a border, order 2 | by | processor time |\n|---|---|--:|\n");
     for Case { by, model, mut run } in cases() {
-        table += &format!("| {model} | {by} | {} |\n", told(nanoseconds(&mut *run)));
+        table += &format!("| {model} | {by} | {} |\n", reported(nanoseconds(&mut *run)));
     }
     let machine = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = machine.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use switchback_io::rig;
-use switchback_lab::generate::{Family, Ingredient, MakeRig, Plan, Shape};
+use switchback_lab::generate::{Family, MakeRig, Plan, RequestedFault, Shape};
 use switchback_model::rig::Rig;
 
 /// A rig to be diagnosed.
@@ -48,7 +48,7 @@ pub(crate) fn made(is_measured: bool) -> Vec<BenchRig> {
     let wanted = if is_measured { pairs.len() } else { 1 };
     let make = |(name, effects, plan): &(&str, &[&str], Plan)| {
         let plain = MakeRig::new(20_261_125).family(family).plan(*plan);
-        let size = |effect: &&str| Ingredient::plain(effect, 2.0).expect("an effect of the maker");
+        let size = |effect: &&str| RequestedFault::plain(effect, 2.0).expect("an effect of the maker");
         let recipe = effects.iter().map(size).fold(plain, MakeRig::with);
         let mut rig = recipe.make().expect("a rig can be made of this seed").rig;
         rig.order = None;

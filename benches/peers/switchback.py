@@ -68,7 +68,7 @@ class Record:
         self.step_means = dict(zip(entry["samples"], entry["step_means"], strict=True))
 
     def of(self, cell):
-        """y and ŷ₀ of a cell, whose input must be the one that the tools are told."""
+        """y and ŷ₀ of a cell, whose input must be the one that the tools are reported."""
         length = cell.experiment.order + cell.samples
         if not np.allclose(self.v[:length], cell.v, rtol=0, atol=1e-9):
             raise ValueError(f"the record's input is not that of {cell}")

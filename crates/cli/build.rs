@@ -1,4 +1,4 @@
-//! Tells the program which sources make, diagnose and judge the rigs of an examination, and which run the replicates of a study: what they
+//! Shows the program which sources make, diagnose and judge the rigs of an examination, and which run the replicates of a study: what they
 //! left counts, whatever else of the program is built anew.
 
 use sha2::{Digest, Sha256};
@@ -22,25 +22,25 @@ const STUDIES: [&str; 6] = [
 ];
 
 fn main() -> io::Result<()> {
-    tell("JUDGING_SOURCES", &hash(&JUDGES)?);
-    tell("STUDY_SOURCES", &hash(&STUDIES)?);
-    tell("LOCK", &hash(&["../../Cargo.lock"])?);
-    tell("COMMIT", &commit());
+    describe("JUDGING_SOURCES", &hash(&JUDGES)?);
+    describe("STUDY_SOURCES", &hash(&STUDIES)?);
+    describe("LOCK", &hash(&["../../Cargo.lock"])?);
+    describe("COMMIT", &commit());
     Ok(())
 }
 
-fn tell(name: &str, value: &str) {
+fn describe(name: &str, value: &str) {
     println!("cargo::rustc-env={name}={value}");
 }
 
 /// The commit that was checked out when this was built last, with `-dirty` where files were changed since; nothing where there is none.
 ///
-/// A new commit alone is no reason to build anew: the hashes tell the sources apart.
+/// A new commit alone is no reason to build anew: the hashes show the sources apart.
 fn commit() -> String {
-    let told =
+    let reported =
         Command::new("git").args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]).output();
-    let told = told.ok().filter(|told| told.status.success());
-    told.map(|told| String::from_utf8_lossy(&told.stdout).trim().to_owned()).unwrap_or_default()
+    let reported = reported.ok().filter(|reported| reported.status.success());
+    reported.map(|reported| String::from_utf8_lossy(&reported.stdout).trim().to_owned()).unwrap_or_default()
 }
 
 /// One hash of all files below some paths.

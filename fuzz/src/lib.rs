@@ -54,8 +54,8 @@ impl Drop for Scratch {
     }
 }
 
-/// Tells a refusal as a terminal and a file would have it, so that messages are fuzzed too.
-pub fn told(refusal: &dyn miette::Diagnostic) {
+/// Shows a refusal as a terminal and a file would have it, so that messages are fuzzed too.
+pub fn reported(refusal: &dyn miette::Diagnostic) {
     let words = switchback::failure::plain(refusal);
     assert!(words.starts_with("error: ") && words.len() < 1 << 16, "a refusal of {} bytes", words.len());
 }

@@ -1,7 +1,7 @@
 //! A single file of measurements, read as `switchback gap FILE` reads it.
 
-use super::{Scratch, told};
-use switchback_io::rig::{self, ColumnNames, HELD_OUT, Plan, PlannedRecord, Sampling, Voice};
+use super::{Scratch, reported};
+use switchback_io::rig::{self, ColumnNames, HELD_OUT, InputForm, Plan, PlannedRecord, Sampling};
 use switchback_model::rig::{Role, Usage};
 
 /// Reads bytes as a file of that name: a rig whose numbers are finite, or a refusal in words.
@@ -24,7 +24,7 @@ pub fn one_file(folder: &Scratch, name: &str, bytes: &[u8]) {
         input_label: None,
         output_label: None,
         records: vec![record],
-        voice: Voice::CommandLine("switchback gap".to_owned()),
+        input_form: InputForm::CommandLine("switchback gap".to_owned()),
     };
     match rig::load_plan(&plan) {
         Ok(loaded) => {
@@ -34,6 +34,6 @@ pub fn one_file(folder: &Scratch, name: &str, bytes: &[u8]) {
                 assert!(numbers.copied().all(f64::is_finite));
             }
         }
-        Err(refusal) => told(&refusal),
+        Err(refusal) => reported(&refusal),
     }
 }

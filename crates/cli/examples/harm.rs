@@ -33,11 +33,11 @@ fn main() -> miette::Result<()> {
             }
         };
         match diagnosis::examine(Subject::choose(rig, None)?, &Settings::default()) {
-            Ok(report) => harmed += told(&name, &report, began.elapsed().as_secs_f64()),
+            Ok(report) => harmed += reported(&name, &report, began.elapsed().as_secs_f64()),
             Err(error) => println!("{name}: {error}"),
         }
     }
-    println!("held-out records harmed beyond their error by a cause that was told: {harmed}");
+    println!("held-out records harmed beyond their error by a cause that was reported: {harmed}");
     Ok(())
 }
 
@@ -50,8 +50,8 @@ fn rigs(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Prints one diagnosis; how many held-out records a cause that it tells harms.
-fn told(name: &str, report: &Report, seconds: f64) -> usize {
+/// Prints one diagnosis; how many held-out records a cause that it shows harms.
+fn reported(name: &str, report: &Report, seconds: f64) -> usize {
     let verdict = &report.diagnosis.verdict;
     let names = |effects: &[Effect]| effects.iter().map(|e| e.name()).collect::<Vec<_>>().join("+");
     println!(
@@ -62,11 +62,11 @@ fn told(name: &str, report: &Report, seconds: f64) -> usize {
         verdict.probability,
         report.diagnosis.gap.predictive_gain
     );
-    let tells = !(verdict.effects.is_empty() && verdict.class.is_empty());
+    let shows = !(verdict.effects.is_empty() && verdict.class.is_empty());
     let mut harmed = 0;
     for (series, record) in report.diagnosis.series.iter().zip(&report.diagnosis.gap.per_record) {
         let [low, mean, high] = saved(series);
-        let is_harmed = tells && high < 0.0;
+        let is_harmed = shows && high < 0.0;
         harmed += usize::from(is_harmed);
         println!(
             "    {:<24} fit {:6.1} → {:6.1} %, saves {mean:+.2e} [{low:+.2e}, {high:+.2e}] of the variance{}",

@@ -1,4 +1,4 @@
-//! Identifies measured rigs by `free` and by both yardsticks, writes how well each simulates the held-out record, and
+//! Identifies measured rigs by `free` and by both baselines, writes how well each simulates the held-out record, and
 //! diagnoses the gap.
 //!
 //! `cargo run --example measured_rigs -- ../shared/rigs`: the folder holds `mr-damper`, `pneumatic-seal` and `piezo-stage` (their public

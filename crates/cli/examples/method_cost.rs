@@ -71,7 +71,7 @@ fn seconds(scenario: &Scenario) -> Result<f64, Box<dyn Error>> {
     Ok(processor_seconds() - before)
 }
 
-/// Processor time of this process so far, all threads; zero where the system does not tell.
+/// Processor time of this process so far, all threads; zero where the system does not show.
 fn processor_seconds() -> f64 {
     /// Ticks a second of the times in `/proc`.
     const TICKS: f64 = 100.0;

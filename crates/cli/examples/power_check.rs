@@ -14,7 +14,7 @@ use switchback_diagnose::Settings;
 use switchback_io::rig;
 use switchback_lab::examination::scramble;
 use switchback_lab::generate::{EFFECTS, Precision};
-use switchback_lab::power::{Draw, Ground, Outcome, Plan, measure};
+use switchback_lab::power::{Context, Draw, Outcome, Plan, measure};
 
 /// Fresh faults have seeds of their own.
 const FRESH: u64 = 0x0046_5245_5348;
@@ -31,9 +31,9 @@ fn main() -> miette::Result<()> {
     let rig = rig::read(Path::new(file))?;
     let effects = EFFECTS.into_iter().filter(|known| listed.split(',').any(|name| name == *known)).collect();
     let plan = Plan { effects, draws: draws.parse().unwrap_or(6), seed: 1 };
-    let ground = Ground::new(&rig, None, Settings::default(), file)?;
+    let context = Context::new(&rig, None, Settings::default(), file)?;
     let meter = Meter::counting("diagnoses", Quiet::default());
-    let power = measure(&ground, &plan, &meter, || ())?;
+    let power = measure(&context, &plan, &meter, || ())?;
     meter.finish();
     let fresh: usize = fresh.parse().unwrap_or(40);
     let (mut all_found, mut all) = (0, 0);
@@ -43,7 +43,7 @@ fn main() -> miette::Result<()> {
             continue;
         };
         let seed = scramble(FRESH, plan.seed_of(finding.effect));
-        let one = |k: usize| ground.draw(Precision::FINE, (finding.effect, size), scramble(seed, k as u64));
+        let one = |k: usize| context.draw(Precision::FINE, (finding.effect, size), scramble(seed, k as u64));
         let drawn: Vec<Draw> = (0..fresh).into_par_iter().with_max_len(1).map(one).collect();
         let close = drawn.iter().filter_map(|draw| match draw {
             Draw::Diagnosed { fault, answer } if (fault.size / size - 1.0).abs() < CLOSE => {

@@ -89,7 +89,7 @@ fn valued(argument: clap::Arg) -> clap::Arg {
     if takes_value { argument.allow_negative_numbers(true) } else { argument }
 }
 
-/// Options of a verb from words, for those who call the library: what they may be, and what is told where they may not, is as on the command
+/// Options of a verb from words, for those who call the library: what they may be, and what is reported where they may not, is as on the command
 /// line.
 ///
 /// ```
@@ -101,7 +101,7 @@ fn valued(argument: clap::Arg) -> clap::Arg {
 /// ```
 ///
 /// # Errors
-/// What the command line would tell.
+/// What the command line would show.
 pub fn options<A: clap::Args>(words: Vec<OsString>) -> Result<A, clap::Error> {
     let options = A::augment_args(clap::Command::new("switchback").no_binary_name(true)).mut_args(valued);
     let parsed = options.try_get_matches_from(words).and_then(|matches| A::from_arg_matches(&matches));
@@ -125,8 +125,8 @@ fn refuse_misspelt_verb(word: &str) -> Result<(), NoVerb> {
     if may_be_right || cli.get_subcommands().any(names) || word.is_empty() || Path::new(word).exists() {
         return Ok(());
     }
-    let told = cli.get_subcommands().filter(|verb| !verb.is_hide_set());
-    let verbs: Vec<&str> = told.map(clap::Command::get_name).chain(["help"]).collect();
+    let reported = cli.get_subcommands().filter(|verb| !verb.is_hide_set());
+    let verbs: Vec<&str> = reported.map(clap::Command::get_name).chain(["help"]).collect();
     let help = match closest(word, verbs.iter().copied()) {
         Some(verb) => format!("did you mean `switchback {verb}`?"),
         None => format!("the verbs are {}; a scenario is named by its path", verbs.join(", ")),

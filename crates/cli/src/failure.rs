@@ -1,4 +1,4 @@
-//! How a command ends, and how a failure is told.
+//! How a command ends, and how a failure is reported.
 
 use miette::{Diagnostic, SourceCode, SourceSpan};
 use std::fmt::Write;
@@ -24,7 +24,7 @@ pub const STOPPED: u8 = 3;
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
 pub type CommandResult = Result<Outcome, miette::Report>;
 
-/// Tells a failure on stderr and turns the result into the process's exit code.
+/// Shows a failure on stderr and turns the result into the process's exit code.
 pub fn exit_code(result: CommandResult) -> ExitCode {
     code(result).into()
 }
@@ -54,14 +54,14 @@ pub fn code(result: CommandResult) -> u8 {
 ///
 /// Where several things are wrong, each follows in this form, numbered.
 pub fn plain(diagnostic: &dyn Diagnostic) -> String {
-    let mut told = format!("error: {}", told(diagnostic));
+    let mut reported = format!("error: {}", reported(diagnostic));
     for (k, related) in diagnostic.related().into_iter().flatten().enumerate() {
-        let _ = write!(told, "{}. {}", k + 1, self::told(related));
+        let _ = write!(reported, "{}. {}", k + 1, self::reported(related));
     }
-    visible(&told).into_owned()
+    visible(&reported).into_owned()
 }
 
-/// Letters of a message that are told: room for the names of many columns.
+/// Letters of a message that are reported: room for the names of many columns.
 const LONG_MESSAGE: usize = 3000;
 
 /// Letters of a line of a file that are shown.
@@ -70,11 +70,11 @@ const LONG_LINE: usize = 160;
 /// … of which so many on either side of the place.
 const AROUND: usize = 60;
 
-/// Letters of a word that are told in full; a path may be long.
+/// Letters of a word that are reported in full; a path may be long.
 const LONG_WORD: usize = 500;
 
-/// What is told of a message: its long words without their middle, and then all of it.
-fn told_of(message: &str) -> String {
+/// What is reported a message: its long words without their middle, and then all of it.
+fn reported_of(message: &str) -> String {
     let words = message.split_inclusive(' ');
     let word = |word: &str| {
         if word.chars().count() > LONG_WORD { shortened(word, 2 * AROUND) } else { word.to_owned() }
@@ -93,17 +93,17 @@ fn shortened(text: &str, most: usize) -> String {
 }
 
 /// One message with its place and remedy.
-fn told(diagnostic: &dyn Diagnostic) -> String {
-    let mut told = told_of(&diagnostic.to_string()) + "\n";
+fn reported(diagnostic: &dyn Diagnostic) -> String {
+    let mut reported = reported_of(&diagnostic.to_string()) + "\n";
     if let (Some(code), Some(label)) =
         (diagnostic.source_code(), diagnostic.labels().and_then(|mut l| l.next()))
     {
-        told.push_str(&marked_line(code, label.inner()).unwrap_or_default());
+        reported.push_str(&marked_line(code, label.inner()).unwrap_or_default());
     }
     if let Some(help) = diagnostic.help() {
-        let _ = writeln!(told, "help: {}", told_of(&help.to_string()));
+        let _ = writeln!(reported, "help: {}", reported_of(&help.to_string()));
     }
-    told
+    reported
 }
 
 /// The line that a span begins on, with its number before it and marks under the span.
@@ -155,16 +155,16 @@ mod tests {
     #[test]
     fn a_long_line_is_cut_around_the_place() {
         let line = format!("a = \"{}!{}\"", "x".repeat(70_000), "y".repeat(300));
-        let told = plain(&refused(&line));
-        let [_, shown, marks, _] = told.lines().collect::<Vec<_>>()[..] else { panic!("{told}") };
+        let reported = plain(&refused(&line));
+        let [_, shown, marks, _] = reported.lines().collect::<Vec<_>>()[..] else { panic!("{reported}") };
         assert_eq!(shown, format!("  1 | …{}!{}…", "x".repeat(60), "y".repeat(119)));
         assert_eq!(marks, format!("    | {}{}", " ".repeat(61), "^".repeat(60)));
     }
 
     #[test]
     fn control_characters_are_shown_instead_of_obeyed() {
-        let told = plain(&refused("a = \"\u{1b}[2J!\""));
-        assert!(told.contains("␛[2J!") && !told.contains('\u{1b}'), "{told}");
+        let reported = plain(&refused("a = \"\u{1b}[2J!\""));
+        assert!(reported.contains("␛[2J!") && !reported.contains('\u{1b}'), "{reported}");
     }
 
     #[test]
@@ -172,6 +172,6 @@ mod tests {
         assert_eq!(shortened("abcdef", 6), "abcdef");
         assert_eq!(shortened("abcdefgh", 6), "abc…fgh");
         let word = format!("`{}` is no number", "x".repeat(700));
-        assert_eq!(told_of(&word), format!("`{}…{}` is no number", "x".repeat(59), "x".repeat(58)));
+        assert_eq!(reported_of(&word), format!("`{}…{}` is no number", "x".repeat(59), "x".repeat(58)));
     }
 }

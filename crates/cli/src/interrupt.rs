@@ -10,12 +10,12 @@ use switchback_io::output::{abandon, note};
 static WISHED: AtomicBool = AtomicBool::new(false);
 
 /// How much of the work at hand ends by itself where that is wished.
-static HEEDING: AtomicUsize = AtomicUsize::new(0);
+static SIGNAL_GUARD: AtomicUsize = AtomicUsize::new(0);
 
 /// What a piece of work that ends by itself may take to do so: a third of the time that Slurm leaves between SIGTERM and SIGKILL.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// From here on a signal ends the process with exit code 3. Work that [heeds](Heeding) it ends by itself; after ten seconds, at a second
+/// From here on a signal ends the process with exit code 3. Work that [heeds](SignalGuard) it ends by itself; after ten seconds, at a second
 /// signal, or where nothing heeds it, the process ends at once: what is being written is written to its end first, whatever is only staged is
 /// removed, and what has been kept of a study or an examination stays.
 ///
@@ -23,7 +23,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// If called twice.
 pub fn install() {
     let stop = || {
-        if HEEDING.load(Ordering::SeqCst) == 0 || WISHED.swap(true, Ordering::SeqCst) {
+        if SIGNAL_GUARD.load(Ordering::SeqCst) == 0 || WISHED.swap(true, Ordering::SeqCst) {
             end();
         }
         thread::spawn(|| {
@@ -40,27 +40,27 @@ fn end() -> ! {
     std::process::exit(STOPPED.into());
 }
 
-/// Whether someone wished the process to stop. Who asks [heeds](Heeding) it.
+/// Whether someone wished the process to stop. Who asks [heeds](SignalGuard) it.
 pub fn is_wished() -> bool {
     WISHED.load(Ordering::Relaxed)
 }
 
 /// While it lives, a signal is left to the work at hand, which asks [`is_wished`] often.
 #[derive(Debug)]
-pub struct Heeding(());
+pub struct SignalGuard(());
 
-impl Heeding {
+impl SignalGuard {
     /// From here on.
     #[must_use]
     #[expect(clippy::new_without_default, reason = "it does something")]
     pub fn new() -> Self {
-        HEEDING.fetch_add(1, Ordering::SeqCst);
+        SIGNAL_GUARD.fetch_add(1, Ordering::SeqCst);
         Self(())
     }
 }
 
-impl Drop for Heeding {
+impl Drop for SignalGuard {
     fn drop(&mut self) {
-        HEEDING.fetch_sub(1, Ordering::SeqCst);
+        SIGNAL_GUARD.fetch_sub(1, Ordering::SeqCst);
     }
 }

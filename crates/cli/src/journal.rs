@@ -58,7 +58,7 @@ const KEYS: &[u8] = b",\"keys\":";
 pub const SEALED_FILE: &str = "unfinished-key.jsonl";
 
 impl<C: Judged> Journal<C> {
-    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` tells the sources that judge apart.
+    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` shows the sources that judge apart.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
@@ -106,7 +106,7 @@ impl<C: Judged> Journal<C> {
         if self.keys.as_ref() == Some(&sha256(&text)) { text } else { String::new() }
     }
 
-    /// Seals keys in a file beside the journal. Whose that file is the journal tells, so that it comes first.
+    /// Seals keys in a file beside the journal. Whose that file is the journal shows, so that it comes first.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.
@@ -141,7 +141,7 @@ impl<C: Judged> Journal<C> {
         self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
     }
 
-    /// Removes it and the keys beside it: the report tells all.
+    /// Removes it and the keys beside it: the report shows all.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.

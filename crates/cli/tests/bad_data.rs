@@ -9,18 +9,18 @@ fn table(header: &str, change: impl Fn(usize, String) -> Option<String>) -> Stri
 }
 
 #[track_caller]
-fn refused(contents: &str, flags: &[&str], told: &[&str]) {
+fn refused(contents: &str, flags: &[&str], reported: &[&str]) {
     let bench = Bench::new().with("bench.csv", contents);
     let message = bench.refusal(&[&["bench.csv"], flags].concat());
     println!("{message}");
-    for text in told {
+    for text in reported {
         assert!(message.contains(text), "`{text}` is not in:\n{message}");
     }
     assert!(message.starts_with("error: ") && message.contains("\nhelp: "), "{message}");
 }
 
 #[test]
-fn dropouts_split_the_record_and_are_told() {
+fn dropouts_split_the_record_and_are_reported() {
     // Line 102 is missing, an empty cell in line 202, a run of NaN from line 302 on.
     let text = table("time [s],travel,force", |k, line| match k {
         100 => None,
@@ -33,17 +33,17 @@ fn dropouts_split_the_record_and_are_told() {
     let names: Vec<&str> = loaded.rig.records.iter().map(|record| record.name.as_str()).collect();
     assert_eq!(lengths, [100, 99, 99, 94, 196]);
     assert_eq!(names, ["bench-part-1", "bench-part-2", "bench-part-3", "bench-part-4", "bench-held-out"]);
-    let told = loaded.told.to_string();
-    assert!(told.contains("3 dropouts") && told.contains("bench.csv:102"), "{told}");
+    let reported = loaded.reported.to_string();
+    assert!(reported.contains("3 dropouts") && reported.contains("bench.csv:102"), "{reported}");
     assert_eq!(loaded.rig.holdout_records().count(), 1);
 }
 
 #[test]
-fn short_pieces_are_dropped_and_told() {
+fn short_pieces_are_dropped_and_reported() {
     let text = table("time,travel,force", |k, line| (k != 50 && k != 54).then_some(line));
     let loaded = Bench::new().with("bench.csv", &text).load(&["bench.csv"]).expect("a good file");
-    let told = loaded.told.to_string();
-    assert!(told.contains("3 samples in pieces too short"), "{told}");
+    let reported = loaded.reported.to_string();
+    assert!(reported.contains("3 samples in pieces too short"), "{reported}");
     assert_eq!(loaded.rig.records.iter().map(|record| record.record.len()).sum::<usize>(), SAMPLES - 5);
 }
 
@@ -58,7 +58,7 @@ fn without_time_a_missing_cell_splits_too() {
         .collect();
     let loaded = Bench::new().with("a.csv", &text).load(&["a.csv", "--rate", "100"]).expect("a good file");
     assert_eq!(loaded.rig.records[0].record.len(), 300);
-    assert!(loaded.told.to_string().contains("a.csv:302"), "{}", loaded.told);
+    assert!(loaded.reported.to_string().contains("a.csv:302"), "{}", loaded.reported);
 }
 
 #[test]
@@ -66,11 +66,11 @@ fn a_last_line_that_is_cut_off_is_left_out() {
     let mut text = table("time,travel,force", |_, line| Some(line));
     text += "6,0.1";
     let loaded = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
-    assert!(loaded.told.notes[0].contains("line 602, the last, is cut off"), "{}", loaded.told);
+    assert!(loaded.reported.notes[0].contains("line 602, the last, is cut off"), "{}", loaded.reported);
 }
 
 #[test]
-fn jitter_is_accepted_and_told_up_to_one_percent() {
+fn jitter_is_accepted_and_reported_up_to_one_percent() {
     let shaken = |share: f64| {
         let mut text = String::from("time,travel,force\n");
         for (k, (t, v, y)) in rows().enumerate() {
@@ -79,15 +79,19 @@ fn jitter_is_accepted_and_told_up_to_one_percent() {
         text
     };
     let loaded = Bench::new().with("a.csv", shaken(0.004)).load(&["a.csv"]).expect("a good file");
-    assert!(loaded.told.to_string().contains("whose steps differ from it by up to 0."), "{}", loaded.told);
+    assert!(
+        loaded.reported.to_string().contains("whose steps differ from it by up to 0."),
+        "{}",
+        loaded.reported
+    );
     assert!((loaded.rig.sample_time - 0.01).abs() < 1e-6);
     refused(&shaken(0.1), &[], &["bench.csv:3: column `time`: uneven sampling", "--resample"]);
     let even = Bench::new().with("a.csv", shaken(0.1)).load(&["a.csv", "--resample"]).expect("a good file");
-    assert!(even.told.to_string().contains("interpolated linearly"), "{}", even.told);
+    assert!(even.reported.to_string().contains("interpolated linearly"), "{}", even.reported);
 }
 
 #[test]
-fn stamps_rounded_to_a_millisecond_tell_the_rate_resampled_or_not() {
+fn stamps_rounded_to_a_millisecond_describe_the_rate_resampled_or_not() {
     for rate in [30.0, 60.0, 300.0] {
         let mut text = String::from("time [s],travel,force\n");
         for (k, (_, v, y)) in rows().enumerate() {
@@ -96,7 +100,7 @@ fn stamps_rounded_to_a_millisecond_tell_the_rate_resampled_or_not() {
         for flags in [&["a.csv"][..], &["a.csv", "--resample"]] {
             let loaded = Bench::new().with("a.csv", &text).load(flags).expect("a good file");
             assert_eq!(loaded.rig.sample_time, 1.0 / rate, "{flags:?}");
-            assert!(loaded.told.to_string().contains(&format!("({rate} Hz)")), "{}", loaded.told);
+            assert!(loaded.reported.to_string().contains(&format!("({rate} Hz)")), "{}", loaded.reported);
         }
     }
 }
@@ -114,7 +118,7 @@ fn rows_without_time_need_a_rate() {
 }
 
 #[test]
-fn stamps_too_coarse_for_the_rows_are_told_and_can_be_left_out() {
+fn stamps_too_coarse_for_the_rows_are_reported_and_can_be_left_out() {
     let text: String = std::iter::once("time,travel,force\n".to_owned())
         .chain(rows().map(|(t, v, y)| format!("{},{v},{y}\n", t.floor())))
         .collect();
@@ -131,7 +135,7 @@ fn columns_in_doubt_are_listed_with_the_line_to_type() {
         &text,
         &[],
         &[
-            "which column is the input and which the output cannot be told",
+            "which column is the input and which the output cannot be reported",
             "1 `time [s]`, 2 `s1 [mm]`, 3 `s2 [N]`, 4 `s3`",
             "bench.csv --input s1 --output s2",
         ],
@@ -148,7 +152,7 @@ fn a_voltage_and_a_motion_may_either_drive() {
 }
 
 #[test]
-fn a_misspelt_column_gets_a_suggestion_and_all_are_told_at_once() {
+fn a_misspelt_column_gets_a_suggestion_and_all_are_reported_at_once() {
     let text = table("time [s],travel [mm],force [N]", |_, line| Some(line));
     refused(
         &text,
@@ -161,7 +165,7 @@ fn a_misspelt_column_gets_a_suggestion_and_all_are_told_at_once() {
 }
 
 #[test]
-fn all_faulty_cells_are_told_at_once() {
+fn all_faulty_cells_are_reported_at_once() {
     let text = table("time,travel,force", |k, line| match k {
         9 => Some("0.09,one,1".to_owned()),
         19 => Some("0.19,1".to_owned()),
@@ -181,7 +185,7 @@ fn all_faulty_cells_are_told_at_once() {
 }
 
 #[test]
-fn stamps_are_told_as_they_stand_in_the_file() {
+fn stamps_are_reported_as_they_stand_in_the_file() {
     let text = table("time,travel,force", |k, line| {
         let cells: Vec<&str> = line.split(',').collect();
         let second = if k == 99 { 5 } else { 7 };
@@ -231,7 +235,7 @@ fn decimal_signs_that_do_not_agree_are_named() {
         ],
     );
     let message = Bench::new().with("a.csv", &text).refusal(&["a.csv"]);
-    assert_eq!(message.matches("help: ").count(), 1, "a remedy is told once: {message}");
+    assert_eq!(message.matches("help: ").count(), 1, "a remedy is reported once: {message}");
     let comma = |x: f64| format!("{x:.3}").replace('.', ",");
     let twice: String = std::iter::once("time,travel,force\n".to_owned())
         .chain(rows().map(|(t, v, y)| format!("{},{},{}\n", comma(t), comma(v), comma(y))))
@@ -258,7 +262,7 @@ fn remedies_are_those_of_the_command_line() {
 }
 
 #[test]
-fn a_file_that_holds_no_table_is_told() {
+fn a_file_that_holds_no_table_is_reported() {
     refused("", &[], &["the file is empty"]);
     refused("Dear reader,\nthis is a letter.\n", &[], &["no table was found"]);
     refused("force\n1\n2\n3\n", &[], &["no table was found", "two columns"]);
@@ -269,14 +273,14 @@ fn a_file_that_holds_no_table_is_told() {
 }
 
 #[test]
-fn a_record_that_stands_still_is_told() {
+fn a_record_that_stands_still_is_reported() {
     let text: String =
         std::iter::once("t,v,y\n".to_owned()).chain(rows().map(|(t, _, y)| format!("{t},1,{y}\n"))).collect();
     refused(&text, &[], &["the input `v` never moves", "rises and falls"]);
 }
 
 #[test]
-fn an_output_that_never_changes_is_told_by_its_name() {
+fn an_output_that_never_changes_is_reported_by_its_name() {
     let text =
         table("time,travel,force", |_, line| line.rsplit_once(',').map(|(rest, _)| format!("{rest},3")));
     refused(&text, &[], &["the output `force` never changes", "check the sensor"]);
@@ -285,8 +289,8 @@ fn an_output_that_never_changes_is_told_by_its_name() {
     let bench = Bench::new().with("a.csv", short);
     for verb in ["gap", "identify"] {
         let output = bench.switchback(&[verb, "a.csv"]).output().expect("it runs");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!told.contains("in the rig file") && !told.contains("knots or"), "{told}");
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!reported.contains("in the rig file") && !reported.contains("knots or"), "{reported}");
     }
 }
 
@@ -298,7 +302,7 @@ fn values_that_cannot_have_been_measured_are_warned_of_and_used() {
             _ => Some(line),
         });
         let loaded = Bench::new().with("a.csv", text).load(&["a.csv"]).expect("a usable file");
-        loaded.told.warnings.join("\n")
+        loaded.reported.warnings.join("\n")
     };
     assert_eq!(with(98, "60"), "");
     let far = with(98, "1e300");
@@ -359,14 +363,14 @@ fn what_is_held_out_can_be_said() {
 }
 
 #[test]
-fn everything_wrong_in_a_rig_file_is_told_at_once() {
+fn everything_wrong_in_a_rig_file_is_reported_at_once() {
     let bench = Bench::new().with(
         "rig.toml",
         "name = \"a\"\nsample_time = \"fast\"\noder = 2\norder = 99\n[[record]]\nfile = \"a.csv\"\nrule = \"free\"\nuse = \"fit\"\n",
     );
     let message = bench.refusal(&["rig.toml"]);
     println!("{message}");
-    for told in [
+    for reported in [
         "5 things are wrong",
         "rig.toml:2:15",
         "unknown key `oder`",
@@ -374,7 +378,7 @@ fn everything_wrong_in_a_rig_file_is_told_at_once() {
         "a.csv does not exist",
         "unknown key `rule`",
     ] {
-        assert!(message.contains(told), "`{told}` is not in:\n{message}");
+        assert!(message.contains(reported), "`{reported}` is not in:\n{message}");
     }
     let bench = bench.with("rig.toml", "name = \"a\"\n[[record]]\nfile = \"a.csv\"\nuse = \"fit\"\n[[record]]\nfile = \"b.csv\"\nuse = \"holdout\"\n");
     let message = bench.refusal(&["rig.toml"]);

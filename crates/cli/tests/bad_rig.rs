@@ -5,7 +5,7 @@ use std::fs;
 
 /// Spoils a good rig, identifies it with an output folder, and checks what is said and that nothing is left behind.
 #[track_caller]
-fn refused(spoil: impl Fn(&Folder), told: &[&str]) {
+fn refused(spoil: impl Fn(&Folder), reported: &[&str]) {
     let folder = Folder::with_good_rig();
     spoil(&folder);
     let before = folder.listing();
@@ -15,20 +15,20 @@ fn refused(spoil: impl Fn(&Folder), told: &[&str]) {
     assert!(output.stdout.is_empty(), "nothing is printed on stdout");
     assert!(stderr.starts_with("error: ") && stderr.contains("\nhelp: "), "{stderr}");
     assert_eq!(stderr.matches("error: ").count(), 1, "one message: {stderr}");
-    for text in told {
+    for text in reported {
         assert!(stderr.contains(text), "`{text}` is not in:\n{stderr}");
     }
     assert_eq!(folder.listing(), before, "nothing is written");
 }
 
 #[track_caller]
-fn refused_rig(line: usize, with: &str, told: &[&str]) {
-    refused(|folder| folder.replace_line("rig.toml", line, with), told);
+fn refused_rig(line: usize, with: &str, reported: &[&str]) {
+    refused(|folder| folder.replace_line("rig.toml", line, with), reported);
 }
 
 #[track_caller]
-fn refused_row(line: usize, with: &str, told: &[&str]) {
-    refused(|folder| folder.replace_line("descendant.csv", line, with), told);
+fn refused_row(line: usize, with: &str, reported: &[&str]) {
+    refused(|folder| folder.replace_line("descendant.csv", line, with), reported);
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn a_record_is_listed_once() {
 }
 
 #[test]
-fn a_missing_record_is_told_where_it_is_named() {
+fn a_missing_record_is_reported_where_it_is_named() {
     refused_rig(
         7,
         "file = \"nowhere.csv\"",
@@ -278,7 +278,7 @@ fn a_record_that_is_no_pulse_experiment_is_refused() {
 
 /// Another thing than a rig file in its place.
 #[track_caller]
-fn refused_file(name: &str, text: &str, told: &[&str]) {
+fn refused_file(name: &str, text: &str, reported: &[&str]) {
     let folder = Folder::with_good_rig();
     if !text.is_empty() {
         folder.write(name, text);
@@ -286,13 +286,13 @@ fn refused_file(name: &str, text: &str, told: &[&str]) {
     let output = folder.switchback(&["identify", name]).output().expect("it runs");
     let stderr = String::from_utf8(output.stderr).expect("UTF-8");
     assert_eq!(output.status.code(), Some(2), "{stderr}");
-    for text in told {
+    for text in reported {
         assert!(stderr.contains(text), "`{text}` is not in:\n{stderr}");
     }
 }
 
 #[test]
-fn something_else_than_a_rig_file_is_told_as_such() {
+fn something_else_than_a_rig_file_is_reported_as_such() {
     refused_file("nowhere.toml", "", &["nowhere.toml: no such file", "help: "]);
     refused_file(".", "", &["is a folder", "./rig.toml"]);
     refused_file("rig.json", "{\"name\": \"a\"}", &["looks like JSON"]);
@@ -318,15 +318,15 @@ fn an_unwritable_output_folder_is_refused_before_anything_is_computed() {
 }
 
 #[test]
-fn all_that_is_wrong_in_a_rig_file_and_its_records_is_told_by_line() {
+fn all_that_is_wrong_in_a_rig_file_and_its_records_is_reported_by_line() {
     let folder = Folder::with_good_rig();
     folder.write("rig.toml", "");
-    let told = |folder: &Folder| {
+    let reported = |folder: &Folder| {
         let output = folder.switchback(&["gap", "rig.toml"]).output().expect("it runs");
         assert_eq!(output.status.code(), Some(2));
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
-    let empty = told(&folder);
+    let empty = reported(&folder);
     for word in ["3 things are wrong", "missing key `name`", "no record", "missing key `sample_time`"] {
         assert!(empty.contains(word), "`{word}` is not in: {empty}");
     }
@@ -335,7 +335,7 @@ fn all_that_is_wrong_in_a_rig_file_and_its_records_is_told_by_line() {
         "name = \"a\"\norder = 0\n[[record]]\nfile = \"nowhere.csv\"\nuse = \"fit\"\n[[record]]\nfile = \"again.csv\"\n\
          columns = { input = \"vv\" }\nuse = \"holdout\"\nholdout = 2\n",
     );
-    let all = told(&folder);
+    let all = reported(&folder);
     let places = [
         "4 things are wrong",
         "rig.toml:2:9",

@@ -40,14 +40,14 @@ fn what_is_fitted_to_the_committed_examination_stays_the_same() {
 }
 
 #[test]
-fn the_rules_and_the_fitted_verdict_are_told_side_by_side() {
+fn the_rules_and_the_fitted_verdict_are_reported_side_by_side() {
     let output = calibrated(&Folder::with_good_rig(), &[]);
     let words = String::from_utf8(output.stdout).expect("text");
     for expected in [
         "log-loss",
         "by rules\n",
         "by the fitted verdict alone, out of fold\n",
-        "as the program tells it, out of fold (of ",
+        "as the program shows it, out of fold (of ",
         " likely causes on which all readings agree ",
         "calibration error",
     ] {

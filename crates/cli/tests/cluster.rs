@@ -20,7 +20,7 @@ use study::{Launched, PARTS, Study};
 trait Cluster {
     /// How `switchback launch` calls it.
     const OPTION: &'static str;
-    /// Starts it; nothing where it is absent, which is told.
+    /// Starts it; nothing where it is absent, which is reported.
     fn start(scratch: &Path) -> Option<Self>
     where
         Self: Sized;
@@ -53,7 +53,7 @@ fn bytes_survive_a_part_that_fails<C: Cluster>() {
     fs::create_dir_all(in_the_way.parent().expect("a folder")).expect("a folder");
     fs::write(&in_the_way, "in the way").expect("a file");
     run.start_script(&cluster);
-    run.wait("merge has told what is missing", |run| run.told().contains("--array=5"));
+    run.wait("merge has reported what is missing", |run| run.reported().contains("--array=5"));
     assert!(!run.has_report(), "a report without part 5");
     assert_eq!(run.finished().len(), PARTS - 1);
     run.wait_for_the_script();
@@ -74,7 +74,7 @@ fn bytes_survive_another_coordinator<C: Cluster>() {
     cluster.restart_coordinator();
     if C::FORGETS {
         run.wait_for_the_script();
-        assert!(run.told().contains("once it is there again: bash"), "{}", run.told());
+        assert!(run.reported().contains("once it is there again: bash"), "{}", run.reported());
         run.start_script(&cluster);
     }
     run.wait("the report is there", Launched::has_report);
@@ -90,7 +90,7 @@ fn bytes_survive_a_time_limit<C: Cluster>(study: &Study, time: &str, change: imp
     run.start_script(&cluster);
     run.wait("the report is there", Launched::has_report);
     let stopped = (1..=PARTS).filter(|&part| run.turns(part) > 1).count();
-    assert!(stopped > 0, "no part has reached its time limit: {}", run.told());
+    assert!(stopped > 0, "no part has reached its time limit: {}", run.reported());
     assert_same(study, &run);
 }
 

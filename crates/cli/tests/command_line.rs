@@ -14,11 +14,11 @@ fn switchback(arguments: &[&str]) -> Command {
 #[track_caller]
 fn refused(arguments: &[&str], words: &[&str]) {
     let output = switchback(arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     assert!(output.stdout.is_empty());
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
 }
 
@@ -58,13 +58,13 @@ fn misspelt_methods_effects_and_options_get_a_suggestion() {
 }
 
 #[test]
-fn numbers_that_cannot_be_are_told_in_plain_words() {
+fn numbers_that_cannot_be_are_reported_in_plain_words() {
     let plain = |arguments: &[&str], words: &[&str]| {
         refused(arguments, words);
-        let told =
+        let reported =
             String::from_utf8_lossy(&switchback(arguments).output().expect("it runs").stderr).into_owned();
         for word in ["invalid digit", "invalid float", "..=", "use '--"] {
-            assert!(!told.contains(word), "`{word}` is in: {told}");
+            assert!(!reported.contains(word), "`{word}` is in: {reported}");
         }
     };
     let whole = "give a whole number from 1 to 1024";
@@ -80,23 +80,23 @@ fn numbers_that_cannot_be_are_told_in_plain_words() {
     plain(&["gap", "rig.toml", "--foo"], &["unexpected argument '--foo'"]);
     let folder = Folder::with_good_rig();
     let output = folder.switchback(&["gap", "again.csv", "--input", "-1"]).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(told.contains("there is no column `-1`"), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(reported.contains("there is no column `-1`"), "{reported}");
 }
 
 #[test]
-fn a_file_of_the_wrong_kind_is_told_with_the_verb_that_takes_it() {
+fn a_file_of_the_wrong_kind_is_reported_with_the_verb_that_takes_it() {
     let folder = Folder::with_good_rig();
-    let told = |arguments: &[&str]| {
+    let reported = |arguments: &[&str]| {
         let output = folder.switchback(arguments).output().expect("it runs");
         assert_eq!(output.status.code(), Some(2));
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
-    let data = told(&["again.csv"]);
+    let data = reported(&["again.csv"]);
     assert!(data.contains("this is data") && data.contains("`switchback gap again.csv`"), "{data}");
-    let rig = told(&["rig.toml"]);
+    let rig = reported(&["rig.toml"]);
     assert!(rig.contains("this is a rig") && rig.contains("`switchback gap rig.toml`"), "{rig}");
-    let from = told(&["design", "--from", "again.csv"]);
+    let from = reported(&["design", "--from", "again.csv"]);
     assert!(from.contains("this is data") && from.contains("`switchback init again.csv"), "{from}");
 }
 

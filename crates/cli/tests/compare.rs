@@ -5,7 +5,7 @@ use std::fs;
 use tempfile::tempdir;
 
 #[track_caller]
-fn refused(content: Option<&str>, told: &str) {
+fn refused(content: Option<&str>, reported: &str) {
     let folder = tempdir().expect("a temporary folder");
     let baseline = folder.path().join("results.json");
     if let Some(content) = content {
@@ -23,7 +23,7 @@ fn refused(content: Option<&str>, told: &str) {
     let stderr = String::from_utf8(output.stderr).expect("UTF-8");
     assert_eq!(output.status.code(), Some(2), "{stderr}");
     assert!(
-        stderr.contains("results.json") && stderr.contains(told) && stderr.contains("help: "),
+        stderr.contains("results.json") && stderr.contains(reported) && stderr.contains("help: "),
         "{stderr}"
     );
     assert!(!out.exists(), "nothing is written");

@@ -89,11 +89,11 @@ fn spring() -> Machine {
 #[test]
 fn a_plan_is_written_whole_with_what_the_actuator_must_do() {
     let root = TempDir::new().expect("a folder");
-    let told = done(root.path(), &plan(&["--out", "bench"]));
+    let reported = done(root.path(), &plan(&["--out", "bench"]));
     for word in
         ["descendant.csv", "8000 mm/s", "80.00 mm within one sample", "switchback identify bench/rig.toml"]
     {
-        assert!(told.contains(word), "`{word}` is missing in: {told}");
+        assert!(reported.contains(word), "`{word}` is missing in: {reported}");
     }
     for name in FILES {
         let text = fs::read_to_string(root.path().join("bench").join(format!("{name}.csv"))).expect("a file");
@@ -112,11 +112,11 @@ fn a_rig_that_waits_for_its_output_says_so() {
     let root = TempDir::new().expect("a folder");
     done(root.path(), &plan(&["--out", "bench"]));
     for verb in ["identify", "gap"] {
-        let told = refused(root.path(), &[verb, "bench/rig.toml"]);
+        let reported = refused(root.path(), &[verb, "bench/rig.toml"]);
         assert!(
-            told.contains("step_high.csv")
-                && told.contains("column y is missing: play v and add the measured y"),
-            "{told}"
+            reported.contains("step_high.csv")
+                && reported.contains("column y is missing: play v and add the measured y"),
+            "{reported}"
         );
     }
 }
@@ -128,8 +128,8 @@ fn nothing_is_replaced_unless_forced() {
     play(&spring(), &root.path().join("bench"));
     let read = |name: &str| fs::read_to_string(root.path().join("bench").join(name)).expect("a file");
     let before = read("free.csv");
-    let told = refused(root.path(), &plan(&["--out", "bench"]));
-    assert!(told.contains("free.csv") && told.contains("--force"), "{told}");
+    let reported = refused(root.path(), &plan(&["--out", "bench"]));
+    assert!(reported.contains("free.csv") && reported.contains("--force"), "{reported}");
     assert_eq!(read("free.csv"), before);
     done(root.path(), &plan(&["--out", "bench", "--force"]));
     assert!(read("free.csv").starts_with("t,v\n"));
@@ -193,11 +193,11 @@ fn a_precision_is_planned_for_and_its_plan_written() {
     let finer = json(root.path(), &["design", "--from", "bench/rig.toml", "--precision", "0.005", "--json"]);
     let ratio = finer["samples"].as_f64().unwrap() / page["samples"].as_f64().unwrap();
     assert!((ratio - 4.0).abs() < 4.0 / periods as f64, "{ratio}");
-    let told = done(root.path(), &["design", "--from", "bench/rig.toml", "--precision", "1%"]);
+    let reported = done(root.path(), &["design", "--from", "bench/rig.toml", "--precision", "1%"]);
     for word in
         ["worst descending point", "b2 N", "to know every border point to 1.0 %", "nothing was written"]
     {
-        assert!(told.contains(word), "`{word}` is missing in: {told}");
+        assert!(reported.contains(word), "`{word}` is missing in: {reported}");
     }
 }
 
@@ -271,8 +271,8 @@ fn what_cannot_be_is_refused_with_the_remedy() {
         (&plan(&["--out", "x", "--precision", "0.01"]), &["--from"]),
         (&["design", "--from", "none.toml", "--precision", "0.01"], &["none.toml"]),
     ] {
-        let told = refused(root.path(), arguments);
-        words.iter().for_each(|word| assert!(told.contains(word), "`{word}` is missing in: {told}"));
+        let reported = refused(root.path(), arguments);
+        words.iter().for_each(|word| assert!(reported.contains(word), "`{word}` is missing in: {reported}"));
     }
     assert_eq!(fs::read_dir(root.path()).expect("a folder").count(), 0, "nothing was written");
 }

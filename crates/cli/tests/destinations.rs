@@ -14,29 +14,29 @@ fn of_two_runs_into_one_folder_the_second_is_refused_at_once() {
     let change = Change::new();
     change.reset();
     let mut first = start(&change.folder, &RUN, "pause=1");
-    let mut told = String::new();
+    let mut reported = String::new();
     let mut stderr = BufReader::new(first.stderr.take().expect("piped"));
-    stderr.read_line(&mut told).expect("UTF-8");
-    assert_eq!(told, "paused\n");
+    stderr.read_line(&mut reported).expect("UTF-8");
+    assert_eq!(reported, "paused\n");
     // One that would take minutes.
     change.folder.write("long.toml", &STUDY.replace("replicates = 40", "replicates = 4000000"));
     for arguments in [["long.toml", "--out", "out"], ["long.toml", "--out", "./out/../out"]] {
         let start = Instant::now();
-        let (code, told) = run(&change.folder, &arguments, "");
-        assert_eq!(code, Some(2), "{told}");
+        let (code, reported) = run(&change.folder, &arguments, "");
+        assert_eq!(code, Some(2), "{reported}");
         let process = format!("process {} is writing there", first.id());
-        assert!(told.contains(&format!("{}: {process}", arguments[2])), "{told}");
+        assert!(reported.contains(&format!("{}: {process}", arguments[2])), "{reported}");
         assert!(start.elapsed() < Duration::from_secs(10), "it computed first");
     }
     // Another run beside it neither waits nor takes what is not its own.
-    let (code, told) = run(&change.folder, &["rig", "--seed", "7", "--quiet", "--out", "made"], "");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(&change.folder, &["rig", "--seed", "7", "--quiet", "--out", "made"], "");
+    assert_eq!(code, Some(0), "{reported}");
     assert!(change.folder.listing().contains(&".switchback-out".to_owned()));
     first.kill().expect("it lives");
     first.wait().expect("it ends");
     // And the next clears away what the dead one left, wherever it writes.
-    let (code, told) = run(&change.folder, &["rig", "--seed", "8", "--quiet", "--out", "made"], "");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(&change.folder, &["rig", "--seed", "8", "--quiet", "--out", "made"], "");
+    assert_eq!(code, Some(0), "{reported}");
     assert!(!change.folder.listing().contains(&".switchback-out".to_owned()));
     assert!(change.now() == change.old);
 }
@@ -50,9 +50,9 @@ fn a_folder_that_cannot_be_written_is_found_before_the_run() {
     fs::create_dir(folder.path("sealed")).expect("a new folder");
     let before = folder.listing();
     let refused = |out: &str, words: &str| {
-        let (code, told) = run(&folder, &["study.toml", "--quiet", "--out", out], "");
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains(words) && told.matches("error: ").count() == 1, "{told}");
+        let (code, reported) = run(&folder, &["study.toml", "--quiet", "--out", out], "");
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(reported.contains(words) && reported.matches("error: ").count() == 1, "{reported}");
         assert_eq!(folder.listing(), before);
     };
     refused("file", "file is a file");
@@ -105,8 +105,8 @@ fn a_full_disk_leaves_the_old_report() {
     for out in ["small/out", "small"] {
         let arguments = ["study.toml", "--quiet", "--out", out];
         change.folder.write("study.toml", STUDY);
-        let (code, told) = run(&change.folder, &arguments, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = run(&change.folder, &arguments, "");
+        assert_eq!(code, Some(0), "{reported}");
         let old = files_and_folders(&change.folder.path(out));
         change.folder.write("study.toml", &STUDY.replace("seed = 3", "seed = 4"));
         // Without a byte to spare, and with a part of what is needed.
@@ -116,16 +116,19 @@ fn a_full_disk_leaves_the_old_report() {
                 size -= 4 << 10;
             }
             fs::write(&ballast, vec![1; size - spare]).expect("less than before");
-            let (code, told) = run(&change.folder, &arguments, "");
-            assert_eq!(code, Some(2), "{told}");
-            assert!(told.contains("No space left") && told.matches("error: ").count() == 1, "{told}");
+            let (code, reported) = run(&change.folder, &arguments, "");
+            assert_eq!(code, Some(2), "{reported}");
+            assert!(
+                reported.contains("No space left") && reported.matches("error: ").count() == 1,
+                "{reported}"
+            );
             fs::remove_file(&ballast).expect("it is there");
             assert!(files_and_folders(&change.folder.path(out)) == old);
             let names = listing(&place);
             assert!(names.iter().all(|name| !name.starts_with(".switchback-")), "{names:?}");
         }
-        let (code, told) = run(&change.folder, &arguments, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = run(&change.folder, &arguments, "");
+        assert_eq!(code, Some(0), "{reported}");
         assert!(files_and_folders(&change.folder.path(out)) != old);
         assert!(!change.folder.listing().contains(&".switchback-small".to_owned()));
         let _ = fs::remove_dir_all(place.join("out"));

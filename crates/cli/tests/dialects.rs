@@ -19,7 +19,7 @@ fn is_the_record(loaded: &Loaded, labels: [&str; 2]) {
     let uses: Vec<(Usage, usize)> =
         rig.records.iter().map(|record| (record.usage, record.record.len())).collect();
     assert_eq!(uses, [(Usage::Fit, SAMPLES - SAMPLES / 3), (Usage::Holdout, SAMPLES / 3)]);
-    println!("{}", loaded.told);
+    println!("{}", loaded.reported);
 }
 
 /// Reads the bytes as a file, with flags if any, and compares.
@@ -47,14 +47,14 @@ const MM_N: [&str; 2] = ["travel [mm]", "force [N]"];
 #[test]
 fn plain_commas() {
     let loaded = reads(with_header("t,v,y", ",", point, "\n"), &[], ["input v", "output y"]);
-    assert_eq!(loaded.told.notes, [""; 0], "nothing unusual, nothing noted");
+    assert_eq!(loaded.reported.notes, [""; 0], "nothing unusual, nothing noted");
 }
 
 #[test]
 fn semicolons_and_decimal_commas() {
     let text = with_header("time [s];travel [mm];force [N]", ";", comma, "\n");
     let loaded = reads(text, &[], MM_N);
-    assert!(loaded.told.notes[0].ends_with("semicolons between columns, decimal commas"));
+    assert!(loaded.reported.notes[0].ends_with("semicolons between columns, decimal commas"));
 }
 
 #[test]
@@ -89,13 +89,13 @@ fn an_instrument_s_preamble_comments_and_units() {
     let preamble = "Test bench 4, file exported 2024-05-01 10:00:00\nOperator;M. Miller\nChannels;3\nRange;10;20\n\n% calibrated\n";
     let table = with_header("Time;travel;force\n[s];[mm];[N]\n// begin", ";", point, "\n");
     let loaded = reads(format!("{preamble}{table}"), &[], MM_N);
-    assert!(loaded.told.notes[0].contains("lines 1 to"), "{}", loaded.told);
+    assert!(loaded.reported.notes[0].contains("lines 1 to"), "{}", loaded.reported);
 }
 
 #[test]
 fn no_header_at_all() {
     let loaded = reads(lines(",", point).join("\n"), &[], ["input v", "output y"]);
-    assert!(loaded.told.notes[0].ends_with("no header"));
+    assert!(loaded.reported.notes[0].ends_with("no header"));
     let two: String = rows().map(|(_, v, y)| format!("{v} {y}\n")).collect();
     reads(two, &["--rate", "100"], ["input v", "output y"]);
 }
@@ -107,8 +107,12 @@ fn latin_letters_and_milliseconds() {
         .map(|(t, v, y)| format!("{};{};{};0,5\n", comma((1000.0 * t).round()), comma(v), comma(y)))
         .collect();
     let loaded = reads([header, body.into_bytes()].concat(), &[], ["Weg [µm]", "Kraft [N]"]);
-    assert!(loaded.told.notes[0].contains("Windows-1252"), "{}", loaded.told);
-    assert!(loaded.told.to_string().contains("`Winkel [°]`"), "the other input is offered: {}", loaded.told);
+    assert!(loaded.reported.notes[0].contains("Windows-1252"), "{}", loaded.reported);
+    assert!(
+        loaded.reported.to_string().contains("`Winkel [°]`"),
+        "the other input is offered: {}",
+        loaded.reported
+    );
 }
 
 #[test]
@@ -117,7 +121,7 @@ fn sixteen_bit_letters() {
     let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
     let loaded = reads(little, &[], MM_N);
-    assert!(loaded.told.notes[0].contains("UTF-16LE"), "{}", loaded.told);
+    assert!(loaded.reported.notes[0].contains("UTF-16LE"), "{}", loaded.reported);
     reads(big, &[], MM_N);
 }
 
@@ -216,7 +220,7 @@ fn timed(name: &str, time: impl Fn(usize) -> String) -> String {
 }
 
 #[test]
-fn counts_since_1970_are_told_by_their_size() {
+fn counts_since_1970_are_reported_by_their_size() {
     type Printed = fn(usize) -> String;
     let epochs: [(&str, Printed); 4] = [
         ("seconds", |k| format!("{:.2}", 1_700_000_000.0 + k as f64 / 100.0)),
@@ -226,19 +230,26 @@ fn counts_since_1970_are_told_by_their_size() {
     ];
     for (unit, time) in epochs {
         let loaded = reads(timed("timestamp", time), &[], MM_N);
-        let told = loaded.told.to_string();
-        assert_eq!(told.contains(&format!("is taken as {unit} since 1970")), unit != "seconds", "{told}");
+        let reported = loaded.reported.to_string();
+        assert_eq!(
+            reported.contains(&format!("is taken as {unit} since 1970")),
+            unit != "seconds",
+            "{reported}"
+        );
     }
 }
 
 #[test]
-fn whole_numbers_without_a_unit_are_told() {
+fn whole_numbers_without_a_unit_are_reported() {
     let text = timed("time", |k| (10 * k).to_string());
     let loaded = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
     assert_eq!(loaded.rig.sample_time, 10.0);
-    let told = loaded.told.to_string();
-    assert!(told.contains("taken as seconds; write the unit into the header, as in `time [ms]`"), "{told}");
-    assert!(told.contains("--time none --rate HZ"), "{told}");
+    let reported = loaded.reported.to_string();
+    assert!(
+        reported.contains("taken as seconds; write the unit into the header, as in `time [ms]`"),
+        "{reported}"
+    );
+    assert!(reported.contains("--time none --rate HZ"), "{reported}");
 }
 
 #[test]
@@ -250,9 +261,9 @@ fn a_clock_without_dates_goes_on_past_midnight() {
     });
     let loaded = reads(text, &[], MM_N);
     assert!(
-        loaded.told.to_string().contains("passes midnight at line 202 and is continued"),
+        loaded.reported.to_string().contains("passes midnight at line 202 and is continued"),
         "{}",
-        loaded.told
+        loaded.reported
     );
 }
 

@@ -52,8 +52,8 @@ fn compare(what: &str, found: &[f64], expected: &[f64]) {
 
 fn numbers(command: &mut Command) -> Vec<f64> {
     let output = command.output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success() && told.is_empty(), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && reported.is_empty(), "{reported}");
     let text = String::from_utf8(output.stdout).expect("text");
     text.split_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
@@ -195,11 +195,11 @@ fn models_of_gap_with_effects() {
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let before = folder.listing();
     let output = folder.switchback(arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("help: "), "no remedy: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
+    assert!(reported.contains("help: "), "no remedy: {reported}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
     assert_eq!(folder.listing(), before, "nothing may be written");
 }
@@ -219,15 +219,15 @@ fn a_model_that_looks_ahead_is_refused_and_the_causal_one_named() {
 }
 
 #[test]
-fn what_is_no_model_or_no_target_is_told() {
+fn what_is_no_model_or_no_target_is_reported() {
     let folder = Folder::with_good_rig();
     refused(&folder, &["export", "rig.toml", "--to", "c"], &["rig.toml"]);
     refused(&folder, &["export", "none.json", "--to", "c"], &["none.json"]);
     succeed(&folder, &["identify", "rig.toml", "--out", "found", "--quiet"]);
-    let told =
+    let reported =
         folder.switchback(&["export", "found/model.json", "--to", "matlab"]).output().expect("it runs");
-    assert_eq!(told.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&told.stderr).contains("fmu"));
+    assert_eq!(reported.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&reported.stderr).contains("fmu"));
     refused(
         &folder,
         &["export", "found/model.json", "--to", "fmu", "--library", "nowhere.so"],
@@ -242,8 +242,8 @@ fn what_is_no_model_or_no_target_is_told() {
 fn the_file_is_named_after_the_rig_and_says_what_it_is() {
     let folder = Folder::with_good_rig();
     succeed(&folder, &["identify", "rig.toml", "--out", "found", "--quiet"]);
-    let told = folder.switchback(&["export", "found/model.json", "--to", "c"]).output().expect("it runs");
-    assert_eq!(String::from_utf8_lossy(&told.stdout), "small.h\n");
+    let reported = folder.switchback(&["export", "found/model.json", "--to", "c"]).output().expect("it runs");
+    assert_eq!(String::from_utf8_lossy(&reported.stdout), "small.h\n");
     let text = fs::read_to_string(folder.path("small.h")).expect("a header");
     for words in ["The identified model of small", "small_step(&s, v)", "Sample time: 0.01 s", "from -1 to 1"]
     {

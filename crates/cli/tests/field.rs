@@ -104,7 +104,7 @@ fn keys_that_were_written_are_taken_up_and_give_the_same_rigs() {
     let field = field(&scenario, &bases);
     let tickets = || -> Vec<_> {
         let all = field.design().expect("a design").into_iter();
-        all.filter(|ticket| ticket.kind == Kind::Planted).take(1).collect()
+        all.filter(|ticket| ticket.kind == Kind::Injected).take(1).collect()
     };
     let keys = key_file(&field.seal(tickets(), "", &|| ()).expect("rigs"));
     // What is written counts, or the size would be searched for again.
@@ -131,19 +131,19 @@ fn what_cannot_be_examined_is_refused_in_one_message() {
         assert!(!folder.path("none").exists());
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
-    let told = run(&FIELD.replace("[2.0]", "[1.0]"), &[]);
-    assert!(told.contains("field.toml:5:9") && told.contains("no size reaches 2"), "{told}");
-    let told = run(&FIELD.replace("gain_drift", "gain_drfit"), &[]);
-    assert!(told.contains("did you mean `gain_drift`?"), "{told}");
-    let told = run(FIELD, &["--engine", "direct"]);
-    assert!(told.contains("has no engines"), "{told}");
-    let told = run(&FIELD.replace("made = 2", "rigs = \"nowhere\"\nmade = 0"), &[]);
-    assert!(told.contains("NO MEASURED BASES: the folder nowhere exists neither"), "{told}");
-    assert!(told.contains("nowhere: holds no measured rig"), "{told}");
+    let reported = run(&FIELD.replace("[2.0]", "[1.0]"), &[]);
+    assert!(reported.contains("field.toml:5:9") && reported.contains("no size reaches 2"), "{reported}");
+    let reported = run(&FIELD.replace("gain_drift", "gain_drfit"), &[]);
+    assert!(reported.contains("did you mean `gain_drift`?"), "{reported}");
+    let reported = run(FIELD, &["--engine", "direct"]);
+    assert!(reported.contains("has no engines"), "{reported}");
+    let reported = run(&FIELD.replace("made = 2", "rigs = \"nowhere\"\nmade = 0"), &[]);
+    assert!(reported.contains("NO MEASURED BASES: the folder nowhere exists neither"), "{reported}");
+    assert!(reported.contains("nowhere: holds no measured rig"), "{reported}");
     // Rigs that were made are no measured ones, wherever they lie.
     folder.switchback(&["rig", "--seed", "3", "--out", "rigs/made-3"]).assert().success();
-    let told = run(&FIELD.replace("made = 2", "rigs = \"rigs\"\nmade = 0"), &[]);
-    assert!(told.contains("rigs: holds no measured rig"), "{told}");
+    let reported = run(&FIELD.replace("made = 2", "rigs = \"rigs\"\nmade = 0"), &[]);
+    assert!(reported.contains("rigs: holds no measured rig"), "{reported}");
 }
 
 #[test]

@@ -22,17 +22,17 @@ fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String, String) {
 }
 
 fn succeed(folder: &Folder, arguments: &[&str]) -> String {
-    let (code, out, told) = run(folder, arguments);
-    assert_eq!(code, Some(0), "{arguments:?}: {told}");
+    let (code, out, reported) = run(folder, arguments);
+    assert_eq!(code, Some(0), "{arguments:?}: {reported}");
     out
 }
 
 /// Exit code 2 and a message with all the words in it.
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
-    let (code, _, told) = run(folder, arguments);
-    assert_eq!(code, Some(2), "{told}");
+    let (code, _, reported) = run(folder, arguments);
+    assert_eq!(code, Some(2), "{reported}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
 }
 
@@ -124,12 +124,12 @@ fn an_exported_simulator_with_an_effect_left_out_is_diagnosed() {
         succeed(&folder, &["export", &model, "--to", "fmu", "--name", "sim", "--force", "--quiet"]);
         // With the play in it only the first samples differ: it begins at rest, the rig in the middle of a move.
         let expected = if model.contains("nominal") { "cause backlash" } else { "gap < 1 %" };
-        let (code, out, told) =
+        let (code, out, reported) =
             run(&folder, &["gap", &rig, "--fmu", "sim.fmu", "--expect", expected, "--json"]);
-        assert_eq!(code, Some(0), "{model}: {told}");
+        assert_eq!(code, Some(0), "{model}: {reported}");
         let page: serde_json::Value = serde_json::from_str(&out).expect("one JSON object");
         assert_eq!(page["model"], "y_sim");
-        assert!(told.contains("as expected: "), "{told}");
+        assert!(reported.contains("as expected: "), "{reported}");
     }
 }
 
@@ -138,9 +138,12 @@ fn what_is_not_as_expected_exits_with_one_after_the_report_is_written() {
     let folder = Folder::with_good_rig();
     let arguments =
         ["gap", "rig.toml", "--expect", "gap < 1e-9 %", "--expect", "gap<50%", "--quiet", "--out", "out"];
-    let (code, _, told) = run(&folder, &arguments);
-    assert_eq!(code, Some(1), "{told}");
-    assert!(told.contains("not as expected: gap < 1e-9 %; found") && !told.contains("gap<50%"), "{told}");
+    let (code, _, reported) = run(&folder, &arguments);
+    assert_eq!(code, Some(1), "{reported}");
+    assert!(
+        reported.contains("not as expected: gap < 1e-9 %; found") && !reported.contains("gap<50%"),
+        "{reported}"
+    );
     assert!(folder.path("out/gap.json").exists());
     for (typo, word) in
         [("gab < 2 %", "gap.before"), ("cause backlsh", "backlash"), ("gap < 2 percent", "gap < 2 %")]
@@ -199,7 +202,7 @@ const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 const MAP: &str = "v=position,y=force";
 
 #[test]
-fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_told() {
+fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_reported() {
     let folder = Folder::with_good_rig();
     let Some(_) = by_hand(&folder, 0, DESCRIPTION) else { return };
     let page = succeed(&folder, &["gap", "rig.toml", "--fmu", "hand.fmu", "--map", MAP, "--json"]);
@@ -218,7 +221,7 @@ fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_told() {
     refused(
         &folder,
         &["gap", "rig.toml", "--fmu", "hand.fmu"],
-        &["which input is `v` cannot be told", "--map v=NAME"],
+        &["which input is `v` cannot be reported", "--map v=NAME"],
     );
     let ways: [(u8, &[&str]); 5] = [
         (1, &["crashed", "the record descendant"]),
@@ -234,7 +237,7 @@ fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_told() {
 }
 
 #[test]
-fn what_is_no_fmu_for_this_is_told() {
+fn what_is_no_fmu_for_this_is_reported() {
     let folder = Folder::with_good_rig();
     let gap = ["gap", "rig.toml", "--fmu", "hand.fmu", "--map", MAP];
     refused(&folder, &gap, &["hand.fmu"]);
@@ -262,7 +265,7 @@ fn what_is_no_fmu_for_this_is_told() {
 }
 
 #[test]
-fn units_that_differ_are_told() {
+fn units_that_differ_are_reported() {
     let folder = Folder::with_good_rig();
     folder.edit("rig.toml", |text| {
         text.replacen("order = 2", "order = 2\ninput = \"travel [mm]\"\noutput = \"force [kN]\"", 1)
@@ -302,10 +305,10 @@ fn a_simulator_that_pythonfmu_builds_is_run() {
         .output()
         .expect("it runs");
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-    let told = Command::new(&python).args(["-c", WHERE]).output().expect("it runs").stdout;
-    let told = String::from_utf8(told).expect("text");
-    let [library, packages, home] = told.lines().collect::<Vec<_>>()[..] else {
-        panic!("three lines: {told}")
+    let reported = Command::new(&python).args(["-c", WHERE]).output().expect("it runs").stdout;
+    let reported = String::from_utf8(reported).expect("text");
+    let [library, packages, home] = reported.lines().collect::<Vec<_>>()[..] else {
+        panic!("three lines: {reported}")
     };
     if !Path::new(library).exists() || !library.contains(".so") {
         eprintln!(

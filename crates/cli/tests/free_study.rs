@@ -122,7 +122,7 @@ knots = "known"
 }
 
 #[test]
-fn a_promise_of_coverage_that_is_broken_is_told() {
+fn a_promise_of_coverage_that_is_broken_is_reported() {
     let study = Study::of(&beside_the_corners(
         r#"
 [[case]]
@@ -178,7 +178,7 @@ fn pulse_methods_beside_it_keep_their_numbers() {
 
 #[test]
 fn a_grid_of_one_knot_and_records_too_short_for_it_are_refused() {
-    for (scenario, told) in [
+    for (scenario, reported) in [
         (SMALL.replace("points = [3]", "points = [1]"), "two knots or more"),
         (SMALL.replace("samples = [500", "samples = [14"), "free: "),
     ] {
@@ -186,7 +186,7 @@ fn a_grid_of_one_knot_and_records_too_short_for_it_are_refused() {
         let output = study.run(&[]);
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{stderr}");
-        assert!(stderr.contains(told), "{stderr}");
+        assert!(stderr.contains(reported), "{stderr}");
         assert!(!study.0.path().join("out").exists(), "nothing is written");
     }
 }

@@ -17,12 +17,12 @@ fn refused(folder: &Folder, more: &[&str], words: &[&str]) {
     let before = folder.listing();
     let arguments = [&["gap", "rig.toml", "--out", "report"], more].concat();
     let output = folder.switchback(&arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     assert!(output.stdout.is_empty());
-    assert!(told.contains("help: "), "no remedy: {told}");
+    assert!(reported.contains("help: "), "no remedy: {reported}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
     assert_eq!(folder.listing(), before, "nothing may be written");
 }
@@ -94,7 +94,7 @@ fn a_rig_without_a_gap_has_none() {
 }
 
 #[test]
-fn a_cell_tells_its_ends_its_share_and_its_exposure() {
+fn a_cell_shows_its_ends_its_share_and_its_exposure() {
     let folder = Folder::with_good_rig();
     let page = diagnosed(&folder, &[]);
     let cells = page["where"].as_array().expect("a list");
@@ -138,9 +138,9 @@ fn what_the_rig_is_known_not_to_have_is_no_candidate() {
     assert!(names.len() > 5 && names.iter().all(|name| *name != "creep" && *name != "backlash"), "{names:?}");
     assert!(limitations(&page).contains("left out of the candidates, as asked: backlash, creep"), "{page:#}");
     let unknown = folder.switchback(&["gap", "rig.toml", "--without", "friction"]).output().expect("it runs");
-    let told = String::from_utf8_lossy(&unknown.stderr).into_owned();
-    assert_eq!(unknown.status.code(), Some(2), "{told}");
-    assert!(["friction", "--without", "stribeck"].iter().all(|word| told.contains(word)), "{told}");
+    let reported = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    assert_eq!(unknown.status.code(), Some(2), "{reported}");
+    assert!(["friction", "--without", "stribeck"].iter().all(|word| reported.contains(word)), "{reported}");
 }
 
 #[test]
@@ -176,10 +176,10 @@ fn the_report_folder_holds_the_object_and_the_figures() {
 fn the_words_say_the_verdict_and_the_fit_of_the_held_out_record() {
     let folder = Folder::with_good_rig();
     let output = folder.switchback(&["gap", "rig.toml"]).output().expect("it runs");
-    let told = String::from_utf8(output.stdout).expect("text");
-    assert!(told.contains("Nothing significant is missing from the model"), "{told}");
-    assert!(told.lines().any(|line| line.starts_with("again ")), "{told}");
-    assert!(told.lines().all(|line| line.chars().count() <= 100), "{told}");
+    let reported = String::from_utf8(output.stdout).expect("text");
+    assert!(reported.contains("Nothing significant is missing from the model"), "{reported}");
+    assert!(reported.lines().any(|line| line.starts_with("again ")), "{reported}");
+    assert!(reported.lines().all(|line| line.chars().count() <= 100), "{reported}");
 }
 
 #[test]
@@ -211,8 +211,8 @@ fn a_given_model_of_another_gain_lacks_nothing_but_that() {
     assert!(figure("before") > 0.01, "{page:#}");
     assert!(figure("identified_anew").abs() < 1e-3 * figure("before"), "{page:#}");
     let output = folder.switchback(&["gap", "rig.toml", "--model", "model.json"]).output().expect("it runs");
-    let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
-    assert!(told.contains("The model's parameters (its order) are off: identified anew"), "{told}");
+    let reported = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
+    assert!(reported.contains("The model's parameters (its order) are off: identified anew"), "{reported}");
 }
 
 #[test]

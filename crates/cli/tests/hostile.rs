@@ -1,23 +1,23 @@
-//! Input that is hostile, or only wrong: told in the user's words, bounded, and never obeyed.
+//! Input that is hostile, or only wrong: reported in the user's words, bounded, and never obeyed.
 
 use crate::common::{BLIND, Folder, STUDY};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
-/// Runs: the exit code, and what is told.
+/// Runs: the exit code, and what is reported.
 fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String) {
     let output = folder.switchback(arguments).output().expect("it runs");
     (output.status.code(), String::from_utf8(output.stderr).expect("UTF-8"))
 }
 
 #[track_caller]
-fn refused(folder: &Folder, arguments: &[&str], told: &[&str]) {
+fn refused(folder: &Folder, arguments: &[&str], reported: &[&str]) {
     let (code, message) = run(folder, arguments);
     println!("{message}");
     assert_eq!(code, Some(2), "{message}");
     assert!(message.starts_with("error: ") && message.contains("\nhelp: "), "{message}");
-    for words in told {
+    for words in reported {
         assert!(message.contains(words), "`{words}` is not in:\n{message}");
     }
     assert!(message.len() < 1500, "{} bytes", message.len());
@@ -29,17 +29,17 @@ fn refused(folder: &Folder, arguments: &[&str], told: &[&str]) {
 
 /// A scenario with one line changed is refused.
 #[track_caller]
-fn refused_scenario(scenario: &str, (line, with): (&str, &str), told: &[&str]) {
+fn refused_scenario(scenario: &str, (line, with): (&str, &str), reported: &[&str]) {
     let folder = Folder::with_good_rig();
     assert!(scenario.contains(line), "the scenario has no `{line}`");
     folder.write("a.toml", &scenario.replace(line, with));
-    refused(&folder, &["a.toml", "--threads", "1", "--out", "out"], told);
+    refused(&folder, &["a.toml", "--threads", "1", "--out", "out"], reported);
 }
 
 #[test]
 fn sizes_beyond_sense_are_refused_with_the_limit() {
     const MAX: &str = "9223372036854775807";
-    let study = |line: &str, with: &str, told: &[&str]| refused_scenario(STUDY, (line, with), told);
+    let study = |line: &str, with: &str, reported: &[&str]| refused_scenario(STUDY, (line, with), reported);
     study("[3]", &format!("[{MAX}]"), &["a.toml:17:11", "points", "1000 or less"]);
     study("1000]", &format!("{MAX}]"), &["a.toml:16:17", "samples", "100000000 or less"]);
     study("= 40", &format!("= {MAX}"), &["a.toml:4:14", "replicates", "1000000000 or less"]);
@@ -62,9 +62,9 @@ const FIELD: &str = "study = \"field\"\nquestion = \"?\"\nseed = 1\nsizes = [2.0
 
 #[test]
 fn a_field_examination_is_bounded_too() {
-    let field = |line: &str, told: &[&str]| {
+    let field = |line: &str, reported: &[&str]| {
         let key = line.split(' ').next().unwrap_or_default();
-        refused_scenario(FIELD, (line, &format!("{key} = 1000000000000000")), told);
+        refused_scenario(FIELD, (line, &format!("{key} = 1000000000000000")), reported);
     };
     field("made = 1", &["a.toml:6:8", "made", "5000 or less"]);
     field("none = 1", &["a.toml:7:8", "none", "5000 or less"]);
@@ -73,8 +73,9 @@ fn a_field_examination_is_bounded_too() {
 }
 
 #[test]
-fn more_than_a_day_is_told_and_refused() {
-    let long = |scenario: &str, line, with, told| refused_scenario(scenario, (line, with), &[told, "--yes"]);
+fn more_than_a_day_is_reported_and_refused() {
+    let long =
+        |scenario: &str, line, with, reported| refused_scenario(scenario, (line, with), &[reported, "--yes"]);
     let years = STUDY.replace("1000]", "100000000]");
     long(&years, "= 40", "= 1000000000", "this would take about 4 years on 1 thread");
     // The error of a standard deviation needs 5e7 replicates: 1.4e-9 · 1e8 · 5e7 s.
@@ -97,19 +98,20 @@ fn more_than_a_day_is_run_if_asked_for() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    let mut told = String::new();
-    let read = BufReader::new(process.stderr.take().expect("piped")).read_line(&mut told);
+    let mut reported = String::new();
+    let read = BufReader::new(process.stderr.take().expect("piped")).read_line(&mut reported);
     let sent = Command::new("kill").args(["-INT", &process.id().to_string()]).status().expect("kill");
     assert!(sent.success());
-    assert_eq!(process.wait().expect("it ends").code(), Some(3), "{told}");
+    assert_eq!(process.wait().expect("it ends").code(), Some(3), "{reported}");
     read.expect("UTF-8");
-    assert_eq!(told, "this takes about 162 days on 1 thread\n");
+    assert_eq!(reported, "this takes about 162 days on 1 thread\n");
 }
 
 #[test]
 fn messages_are_in_the_words_of_who_wrote_the_file() {
-    let study =
-        |line: &str, with: &str, told: &str| refused_scenario(STUDY, (line, with), &["a.toml:", told]);
+    let study = |line: &str, with: &str, reported: &str| {
+        refused_scenario(STUDY, (line, with), &["a.toml:", reported])
+    };
     let (whole, large) = ("expected a whole number, 0 or more", "99999999999999999999999");
     study("= 40", &format!("= {large}"), &format!("{whole}, found `{large}`"));
     study("= 40", "= \"x\"", whole);
@@ -137,7 +139,7 @@ fn messages_are_in_the_words_of_who_wrote_the_file() {
 }
 
 #[test]
-fn a_line_of_70000_letters_is_not_told_whole() {
+fn a_line_of_70000_letters_is_not_reported_whole() {
     let folder = Folder::with_good_rig();
     folder.replace_line("rig.toml", 3, &format!("order = \"{}\"", "x".repeat(70_000)));
     refused(&folder, &["gap", "rig.toml"], &["rig.toml:3:9", "…"]);
@@ -176,8 +178,12 @@ fn control_characters_reach_neither_terminal_nor_picture() {
     folder.replace_line("rig.toml", 3, labels);
     let output = folder.switchback(&["identify", "rig.toml", "--out", "out"]).output().expect("it runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    for told in [output.stdout, output.stderr] {
-        assert!(!told.contains(&0x1b) && !told.contains(&0), "{}", String::from_utf8_lossy(&told));
+    for reported in [output.stdout, output.stderr] {
+        assert!(
+            !reported.contains(&0x1b) && !reported.contains(&0),
+            "{}",
+            String::from_utf8_lossy(&reported)
+        );
     }
     let pictures =
         crate::common::listing(&folder.path("out")).into_iter().filter(|name| name.ends_with(".svg"));
@@ -196,23 +202,23 @@ fn control_characters_reach_neither_terminal_nor_picture() {
 }
 
 #[test]
-fn records_that_are_unlikely_are_told_with_place_and_remedy() {
+fn records_that_are_unlikely_are_reported_with_place_and_remedy() {
     let folder = Folder::with_good_rig();
-    let told = |folder: &Folder| {
-        let (code, told) = run(folder, &["init", "rig.toml"]);
-        (code, told)
+    let reported = |folder: &Folder| {
+        let (code, reported) = run(folder, &["init", "rig.toml"]);
+        (code, reported)
     };
-    let (code, plain) = told(&folder);
+    let (code, plain) = reported(&folder);
     assert_eq!(code, Some(0), "{plain}");
     assert!(!plain.contains("warning"), "{plain}");
 
     fs::remove_file(folder.path("again.csv")).expect("it is there");
     fs::copy(folder.path("descendant.csv"), folder.path("again.csv")).expect("a copy");
-    let (_, copied) = told(&folder);
+    let (_, copied) = reported(&folder);
     assert!(copied.contains("warning: again.csv holds the same samples as descendant.csv"), "{copied}");
 
     folder.edit("rig.toml", |text| text.replace("[-1.0, 1.0]", "[-0.001, 0.001]"));
-    let (_, outside) = told(&folder);
+    let (_, outside) = reported(&folder);
     assert!(outside.contains("warning: descendant.csv:"), "{outside}");
     assert!(outside.contains("far outside the declared interval [-0.001, 0.001]"), "{outside}");
 
@@ -272,7 +278,7 @@ const LOOP: &str = "name = \"loop\"\nsample_time = 1.0\norder = 1\n\
     [[record]]\nfile = \"b.csv\"\nrole = \"free\"\nuse = \"holdout\"\n";
 
 #[test]
-fn what_no_sensor_of_the_fit_records_can_have_read_tells_no_cause() {
+fn what_no_sensor_of_the_fit_records_can_have_read_shows_no_cause() {
     let folder = Folder::with_good_rig();
     folder.write("loop.toml", LOOP);
     folder.write("a.csv", &loop_record(600, 0.0, |_, v, y| (v, y)));
@@ -291,7 +297,7 @@ fn what_no_sensor_of_the_fit_records_can_have_read_tells_no_cause() {
 }
 
 #[test]
-fn an_outlier_of_the_input_is_told_with_the_verdict() {
+fn an_outlier_of_the_input_is_reported_with_the_verdict() {
     let folder = Folder::with_good_rig();
     folder.write("loop.toml", LOOP);
     folder.write("a.csv", &loop_record(600, 0.0, |t, v, y| (if t == 300 { -9999.0 } else { v }, y)));
@@ -301,37 +307,37 @@ fn an_outlier_of_the_input_is_told_with_the_verdict() {
     let arguments = [&["gap", "loop.toml", "--quiet", "--out", "out"], &effects[..]].concat();
     let (code, message) = run(&folder, &arguments);
     assert_eq!(code, Some(0), "{message}");
-    let told = fs::read_to_string(folder.path("out/gap.json")).expect("a report");
-    assert!(told.contains("a.csv:302: `v` is -9999"), "{told}");
+    let reported = fs::read_to_string(folder.path("out/gap.json")).expect("a report");
+    assert!(reported.contains("a.csv:302: `v` is -9999"), "{reported}");
 }
 
 #[test]
-fn a_sensor_that_stands_still_is_told_with_rows_and_remedy() {
+fn a_sensor_that_stands_still_is_reported_with_rows_and_remedy() {
     let folder = Folder::with_good_rig();
     folder.write("loop.toml", LOOP);
     let good = loop_record(600, 0.0, |_, v, y| (v, y));
-    let told = |fit: &str, held_out: &str| {
+    let reported = |fit: &str, held_out: &str| {
         folder.write("a.csv", fit);
         folder.write("b.csv", held_out);
-        let (code, told) = run(&folder, &["init", "loop.toml"]);
-        assert_eq!(code, Some(0), "{told}");
-        told
+        let (code, reported) = run(&folder, &["init", "loop.toml"]);
+        assert_eq!(code, Some(0), "{reported}");
+        reported
     };
     assert!(
-        !told(&good, &loop_record(600, 1.0, |_, v, y| (v, y))).contains("warning"),
+        !reported(&good, &loop_record(600, 1.0, |_, v, y| (v, y))).contains("warning"),
         "nothing stands still"
     );
     let stuck = |text: &str, signal: &str, from: usize, to: usize| {
         let words = format!("b.csv: `{signal}` stands still at 0.25 from line {from} to line {to}");
         assert!(text.contains(&words) && text.contains("check its sensor"), "{text}");
     };
-    stuck(&told(&good, &loop_record(600, 1.0, |_, v, _| (v, 0.25))), "y", 2, 601);
-    stuck(&told(&good, &loop_record(600, 1.0, |_, _, y| (0.25, y))), "v", 2, 601);
+    stuck(&reported(&good, &loop_record(600, 1.0, |_, v, _| (v, 0.25))), "y", 2, 601);
+    stuck(&reported(&good, &loop_record(600, 1.0, |_, _, y| (0.25, y))), "v", 2, 601);
     let while_stuck = |t: usize| (200..400).contains(&t);
     let y = loop_record(600, 1.0, |t, v, y| (v, if while_stuck(t) { 0.25 } else { y }));
-    stuck(&told(&good, &y), "y", 202, 401);
+    stuck(&reported(&good, &y), "y", 202, 401);
     let v = loop_record(600, 1.0, |t, v, y| (if while_stuck(t) { 0.25 } else { v }, y));
-    stuck(&told(&good, &v), "v", 202, 401);
+    stuck(&reported(&good, &v), "v", 202, 401);
 }
 
 #[test]
@@ -357,10 +363,10 @@ fn short_records_and_records_without_noise_are_consistent_with_a_model_that_lack
         folder.write("a.csv", &fit);
         folder.write("b.csv", &held_out);
         let output = folder.switchback(&["gap", "loop.toml", "--quiet", "--json"]).output().expect("it runs");
-        let told = String::from_utf8(output.stdout).expect("text");
-        assert!(told.contains("\"status\": \"none\""), "{told}");
+        let reported = String::from_utf8(output.stdout).expect("text");
+        assert!(reported.contains("\"status\": \"none\""), "{reported}");
         let output = folder.switchback(&["gap", "loop.toml"]).output().expect("it runs");
-        let told = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
-        assert!(told.contains("the records are consistent with it"), "{told}");
+        let reported = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
+        assert!(reported.contains("the records are consistent with it"), "{reported}");
     }
 }

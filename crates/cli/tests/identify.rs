@@ -154,7 +154,7 @@ fn columns_are_found_by_name_in_any_order_beside_others() {
 }
 
 #[test]
-fn records_of_the_same_name_in_different_folders_are_told_apart() {
+fn records_of_the_same_name_in_different_folders_are_distinguished() {
     let folder = Folder::with_good_rig();
     for sub in ["one", "two"] {
         fs::create_dir(folder.path(sub)).expect("writable");
@@ -199,7 +199,7 @@ fn an_unknown_method_lists_the_known_ones() {
     assert!(stderr.contains("paper-descendant") && stderr.contains("memoryless"), "{stderr}");
 }
 
-/// The small rig with its pulse records declared free, so that only what any record tells is used.
+/// The small rig with its pulse records declared free, so that only what any record shows is used.
 fn undesigned() -> Folder {
     let folder = Folder::with_good_rig();
     folder.edit("rig.toml", |text| {
@@ -216,7 +216,7 @@ fn records_that_nobody_designed_go_to_the_free_method() {
 }
 
 #[test]
-fn the_yardsticks_run_and_show_one_static_curve() {
+fn the_baselines_run_and_show_one_static_curve() {
     let folder = undesigned();
     for method in ["linear-arx", "memoryless"] {
         let found = identified(&folder, &["--method", method, "--out", method]);

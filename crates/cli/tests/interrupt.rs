@@ -31,14 +31,14 @@ fn is_staging(folder: &Path) -> bool {
     folder.exists() && listing(folder).iter().any(|name| name.starts_with(".switchback-"))
 }
 
-/// Sends a signal: the exit code, and what is told.
+/// Sends a signal: the exit code, and what is reported.
 fn stop(mut process: Child, signal: &str) -> (Option<i32>, String) {
     let sent = Command::new("kill").args([signal, &process.id().to_string()]).status().expect("kill");
     assert!(sent.success());
     let code = process.wait().expect("it ends").code();
-    let mut told = String::new();
-    process.stderr.take().expect("piped").read_to_string(&mut told).expect("UTF-8");
-    (code, told)
+    let mut reported = String::new();
+    process.stderr.take().expect("piped").read_to_string(&mut reported).expect("UTF-8");
+    (code, reported)
 }
 
 #[test]
@@ -55,9 +55,9 @@ fn a_stopped_study_leaves_the_old_report_as_it_was() {
         let names = listing(&out);
         let process = start(&folder, &["study.toml", "--quiet", "--out", "out"]);
         until("a staging folder", || is_staging(&folder.path(".")));
-        let (code, told) = stop(process, signal);
-        assert_eq!(code, Some(3), "{signal}: {told}");
-        assert!(told.contains("stopped"), "{told}");
+        let (code, reported) = stop(process, signal);
+        assert_eq!(code, Some(3), "{signal}: {reported}");
+        assert!(reported.contains("stopped"), "{reported}");
         // What the replicates so far left behind, and what they amount to, lie beside it.
         let mut now = listing(&out);
         now.retain(|name| name != "partial" && name != "unfinished.sums");
@@ -75,8 +75,8 @@ fn a_stopped_diagnosis_leaves_no_trace() {
     let before = folder.listing();
     let process = start(&folder, &["gap", "made/rig.toml", "--out", "deep/new"]);
     until("a staging folder", || is_staging(&folder.path("deep")));
-    let (code, told) = stop(process, "-INT");
-    assert_eq!(code, Some(3), "{told}");
+    let (code, reported) = stop(process, "-INT");
+    assert_eq!(code, Some(3), "{reported}");
     assert_eq!(folder.listing(), before);
 }
 
@@ -90,8 +90,8 @@ fn a_stopped_examination_keeps_its_keys_and_every_rig_that_is_judged() {
     let journal = folder.path("out/unfinished.jsonl");
     let judged = || fs::read_to_string(&journal).map_or(0, |text| text.matches("\"case\":").count());
     until("the first rig", || judged() > 0);
-    let (code, told) = stop(process, "-TERM");
-    assert_eq!(code, Some(3), "{told}");
+    let (code, reported) = stop(process, "-TERM");
+    assert_eq!(code, Some(3), "{reported}");
     let keys = fs::read_to_string(folder.path("out/unfinished-key.jsonl")).expect("the keys");
     assert_eq!(keys.lines().count(), 4);
     let kept = judged();

@@ -28,9 +28,9 @@ fn a_script_for_slurm_is_printed_for_a_person_to_read() {
     let checked = Command::new("bash").arg("-n").arg(folder.path("launch.sh")).status().expect("bash");
     assert!(checked.success());
     let refused = |arguments: &[&str], words: &str| {
-        let (code, told) = run(&folder, arguments, "");
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains(words), "`{words}` is missing in: {told}");
+        let (code, reported) = run(&folder, arguments, "");
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(reported.contains(words), "`{words}` is missing in: {reported}");
     };
     refused(&["launch", "study.toml"], "--slurm");
     refused(&["launch", "none.toml", "--slurm"], "none.toml");
@@ -52,13 +52,13 @@ fn a_script_for_hyperqueue_is_printed_for_a_person_to_read() {
     }
     folder.write("launch.sh", &script);
     let missing = |expected: &str| {
-        let told =
+        let reported =
             Command::new("bash").arg(folder.path("launch.sh")).args(["missing", "1"]).output().expect("bash");
         assert_eq!(
-            String::from_utf8_lossy(&told.stdout),
+            String::from_utf8_lossy(&reported.stdout),
             expected,
             "{}",
-            String::from_utf8_lossy(&told.stderr)
+            String::from_utf8_lossy(&reported.stderr)
         );
     };
     missing("1-7\n");
@@ -70,9 +70,9 @@ fn a_script_for_hyperqueue_is_printed_for_a_person_to_read() {
     missing("2-3,5\n");
 }
 
-/// Slurm tells a part of its end, then again with all others of the job; what stands in for programs takes its time.
+/// Slurm shows a part of its end, then again with all others of the job; what stands in for programs takes its time.
 #[test]
-fn a_part_told_twice_that_its_time_is_up_goes_back_into_the_queue() {
+fn a_part_reported_twice_that_its_time_is_up_goes_back_into_the_queue() {
     let folder = Folder::with_good_rig();
     folder.write("study.toml", STUDY);
     let output =
@@ -84,7 +84,7 @@ fn a_part_told_twice_that_its_time_is_up_goes_back_into_the_queue() {
     };
     stand_in(
         "part",
-        "trap 'echo told >> part-told; sleep 0.3; exit 3' TERM; touch part-begun; while :; do sleep 0.02; done",
+        "trap 'echo reported >> part-reported; sleep 0.3; exit 3' TERM; touch part-begun; while :; do sleep 0.02; done",
     );
     // Renamed once it is whole: whoever waits for the file reads all of it.
     stand_in("scontrol", "touch asked; sleep 0.3; echo \"$@\" > requeued.new; mv requeued.new requeued");
@@ -106,22 +106,22 @@ fn a_part_told_twice_that_its_time_is_up_goes_back_into_the_queue() {
             std::thread::sleep(Duration::from_millis(10));
         }
     };
-    let tell = || {
-        let told = Command::new("kill").args(["-TERM", &id]).status().expect("kill");
-        assert!(told.success());
+    let describe = || {
+        let reported = Command::new("kill").args(["-TERM", &id]).status().expect("kill");
+        assert!(reported.success());
     };
     wait_for("part-begun");
-    tell();
+    describe();
     wait_for("part-told");
-    tell();
+    describe();
     wait_for("asked");
-    tell();
+    describe();
     wait_for("requeued");
     assert_eq!(fs::read_to_string(folder.path("requeued")).expect("a file"), "requeue 77\n");
     // Slurm ends the job once it is back in the queue.
     let begun = Instant::now();
     let ended = loop {
-        tell();
+        describe();
         match job.try_wait().expect("a child") {
             Some(status) => break status,
             None => assert!(begun.elapsed() < Duration::from_secs(30), "it does not end"),
@@ -143,7 +143,7 @@ fn a_calibration_is_launched_as_a_field_examination_is() {
         for line in ["calibrate=yes", "name=calibrate-field"] {
             assert!(script.lines().any(|found| found == line), "`{line}` is missing in: {script}");
         }
-        assert!(script.contains("--calibrate`"), "its first line tells how to make it again");
+        assert!(script.contains("--calibrate`"), "its first line shows how to make it again");
     }
 }
 
@@ -163,11 +163,11 @@ fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
         (vec!["rig.toml", "--slurm", "--submit"], "a rig"),
         (vec!["descendant.csv", "--hq", "--submit"], "data"),
     ] {
-        let (code, told) = run(&folder, &[&["launch"], &arguments[..]].concat(), "");
-        assert_eq!(code, Some(2), "{arguments:?}: {told}");
+        let (code, reported) = run(&folder, &[&["launch"], &arguments[..]].concat(), "");
+        assert_eq!(code, Some(2), "{arguments:?}: {reported}");
         assert!(
-            told.contains(words) && told.matches("error: ").count() == 1,
-            "`{words}` is missing in: {told}"
+            reported.contains(words) && reported.matches("error: ").count() == 1,
+            "`{words}` is missing in: {reported}"
         );
     }
     assert!(!folder.path("reports").exists());
@@ -195,8 +195,8 @@ fn what_slurm_merges_are_the_bytes_of_one_run() {
         let whole = format!("{name}-whole");
         assert_eq!(run(&folder, &[&study, "--quiet", "--out", &whole], "").0, Some(0));
         let launch = ["launch", &study, "--slurm", "--tasks", "5", "--out", name, "--submit"];
-        let (code, told) = run(&folder, &launch, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = run(&folder, &launch, "");
+        assert_eq!(code, Some(0), "{reported}");
         let begun = Instant::now();
         while !folder.path(name).join("results.json").exists() {
             let log = || fs::read_to_string(folder.path(&format!("{name}-parts/round-1/log/merge.txt")));

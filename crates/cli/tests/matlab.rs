@@ -60,7 +60,7 @@ fn version_5_vectors() {
     ]);
     let loaded = Bench::new().with("bench.mat", file).load(&["bench.mat"]).expect("a good file");
     is_the_record(&loaded, ["travel [mm]", "force [N]"]);
-    assert!(loaded.told.notes[0].contains("left out: gain"), "{}", loaded.told);
+    assert!(loaded.reported.notes[0].contains("left out: gain"), "{}", loaded.reported);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn version_7_3_with_the_fields_of_a_struct() {
 }
 
 #[test]
-fn a_file_that_is_none_is_told() {
+fn a_file_that_is_none_is_reported() {
     let bench = Bench::new().with("bench.mat", "t,v,y\n0,1,2\n");
     assert!(bench.refusal(&["bench.mat"]).contains("bench.mat: the file cannot be read as MATLAB data"));
     let lonely = Bench::new().with("bench.mat", version_5(&[matrix("v", [3, 1], &[1.0, 2.0, 3.0])]));
@@ -97,20 +97,23 @@ fn a_file_that_is_none_is_told() {
 }
 
 #[test]
-fn sizes_that_contradict_the_contents_are_told() {
+fn sizes_that_contradict_the_contents_are_reported() {
     let negative = |n: i32| n as u32;
     let refused = |size: [u32; 2], values: &[f64]| {
         let file = version_5(&[matrix("v", size, values), matrix("y", [3, 1], &[1.0, 2.0, 3.0])]);
         Bench::new().with("bench.mat", file).refusal(&["bench.mat"])
     };
     // Their product is that of the contents, or overflows.
-    let told = refused([negative(-2), negative(-3)], &[0.0; 6]);
-    assert!(told.contains("`v` is said to have"), "{told}");
+    let reported = refused([negative(-2), negative(-3)], &[0.0; 6]);
+    assert!(reported.contains("`v` is said to have"), "{reported}");
     for size in [[3, 1 << 30], [1 << 16, 1 << 16], [negative(-1), 3]] {
-        let told = refused(size, &[0.0; 3]);
-        assert!(told.contains("cannot be read as MATLAB data") || told.contains("is said to have"), "{told}");
+        let reported = refused(size, &[0.0; 3]);
+        assert!(
+            reported.contains("cannot be read as MATLAB data") || reported.contains("is said to have"),
+            "{reported}"
+        );
     }
     // Two thousand million empty columns are no column.
-    let told = refused([0, i32::MAX as u32], &[]);
-    assert!(told.contains("no two numeric vectors of the same length"), "{told}");
+    let reported = refused([0, i32::MAX as u32], &[]);
+    assert!(reported.contains("no two numeric vectors of the same length"), "{reported}");
 }

@@ -54,7 +54,7 @@ fn a_twin_that_gains_more_alone_is_a_rival_of_one_that_needs_a_correction() {
 }
 
 #[test]
-fn a_zero_that_drifts_on_between_the_records_is_told_from_noise_that_lasts() {
+fn a_zero_that_drifts_on_between_the_records_is_distinguished_from_noise_that_lasts() {
     let ramp = ["--effect", "sensor_drift", "--size", "4", "--seed", "6539456920451778020", "--order", "2"];
     let diagnosis = diagnosis_of_made(&ramp);
     assert_eq!(diagnosis["verdict"]["effects"], json!(["sensor_drift"]), "{:#}", diagnosis["verdict"]);

@@ -1,4 +1,4 @@
-//! No verb overwrites what someone else wrote, unless it is told to.
+//! No verb overwrites what someone else wrote, unless it is reported to.
 
 use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;
@@ -19,24 +19,24 @@ fn respects(arguments: &[&str], name: &str) {
     folder.write(&format!("out/{name}"), FOREIGN);
     folder.write("out/notes.txt", "mine");
 
-    let (code, told) = run(&[]);
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains(&format!("{name} (not written by this program)")), "{told}");
-    assert!(told.contains("help: give another folder, or --force"), "{told}");
+    let (code, reported) = run(&[]);
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains(&format!("{name} (not written by this program)")), "{reported}");
+    assert!(reported.contains("help: give another folder, or --force"), "{reported}");
     assert_eq!(listing(&folder.path("out")).len(), 2, "nothing is written, nothing staged is left");
     assert_eq!(fs::read_to_string(folder.path(&format!("out/{name}"))).expect("kept"), FOREIGN);
 
-    let (code, told) = run(&["--force"]);
-    assert!(matches!(code, Some(0 | 1)), "{told}");
+    let (code, reported) = run(&["--force"]);
+    assert!(matches!(code, Some(0 | 1)), "{reported}");
     assert_ne!(fs::read(folder.path(&format!("out/{name}"))).expect("replaced"), FOREIGN.as_bytes());
     assert_eq!(fs::read_to_string(folder.path("out/notes.txt")).expect("kept"), "mine");
 
-    let (code, told) = run(&[]);
-    assert!(matches!(code, Some(0 | 1)), "its own files may be replaced: {told}");
+    let (code, reported) = run(&[]);
+    assert!(matches!(code, Some(0 | 1)), "its own files may be replaced: {reported}");
     folder.edit(&format!("out/{name}"), |text| format!("{text} edited"));
-    let (code, told) = run(&[]);
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains(&format!("{name} (changed since it was written)")), "{told}");
+    let (code, reported) = run(&[]);
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains(&format!("{name} (changed since it was written)")), "{reported}");
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn design_respects_measurements() {
     respects(&plan, "descendant.csv");
 }
 
-/// Whose a single file is nobody can tell: it is replaced by force only.
+/// Whose a single file is nobody can show: it is replaced by force only.
 #[test]
 fn init_and_simulate_respect_what_is_there() {
     let folder = Folder::with_good_rig();
@@ -80,8 +80,8 @@ fn init_and_simulate_respect_what_is_there() {
     ] {
         folder.write("file", FOREIGN);
         let run = folder.switchback(arguments).assert().code(2);
-        let told = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
-        assert!(told.contains("file: is there already") && told.contains("--force"), "{told}");
+        let reported = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        assert!(reported.contains("file: is there already") && reported.contains("--force"), "{reported}");
         assert_eq!(fs::read_to_string(folder.path("file")).expect("kept"), FOREIGN);
         folder.switchback(arguments).arg("--force").assert().success();
         assert_ne!(fs::read_to_string(folder.path("file")).expect("replaced"), FOREIGN);
@@ -103,8 +103,8 @@ fn compare_respects_what_is_there() {
     let compare = |more: &[&str]| {
         folder.switchback(&["compare", "report", "report", "--quiet", "--out", "out"]).args(more).assert()
     };
-    let told = compare(&[]).code(2).get_output().stderr.clone();
-    assert!(String::from_utf8_lossy(&told).contains("comparison.txt (not written by this program)"));
+    let reported = compare(&[]).code(2).get_output().stderr.clone();
+    assert!(String::from_utf8_lossy(&reported).contains("comparison.txt (not written by this program)"));
     assert_eq!(fs::read_to_string(folder.path("out/comparison.txt")).expect("kept"), FOREIGN);
     compare(&["--force"]).success();
     compare(&[]).success();
@@ -115,7 +115,7 @@ fn compare_respects_what_is_there() {
 fn an_examination_respects_reports_keys_and_journals_of_others() {
     let folder = Folder::with_good_rig();
     folder.write("blind.toml", BLIND);
-    for (name, told) in [
+    for (name, reported) in [
         ("answers.csv", "answers.csv (not written by this program)"),
         ("key.jsonl", "key.jsonl (not written by this program)"),
         ("unfinished.jsonl", "something else wrote it"),
@@ -124,7 +124,7 @@ fn an_examination_respects_reports_keys_and_journals_of_others() {
         folder.write(&format!("{name}/{name}"), FOREIGN);
         let run = folder.switchback(&["blind.toml", "--quiet", "--out", name]).assert().code(2);
         let stderr = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
-        assert!(stderr.contains(told) && stderr.contains("help: "), "{stderr}");
+        assert!(stderr.contains(reported) && stderr.contains("help: "), "{stderr}");
         assert_eq!(listing(&folder.path(name)), [name]);
         assert_eq!(fs::read_to_string(folder.path(&format!("{name}/{name}"))).expect("kept"), FOREIGN);
     }
@@ -178,9 +178,9 @@ fn nothing_that_is_read_is_written() {
     let measured = fs::read_to_string(folder.path("m.csv")).expect("a record");
     let refused = |arguments: &[&str], name: &str| {
         let output = folder.switchback(arguments).output().expect("it runs");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{told}");
-        assert!(told.contains("is read by this command") && told.contains("help: "), "{told}");
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{reported}");
+        assert!(reported.contains("is read by this command") && reported.contains("help: "), "{reported}");
         assert_eq!(fs::read_to_string(folder.path(name)).expect("kept"), measured);
     };
     refused(&["init", "m.csv", "--out", "m.csv", "--force"], "m.csv");
@@ -204,7 +204,10 @@ fn the_folder_of_a_new_file_is_made() {
     let again = folder.switchback(&["gap", "deep/down/r.toml", "--quiet"]).output().expect("it runs");
     assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stderr));
     let refused = init("again.csv/r.toml");
-    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    let reported = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert_eq!(refused.status.code(), Some(2));
-    assert!(told.contains("again.csv is a file, not a folder") && !told.contains("os error"), "{told}");
+    assert!(
+        reported.contains("again.csv is a file, not a folder") && !reported.contains("os error"),
+        "{reported}"
+    );
 }

@@ -14,11 +14,11 @@ fn done(folder: &Folder, arguments: &[&str]) {
 /// Runs a command that must be refused: exit code 2 and a message with every word.
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let output = folder.switchback(arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {reported}");
     assert!(output.stdout.is_empty(), "{arguments:?}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is missing in: {told}");
+        assert!(reported.contains(word), "`{word}` is missing in: {reported}");
     }
 }
 

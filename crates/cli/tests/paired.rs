@@ -131,10 +131,10 @@ fn every_group_stands_at_every_n_and_the_whole_at_the_largest() {
     let groups: Vec<usize> = comparisons.iter().map(|c| c.groups.len()).collect();
     // By method: over paper-descendant three groups, over joint one; by border: three groups or four.
     assert_eq!(groups, [6, 6, 2, 6, 6, 2, 6, 8, 8]);
-    let told: Vec<String> =
+    let reported: Vec<String> =
         overall.iter().map(|o| format!("{} over {}", o.subject, o.over.join(" and "))).collect();
     assert_eq!(
-        told,
+        reported,
         ["joint over paper-descendant", "efficient over paper-descendant and joint", "hardening over spring"]
     );
     assert!(

@@ -1,4 +1,4 @@
-//! What a diagnosis tells of a cause is what was put in.
+//! What a diagnosis reports a cause is what was put in.
 
 use crate::common::diagnosis_of_made;
 use serde_json::Value;
@@ -28,7 +28,7 @@ fn the_interval_of_a_play_holds_what_no_sample_decides() {
 }
 
 #[test]
-fn a_lag_is_told_by_its_time_constant() {
+fn a_lag_is_reported_by_its_time_constant() {
     let what = ["--effect", "extra_pole", "--size", "2", "--seed", "20261301"];
     let page = diagnosis_of_made(&what);
     let pole = parameter(&page, "extra_pole", "pole")["value"].as_f64().expect("a number");

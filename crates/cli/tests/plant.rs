@@ -16,7 +16,7 @@ fn base() -> PathBuf {
 }
 
 /// What was put in, as JSON.
-fn planted(effect: &str, out: &Path) -> Value {
+fn injected(effect: &str, out: &Path) -> Value {
     let run = switchback()
         .args(["plant", "--effect", effect, "--size", "2", "--seed", "3", "--json", "--quiet", "--out"])
         .args([out, &base().join("rig.toml")])
@@ -31,11 +31,11 @@ fn outputs(folder: &Path) -> Vec<f64> {
 }
 
 #[test]
-fn a_planted_fault_changes_the_records_and_is_told_apart_from_them() {
+fn a_injected_fault_changes_the_records_and_is_distinguished_from_them() {
     let root = tempfile::tempdir().unwrap();
     let (one, two) = (root.path().join("one"), root.path().join("two"));
-    let fault = planted("backlash", &one);
-    assert_eq!(fault, planted("backlash", &two));
+    let fault = injected("backlash", &one);
+    assert_eq!(fault, injected("backlash", &two));
     assert_eq!(outputs(&one), outputs(&two));
     assert!(outputs(&one) != outputs(&base()));
     assert_eq!((fault["effect"].as_str(), fault["exact"].as_bool()), (Some("backlash"), Some(false)));
@@ -43,7 +43,7 @@ fn a_planted_fault_changes_the_records_and_is_told_apart_from_them() {
     assert_eq!(fault["observable"].as_bool(), Some(true));
     for file in fs::read_dir(&one).unwrap() {
         let text = fs::read_to_string(file.unwrap().path()).unwrap();
-        assert!(!text.contains("backlash"), "the folder must not tell");
+        assert!(!text.contains("backlash"), "the folder must not show");
     }
     // The planted records are a rig like any other.
     switchback().args(["identify", "--quiet"]).arg(one.join("rig.toml")).assert().success();
@@ -53,7 +53,7 @@ fn a_planted_fault_changes_the_records_and_is_told_apart_from_them() {
 fn a_reading_is_changed_in_the_record_itself() {
     let root = tempfile::tempdir().unwrap();
     let out = root.path().join("rig");
-    let fault = planted("sensor_quantisation", &out);
+    let fault = injected("sensor_quantisation", &out);
     assert_eq!((fault["planting"].as_str(), fault["exact"].as_bool()), (Some("reading"), Some(true)));
     // A sensor that rounds knows few values.
     let mut values = outputs(&out);
@@ -63,7 +63,7 @@ fn a_reading_is_changed_in_the_record_itself() {
 }
 
 #[test]
-fn what_cannot_be_planted_is_refused_and_nothing_is_written() {
+fn what_cannot_be_injected_is_refused_and_nothing_is_written() {
     let root = tempfile::tempdir().unwrap();
     let out = root.path().join("rig");
     let rig = base().join("rig.toml");

@@ -8,20 +8,20 @@ use std::fs;
 fn measured(folder: &Folder, more: &[&str]) -> (Value, String) {
     let arguments = [&["gap", "rig.toml", "--power", "--json"], more].concat();
     let output = folder.switchback(&arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{told}");
-    (serde_json::from_slice(&output.stdout).expect("one JSON object on stdout"), told)
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{reported}");
+    (serde_json::from_slice(&output.stdout).expect("one JSON object on stdout"), reported)
 }
 
 fn refused(folder: &Folder, more: &[&str], words: &[&str]) {
     let before = folder.listing();
     let arguments = [&["gap", "rig.toml", "--power", "--out", "report"], more].concat();
     let output = folder.switchback(&arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     assert!(output.stdout.is_empty());
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
     assert_eq!(folder.listing(), before, "nothing may be written");
 }
@@ -30,7 +30,7 @@ fn refused(folder: &Folder, more: &[&str], words: &[&str]) {
 fn faults_are_put_in_and_counted() {
     let folder = Folder::with_good_rig();
     let plan = ["--effects", "sensor_saturation,record_offset", "--draws", "2", "--out", "report"];
-    let (page, told) = measured(&folder, &plan);
+    let (page, reported) = measured(&folder, &plan);
     assert_eq!(page["schema"], "switchback/power/1");
     assert_eq!((&page["rig"], &page["model"]), (&Value::from("small"), &Value::from("identified")));
     assert_eq!(page["power"]["without_fault"]["diagnoses"], 2);
@@ -54,7 +54,7 @@ fn faults_are_put_in_and_counted() {
     // A sensor that clips is plain to see.
     let clipped = effects[0]["found"]["named"].as_u64().expect("a count");
     assert!(clipped >= 1, "{:#}", effects[0]);
-    assert!(told.contains("6 diagnoses at most; the first took"), "{told}");
+    assert!(reported.contains("6 diagnoses at most; the first took"), "{reported}");
     assert_eq!(
         listing(&folder.path("report")),
         [".switchback.sha256", "power.csv", "power.json", "power.svg", "power.txt"]
@@ -77,10 +77,10 @@ fn the_model_given_is_the_one_diagnosed() {
     let model = folder.switchback(&["identify", "rig.toml", "--json"]).output().expect("it runs");
     folder.write("model.json", &String::from_utf8(model.stdout).expect("text"));
     let plan = ["--model", "model.json", "--effects", "sensor_saturation", "--draws", "1", "--quiet"];
-    let (page, told) = measured(&folder, &plan);
+    let (page, reported) = measured(&folder, &plan);
     assert_eq!(page["model"], "given");
     assert_eq!(page["power"]["effects"][0]["draws"].as_array().map(Vec::len), Some(1));
-    assert!(told.is_empty(), "{told}");
+    assert!(reported.is_empty(), "{reported}");
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn what_cannot_be_asked_is_refused() {
 }
 
 #[test]
-fn records_that_are_no_ground_are_refused() {
+fn records_that_are_no_context_are_refused() {
     let folder = Folder::with_good_rig();
     for name in ["descendant.csv", "ascendant.csv"] {
         folder.edit(name, |text| text.lines().take(21).map(|line| format!("{line}\n")).collect());

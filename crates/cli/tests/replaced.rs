@@ -105,9 +105,12 @@ fn where_folders_cannot_be_exchanged_a_mixture_is_seen_and_mended() {
             wholes += 1;
             continue;
         }
-        let (code, told) = run(&change.folder, &["compare", "out", "out", "--quiet"], "");
+        let (code, reported) = run(&change.folder, &["compare", "out", "out", "--quiet"], "");
         assert_eq!(code, Some(2), "a mixture at call {call} is not seen");
-        assert!(told.contains("out: is half replaced") && told.contains("help: run the command"), "{told}");
+        assert!(
+            reported.contains("out: is half replaced") && reported.contains("help: run the command"),
+            "{reported}"
+        );
         mixtures += 1;
         if mixtures % 4 == 1 {
             change.ends_well();
@@ -122,9 +125,9 @@ fn a_mixture_is_seen_by_its_hashes_alone() {
     let change = Change::new();
     fs::write(change.folder.path("out/table.csv"), &change.new["table.csv"]).expect("it can be written");
     let compare = |name: &str| run(&change.folder, &["compare", name, "out/results.json", "--quiet"], "");
-    let (code, told) = compare("out");
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("out: is not as it was written: table.csv has changed"), "{told}");
+    let (code, reported) = compare("out");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains("out: is not as it was written: table.csv has changed"), "{reported}");
     fs::remove_file(change.folder.path("out/table.csv")).expect("a file");
     assert!(compare("out").1.contains("table.csv is missing"));
     assert_eq!(compare("out/results.json").0, Some(0), "a file by its name is what the user means");
@@ -142,12 +145,15 @@ fn what_changed_after_a_kill_is_not_overwritten_by_what_is_finished() {
     assert!((1..).any(|call| is_mixture(&call)));
     change.folder.edit("out/table.csv", |text| format!("{text}edited"));
     let edited = change.now();
-    let (code, told) = run(&change.folder, &RUN, "");
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("killed") && told.contains("table.csv") && told.contains("--force"), "{told}");
+    let (code, reported) = run(&change.folder, &RUN, "");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(
+        reported.contains("killed") && reported.contains("table.csv") && reported.contains("--force"),
+        "{reported}"
+    );
     assert!(change.now() == edited);
-    let (code, told) = run(&change.folder, &[&RUN[..], &["--force"]].concat(), "");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(&change.folder, &[&RUN[..], &["--force"]].concat(), "");
+    assert_eq!(code, Some(0), "{reported}");
     change.ends_well();
 }
 
@@ -156,7 +162,7 @@ fn a_run_that_is_killed_finishes_its_leftovers_even_if_killed_again() {
     let change = Change::new();
     let half = |call: usize| start(&change.folder, &RUN, &format!("no-exchange pause={call}"));
     change.reset();
-    // Files are written before they take their places, by two calls each; those that tell of the run are not counted among the new.
+    // Files are written before they take their places, by two calls each; those that report the run are not counted among the new.
     let writes = 2 * (change.new.len() + BESIDE.len());
     assert!(killed_at_its_pause(half(writes + 4)));
     let first = change.now();
@@ -202,9 +208,9 @@ fn merge_refuses_a_part_that_is_half_replaced() {
     folder.write("blind.toml", &BLIND.replace("seed = 4", "seed = 5"));
     let faults = format!("no-exchange pause={}", 2 * names + 5);
     assert!(killed_at_its_pause(start(&folder, &part, &faults)));
-    let (code, told) = run(&folder, &merge, "");
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("part: is half replaced"), "{told}");
+    let (code, reported) = run(&folder, &merge, "");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains("part: is half replaced"), "{reported}");
     assert!(!folder.path("whole").exists());
     assert_eq!(run(&folder, &part, "").0, Some(0));
     assert_eq!(run(&folder, &merge, "").0, Some(0));

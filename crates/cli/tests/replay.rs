@@ -13,8 +13,8 @@ fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String, String) {
 fn study(methods: &str) -> Folder {
     let folder = Folder::with_good_rig();
     folder.write("study.toml", &STUDY.replace("[\"efficient\"]", methods).replace("40", "12"));
-    let (code, _, told) = run(&folder, &["study.toml", "--quiet", "--out", "out"]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, _, reported) = run(&folder, &["study.toml", "--quiet", "--out", "out"]);
+    assert_eq!(code, Some(0), "{reported}");
     folder
 }
 
@@ -29,8 +29,8 @@ fn replicates_alone_are_those_of_the_study() {
     let cells = results["cells"].as_array().expect("cells");
     let mut sums: Vec<Vec<f64>> = vec![Vec::new(); cells.len()];
     for replicate in 0..12 {
-        let (code, page, told) = run(&folder, &["replay", "out", &replicate.to_string(), "--json"]);
-        assert_eq!(code, Some(0), "{told}");
+        let (code, page, reported) = run(&folder, &["replay", "out", &replicate.to_string(), "--json"]);
+        assert_eq!(code, Some(0), "{reported}");
         let page = json(&page);
         assert_eq!(page["cells"].as_array().expect("cells").len(), cells.len());
         for (sums, cell) in sums.iter_mut().zip(page["cells"].as_array().expect("cells")) {
@@ -50,11 +50,11 @@ fn replicates_alone_are_those_of_the_study() {
 }
 
 #[test]
-fn a_replicate_is_told_and_its_records_are_written() {
+fn a_replicate_is_reported_and_its_records_are_written() {
     let folder = study("[\"efficient\", \"free\"]");
-    let (code, told, _) = run(&folder, &["replay", "out/results.json", "0:3", "--out", "records"]);
+    let (code, reported, _) = run(&folder, &["replay", "out/results.json", "0:3", "--out", "records"]);
     assert_eq!(code, Some(0));
-    assert!(told.contains("replicate 3 of ") && told.contains("F_desc(V3)"), "{told}");
+    assert!(reported.contains("replicate 3 of ") && reported.contains("F_desc(V3)"), "{reported}");
     assert_eq!(listing(&folder.path("records")), [".switchback.sha256", "ascendant.csv", "descendant.csv"]);
     // The same noise at each N, longer.
     let short = fs::read_to_string(folder.path("records/ascendant.csv")).expect("a record");
@@ -74,12 +74,12 @@ fn a_replicate_is_told_and_its_records_are_written() {
 }
 
 #[test]
-fn what_cannot_be_replayed_is_told() {
+fn what_cannot_be_replayed_is_reported() {
     let folder = study("[\"efficient\"]");
     let refused = |arguments: &[&str], words: &str| {
-        let (code, _, told) = run(&folder, arguments);
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains(words), "`{words}` is missing in: {told}");
+        let (code, _, reported) = run(&folder, arguments);
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(reported.contains(words), "`{words}` is missing in: {reported}");
     };
     refused(&["replay", "out", "99:0"], "99:0: the results have 2 cells, counted from 0");
     refused(&["replay", "out", "0:12"], "0:12: the study has 12 replicates, counted from 0");

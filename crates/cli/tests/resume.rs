@@ -62,8 +62,8 @@ impl Study {
     /// The same command goes on, and makes the report of an undisturbed run.
     #[track_caller]
     fn ends_well(&self) {
-        let (code, told) = self.run(&RUN, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = self.run(&RUN, "");
+        assert_eq!(code, Some(0), "{reported}");
         assert!(
             files(&self.folder.path("out")) == self.whole,
             "another report than that of an undisturbed run"
@@ -110,10 +110,10 @@ fn killed_at_each_call_of_the_disk_it_loses_one_batch_at_most() {
         study.reset();
         assert!(killed_at_its_pause(study.start(&format!("pause={call}"))), "call {call}");
         // Writing, its end, renaming: a batch is kept by three calls.
-        let (code, told) = study.run(&["study.toml", "--out", "out"], "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = study.run(&["study.toml", "--out", "out"], "");
+        assert_eq!(code, Some(0), "{reported}");
         let kept =
-            told.lines().find_map(|line| line.strip_suffix(" replicates of a former run are gone on with"));
+            reported.lines().find_map(|line| line.strip_suffix(" replicates of a former run are continued"));
         let kept: usize = kept.map_or(0, |kept| kept.parse().expect("a number"));
         assert!((call > 3) == (kept > 0), "{kept} kept at call {call}");
         assert!(kept >= before, "{kept} kept at call {call}, {before} before");
@@ -124,14 +124,17 @@ fn killed_at_each_call_of_the_disk_it_loses_one_batch_at_most() {
 }
 
 #[test]
-fn a_disk_that_fails_is_told_and_nothing_is_lost() {
+fn a_disk_that_fails_is_reported_and_nothing_is_lost() {
     let study = Study::new(&many());
     for call in [1, 2, 3, 20, 21] {
         study.reset();
-        let (code, told) = study.run(&RUN, &format!("fail={call}"));
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains("cannot keep there") && told.contains("injected by a test"), "{told}");
-        assert_eq!(told.matches("error: ").count(), 1, "{told}");
+        let (code, reported) = study.run(&RUN, &format!("fail={call}"));
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(
+            reported.contains("cannot keep there") && reported.contains("injected by a test"),
+            "{reported}"
+        );
+        assert_eq!(reported.matches("error: ").count(), 1, "{reported}");
         assert!(!study.folder.path("out/results.json").exists());
         assert_eq!(study.is_kept(), call > 3);
         study.ends_well();
@@ -139,7 +142,7 @@ fn a_disk_that_fails_is_told_and_nothing_is_lost() {
 }
 
 #[test]
-fn a_full_disk_is_told_and_nothing_is_lost() {
+fn a_full_disk_is_reported_and_nothing_is_lost() {
     let study = Study::new(&many());
     let place = study.folder.path("out");
     let mount = |place: &std::path::Path| {
@@ -160,9 +163,9 @@ fn a_full_disk_is_told_and_nothing_is_lost() {
     }
     let _mounted = Mounted(place.clone());
     fs::write(place.join("ballast"), vec![1; (2 << 20) - (24 << 10)]).expect("there is space");
-    let (code, told) = study.run(&RUN, "");
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("No space left") && told.matches("error: ").count() == 1, "{told}");
+    let (code, reported) = study.run(&RUN, "");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains("No space left") && reported.matches("error: ").count() == 1, "{reported}");
     fs::remove_file(place.join("ballast")).expect("it is there");
     study.ends_well();
 }
@@ -195,15 +198,15 @@ fn what_was_stopped_says_that_it_is_partial() {
         // A number between the two.
         let asked = replicates + 500;
         study.folder.write("study.toml", &many().replace("6000", &asked.to_string()));
-        let (code, told) = study.run(&["study.toml", "--out", "out"], "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = study.run(&["study.toml", "--out", "out"], "");
+        assert_eq!(code, Some(0), "{reported}");
         assert!(
-            told.contains(&format!("{replicates} replicates of a former run are gone on with")),
-            "{told}"
+            reported.contains(&format!("{replicates} replicates of a former run are continued")),
+            "{reported}"
         );
         assert!(!study.folder.path("out/partial").exists());
-        let (code, told) = study.run(&["study.toml", "--quiet", "--out", "anew"], "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = study.run(&["study.toml", "--quiet", "--out", "anew"], "");
+        assert_eq!(code, Some(0), "{reported}");
         assert!(files(&study.folder.path("out")) == files(&study.folder.path("anew")));
         fs::remove_dir_all(study.folder.path("anew")).expect("a folder");
     }
@@ -212,24 +215,24 @@ fn what_was_stopped_says_that_it_is_partial() {
 #[test]
 fn more_replicates_are_added_to_those_that_are_there() {
     let study = Study::new(&many());
-    let told = |replicates: &str| {
+    let reported = |replicates: &str| {
         study.folder.write("study.toml", &many().replace("6000", replicates));
-        let (code, told) = study.run(&["study.toml", "--out", "out"], "");
-        assert_eq!(code, Some(0), "{told}");
-        told
+        let (code, reported) = study.run(&["study.toml", "--out", "out"], "");
+        assert_eq!(code, Some(0), "{reported}");
+        reported
     };
     // Within a batch, at its end, and the same again.
     for (replicates, kept) in
         [("700", None), ("1001", Some("700")), ("2560", Some("1001")), ("2560", Some("2560"))]
     {
-        let told = told(replicates);
-        let line = told.lines().find(|line| line.ends_with("replicates of a former run are gone on with"));
-        assert_eq!(line.and_then(|line| line.split(' ').next()), kept, "{told}");
+        let reported = reported(replicates);
+        let line = reported.lines().find(|line| line.ends_with("replicates of a former run are continued"));
+        assert_eq!(line.and_then(|line| line.split(' ').next()), kept, "{reported}");
     }
     study.folder.write("study.toml", &many());
     study.ends_well();
     // Fewer cannot be taken out of a sum.
-    let fewer = told("700");
+    let fewer = reported("700");
     assert!(fewer.contains("has more replicates than are asked for: begun anew"), "{fewer}");
 }
 
@@ -243,9 +246,9 @@ fn what_another_study_left_is_not_mixed_in() {
     };
     begin();
     study.folder.write("study.toml", &many().replace("seed = 3", "seed = 4"));
-    let (code, told) = study.run(&["study.toml", "--out", "out"], "");
-    assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("is of another scenario, or another part of it: begun anew"), "{told}");
+    let (code, reported) = study.run(&["study.toml", "--out", "out"], "");
+    assert_eq!(code, Some(0), "{reported}");
+    assert!(reported.contains("is of another scenario, or another part of it: begun anew"), "{reported}");
     study.folder.write("study.toml", &many());
     // Another name or question is the same study.
     begin();
@@ -254,16 +257,16 @@ fn what_another_study_left_is_not_mixed_in() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&sums, &bytes).expect("it can be written");
-    let (code, told) = study.run(&["study.toml", "--out", "out"], "");
-    assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("is not as it was written: begun anew"), "{told}");
+    let (code, reported) = study.run(&["study.toml", "--out", "out"], "");
+    assert_eq!(code, Some(0), "{reported}");
+    assert!(reported.contains("is not as it was written: begun anew"), "{reported}");
     assert!(files(&study.folder.path("out")) == study.whole);
     // A file of someone else is not touched.
     study.reset();
     fs::create_dir(study.folder.path("out")).expect("a new folder");
     study.folder.write("out/unfinished.sums", "1 + 1 = 2");
-    let (code, told) = study.run(&RUN, "");
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("holds something else") && told.contains("move it away"), "{told}");
+    let (code, reported) = study.run(&RUN, "");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains("holds something else") && reported.contains("move it away"), "{reported}");
     assert_eq!(listing(&study.folder.path("out")), ["unfinished.sums"]);
 }

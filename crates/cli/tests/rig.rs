@@ -31,11 +31,11 @@ fn the_same_seed_writes_the_same_folder_and_says_what_is_in_it() {
     assert_eq!(files("one").len(), 9, "seven records, what describes them, and the list of what was written");
     assert_eq!(files("one"), files("two"));
     let description = fs::read_to_string(root.path().join("one/rig.toml")).unwrap();
-    assert!(!description.contains("creep"), "the folder must not tell");
+    assert!(!description.contains("creep"), "the folder must not show");
 }
 
 #[test]
-fn what_was_put_in_tells_how_the_borders_run_between_the_levels() {
+fn what_was_put_in_shows_how_the_borders_run_between_the_levels() {
     let root = tempfile::tempdir().unwrap();
     let made = |seed: &str| {
         let out = root.path().join(seed);
@@ -66,9 +66,9 @@ fn the_list_names_every_effect_with_its_laws() {
         .stdout(contains("Bouc-Wen"));
 }
 
-/// The travel lost at a reversal, whoever tells of it: twice the radius of the play operator, in units of the input.
+/// The travel lost at a reversal, whoever reports it: twice the radius of the play operator, in units of the input.
 #[test]
-fn a_play_is_told_by_its_full_width_in_input_units() {
+fn a_play_is_reported_by_its_full_width_in_input_units() {
     let root = tempfile::tempdir().unwrap();
     let made = |json: &[&str]| {
         let out = root.path().join(format!("rig{}", json.len()));
@@ -76,18 +76,18 @@ fn a_play_is_told_by_its_full_width_in_input_units() {
         let run = switchback().args(what).args(json).arg("--out").arg(out).assert().success();
         String::from_utf8(run.get_output().stdout.clone()).unwrap()
     };
-    let told = made(&[]);
-    assert!(told.contains("backlash (play, operator): full width 0.4000 input units"), "{told}");
-    let told = made(&["--json"]);
-    assert!(told.starts_with("{\n  \"schema\": \"switchback/rig/1\","), "{told}");
-    let key: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let reported = made(&[]);
+    assert!(reported.contains("backlash (play, operator): full width 0.4000 input units"), "{reported}");
+    let reported = made(&["--json"]);
+    assert!(reported.starts_with("{\n  \"schema\": \"switchback/rig/1\","), "{reported}");
+    let key: serde_json::Value = serde_json::from_str(&reported).unwrap();
     let effect = &key["effects"][0];
     assert_eq!((&effect["quantity"], &effect["unit"]), (&"full width".into(), &"input units".into()));
     assert!((effect["magnitude"].as_f64().unwrap() - 0.4).abs() < 1e-9, "{effect}");
 }
 
 #[test]
-fn a_rig_of_the_field_declares_nothing_and_its_key_tells_the_machine_from_what_was_put_in() {
+fn a_rig_of_the_field_declares_nothing_and_its_key_shows_the_machine_from_what_was_put_in() {
     let root = tempfile::tempdir().unwrap();
     let made = |name: &str, options: &[&str]| {
         let out = root.path().join(name);
@@ -97,23 +97,26 @@ fn a_rig_of_the_field_declares_nothing_and_its_key_tells_the_machine_from_what_w
             .arg("--out")
             .arg(&out)
             .assert();
-        let told = String::from_utf8(run.success().get_output().stdout.clone()).unwrap();
-        (told, fs::read_to_string(out.join("rig.toml")).unwrap())
+        let reported = String::from_utf8(run.success().get_output().stdout.clone()).unwrap();
+        (reported, fs::read_to_string(out.join("rig.toml")).unwrap())
     };
-    let (told, manifest) = made("bare", &[]);
-    assert!(told.contains("of the field: by itself it has coloured_noise"), "{told}");
-    assert!(told.ends_with("no effect\n"), "{told}");
+    let (reported, manifest) = made("bare", &[]);
+    assert!(reported.contains("of the field: by itself it has coloured_noise"), "{reported}");
+    assert!(reported.ends_with("no effect\n"), "{reported}");
     assert!(!manifest.contains("order") && !manifest.contains("interval"), "{manifest}");
     assert!(manifest.contains("role = \"free\"") && manifest.contains("use = \"holdout\""), "{manifest}");
     assert_eq!(manifest.matches("role = ").count(), manifest.matches("role = \"free\"").count());
 
-    let (told, of_backlash) = made("backlash", &["--effect", "backlash", "--size", "2"]);
+    let (reported, of_backlash) = made("backlash", &["--effect", "backlash", "--size", "2"]);
     let survives = "times what the model leaves without it";
-    assert!(told.contains("backlash (play, operator): full width") && told.contains(survives), "{told}");
-    assert_eq!(of_backlash, manifest, "the description must not tell");
+    assert!(
+        reported.contains("backlash (play, operator): full width") && reported.contains(survives),
+        "{reported}"
+    );
+    assert_eq!(of_backlash, manifest, "the description must not show");
 
-    let (told, _) = made("json", &["--json"]);
-    let key: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let (reported, _) = made("json", &["--json"]);
+    let key: serde_json::Value = serde_json::from_str(&reported).unwrap();
     assert_eq!((&key["setting"], &key["base"][0]), (&"field".into(), &"coloured_noise".into()));
     assert_eq!(key["effects"], serde_json::json!([]));
 }

@@ -43,10 +43,10 @@ impl Layouts {
     /// What of an object its schema does not allow; `from` is where it comes from.
     fn complaints(&self, Written { from, layout, object }: &Written) -> Vec<String> {
         let Some(validator) = self.0.get(layout) else { return vec![format!("{from}: no schema {layout}")] };
-        let told = |wrong: jsonschema::ValidationError<'_>| {
+        let reported = |wrong: jsonschema::ValidationError<'_>| {
             format!("{from} ({layout}){}: {wrong}", wrong.instance_path())
         };
-        validator.iter_errors(object).take(3).map(told).collect()
+        validator.iter_errors(object).take(3).map(reported).collect()
     }
 }
 
@@ -70,7 +70,7 @@ impl Written {
         Self { from: from.into(), layout, object }
     }
 
-    /// The lines of a file, whose kind its folder tells.
+    /// The lines of a file, whose kind its folder shows.
     fn lines(path: &Path, layout: &str) -> Vec<Self> {
         let text = fs::read_to_string(path).expect("a readable file");
         let line =
@@ -111,8 +111,8 @@ fn check(written: &[Written]) {
 /// What a command prints.
 fn printed(folder: &Folder, arguments: &[&str]) -> Written {
     let output = folder.switchback(arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}: {reported}");
     Written::of(arguments.join(" "), &String::from_utf8_lossy(&output.stdout))
 }
 

@@ -3,7 +3,7 @@
 use crate::common::{BLIND, Folder, listing};
 use std::fs;
 
-/// Runs, and gives the exit code with what is told.
+/// Runs, and gives the exit code with what is reported.
 fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String) {
     let output = folder.switchback(arguments).output().expect("it runs");
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
@@ -22,8 +22,8 @@ fn parts_merged_are_the_bytes_of_one_run() {
     }
     // In any order.
     let merge = ["merge", "2", "1", "--quiet", "--out", "merged"];
-    let (code, told) = run(&folder, &merge);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(&folder, &merge);
+    assert_eq!(code, Some(0), "{reported}");
     let files = listing(&folder.path("whole"));
     assert_eq!(listing(&folder.path("merged")), files);
     for file in files.into_iter().filter(|name| name != "provenance.json" && !name.contains("beside")) {
@@ -32,10 +32,10 @@ fn parts_merged_are_the_bytes_of_one_run() {
     }
 
     let refused = |arguments: &[&str], words: &[&str]| {
-        let (code, told) = run(&folder, &[arguments, &["--quiet", "--out", "none"]].concat());
-        assert_eq!(code, Some(2), "{told}");
+        let (code, reported) = run(&folder, &[arguments, &["--quiet", "--out", "none"]].concat());
+        assert_eq!(code, Some(2), "{reported}");
         for word in words {
-            assert!(told.contains(word), "`{word}` is missing in: {told}");
+            assert!(reported.contains(word), "`{word}` is missing in: {reported}");
         }
         assert!(!folder.path("none").exists());
     };
@@ -60,7 +60,7 @@ fn parts_merged_are_the_bytes_of_one_run() {
 fn a_part_that_cannot_be_is_refused() {
     let folder = Folder::with_good_rig();
     folder.write("study.toml", crate::common::STUDY);
-    let (code, told) = run(&folder, &["study.toml", "--shard", "3/2"]);
+    let (code, reported) = run(&folder, &["study.toml", "--shard", "3/2"]);
     assert_eq!(code, Some(2));
-    assert!(told.contains("as in 1/4"), "{told}");
+    assert!(reported.contains("as in 1/4"), "{reported}");
 }

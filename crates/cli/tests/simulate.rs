@@ -48,12 +48,12 @@ fn run(folder: &Folder, arguments: &[&str]) -> Value {
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let before = folder.listing();
     let output = folder.switchback(arguments).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     assert!(output.stdout.is_empty());
-    assert!(told.contains("help: "), "no remedy: {told}");
+    assert!(reported.contains("help: "), "no remedy: {reported}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
+        assert!(reported.contains(word), "`{word}` is not in: {reported}");
     }
     assert_eq!(folder.listing(), before, "nothing may be written");
 }
@@ -84,8 +84,8 @@ fn every_method_of_identify_is_reproduced_on_every_record() {
                 refused(&folder, &["simulate", "found/model.json", &input], &[&input]);
                 continue;
             }
-            let (told, rows) = simulated(&folder, "found/model.json", &input);
-            close(number(&told["fit_percent"]), number(fit), &format!("{method} {record}"));
+            let (reported, rows) = simulated(&folder, "found/model.json", &input);
+            close(number(&reported["fit_percent"]), number(fit), &format!("{method} {record}"));
             let y: Vec<f64> = rows.iter().map(|row| row[2]).collect();
             assert_eq!(y, series(&folder, "found/series.csv", record, "simulated"), "{method} {record}");
             seen += 1;
@@ -99,9 +99,9 @@ fn the_band_of_an_identified_model_holds_the_held_out_record() {
     let folder = Folder::with_good_rig();
     for method in ["efficient", "free"] {
         run(&folder, &["identify", "rig.toml", "--method", method, "--json", "--out", "found"]);
-        let (told, rows) = simulated(&folder, "found/model.json", "again.csv");
+        let (reported, rows) = simulated(&folder, "found/model.json", "again.csv");
         // 1,100 samples, about one in five independent (poles of modulus 0.7): a standard error of 0.015, and three of them.
-        let covered = number(&told["covered"]);
+        let covered = number(&reported["covered"]);
         assert!((covered - 0.95).abs() < 0.045, "{method}: {covered}");
         assert!(rows.iter().all(|row| row[3] <= row[2] && row[2] <= row[4]));
     }
@@ -116,8 +116,8 @@ fn gap_is_reproduced(folder: &Folder, rig: &str) {
         let name = record["record"].as_str().expect("a name");
         let input = base.join(format!("{name}.csv")).display().to_string();
         for (model, fit) in [("nominal", "fit_before"), ("augmented", "fit_after")] {
-            let (told, rows) = simulated(folder, &format!("report/{model}.json"), &input);
-            close(number(&told["fit_percent"]), number(&record[fit]), &format!("{rig} {name} {model}"));
+            let (reported, rows) = simulated(folder, &format!("report/{model}.json"), &input);
+            close(number(&reported["fit_percent"]), number(&record[fit]), &format!("{rig} {name} {model}"));
             let y: Vec<f64> = rows.iter().map(|row| row[2]).collect();
             assert_eq!(y, series(folder, "report/series.csv", name, model), "{rig} {name} {model}");
         }
@@ -199,9 +199,9 @@ fn without_a_measured_output_it_begins_at_rest_and_says_so() {
 fn written(folder: &Folder, input: &str, more: &[&str]) -> (Vec<String>, String) {
     let output =
         folder.switchback(&["simulate", "found/model.json", input]).args(more).output().expect("it runs");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{told}");
-    (String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect(), told)
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{reported}");
+    (String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect(), reported)
 }
 
 fn with_model() -> Folder {
@@ -215,10 +215,10 @@ fn a_file_of_the_input_alone_is_played_row_by_row() {
     let folder = with_model();
     let column: String = (0..50).map(|k| if k < 20 { "1\n" } else { "-1\n" }).collect();
     folder.write("one.csv", &format!("v\n{column}"));
-    let (rows, told) = written(&folder, "one.csv", &[]);
+    let (rows, reported) = written(&folder, "one.csv", &[]);
     assert_eq!(rows.len(), 51);
     assert!(rows[50].starts_with("0.49,-1,"), "{}", rows[50]);
-    assert!(told.contains("begins at rest"), "{told}");
+    assert!(reported.contains("begins at rest"), "{reported}");
     folder.write("still.csv", &"1\n".repeat(30));
     let (rows, _) = written(&folder, "still.csv", &[]);
     let outputs: Vec<&str> = rows[1..].iter().filter_map(|row| row.split(',').nth(2)).collect();
@@ -236,22 +236,22 @@ fn gaps_in_the_measured_output_are_no_error() {
         };
         measured.lines().enumerate().map(row).collect()
     };
-    let told_of = |text: String| {
+    let reported_of = |text: String| {
         folder.write("gaps.csv", &text);
         simulated(&folder, "found/model.json", "gaps.csv").0
     };
     let (whole, _) = simulated(&folder, "found/model.json", "again.csv");
-    let later = told_of(without(&|k| k % 7 == 0 && k > 50));
+    let later = reported_of(without(&|k| k % 7 == 0 && k > 50));
     assert_eq!(later["start"], whole["start"]);
     assert!((number(&later["fit_percent"]) - number(&whole["fit_percent"])).abs() < 1.0, "{later:#}");
     assert!(later["notes"].to_string().contains("`y` is missing in"), "{later:#}");
-    let at_first = told_of(without(&|k| k < 5));
+    let at_first = reported_of(without(&|k| k < 5));
     assert_eq!(at_first["start"], 0);
     assert!(at_first["notes"].to_string().contains("begins at rest"), "{at_first:#}");
-    let never = told_of(without(&|_| true));
+    let never = reported_of(without(&|_| true));
     assert!(never["fit_percent"].is_null() && never["covered"].is_null(), "{never:#}");
-    let (_, told) = written(&folder, "again.csv", &["--output", "none"]);
-    assert!(told.contains("begins at rest") && !told.contains("fit"), "{told}");
+    let (_, reported) = written(&folder, "again.csv", &["--output", "none"]);
+    assert!(reported.contains("begins at rest") && !reported.contains("fit"), "{reported}");
 }
 
 #[test]
@@ -340,9 +340,9 @@ fn what_does_not_fit_in_a_model_is_named_by_its_keys_and_not_by_types() {
         folder.write("bad.json", &bad.to_string());
         refused(&folder, &["simulate", "bad.json", "again.csv"], words);
         let output = folder.switchback(&["simulate", "bad.json", "again.csv"]).output().expect("it runs");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
         for word in ["struct", "usize", "isize", "f64", "u64", "variant", "floating point", "no JSON"] {
-            assert!(!told.contains(word), "`{word}` is in: {told}");
+            assert!(!reported.contains(word), "`{word}` is in: {reported}");
         }
     };
     spoilt(&|m| *m = Value::Null, &["expected an object, found null"]);
@@ -385,6 +385,6 @@ fn a_model_of_other_units_is_refused() {
     refused(&folder, &["gap", "m.csv", "--model", "found/model.json"], &[input, "rig has m"]);
     simulated(&folder, "found/model.json", "mm.csv");
     simulated(&folder, "found/model.json", "again.csv");
-    let (_, told) = written(&folder, "kn.csv", &["--output", "none"]);
-    assert!(told.contains("begins at rest"), "{told}");
+    let (_, reported) = written(&folder, "kn.csv", &["--output", "none"]);
+    assert!(reported.contains("begins at rest"), "{reported}");
 }

@@ -38,8 +38,8 @@ fn bash(folder: &Folder, line: &str) -> (Option<i32>, String, String) {
 #[test]
 fn a_stream_is_as_good_as_the_file() {
     let folder = folder();
-    let (code, file, told) = bash(&folder, "switchback identify bench.csv --json");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, file, reported) = bash(&folder, "switchback identify bench.csv --json");
+    assert_eq!(code, Some(0), "{reported}");
     // Names are the file's; all else is the same.
     for (line, name) in [
         ("switchback identify - --json < bench.csv", "stdin"),
@@ -47,8 +47,8 @@ fn a_stream_is_as_good_as_the_file() {
         ("switchback identify <(cat bench.csv) --json", "stream"),
         ("(cat bench.csv > fifo) & switchback identify fifo --json", "fifo"),
     ] {
-        let (code, stream, told) = bash(&folder, line);
-        assert_eq!(code, Some(0), "{line}: {told}");
+        let (code, stream, reported) = bash(&folder, line);
+        assert_eq!(code, Some(0), "{line}: {reported}");
         assert_eq!(stream.replace(name, "bench"), file, "{line}");
     }
 }
@@ -58,13 +58,13 @@ fn rig_files_scenarios_and_models_come_by_streams_too() {
     let folder = folder();
     let (code, file, _) = bash(&folder, "switchback identify rig.toml --json");
     assert_eq!(code, Some(0));
-    let (code, stream, told) = bash(&folder, "switchback identify <(cat rig.toml) --json");
-    assert_eq!((code, stream), (Some(0), file), "{told}");
+    let (code, stream, reported) = bash(&folder, "switchback identify <(cat rig.toml) --json");
+    assert_eq!((code, stream), (Some(0), file), "{reported}");
 
     folder.write("stdin.toml", STUDY);
     assert_eq!(bash(&folder, "switchback stdin.toml --quiet --out one").0, Some(0));
-    let (code, _, told) = bash(&folder, "switchback - --quiet --out other < stdin.toml");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, _, reported) = bash(&folder, "switchback - --quiet --out other < stdin.toml");
+    assert_eq!(code, Some(0), "{reported}");
     let read = |place: &str| std::fs::read_to_string(folder.path(place)).expect("a report");
     assert_eq!(listing(&folder.path("one")), listing(&folder.path("other")));
     assert_eq!(
@@ -73,8 +73,8 @@ fn rig_files_scenarios_and_models_come_by_streams_too() {
     );
 
     let line = "switchback identify rig.toml --quiet --out made && switchback simulate <(cat made/model.json) descendant.csv";
-    let (code, _, told) = bash(&folder, line);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, _, reported) = bash(&folder, line);
+    assert_eq!(code, Some(0), "{reported}");
 }
 
 #[test]
@@ -82,9 +82,12 @@ fn a_silent_stream_is_given_up_and_not_asked_twice() {
     let folder = folder();
     for verb in ["gap", ""] {
         let start = Instant::now();
-        let (code, _, told) = bash(&folder, &format!("switchback {verb} ./fifo"));
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains("fifo: nothing came for 10 s") && told.contains("help: "), "{told}");
+        let (code, _, reported) = bash(&folder, &format!("switchback {verb} ./fifo"));
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(
+            reported.contains("fifo: nothing came for 10 s") && reported.contains("help: "),
+            "{reported}"
+        );
         assert!(start.elapsed() < Duration::from_secs(19), "{:?}", start.elapsed());
     }
 }

@@ -34,14 +34,14 @@ impl Folder {
     }
 }
 
-/// Runs a broken scenario: exit code 2, every word told, nothing written.
+/// Runs a broken scenario: exit code 2, every word reported, nothing written.
 fn refused(scenario: &str, words: &[&str]) {
     let folder = Folder::with(scenario);
     let output = folder.run(&[]);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     for word in words {
-        assert!(told.contains(word), "`{word}` is missing in: {told}");
+        assert!(reported.contains(word), "`{word}` is missing in: {reported}");
     }
     assert!(!folder.0.path().join("reports").exists(), "nothing is written on bad input");
     assert!(output.stdout.is_empty());
@@ -94,9 +94,9 @@ fn the_engine_is_chosen_on_the_command_line_or_in_the_scenario_and_the_results_n
     assert_eq!((flag.engine, key.engine), (Engine::Direct, Engine::Direct));
     assert_eq!((flag.command.as_str(), &flag.cells), ("switchback study.toml --engine direct", &key.cells));
     let unknown = folder.run(&["--engine", "dirct"]);
-    let told = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    let reported = String::from_utf8_lossy(&unknown.stderr).into_owned();
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(told.contains("dirct") && told.contains("superposed, direct"), "{told}");
+    assert!(reported.contains("dirct") && reported.contains("superposed, direct"), "{reported}");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn bad_scenarios_are_refused_with_file_place_and_remedy() {
 }
 
 #[test]
-fn a_report_that_cannot_be_written_is_told_before_anything_is_computed() {
+fn a_report_that_cannot_be_written_is_reported_before_anything_is_computed() {
     let folder = Folder::with(STUDY);
     let output = folder.run(&["--out", "study.toml/inside"]);
     assert_eq!(output.status.code(), Some(2));

@@ -14,8 +14,8 @@ fn parts(folder: &Folder, of: usize, more: &[&str]) -> Vec<String> {
         let (shard, out) = (format!("{number}/{of}"), format!("part-{number}"));
         let arguments =
             [&["study.toml", "--shard", &shard, "--quiet", "--force", "--out", &out][..], more].concat();
-        let (code, told) = run(folder, &arguments, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = run(folder, &arguments, "");
+        assert_eq!(code, Some(0), "{reported}");
         out
     };
     (1..=of).map(part).collect()
@@ -28,8 +28,8 @@ fn merge(folder: &Folder, parts: &[String], out: &str) -> (Option<i32>, String) 
 }
 
 fn whole(folder: &Folder) -> Files {
-    let (code, told) = run(folder, &["study.toml", "--quiet", "--out", "whole"], "");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(folder, &["study.toml", "--quiet", "--out", "whole"], "");
+    assert_eq!(code, Some(0), "{reported}");
     files(&folder.path("whole"))
 }
 
@@ -41,8 +41,8 @@ fn parts_of_any_number_are_the_bytes_of_one_run() {
     let whole = whole(&folder);
     for of in [1, 3, 7, 24] {
         let out = format!("merged-{of}");
-        let (code, told) = merge(&folder, &parts(&folder, of, &[]), &out);
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = merge(&folder, &parts(&folder, of, &[]), &out);
+        assert_eq!(code, Some(0), "{reported}");
         assert!(files(&folder.path(&out)) == whole, "of {of} parts another report");
     }
 }
@@ -59,15 +59,15 @@ fn rounds_towards_a_precision_are_the_bytes_of_one_run() {
         let mut made = parts(&folder, of, &[]);
         loop {
             let out = format!("rounds-{of}-{rounds}");
-            let (code, told) = merge(&folder, &made, &out);
+            let (code, reported) = merge(&folder, &made, &out);
             if code == Some(0) {
                 assert!(files(&folder.path(&out)) == whole, "of {of} parts another report");
                 break;
             }
-            assert_eq!(code, Some(3), "{told}");
+            assert_eq!(code, Some(3), "{reported}");
             assert!(
-                told.contains("not precise enough yet") && told.contains(&format!("--from {out}")),
-                "{told}"
+                reported.contains("not precise enough yet") && reported.contains(&format!("--from {out}")),
+                "{reported}"
             );
             made = parts(&folder, of, &["--from", &out]);
             made.push(out);
@@ -84,11 +84,11 @@ fn what_makes_no_whole_is_refused() {
     let made = parts(&folder, 3, &[]);
     let refused = |parts: &[&str], words: &str| {
         let parts: Vec<String> = parts.iter().map(|part| (*part).to_owned()).collect();
-        let (code, told) = merge(&folder, &parts, "none");
-        assert_eq!(code, Some(2), "{told}");
+        let (code, reported) = merge(&folder, &parts, "none");
+        assert_eq!(code, Some(2), "{reported}");
         assert!(
-            told.contains(words) && told.matches("error: ").count() == 1,
-            "`{words}` is missing in: {told}"
+            reported.contains(words) && reported.matches("error: ").count() == 1,
+            "`{words}` is missing in: {reported}"
         );
         assert!(!folder.path("none").exists());
     };
@@ -139,13 +139,13 @@ fn a_part_that_was_killed_goes_on() {
     if cfg!(debug_assertions) {
         assert!(killed_at_its_pause(process));
         assert!(folder.path("again/unfinished.sums").exists());
-        let (code, told) = merge(&folder, &["again".to_owned(), made[1].clone()], "none");
-        assert_eq!(code, Some(2), "{told}");
-        assert!(told.contains("again: holds no part"), "{told}");
+        let (code, reported) = merge(&folder, &["again".to_owned(), made[1].clone()], "none");
+        assert_eq!(code, Some(2), "{reported}");
+        assert!(reported.contains("again: holds no part"), "{reported}");
     } else {
         process.wait().expect("it ends");
     }
-    let (code, told) = run(&folder, &arguments, "");
-    assert_eq!(code, Some(0), "{told}");
+    let (code, reported) = run(&folder, &arguments, "");
+    assert_eq!(code, Some(0), "{reported}");
     assert!(files(&folder.path("again")) == first);
 }

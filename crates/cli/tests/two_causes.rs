@@ -56,7 +56,7 @@ fn a_slow_lag_is_found_beside_friction_that_rules_the_dynamics() {
 }
 
 #[test]
-fn friction_behind_coarse_rounding_is_told_as_it_is_beside_it() {
+fn friction_behind_coarse_rounding_is_reported_as_it_is_beside_it() {
     let page = diagnosis(["sensor_quantisation", "rate_dependence"], "4", ["16227372047960906123", "1"]);
     assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(2), "{:#}", page["verdict"]);
     let together = &page["together"];

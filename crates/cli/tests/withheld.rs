@@ -1,11 +1,11 @@
 //! What stands in for a cause that the library lacks is not named.
 
 use switchback_diagnose::{Effect, Model, Settings, Status, Verdict, diagnose};
-use switchback_lab::generate::{Family, Ingredient, MakeRig};
+use switchback_lab::generate::{Family, MakeRig, RequestedFault};
 
 /// The verdict on a rig with the first of some effects by a library that lacks all of them.
 fn verdict_without(effects: &[Effect], seed: u64, order: usize) -> Verdict {
-    let cause = Ingredient::plain(effects[0].name(), 2.0).unwrap();
+    let cause = RequestedFault::plain(effects[0].name(), 2.0).unwrap();
     let family = Family { order: Some(order), shape: None };
     let rig = MakeRig::new(seed).family(family).with(cause).make().unwrap().rig;
     let settings = Settings::default().without(effects);

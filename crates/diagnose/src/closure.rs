@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::diagnosis::{Gap, RecordGap};
 use crate::figure::Figure;
-use crate::records::campaign::{Campaign, Track};
+use crate::records::dataset::{Dataset, ScaledRecord};
 
 /// Simulations of one record, dimensionless.
 pub(crate) struct Simulated {
@@ -33,24 +33,19 @@ struct Block {
 /// `G²` before and after, closure, and their intervals from a bootstrap over blocks of time.
 ///
 /// `noise` is the variance of the noise in the output and its relative standard error.
-pub(crate) fn measure(
-    campaign: &Campaign,
-    runs: &[Simulated],
-    noise: (f64, f64),
-    draws: (u64, usize),
-) -> Gap {
+pub(crate) fn measure(dataset: &Dataset, runs: &[Simulated], noise: (f64, f64), draws: (u64, usize)) -> Gap {
     let mut blocks = Vec::new();
     let mut per_record = Vec::new();
     for run in runs {
-        let track = &campaign.tracks[run.number];
-        let n = (track.y.len() - track.from).max(1) as f64;
-        let own = blocks_of(track, run);
+        let scaled = &dataset.scaled_records[run.number];
+        let n = (scaled.y.len() - scaled.from).max(1) as f64;
+        let own = blocks_of(scaled, run);
         let [before, after, energy] = [|b: &Block| b.before, |b: &Block| b.after, |b: &Block| b.energy]
             .map(|of| own.iter().map(of).sum::<f64>());
         let energy = energy.max(1e-300);
         blocks.extend(own);
         per_record.push(RecordGap {
-            record: track.name.clone(),
+            record: scaled.name.clone(),
             before: (before - n * noise.0) / energy,
             after: (after - n * noise.0) / energy,
             fit_before: 100.0 * (1.0 - (before / energy).sqrt()),
@@ -63,7 +58,7 @@ pub(crate) fn measure(
         before,
         after,
         closure: (before.ci90[0] > 0.0).then_some(closure),
-        noise_floor: noise.0.max(0.0).sqrt() * campaign.y_scale,
+        noise_floor: noise.0.max(0.0).sqrt() * dataset.y_scale,
         identified_anew: None,
         predictive_gain: 0.0,
         per_record,
@@ -72,38 +67,39 @@ pub(crate) fn measure(
 
 /// The closure of the gap on each record by itself, with its interval; none on a record where the gap's interval includes zero.
 pub(crate) fn closures(
-    campaign: &Campaign,
+    dataset: &Dataset,
     runs: &[Simulated],
     noise: (f64, f64),
     draws: (u64, usize),
 ) -> Vec<Option<Figure>> {
     let of = |run: &Simulated| {
-        let [before, _, closure] = figures(&blocks_of(&campaign.tracks[run.number], run), noise, draws);
+        let [before, _, closure] =
+            figures(&blocks_of(&dataset.scaled_records[run.number], run), noise, draws);
         (before.ci90[0] > 0.0).then_some(closure)
     };
     runs.iter().map(of).collect()
 }
 
-fn blocks_of(track: &Track, run: &Simulated) -> Vec<Block> {
-    let from = track.from;
-    let mean = track.y[from..].iter().sum::<f64>() / (track.y.len() - from).max(1) as f64;
+fn blocks_of(scaled: &ScaledRecord, run: &Simulated) -> Vec<Block> {
+    let from = scaled.from;
+    let mean = scaled.y[from..].iter().sum::<f64>() / (scaled.y.len() - from).max(1) as f64;
     let square = |x: f64| x * x;
     let block = |start: usize| {
         let mut b = Block { before: 0.0, after: 0.0, energy: 0.0, count: 0.0 };
-        for t in start..(start + BLOCK).min(track.y.len()) {
-            b.before += square(track.y[t] - run.before[t]);
-            b.after += square(track.y[t] - run.after[t]);
-            b.energy += square(track.y[t] - mean);
+        for t in start..(start + BLOCK).min(scaled.y.len()) {
+            b.before += square(scaled.y[t] - run.before[t]);
+            b.after += square(scaled.y[t] - run.after[t]);
+            b.energy += square(scaled.y[t] - mean);
             b.count += 1.0;
         }
         b
     };
-    (from..track.y.len()).step_by(BLOCK).map(block).collect()
+    (from..scaled.y.len()).step_by(BLOCK).map(block).collect()
 }
 
 /// `G²` before, after, and the closure, with intervals from a bootstrap over the blocks.
 fn figures(blocks: &[Block], noise: (f64, f64), draws: (u64, usize)) -> [Figure; 3] {
-    let told = |blocks: &mut dyn Iterator<Item = Block>, noise: f64| {
+    let reported = |blocks: &mut dyn Iterator<Item = Block>, noise: f64| {
         let sum = blocks.fold(Block { before: 0.0, after: 0.0, energy: 1e-300, count: 0.0 }, |s, b| Block {
             before: s.before + b.before,
             after: s.after + b.after,
@@ -114,7 +110,7 @@ fn figures(blocks: &[Block], noise: (f64, f64), draws: (u64, usize)) -> [Figure;
         let after = (sum.after - sum.count * noise) / sum.energy;
         [before, after, 1.0 - after / before]
     };
-    let estimates = told(&mut blocks.iter().copied(), noise.0);
+    let estimates = reported(&mut blocks.iter().copied(), noise.0);
     let mut rng = ChaCha8Rng::seed_from_u64(draws.0);
     let mut samples: [Vec<f64>; 3] = Default::default();
     for _ in 0..draws.1 {
@@ -122,7 +118,7 @@ fn figures(blocks: &[Block], noise: (f64, f64), draws: (u64, usize)) -> [Figure;
             (0..blocks.len()).map(|_| blocks[rng.random_range(0..blocks.len())]).collect();
         // Twelve uniforms make a normal deviate well enough for the error of the noise floor.
         let normal: f64 = (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
-        let values = told(&mut drawn.into_iter(), noise.0 * (1.0 + noise.1 * normal));
+        let values = reported(&mut drawn.into_iter(), noise.0 * (1.0 + noise.1 * normal));
         samples.iter_mut().zip(values).for_each(|(s, v)| s.push(v));
     }
     let figure = |estimate: f64, mut draws: Vec<f64>| {

@@ -91,10 +91,10 @@ pub enum CellUnit {
     /// Cycles a second.
     Hertz,
     /// Share of the samples of all records, in the order of the file.
-    ShareOfCampaign,
+    ShareOfDataset,
 }
 
-/// One effect as an explanation.
+/// One effect as an candidate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// The effect.
@@ -239,7 +239,7 @@ pub struct Diagnosis {
     pub gap: Gap,
     /// Where the gap lies.
     pub where_: Vec<Cell>,
-    /// The effects as explanations, best first.
+    /// The effects as candidates, best first.
     pub candidates: Vec<Candidate>,
     /// Probability that nothing is missing from the nominal model.
     pub probability_none: f64,

@@ -53,13 +53,13 @@ impl Effect {
     }
 
     /// The effects that leave nearly the same trace in ordinary records.
-    pub fn twins(self) -> &'static [Self] {
-        self.card().twins
+    pub fn confounded_effects(self) -> &'static [Self] {
+        self.card().confounded_effects
     }
 
     /// Whether the effect's laws are flexible enough to imitate others almost exactly.
-    pub(crate) fn is_supple(self) -> bool {
-        self.card().supple
+    pub(crate) fn is_flexible(self) -> bool {
+        self.card().flexible
     }
 
     /// Whether the effect follows a clock or has a phase of its own in every record, so that what was fitted need not hold

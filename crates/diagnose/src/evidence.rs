@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::effect::Effect;
 use crate::horizon::{Horizon, HorizonGain};
 
-/// How explanations were compared with each other.
+/// How candidates were compared with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Comparison {
@@ -14,7 +14,8 @@ pub enum Comparison {
     /// By their free-run simulations.
     Simulation,
     /// By their free-run simulations, the parameters of the given model held.
-    GivenModelHeld,
+    #[serde(rename = "given_model_held")]
+    GivenModelFixed,
 }
 
 /// What the records say of one effect beside a nominal model.
@@ -36,7 +37,8 @@ pub struct EffectEvidence {
     /// Closure on the judged records; none where there is no gap to close, or the model is unstable.
     pub closure: Option<f64>,
     /// Whether it makes a held-out record worse beyond its error.
-    pub harms: bool,
+    #[serde(rename = "harms")]
+    pub degrades_validation: bool,
     /// Whether the model with this effect has no free run: its output leaves every range, or its `A` is unstable.
     pub unstable: bool,
 }
@@ -67,8 +69,8 @@ impl Compared {
     }
 
     /// Whether an effect makes a held-out record worse, if it has a fit.
-    pub(crate) fn harms(&self, effect: Effect) -> Option<bool> {
-        self.of(effect).map(|says| says.harms)
+    pub(crate) fn degrades_validation(&self, effect: Effect) -> Option<bool> {
+        self.of(effect).map(|says| says.degrades_validation)
     }
 }
 
@@ -93,14 +95,16 @@ impl From<EffectEvidence> for Row {
             single(e.heldout_log_score),
             e.gains.iter().map(gain).collect(),
             e.closure.map(single),
-            e.harms,
+            e.degrades_validation,
             e.unstable,
         )
     }
 }
 
 impl From<Row> for EffectEvidence {
-    fn from(Row(effect, parameters, delta_bic, score, gains, closure, harms, unstable): Row) -> Self {
+    fn from(
+        Row(effect, parameters, delta_bic, score, gains, closure, degrades_validation, unstable): Row,
+    ) -> Self {
         let gain = |(samples, share, certainty): (usize, f32, f32)| HorizonGain {
             horizon: Horizon::of_samples(samples),
             share: f64::from(share),
@@ -113,7 +117,7 @@ impl From<Row> for EffectEvidence {
             heldout_log_score: f64::from(score),
             gains: gains.into_iter().map(gain).collect(),
             closure: closure.map(f64::from),
-            harms,
+            degrades_validation,
             unstable,
         }
     }
@@ -137,7 +141,7 @@ mod tests {
                 gain(Horizon::FreeRun, 0.75),
             ],
             closure: None,
-            harms: true,
+            degrades_validation: true,
             unstable: false,
         };
         let text = serde_json::to_string(&evidence).unwrap();

@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 
 use switchback_model::rig::{Role, Usage};
 
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::diagnosis::{ExperimentKind, NextExperiment};
-use crate::records::campaign::{Campaign, Track, WARM_UP};
+use crate::records::dataset::{Dataset, ScaledRecord, WARM_UP};
 use crate::records::motion::{Play, motions};
 use crate::simulation::simulate::free_run;
 use crate::verdict::answer::{Status, Verdict};
@@ -20,46 +20,49 @@ const LENGTH: usize = 1500;
 
 /// The best next record where rivals are left; `noise` is the variance of the noise in the output, dimensionless.
 pub(crate) fn propose(
-    campaign: &Campaign,
+    dataset: &Dataset,
     verdict: &Verdict,
-    singles: &[Explanation],
+    singles: &[Hypothesis],
     noise: f64,
 ) -> Option<NextExperiment> {
     if !matches!(verdict.status, Status::Class | Status::Ambiguous) || verdict.class.len() < 2 {
         return None;
     }
-    let rivals: Vec<&Explanation> =
-        verdict.class.iter().filter_map(|e| singles.iter().find(|s| s.parts[0].effect == *e)).collect();
+    let rivals: Vec<&Hypothesis> = verdict
+        .class
+        .iter()
+        .filter_map(|e| singles.iter().find(|s| s.effect_terms[0].effect == *e))
+        .collect();
     let scale = noise.max(1e-300).sqrt();
     let mut best: Option<NextExperiment> = None;
-    for (kind, v) in inputs(campaign) {
-        let track = Track {
+    for (kind, v) in inputs(dataset) {
+        let scaled = ScaledRecord {
             name: kind.name().into(),
             role: Role::Free,
             usage: Usage::Holdout,
             y: vec![0.0; v.len()].into(),
-            clock: campaign.total,
-            before: campaign.tracks.len(),
-            travelled: campaign.travel,
+            clock: dataset.total,
+            before: dataset.scaled_records.len(),
+            travelled: dataset.travel,
             period: None,
             from: WARM_UP.min(v.len()),
-            moves: motions(&v, Play::default(), campaign.rule).into(),
+            moves: motions(&v, Play::default(), dataset.rule).into(),
             standing: false,
             v: v.into(),
         };
         let runs: Vec<Vec<f64>> =
-            rivals.iter().map(|r| free_run(campaign, &r.fit, campaign.tracks.len(), &track)).collect();
+            rivals.iter().map(|r| free_run(dataset, &r.fit, dataset.scaled_records.len(), &scaled)).collect();
         let mut least = f64::INFINITY;
         for i in 0..runs.len() {
             for j in 0..i {
                 let square: f64 = runs[i].iter().zip(&runs[j]).map(|(x, y)| (x - y).powi(2)).sum();
-                least = least.min((square / track.v.len() as f64).sqrt() / scale);
+                least = least.min((square / scaled.v.len() as f64).sqrt() / scale);
             }
         }
         if best.as_ref().is_none_or(|b| least > b.distance) {
             best = Some(NextExperiment {
                 kind,
-                v: track.v.iter().map(|v| campaign.v_low + campaign.v_width * v).collect(),
+                v: scaled.v.iter().map(|v| dataset.v_low + dataset.v_width * v).collect(),
                 separates: verdict.class.clone(),
                 distance: least,
             });
@@ -69,7 +72,7 @@ pub(crate) fn propose(
 }
 
 /// The inputs to choose from, dimensionless.
-fn inputs(campaign: &Campaign) -> Vec<(ExperimentKind, Vec<f64>)> {
+fn inputs(dataset: &Dataset) -> Vec<(ExperimentKind, Vec<f64>)> {
     let n = LENGTH;
     // A triangle of period `p` between `low` and `high`.
     let triangle = |t: usize, p: f64| {
@@ -90,8 +93,8 @@ fn inputs(campaign: &Campaign) -> Vec<(ExperimentKind, Vec<f64>)> {
         ExperimentKind::RandomLevels,
         (0..n)
             .map(|t| {
-                let (k, part) = (t / 8, (t % 8) as f64 / 8.0);
-                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * part.min(0.75) / 0.75
+                let (k, effect_term) = (t / 8, (t % 8) as f64 / 8.0);
+                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * effect_term.min(0.75) / 0.75
             })
             .collect(),
     ));
@@ -116,8 +119,8 @@ fn inputs(campaign: &Campaign) -> Vec<(ExperimentKind, Vec<f64>)> {
         ExperimentKind::Rest,
         (0..n)
             .map(|t| {
-                let (k, part) = (t / 150, (t % 150) as f64 / 10.0);
-                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * part.min(1.0)
+                let (k, effect_term) = (t / 150, (t % 150) as f64 / 10.0);
+                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * effect_term.min(1.0)
             })
             .collect(),
     ));
@@ -125,7 +128,7 @@ fn inputs(campaign: &Campaign) -> Vec<(ExperimentKind, Vec<f64>)> {
         ExperimentKind::AmplitudeSeries,
         (0..n).map(|t| 0.5 + (0.1 + 0.9 * (t / 100) as f64 / 14.0) * (triangle(t, 50.0) - 0.5)).collect(),
     ));
-    if let Some(first) = campaign.fit().next() {
+    if let Some(first) = dataset.fit().next() {
         out.push((ExperimentKind::RepeatOfFirst, first.v.iter().copied().take(2 * n).collect()));
     }
     out

@@ -54,13 +54,13 @@
 //! | `records` | the rig's records in dimensionless form, what moved and what repeats |
 //! | `nominal` | the model without effects: identified, of an order chosen, border knots placed; or given |
 //! | `effects` | one effect a file: its laws, as additions to the model |
-//! | `model` | what is fitted: borders, an assembly of effects, a sensor's characteristic |
-//! | `likelihood` | rows, derivatives, weights and whitening of an assembly, and its maximum likelihood |
+//! | `model` | what is fitted: borders, an augmented model of effects, a sensor's characteristic |
+//! | `likelihood` | rows, derivatives, weights and whitening of an augmented model, and its maximum likelihood |
 //! | `least_squares` | the normal equations beneath |
-//! | `attribution` | effects looked at, fitted, composed: explanations, best first |
-//! | `residuals` | tests of what an explanation leaves: in general, by frequency, by parameter |
+//! | `attribution` | effects looked at, fitted, composed: candidates, best first |
+//! | `residuals` | tests of what an candidate leaves: in general, by frequency, by parameter |
 //! | `simulation` | free runs of what is fitted |
-//! | `verdict` | calibrated odds of the explanations, and what is told |
+//! | `verdict` | calibrated odds of the candidates, and what is reported |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
 //! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
 //! | `diagnose`, `diagnosis` | the order of all this, and its report |

@@ -9,7 +9,7 @@ use crate::verdict::fitted::Shares;
 pub struct Settings {
     /// The effects to consider.
     pub effects: Vec<Effect>,
-    /// Effects that are told as a cause though they belong to the model of such records: the colour of noise, where nobody designed these.
+    /// Effects that are reported as a cause though they belong to the model of such records: the colour of noise, where nobody designed these.
     pub asked: Vec<Effect>,
     /// Largest order tried where the rig declares none.
     pub max_order: usize,
@@ -48,8 +48,8 @@ impl Settings {
         !self.effects.contains(&effect)
     }
 
-    /// Whether details of the borders are a candidate: elsewhere no knots may follow them.
-    pub(crate) fn consider_details(&self) -> bool {
+    /// Whether refinements of the borders are a candidate: elsewhere no knots may follow them.
+    pub(crate) fn consider_refinement(&self) -> bool {
         self.effects.iter().any(|effect| effect.card().lies_in_the_grid)
     }
 }

@@ -4,13 +4,13 @@ use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
 use crate::likelihood::design::Design;
-use crate::model::assembly::{Assembly, convolve};
+use crate::model::augmented::{AugmentedModel, convolve};
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// A short free record with rests and reversals of many sizes, and a grid with a jump.
-pub(crate) fn small_campaign() -> (Campaign, Grid) {
+pub(crate) fn small_dataset() -> (Dataset, Grid) {
     let v: Vec<f64> = (0..240)
         .map(|t| {
             let t = if t % 40 > 33 { t - t % 40 + 33 } else { t } as f64;
@@ -33,8 +33,8 @@ pub(crate) fn small_campaign() -> (Campaign, Grid) {
             predicted: None,
         }],
     };
-    let campaign = Campaign::new(&rig).expect("a usable rig");
-    (campaign, Grid { knots: [vec![0.0, 0.4, 1.0], vec![0.0, 0.5, 0.5, 1.0]] })
+    let dataset = Dataset::new(&rig).expect("a usable rig");
+    (dataset, Grid { knots: [vec![0.0, 0.4, 1.0], vec![0.0, 0.5, 0.5, 1.0]] })
 }
 
 /// A model of second order on a grid.
@@ -45,25 +45,25 @@ pub(crate) fn small_model(grid: &Grid) -> Linear {
 
 /// The same input, the output that of a model without noise.
 pub(crate) fn noise_free(
-    mut campaign: Campaign,
+    mut dataset: Dataset,
     grid: &Grid,
-    assembly: &Assembly,
+    augmented: &AugmentedModel,
     truth: &Linear,
-) -> Campaign {
-    let design = Design::new(&campaign, grid, assembly, |t| t.is_fit());
-    let part = &design.tracks[0];
-    let u = design.input(part, &truth.f);
-    let (b, d) = (convolve(&truth.b, &design.taps), part.columns.coefficients(&truth.d));
+) -> Dataset {
+    let design = Design::new(&dataset, grid, augmented, |t| t.is_fit());
+    let effect_term = &design.scaled_records[0];
+    let u = design.input(effect_term, &truth.f);
+    let (b, d) = (convolve(&truth.b, &design.taps), effect_term.columns.coefficients(&truth.d));
     let mut y: Vec<f64> = Vec::with_capacity(u.len());
     for t in 0..u.len() {
         let past = |x: &[f64], lag: usize| if t > lag { x[t - 1 - lag] } else { 0.0 };
         let old: f64 = truth.a.iter().enumerate().map(|(i, a)| a * past(&y, i)).sum();
         let new: f64 = b.iter().enumerate().map(|(i, b)| b * past(&u, i)).sum();
-        let beside: f64 = d.iter().zip(part.columns.row(t)).map(|(d, psi)| d * psi).sum();
+        let beside: f64 = d.iter().zip(effect_term.columns.row(t)).map(|(d, psi)| d * psi).sum();
         y.push(new + beside - old);
     }
-    campaign.tracks[0].y = y.into();
-    campaign
+    dataset.scaled_records[0].y = y.into();
+    dataset
 }
 
 /// White noise of variance one, the same at every call.

@@ -25,8 +25,8 @@ fn a_good_rig_has_no_gap_whether_or_not_it_declares_its_order() {
         let diagnosis = found(&rig(order, whole()), Model::Identify);
         assert_eq!(diagnosis.verdict.status, Status::None, "{order:?}: {:?}", diagnosis.verdict);
         assert!((0.008..0.016).contains(&diagnosis.gap.noise_floor), "{:?}", diagnosis.gap);
-        let told = diagnosis.limitations.iter().any(|l| l.contains("declares no order"));
-        assert_eq!(told, order.is_none());
+        let reported = diagnosis.limitations.iter().any(|l| l.contains("declares no order"));
+        assert_eq!(reported, order.is_none());
     }
 }
 
@@ -63,13 +63,13 @@ fn a_constant_input_or_output_is_refused() {
 }
 
 #[test]
-fn a_held_out_record_whose_output_never_moves_is_told() {
+fn a_held_out_record_whose_output_never_moves_is_reported() {
     let v = input(1500, 1.0);
     let mut records = whole();
     records.push(record("dead", Usage::Holdout, v.clone(), vec![0.3; v.len()]));
     let diagnosis = found(&rig(Some(1), records), Model::Identify);
-    let told: Vec<&String> = diagnosis.limitations.iter().filter(|l| l.contains("never moves")).collect();
-    assert!(matches!(told[..], [told] if told.contains("`dead`")), "{told:?}");
+    let reported: Vec<&String> = diagnosis.limitations.iter().filter(|l| l.contains("never moves")).collect();
+    assert!(matches!(reported[..], [reported] if reported.contains("`dead`")), "{reported:?}");
 }
 
 #[test]

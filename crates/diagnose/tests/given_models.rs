@@ -73,7 +73,7 @@ fn worn() -> Vec<RigRecord> {
 }
 
 #[test]
-fn what_has_changed_is_told_on_top_of_the_given_model() {
+fn what_has_changed_is_reported_on_top_of_the_given_model() {
     let dynamics = |found: &Diagnosis| found.models.as_ref().expect("models").augmented.system().a;
     let by_table = found(&rig(None, worn()), Model::Given(raised(0.0)));
     assert_eq!(by_table.verdict.effects, [Effect::Backlash], "{:?}", by_table.verdict);

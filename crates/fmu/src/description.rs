@@ -20,7 +20,7 @@ pub struct Description {
     pub constants: Vec<Constant>,
 }
 
-/// A number that is told and never changes.
+/// A number that is reported and never changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
     /// A name with dots between its parts.
@@ -85,7 +85,7 @@ pub fn model_description(package: &Package, description: &Description) -> String
     let outside = "whether the input has left the working interval";
     variable(head("outside", references::OUTSIDE, outside, calculated), "<Boolean/>".to_owned());
     let border =
-        "where a run begins: 1 on the ascending border, -1 on the descending one, 0 as the first move tells";
+        "where a run begins: 1 on the ascending border, -1 on the descending one, 0 as the first move shows";
     variable(
         head(
             "border",
@@ -100,10 +100,10 @@ pub fn model_description(package: &Package, description: &Description) -> String
         head("output_delay", references::OUTPUT_DELAY, "samples by which y is late", constant),
         format!("<Integer start=\"{}\"/>", package.output_delay()),
     );
-    for (reference, told) in (references::CONSTANTS..).zip(constants) {
+    for (reference, reported) in (references::CONSTANTS..).zip(constants) {
         variable(
-            head(&told.name, reference, &told.says, constant),
-            format!("<Real start=\"{:?}\"{}/>", told.value, unit(&told.unit)),
+            head(&reported.name, reference, &reported.says, constant),
+            format!("<Real start=\"{:?}\"{}/>", reported.value, unit(&reported.unit)),
         );
     }
     text += "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n";

@@ -17,16 +17,16 @@ struct Living {
     instance: Instance,
     name: CString,
     callbacks: Callbacks,
-    tells_all: bool,
+    shows_all: bool,
 }
 
 impl Living {
-    fn tell(&self, status: Status, message: &str) {
-        tell(&self.callbacks, &self.name, (status, message));
+    fn describe(&self, status: Status, message: &str) {
+        describe(&self.callbacks, &self.name, (status, message));
     }
 }
 
-fn tell(callbacks: &Callbacks, name: &CStr, (status, message): (Status, &str)) {
+fn describe(callbacks: &Callbacks, name: &CStr, (status, message): (Status, &str)) {
     let Some(logger) = callbacks.logger else { return };
     // The message is a format, and some callers print it as it is.
     let message = CString::new(message.replace('%', "%%").replace('\0', " ")).unwrap_or_default();
@@ -46,14 +46,14 @@ fn text(pointer: *const c_char) -> String {
     unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
 }
 
-/// Does something to an instance; what is refused is told, and no panic leaves the library.
+/// Does something to an instance; what is refused is reported, and no panic leaves the library.
 fn on(component: Component, act: impl FnOnce(&mut Living) -> Result<(), Refusal>) -> Status {
     // SAFETY: the caller hands back what `fmi2Instantiate` gave it and has not freed.
     let Some(living) = (unsafe { component.cast::<Living>().as_mut() }) else { return Status::Error };
     match catch_unwind(AssertUnwindSafe(|| act(living))) {
         Ok(Ok(())) => Status::Ok,
         Ok(Err(refusal)) => {
-            living.tell(Status::Error, &refusal.to_string());
+            living.describe(Status::Error, &refusal.to_string());
             Status::Error
         }
         Err(_) => Status::Fatal,
@@ -103,7 +103,7 @@ extern "C" fn fmi2SetDebugLogging(
     _categories: *const *const c_char,
 ) -> Status {
     on(component, |living| {
-        living.tells_all = logging != 0;
+        living.shows_all = logging != 0;
         Ok(())
     })
 }
@@ -125,14 +125,14 @@ extern "C" fn fmi2Instantiate(
     let made = catch_unwind(|| instantiated(kind, &guid, &resources));
     match made.unwrap_or_else(|_| Err("the library failed".to_owned())) {
         Ok(instance) => {
-            let living = Living { instance, name, callbacks, tells_all: logging != 0 };
-            if living.tells_all {
-                living.tell(Status::Ok, "instantiated");
+            let living = Living { instance, name, callbacks, shows_all: logging != 0 };
+            if living.shows_all {
+                living.describe(Status::Ok, "instantiated");
             }
             Box::into_raw(Box::new(living)).cast()
         }
         Err(why) => {
-            tell(&callbacks, &name, (Status::Error, &why));
+            describe(&callbacks, &name, (Status::Error, &why));
             std::ptr::null_mut()
         }
     }

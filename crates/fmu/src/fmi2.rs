@@ -27,7 +27,7 @@ pub type ValueReference = c_uint;
 /// False is 0.
 pub type Boolean = c_int;
 
-/// Tells the caller's user what happened; `printf` with its arguments.
+/// Shows the caller's user what happened; `printf` with its arguments.
 pub type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
 
 /// What the caller lends.

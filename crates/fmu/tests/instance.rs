@@ -121,8 +121,8 @@ fn a_package_of_another_format_is_refused() {
     let text = package(1).json();
     assert_eq!(Package::from_json(&text).expect("what was written"), package(1));
     let other = text.replace(SCHEMA, "switchback/fmu/99");
-    let told = Package::from_json(&other).expect_err("another format").to_string();
-    assert!(told.contains("switchback/fmu/99") && told.contains(SCHEMA), "{told}");
+    let reported = Package::from_json(&other).expect_err("another format").to_string();
+    assert!(reported.contains("switchback/fmu/99") && reported.contains(SCHEMA), "{reported}");
     let bad = text.replace("\"sample_time\":0.1", "\"sample_time\":0.0");
     assert!(matches!(Package::from_json(&bad), Err(PackageError::SampleTime(_))));
     assert!(Package::from_json("{").is_err());

@@ -44,13 +44,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("a{} = {:.5} ± {:.5} (truth {truth})", k + 1, a.value, 1.96 * a.se);
     }
     let estimate = fit.estimate(&experiments);
-    let told = |point: &BorderPoint| {
+    let reported = |point: &BorderPoint| {
         let [force, se] = [point.f, point.se].map(|x| estimate.gain * x);
         format!("{:6.1} mm: {force:8.3} ± {:.3} kN", point.v, 1.96 * se)
     };
     println!("while the input falls         while it rises");
     for (falling, rising) in estimate.descending.iter().zip(&estimate.ascending) {
-        println!("{}   {}", told(falling), told(rising));
+        println!("{}   {}", reported(falling), reported(rising));
     }
     Ok(())
 }

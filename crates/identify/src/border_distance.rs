@@ -25,7 +25,7 @@ impl BorderGap {
 /// How far two borders lie apart, seen against their errors.
 ///
 /// ```text
-/// z_j = (|F̂_a(v_j) − F̂_d(v_j)| − i_j) / se_j,   told apart at v_j if z_j > Φ⁻¹(1 − 0.025/K),   j = 1…K
+/// z_j = (|F̂_a(v_j) − F̂_d(v_j)| − i_j) / se_j,   distinguished at v_j if z_j > Φ⁻¹(1 − 0.025/K),   j = 1…K
 /// ```
 ///
 /// `i_j` is what straight lines between the points of a curved border may be off by. With `K` places looked at, the limit for each is that of Bonferroni, so that a machine with one curve is seen to have two at some place in at
@@ -40,8 +40,8 @@ pub struct BorderDistance {
     pub limit: f64,
     /// Places looked at.
     pub places: usize,
-    /// Share of the stroke between the outermost places over which the borders are told apart, from 0 to 1: pieces whose ends both are.
-    pub told_apart: f64,
+    /// Share of the stroke between the outermost places over which the borders are distinguished, from 0 to 1: pieces whose ends both are.
+    pub distinguished: f64,
 }
 
 /// Two-sided level of the joint test.
@@ -59,14 +59,14 @@ impl BorderDistance {
         let apart = gaps.windows(2).filter(|pair| pair.iter().all(|gap| gap.z() > limit));
         // An empty sum is −0.
         let apart: f64 = 0.0 + apart.map(|pair| pair[1].v - pair[0].v).sum::<f64>();
-        let told_apart = match stroke > 0.0 {
+        let distinguished = match stroke > 0.0 {
             true => apart / stroke,
             false => f64::from(u8::from(clearest.z() > limit)),
         };
-        Some(Self { clearest, z: clearest.z(), limit, places: gaps.len(), told_apart })
+        Some(Self { clearest, z: clearest.z(), limit, places: gaps.len(), distinguished })
     }
 
-    /// Whether no place tells the borders apart.
+    /// Whether no place shows the borders apart.
     pub fn has_vanished(&self) -> bool {
         self.z <= self.limit
     }
@@ -92,17 +92,17 @@ mod tests {
     }
 
     #[test]
-    fn the_share_told_apart_is_that_of_the_stroke() {
+    fn the_share_distinguished_is_that_of_the_stroke() {
         let found =
             BorderDistance::of(&[gap(0.0, 0.0), gap(1.0, 0.5), gap(3.0, 0.6), gap(4.0, 0.1)]).unwrap();
-        assert!((found.told_apart - 0.5).abs() < 1e-12 && !found.has_vanished());
+        assert!((found.distinguished - 0.5).abs() < 1e-12 && !found.has_vanished());
         assert_eq!(found.clearest.v, 3.0);
         let found = BorderDistance::of(&[gap(0.0, 0.1), gap(1.0, -0.2)]).unwrap();
-        assert!(found.told_apart == 0.0 && found.has_vanished());
+        assert!(found.distinguished == 0.0 && found.has_vanished());
     }
 
     #[test]
-    fn what_interpolation_explains_tells_nothing_apart() {
+    fn what_interpolation_explains_shows_nothing_apart() {
         let curved = BorderGap { interpolation: 0.4, ..gap(0.0, -0.5) };
         let found = BorderDistance::of(&[curved]).unwrap();
         assert!((found.z - 1.0).abs() < 1e-12 && found.has_vanished());

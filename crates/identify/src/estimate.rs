@@ -85,9 +85,9 @@ impl Estimate {
         named('b', 1 + self.delay.min(0), &self.b, &self.b_se)
     }
 
-    /// Of `A` and of `B`, the largest coefficient that carries its polynomial though it is not told from zero, with the polynomial at 1.
+    /// Of `A` and of `B`, the largest coefficient that carries its polynomial though it is not distinguished from zero, with the polynomial at 1.
     ///
-    /// A coefficient carries it if it is larger than `A(1)` or `B(1)`, all that remains when the coefficients are added up. It is not told from
+    /// A coefficient carries it if it is larger than `A(1)` or `B(1)`, all that remains when the coefficients are added up. It is not distinguished from
     /// zero within its joint 95 % interval (Bonferroni over the polynomial's coefficients).
     pub fn hollow_coefficients(&self) -> impl Iterator<Item = (Coefficient, f64)> {
         let sum = |values: &[f64]| values.iter().sum::<f64>();
@@ -105,7 +105,7 @@ impl Estimate {
 
     /// How far the borders lie apart where both have a point, from the points' own errors.
     ///
-    /// Errors that both borders share are counted twice, so that the borders are told apart rather too seldom.
+    /// Errors that both borders share are counted twice, so that the borders are distinguished rather too seldom.
     pub fn distance_at_common_points(&self) -> Option<BorderDistance> {
         let gaps = self.ascending.iter().filter_map(|up| {
             let down = self.descending.iter().find(|down| down.v == up.v)?;

@@ -24,7 +24,7 @@
 //! let settings = Settings { order: Some(1), delay: Some(0), knots: Some(5), ..Settings::new(InputMap::Borders) };
 //! let found = identify(&[&record], &settings)?;
 //! assert!((found.estimate.a[0] + 0.6).abs() < 0.01);
-//! // Borders are told in units of u_M − u_m; `gain` restores the output's. The loop is one unit wide.
+//! // Borders are reported in units of u_M − u_m; `gain` restores the output's. The loop is one unit wide.
 //! let (rising, falling) = (&found.estimate.ascending[2], &found.estimate.descending[2]);
 //! assert!((found.estimate.gain * (rising.f - falling.f) - 1.0).abs() < 0.1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

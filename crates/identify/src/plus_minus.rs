@@ -80,26 +80,26 @@ fn written(x: f64, last: i32, exponent: i32) -> String {
 mod tests {
     use super::*;
 
-    fn told(value: f64, half: f64) -> String {
+    fn reported(value: f64, half: f64) -> String {
         PlusMinus::new(value, half).to_string()
     }
 
     #[test]
     fn the_second_digit_of_the_half_width_is_the_last_of_both() {
-        assert_eq!(told(0.781_004, 0.000_62), "0.78100 ± 0.00062");
-        assert_eq!(told(-3.4, 12.3), "-3 ± 12");
-        assert_eq!(told(123_456.0, 789.0), "123460 ± 790");
-        assert_eq!(told(0.000_1, 0.16), "0.00 ± 0.16");
-        assert_eq!(told(-0.000_1, 0.16), "0.00 ± 0.16");
-        assert_eq!(told(9.96, 0.099_7), "9.96 ± 0.10");
-        assert_eq!(told(3.2e8, 1.1e7), "3.20e8 ± 0.11e8");
+        assert_eq!(reported(0.781_004, 0.000_62), "0.78100 ± 0.00062");
+        assert_eq!(reported(-3.4, 12.3), "-3 ± 12");
+        assert_eq!(reported(123_456.0, 789.0), "123460 ± 790");
+        assert_eq!(reported(0.000_1, 0.16), "0.00 ± 0.16");
+        assert_eq!(reported(-0.000_1, 0.16), "0.00 ± 0.16");
+        assert_eq!(reported(9.96, 0.099_7), "9.96 ± 0.10");
+        assert_eq!(reported(3.2e8, 1.1e7), "3.20e8 ± 0.11e8");
     }
 
     #[test]
     fn a_number_without_an_error_has_five_digits() {
-        assert_eq!(told(46.345_1, f64::NAN), "46.345 ± –");
-        assert_eq!(told(0.0, f64::INFINITY), "0.0000 ± –");
-        assert_eq!(told(f64::NAN, 1.0), "– ± –");
-        assert_eq!(told(1.0, 0.0), "1.0000 ± 0");
+        assert_eq!(reported(46.345_1, f64::NAN), "46.345 ± –");
+        assert_eq!(reported(0.0, f64::INFINITY), "0.0000 ± –");
+        assert_eq!(reported(f64::NAN, 1.0), "– ± –");
+        assert_eq!(reported(1.0, 0.0), "1.0000 ± 0");
     }
 }

@@ -1,7 +1,7 @@
 //! All tests of the estimators in one binary: linked once, and run side by side.
 
-mod campaign;
 mod control_mean;
+mod dataset;
 mod doubts;
 mod excitation;
 mod finite_sample;

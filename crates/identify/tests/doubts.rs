@@ -1,4 +1,4 @@
-//! Every reservation about a fit: a record made so that it must be told, and one where it must not.
+//! Every reservation about a fit: a record made so that it must be reported, and one where it must not.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -95,12 +95,12 @@ fn lines_between_few_knots_do_not_make_a_loop_of_one_curve() {
 }
 
 #[test]
-fn the_share_of_the_stroke_that_is_told_apart_is_that_of_the_loop() {
+fn the_share_of_the_stroke_that_is_distinguished_is_that_of_the_loop() {
     /// Two borders that part at the middle of the stroke.
     const HALF: Pair = Pair(|v| v.min(0.0), |v| v.min(0.0) + 0.6 * v.max(0.0));
     let record = measured(HALF, &A, &B, random_levels(3, 4000), 0.02);
     let distance = identify(&[&record], &known(2, 0, 9)).unwrap().distance.unwrap();
-    assert!(distance.told_apart > 0.3 && distance.told_apart < 0.6, "{distance:?}");
+    assert!(distance.distinguished > 0.3 && distance.distinguished < 0.6, "{distance:?}");
     assert!(distance.clearest.v > 0.0 && distance.clearest.difference.abs() > 0.1);
 }
 
@@ -118,18 +118,18 @@ fn an_order_too_high_is_ill_conditioned_and_its_coefficients_are_hollow() {
 
 #[test]
 fn a_numerator_that_cancels_leaves_no_gain_and_an_integrator_no_bounds() {
-    let told = |a: &[f64], b: &[f64]| {
+    let reported = |a: &[f64], b: &[f64]| {
         let record = measured(SPRING, a, b, random_levels(5, 1500), 0.1);
         let found = identify(&[&record], &known(a.len(), 0, 2)).unwrap();
         let polynomial = |w: &Warning| match w {
-            Warning::GainNotTold { polynomial, .. } => Some(*polynomial),
+            Warning::GainNotReported { polynomial, .. } => Some(*polynomial),
             _ => None,
         };
         found.warnings.iter().filter_map(polynomial).collect::<String>()
     };
-    assert_eq!(told(&A, &[0.8, -0.8]), "B");
-    assert_eq!(told(&[-0.9999], &[0.5]), "A");
-    assert_eq!(told(&A, &B), "");
+    assert_eq!(reported(&A, &[0.8, -0.8]), "B");
+    assert_eq!(reported(&[-0.9999], &[0.5]), "A");
+    assert_eq!(reported(&A, &B), "");
 }
 
 /// The same machine, whose output answers `samples` before the input shows.
@@ -139,7 +139,7 @@ fn ahead(record: &Record, samples: usize) -> Record {
 }
 
 #[test]
-fn a_look_ahead_that_is_not_there_is_told_and_one_that_is_there_is_not_doubted() {
+fn a_look_ahead_that_is_not_there_is_reported_and_one_that_is_there_is_not_doubted() {
     let record = measured(SPRING, &A, &B, random_levels(6, 2000), 0.02);
     let found = kinds(&record, known(2, -2, 2));
     assert!(found.contains(&"look_ahead_not_told") && found.contains(&"looks_ahead"), "{found:?}");

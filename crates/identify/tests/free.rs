@@ -1,5 +1,5 @@
 //! Identification from any record, on rigs simulated here and on measured ones.
-#![allow(clippy::disallowed_macros, reason = "a test tells what it measured, or that it was skipped")]
+#![allow(clippy::disallowed_macros, reason = "a test shows what it measured, or that it was skipped")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

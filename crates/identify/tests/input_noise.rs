@@ -1,5 +1,5 @@
 //! What noise on the input is said to do to an estimate, against what it does.
-#![allow(clippy::disallowed_macros, reason = "a test tells what it measured")]
+#![allow(clippy::disallowed_macros, reason = "a test shows what it measured")]
 
 use switchback_identify::free::*;
 use switchback_identify::{BorderPoint, Estimate};
@@ -92,7 +92,7 @@ impl Case {
         white_samples(StreamId { seed: 77, experiment, replicate: draw }, SAMPLES)
     }
 
-    /// The output of a machine that turns when its input does, `timing` telling whether at samples.
+    /// The output of a machine that turns when its input does, `timing` reporting whether at samples.
     fn output(self) -> Vec<f64> {
         let knots: Vec<f64> = (0..=200).map(|k| -1.1 + 0.011 * f64::from(k)).collect();
         let Pair(down, up) = self.borders;
@@ -155,7 +155,7 @@ fn means(draws: &[Vec<f64>]) -> Vec<f64> {
 }
 
 #[test]
-#[ignore = "takes minutes: prints the table of shifts foretold and found"]
+#[ignore = "takes minutes: prints the table of shifts predicted and found"]
 fn table_of_shifts() {
     let draws = 8;
     let cases = [
@@ -181,26 +181,26 @@ fn table_of_shifts() {
             (0..draws).map(|d| values(case, &clean.identified(d).estimate).0).collect();
         let with: Vec<Vec<f64>> = found.iter().map(|f| values(case, &f.estimate).0).collect();
         let se = means(&found.iter().map(|f| values(case, &f.estimate).1).collect::<Vec<_>>());
-        let told: Vec<InputNoise> = found.iter().filter_map(|f| f.input_noise).collect();
+        let reported: Vec<InputNoise> = found.iter().filter_map(|f| f.input_noise).collect();
         let warned = found.iter().filter(|f| is_warned(f)).count();
         let differences: Vec<Vec<f64>> =
             with.iter().zip(&without).map(|(x, z)| x.iter().zip(z).map(|(x, z)| x - z).collect()).collect();
         let shift = means(&differences);
         let (moved, largest) = largest(&shift, &se);
         let scatter = differences.iter().map(|d| (d[moved] - shift[moved]).powi(2)).sum::<f64>();
-        let mut foretold: Vec<f64> = told.iter().map(|n| n.largest_shift).collect();
-        foretold.sort_by(f64::total_cmp);
-        let median = foretold.get(foretold.len() / 2).copied().unwrap_or(0.0);
+        let mut forecast: Vec<f64> = reported.iter().map(|n| n.largest_shift).collect();
+        forecast.sort_by(f64::total_cmp);
+        let median = forecast.get(forecast.len() / 2).copied().unwrap_or(0.0);
         println!(
-            "{:16} {:?} sd {} colour {}: found {}, warned {warned} of {draws}; true {largest:.2} ± {:.2}, foretold {median:.2} ({:.2} to {:.2}), ratio {:.2}",
+            "{:16} {:?} sd {} colour {}: found {}, warned {warned} of {draws}; true {largest:.2} ± {:.2}, predicted {median:.2} ({:.2} to {:.2}), ratio {:.2}",
             case.name,
             case.timing,
             case.input_sd,
             case.colour,
-            told.len(),
+            reported.len(),
             scatter.sqrt() / f64::from(draws) / se[moved],
-            foretold.first().unwrap_or(&0.0),
-            foretold.last().unwrap_or(&0.0),
+            forecast.first().unwrap_or(&0.0),
+            forecast.last().unwrap_or(&0.0),
             median / largest
         );
     }
@@ -227,7 +227,7 @@ fn clean_inputs_are_not_warned_of() {
 }
 
 #[test]
-fn the_largest_shift_is_foretold_within_a_factor_of_two_and_warned_of() {
+fn the_largest_shift_is_forecast_within_a_factor_of_two_and_warned_of() {
     let case = Case { input_sd: 0.005, ..BASE };
     let clean = Case { input_sd: 0.0, ..case };
     let draws = 0..8;
@@ -237,9 +237,9 @@ fn the_largest_shift_is_foretold_within_a_factor_of_two_and_warned_of() {
     let se = means(&found.iter().map(|f| values(case, &f.estimate).1).collect::<Vec<_>>());
     let shift: Vec<f64> = means(&with).iter().zip(means(&without)).map(|(x, z)| x - z).collect();
     let (_, truth) = largest(&shift, &se);
-    let foretold = mean(&found.iter().map(|f| f.input_noise.unwrap().largest_shift).collect::<Vec<_>>());
+    let forecast = mean(&found.iter().map(|f| f.input_noise.unwrap().largest_shift).collect::<Vec<_>>());
     assert!(truth > 1.0, "the case is too easy: {truth}");
-    assert!(foretold > 0.5 * truth && foretold < 2.0 * truth, "{foretold} foretold, {truth} true");
+    assert!(forecast > 0.5 * truth && forecast < 2.0 * truth, "{forecast} predicted, {truth} true");
     assert!(found.iter().filter(|f| is_warned(f)).count() >= 6);
 }
 

@@ -46,7 +46,7 @@ fn measured(seed: u64) -> (Vec<f64>, Vec<f64>) {
 
 fn identified(v: &[f64], y: &[f64], map: InputMap) -> Identified {
     let record = Record::new(v.to_vec(), y.to_vec()).unwrap();
-    // What is nearly open, as coefficients that look ahead are here, is told to fewer digits.
+    // What is nearly open, as coefficients that look ahead are here, is reported to fewer digits.
     let settings = Settings { order: Some(2), delay: Some(0), ..Settings::new(map) };
     identify(&[&record], &settings).unwrap()
 }

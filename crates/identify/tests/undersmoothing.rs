@@ -157,7 +157,7 @@ fn an_interval_beside_a_jump_spans_both_sides() {
 }
 
 #[test]
-fn identification_tells_intervals_that_hold_borders_that_bend() {
+fn identification_shows_intervals_that_hold_borders_that_bend() {
     let rig = Rig::new(waves(), 4000);
     let mut errors = Vec::new();
     for seed in 0..8 {

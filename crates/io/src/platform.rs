@@ -7,7 +7,7 @@ use std::hint::black_box;
 /// Processor, system, and a hash of what the mathematical library gives: `x86_64-linux 1f3a…`.
 ///
 /// The C library's functions differ in the last digit from one version to the next. Sums that were kept on one platform are therefore
-/// not gone on with on another.
+/// not continued on another.
 pub fn platform() -> String {
     format!("{} {}", target(), &mathematics()[..16])
 }

@@ -4,7 +4,7 @@ use switchback_identify::free::Progress;
 
 /// Receives the stages of a computation besides the pieces of work of each.
 ///
-/// It may stop the work by unwinding with [`std::panic::resume_unwind`]: the caller catches that, and pieces under way end first.
+/// It may stop the work by unwinding with [`std::panic::resume_unwind`]: the caller catches that, and pieces running end first.
 pub trait Stages: Progress {
     /// A stage of this name begins.
     fn begin(&self, stage: &'static str);

@@ -20,7 +20,7 @@ pub struct Build {
     pub lock: &'static str,
 }
 
-/// A run that is under way.
+/// A run that is running.
 #[derive(Debug)]
 pub struct Provenance {
     begun: Instant,

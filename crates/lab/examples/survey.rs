@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_macros, reason = "an example prints")]
 
-use switchback_lab::generate::{EFFECTS, FOREIGN, Ingredient, MakeError, MakeRig, laws_of};
+use switchback_lab::generate::{EFFECTS, FOREIGN, MakeError, MakeRig, RequestedFault, laws_of};
 
 fn main() -> Result<(), MakeError> {
     for effect in EFFECTS.iter().chain(&FOREIGN) {
@@ -12,7 +12,7 @@ fn main() -> Result<(), MakeError> {
                 let (mut least, mut most, mut magnitudes) = (f64::INFINITY, 0.0_f64, Vec::new());
                 for seed in 0..6 {
                     let made =
-                        MakeRig::new(100 + seed).with(Ingredient::with_law(effect, law, size)?).make()?;
+                        MakeRig::new(100 + seed).with(RequestedFault::with_law(effect, law, size)?).make()?;
                     let truth = &made.key.effects[0];
                     (least, most) = (least.min(truth.size), most.max(truth.size));
                     magnitudes.push(truth.magnitude);

@@ -1,6 +1,6 @@
 //! Rigs of the laboratory stay the same to the bit: committed reports and keys are of these.
 
-use switchback_lab::generate::{Ingredient, MadeRig, MakeRig, Plan};
+use switchback_lab::generate::{MadeRig, MakeRig, Plan, RequestedFault};
 
 /// FNV-1a over the bits of all samples (G. Fowler, L. C. Noll, K.-P. Vo).
 fn fingerprint(made: &MadeRig) -> u64 {
@@ -17,7 +17,7 @@ fn of_a_seed_and_its_effects_the_samples_are_those_that_always_were() {
     let plan = Plan { step: 300, periods: 30, sweep: 1500, drive: 600, repeat_periods: 5 };
     let made = |seed: u64, effects: &[(&str, usize)]| {
         let recipe = effects.iter().fold(MakeRig::new(seed).plan(plan), |recipe, (effect, law)| {
-            recipe.with(Ingredient::with_law(effect, *law, 2.0).expect("an effect"))
+            recipe.with(RequestedFault::with_law(effect, *law, 2.0).expect("an effect"))
         });
         format!("{:016x}", fingerprint(&recipe.make().expect("a rig")))
     };

@@ -1,7 +1,7 @@
 //! What a made rig promises, over all effects and laws.
 
 use switchback_lab::generate::{
-    EFFECTS, FOREIGN, Ingredient, MadeRig, MakeError, MakeRig, Nature, Plan, laws_of,
+    EFFECTS, FOREIGN, MadeRig, MakeError, MakeRig, Nature, Plan, RequestedFault, laws_of,
 };
 use switchback_model::rig::Usage;
 
@@ -17,8 +17,8 @@ fn each_law() -> impl Iterator<Item = (&'static str, usize)> {
 }
 
 fn make(effect: &str, law: usize, size: f64, seed: u64) -> MadeRig {
-    let ingredient = Ingredient::with_law(effect, law, size).unwrap();
-    MakeRig::new(seed).plan(short()).with(ingredient).make().unwrap()
+    let requested_fault = RequestedFault::with_law(effect, law, size).unwrap();
+    MakeRig::new(seed).plan(short()).with(requested_fault).make().unwrap()
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn the_same_recipe_gives_the_same_rig_and_another_seed_another() {
 #[test]
 fn a_rig_made_again_from_its_key_is_the_same_to_the_bit() {
     for effect in ["backlash", "outliers", "border_wear"] {
-        let recipe = MakeRig::new(9).plan(short()).with(Ingredient::with_law(effect, 1, 4.0).unwrap());
+        let recipe = MakeRig::new(9).plan(short()).with(RequestedFault::with_law(effect, 1, 4.0).unwrap());
         let made = recipe.make().unwrap();
         let again = recipe.again(&made.key).unwrap();
         assert_eq!((&made.rig, &made.key, &made.truth), (&again.rig, &again.key, &again.truth));
@@ -109,7 +109,7 @@ fn surviving_energy_is_the_size() {
 
 #[test]
 fn impossible_recipes_say_what_is_wrong() {
-    assert!(matches!(Ingredient::plain("blacklash", 1.0), Err(MakeError::UnknownEffect { .. })));
-    assert!(matches!(Ingredient::plain("backlash", -1.0), Err(MakeError::Size(_))));
-    assert!(matches!(Ingredient::with_law("creep", 9, 1.0), Err(MakeError::UnknownLaw { laws: 3, .. })));
+    assert!(matches!(RequestedFault::plain("blacklash", 1.0), Err(MakeError::UnknownEffect { .. })));
+    assert!(matches!(RequestedFault::plain("backlash", -1.0), Err(MakeError::Size(_))));
+    assert!(matches!(RequestedFault::with_law("creep", 9, 1.0), Err(MakeError::UnknownLaw { laws: 3, .. })));
 }

@@ -1,4 +1,4 @@
-//! A rig: the records of one measuring campaign and what is known about them.
+//! A rig: the records of one measuring dataset and what is known about them.
 
 use crate::hysteresis::Interval;
 use crate::record::Record;
@@ -65,7 +65,7 @@ pub struct RigRecord {
     pub predicted: Option<Vec<f64>>,
 }
 
-/// A campaign of records taken from one rig.
+/// A dataset of records taken from one rig.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rig {
     /// The rig's name.

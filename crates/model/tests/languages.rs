@@ -180,10 +180,10 @@ fn heading(name: &str) -> Heading {
     }
 }
 
-/// The run here, from the border that the input's first move tells.
+/// The run here, from the border that the input's first move shows.
 fn here(model: &Model, v: &[f64]) -> (f64, Vec<f64>) {
     let machine = Machine::new(Arc::new(model.program())).expect("a whole program");
-    let falls = machine.told().is_some() && v.iter().find(|x| **x != v[0]).is_some_and(|x| *x < v[0]);
+    let falls = machine.reported().is_some() && v.iter().find(|x| **x != v[0]).is_some_and(|x| *x < v[0]);
     let branch = if falls { -1.0 } else { 0.0 };
     let mut run = Run::start(&machine, v[0], branch);
     (branch, v.iter().map(|v| run.step(*v)).collect())
@@ -216,8 +216,8 @@ fn output(command: &mut Command, stdin: &str) -> String {
         .expect("it starts");
     child.stdin.take().expect("piped").write_all(stdin.as_bytes()).expect("it reads");
     let output = child.wait_with_output().expect("it ends");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success() && told.is_empty(), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && reported.is_empty(), "{reported}");
     String::from_utf8(output.stdout).expect("text")
 }
 

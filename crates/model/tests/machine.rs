@@ -48,7 +48,7 @@ fn the_paper_s_operator_by_hand() {
 fn a_first_fall_shows_the_run_that_began_on_the_descending_border() {
     let v = [0.6, 0.6, 0.2, 0.2];
     assert_near(&run(&first_move(), &v, -1.0), &[0.6, 0.6, 0.6, 0.2]);
-    // Until it is told, the ascending border is shown.
+    // Until it is reported, the ascending border is shown.
     assert_near(&run(&first_move(), &v, 0.0), &[1.1, 1.1, 0.6, 0.2]);
 }
 

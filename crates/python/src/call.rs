@@ -1,7 +1,7 @@
 //! One call from Python.
 //!
 //! The work runs in a thread of its own, without the interpreter's lock; the thread that called waits, asks the interpreter for signals, and
-//! tells how far the work has come. Ctrl-C raises `KeyboardInterrupt` there at once; the work gives up as soon as its next piece is done. Each
+//! shows how far the work has come. Ctrl-C raises `KeyboardInterrupt` there at once; the work gives up as soon as its next piece is done. Each
 //! call has its own flag, so that one that was stopped leaves nothing behind.
 
 use crate::refusal::Refusal;
@@ -19,7 +19,7 @@ use switchback_identify::free;
 use switchback_io::progress::Stages;
 use switchback_study::consistency::{Keeper, Progress, Snapshot};
 
-/// How often signals are looked for, and how far the work has come is told.
+/// How often signals are looked for, and how far the work has come is reported.
 const MOMENT: Duration = Duration::from_millis(50);
 
 /// As much as the main thread of a program has.
@@ -51,16 +51,16 @@ impl Call {
         work: impl FnOnce(Arc<Self>) -> Result<R, Refusal> + Send + 'static,
     ) -> PyResult<R> {
         let call = Arc::new(Self::default());
-        let (tell, told) = channel();
+        let (describe, reported) = channel();
         let theirs = Arc::clone(&call);
         let working = move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(theirs)));
             // Nobody listens any more to work that was given up.
-            let _ = tell.send(ended);
+            let _ = describe.send(ended);
         };
         thread::Builder::new().name("switchback".to_owned()).stack_size(STACK).spawn(working)?;
-        let told = Mutex::new(told);
-        let wait = || told.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(MOMENT);
+        let reported = Mutex::new(reported);
+        let wait = || reported.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(MOMENT);
         loop {
             match py.detach(wait) {
                 Ok(Ok(result)) => return Ok(result?),
@@ -144,7 +144,7 @@ impl Keeper for Stoppable {
     }
 }
 
-/// Diagnoses that are counted: the call gives up after the one under way.
+/// Diagnoses that are counted: the call gives up after the one running.
 impl Progress for Stoppable {
     fn planned(&self, pieces: u64) {
         self.0.planned(pieces);

@@ -4,7 +4,7 @@
 //!
 //! | file | what it is for |
 //! |---|---|
-//! | `call` | one call from Python: a thread that computes, signals that stop it, what is told meanwhile |
+//! | `call` | one call from Python: a thread that computes, signals that stop it, what is reported meanwhile |
 //! | `records` | a rig in memory, however it was read |
 //! | `answer` | what a verb found: JSON, words, files |
 //! | `verbs` | the verbs |

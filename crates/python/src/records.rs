@@ -14,7 +14,7 @@ use switchback::cli;
 use switchback::cmd::data_args::DataArgs;
 use switchback::options::Quiet;
 use switchback_io::rig::{
-    self, Cells, ColumnNames, Frame, Loaded, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
+    self, Cells, ColumnNames, Frame, InputForm, Loaded, Plan, PlannedRecord, RigError, RigProblem, Sampling,
 };
 use switchback_model::Record;
 use switchback_model::hysteresis::Interval;
@@ -32,8 +32,8 @@ pub(crate) struct Records {
 pub(crate) struct About {
     /// What messages call all of it.
     pub(crate) place: PathBuf,
-    /// What was inferred, as the command line tells it.
-    told: String,
+    /// What was inferred, as the command line shows it.
+    reported: String,
     /// Values that cannot have been measured.
     pub(crate) warnings: Vec<String>,
     /// The rig file that says so.
@@ -187,10 +187,10 @@ impl Records {
         Ok(Self { rig: Arc::new(rig), about: self.about.clone() })
     }
 
-    /// What was inferred, as the command line tells it.
+    /// What was inferred, as the command line shows it.
     #[getter]
-    fn told(&self) -> &str {
-        &self.about.told
+    fn reported(&self) -> &str {
+        &self.about.reported
     }
 
     /// Values that cannot have been measured.
@@ -223,8 +223,9 @@ impl Records {
 impl Records {
     fn of(loaded: Loaded, place: PathBuf, inputs: Vec<PathBuf>) -> Self {
         let manifest = rig::manifest(&loaded, None);
-        let Loaded { rig, told, .. } = loaded;
-        let about = About { place, told: told.to_string(), warnings: told.warnings, manifest, inputs };
+        let Loaded { rig, reported, .. } = loaded;
+        let about =
+            About { place, reported: reported.to_string(), warnings: reported.warnings, manifest, inputs };
         Self { rig: Arc::new(rig), about }
     }
 
@@ -317,6 +318,6 @@ fn plan(described: &Described) -> Result<Plan, RigError> {
         input_label: None,
         output_label: None,
         records: described.records.iter().map(record).collect::<Result<_, RigError>>()?,
-        voice: Voice::Arguments,
+        input_form: InputForm::Arguments,
     })
 }

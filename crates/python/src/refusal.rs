@@ -27,10 +27,10 @@ impl<E: Into<miette::Report>> From<E> for Refusal {
 impl Refusal {
     /// What the command line says to words that it does not understand.
     pub(crate) fn of_words(error: &clap::Error) -> Self {
-        let told = error.render().to_string();
-        // What follows tells how to ask a command line for help.
-        let told = told.split("\n\nUsage:").next().unwrap_or_default();
-        Self(without_heading(told.split("\n\nFor more information").next().unwrap_or_default()))
+        let reported = error.render().to_string();
+        // What follows shows how to ask a command line for help.
+        let reported = reported.split("\n\nUsage:").next().unwrap_or_default();
+        Self(without_heading(reported.split("\n\nFor more information").next().unwrap_or_default()))
     }
 }
 

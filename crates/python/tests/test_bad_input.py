@@ -45,8 +45,8 @@ def test_what_is_no_column(v: np.ndarray, y: np.ndarray) -> None:
     refused("has 3 rows, but `v` has 600", sb.Rig.from_frame, {"v": v, "y": y[:3]}, sample_time=0.01)
     refused("`v` has the shape (600, 1)", sb.Rig.from_frame, {"v": v[:, None], "y": y}, sample_time=0.01)
     refused("`v` holds complex", sb.Rig.from_frame, {"v": v + 1j, "y": y}, sample_time=0.01)
-    told = refused("there is no column `w`; the columns are", sb.Rig.from_frame, {"v": v, "y": y}, input="w", sample_time=0.01)
-    assert told.startswith("frame: ")
+    reported = refused("there is no column `w`; the columns are", sb.Rig.from_frame, {"v": v, "y": y}, input="w", sample_time=0.01)
+    assert reported.startswith("frame: ")
     refused("there is no column `run`", sb.Rig.from_frame, {"v": v, "y": y}, record="run")
     refused("there is no column `z`", sb.Rig.from_frame, {"v": v, "y": y}, y_sim="z")
     pandas = pytest.importorskip("pandas")
@@ -57,14 +57,14 @@ def test_what_is_no_column(v: np.ndarray, y: np.ndarray) -> None:
 
 
 def test_which_column_is_what_must_be_clear(v: np.ndarray, y: np.ndarray) -> None:
-    told = refused("cannot be told", sb.Rig.from_frame, {"alpha": v, "beta": y, "gamma": y + 1}, sample_time=0.01)
-    assert 'input="' in told and "--input" not in told
+    reported = refused("cannot be reported", sb.Rig.from_frame, {"alpha": v, "beta": y, "gamma": y + 1}, sample_time=0.01)
+    assert 'input="' in reported and "--input" not in reported
 
 
 def test_numbers_that_are_none(v: np.ndarray, y: np.ndarray) -> None:
     y[[3, 7]] = np.inf
-    told = refused("frame, row 4: column `y`: `inf` is not finite", sb.Rig.from_frame, {"v": v, "y": y}, sample_time=0.01)
-    assert "row 8" in told
+    reported = refused("frame, row 4: column `y`: `inf` is not finite", sb.Rig.from_frame, {"v": v, "y": y}, sample_time=0.01)
+    assert "row 8" in reported
     words = v.astype(object)
     words[4] = "stuck"
     refused("frame, row 5: column `v`: `stuck` is not a number", sb.Rig.from_frame, {"v": words, "y": v}, sample_time=0.01)
@@ -77,7 +77,7 @@ def test_what_is_missing_splits_the_record_and_is_told(v: np.ndarray, y: np.ndar
     y[300:310] = np.nan
     rig = sb.Rig.from_frame({"v": v, "y": y}, sample_time=0.01)
     assert sum(len(record) for record in rig.records) == 590
-    assert "a dropout at frame, row 301 splits the record in two" in rig.told
+    assert "a dropout at frame, row 301 splits the record in two" in rig.reported
 
 
 @pytest.mark.parametrize("kind", ["object", "pandas", "polars", "masked", "float32", "text"])
@@ -124,15 +124,15 @@ def test_times_in_other_dress(kind: str, v: np.ndarray, y: np.ndarray) -> None:
 def test_times_that_cannot_be(v: np.ndarray, y: np.ndarray) -> None:
     t = 0.01 * np.arange(600)
     uneven = t + 0.004 * np.random.default_rng(0).uniform(-1, 1, 600)
-    told = refused("uneven sampling", sb.Rig.from_frame, {"t": uneven, "v": v, "y": y})
-    assert "resample=True" in told and "--" not in told
+    reported = refused("uneven sampling", sb.Rig.from_frame, {"t": uneven, "v": v, "y": y})
+    assert "resample=True" in reported and "--" not in reported
     assert sb.Rig.from_frame({"t": uneven, "v": v, "y": y}, resample=True).sample_time == pytest.approx(0.01, rel=1e-2)
     assert sb.Rig.from_frame({"t": uneven, "v": v, "y": y}, time="none", sample_time=0.01).sample_time == 0.01
     refused("does not lie after", sb.Rig.from_frame, {"t": t[::-1], "v": v, "y": y})
-    told = refused("the sample time is not known", sb.Rig.from_frame, {"v": v, "y": y})
-    assert "sample_time=0.01" in told and "--" not in told
-    told = refused("the sample time is 0.02 s", sb.Rig.from_frame, {"t": t, "v": v, "y": y}, sample_time=0.02)
-    assert "sample_time=0.01" in told
+    reported = refused("the sample time is not known", sb.Rig.from_frame, {"v": v, "y": y})
+    assert "sample_time=0.01" in reported and "--" not in reported
+    reported = refused("the sample time is 0.02 s", sb.Rig.from_frame, {"t": t, "v": v, "y": y}, sample_time=0.02)
+    assert "sample_time=0.01" in reported
 
 
 @pytest.mark.parametrize(

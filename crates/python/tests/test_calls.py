@@ -1,4 +1,4 @@
-"""A call: the interpreter goes on meanwhile, Ctrl-C stops it, progress is told, and it costs next to nothing."""
+"""A call: the interpreter goes on meanwhile, Ctrl-C stops it, progress is reported, and it costs next to nothing."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_ctrl_c_stops_within_a_second_and_leaves_nothing_behind(what: str, bench
     with pytest.raises(KeyboardInterrupt):
         calls[what]()
     assert time.monotonic() - pressed[0] < 1.0
-    # The work gives up as soon as the piece under way is done.
+    # The work gives up as soon as the piece running is done.
     end = time.monotonic() + 60
     while workers() and time.monotonic() < end:
         time.sleep(0.05)

@@ -39,7 +39,7 @@ def test_a_rig_tells_what_it_took(rig: sb.Rig, frame: dict[str, np.ndarray]) -> 
     fitted, held = rig.records
     assert (fitted.use, held.use, held.name) == ("fit", "holdout", "short-held-out")
     assert np.array_equal(np.concatenate([fitted.v, held.v]), frame["travel [mm]"])
-    assert "held out: the last third of short" in rig.told and "`holdout=0.3` or `holdout=NAME` changes it" in rig.told
+    assert "held out: the last third of short" in rig.reported and "`holdout=0.3` or `holdout=NAME` changes it" in rig.reported
     assert "columns = {" in sb.Rig.read(BENCH).to_toml()
 
 
@@ -144,7 +144,7 @@ def test_copies_are_equal(results: dict[str, Any], again: Callable[[Any], Any]) 
         assert other == result and hash(other) == hash(result), name
         if isinstance(result, sb.Result):
             assert (other.words, other.files(), other.to_dict()) == (result.words, result.files(), result.to_dict())
-    assert again(results["rig"]).told == results["rig"].told
+    assert again(results["rig"]).reported == results["rig"].reported
     assert again(results["simulation"]).y.tolist() == results["simulation"].y.tolist()
     assert again(results["identification"]).simulate([0.0, 1.0, 2.0, 1.0]) == results["identification"].simulate(
         [0.0, 1.0, 2.0, 1.0]

@@ -11,7 +11,7 @@ from conftest import BENCH, LEAF_SPRING, QUICK, Program, drive
 
 
 def same_folder(ours: Path, theirs: Path) -> None:
-    """What tells of a run rather than of what came out is not compared."""
+    """What reports a run rather than of what came out is not compared."""
 
     def files(folder: Path) -> dict[str, bytes]:
         return {
@@ -184,13 +184,13 @@ def test_errors_have_the_words_of_the_command_line(program: Program, short_csv: 
     assert here(refused(sb.Rig.read, tmp_path / "missing.csv")) == program.error("gap", "missing.csv")
     assert here(refused(sb.study, tmp_path / "study.toml")) == program.error("study.toml")
     assert refused(sb.identify, rig, "paper-descendant") == program.error("identify", short_csv, "--method", "paper-descendant")
-    assert refused(sb.design, 2, 8, (20, -20), 200) == told(
+    assert refused(sb.design, 2, 8, (20, -20), 200) == reported(
         program, "design", "--order=2", "--points=8", "--interval=20,-20", "--rate=200", "--out=x"
     )
-    assert refused(sb.diagnose, rig, without="backlas") == told(program, "gap", short_csv, "--without=backlas")
+    assert refused(sb.diagnose, rig, without="backlas") == reported(program, "gap", short_csv, "--without=backlas")
     assert refused(sb.plant, rig, "backlas") == program.error("plant", short_csv, "--effect", "backlas", "--out", "x")
 
 
-def told(program: Program, *words: object) -> str:
+def reported(program: Program, *words: object) -> str:
     """What the command line says to words that it does not understand, without how to ask it for help."""
     return program.error(*words).split("\n\nUsage:")[0].split("\n\nFor more information")[0].rstrip()

@@ -4,7 +4,7 @@
 //! While a study runs, `unfinished.sums` is written anew from time to time: whole, to the disk, and then renamed. The report of a study that
 //! takes long keeps the same as `replicates.sums`. Neither is a result; both may be removed.
 
-use crate::consistency::{Ended, Keeper, Origin, Snapshot, Standing, Unusable};
+use crate::consistency::{Ended, Keeper, Origin, RunState, Snapshot, Unusable};
 use miette::Diagnostic;
 use std::fs;
 use std::io;
@@ -15,7 +15,7 @@ use switchback_io::output::Disk;
 use thiserror::Error;
 
 /// What a report keeps.
-pub const KEPT_FILE: &str = "replicates.sums";
+pub const CHECKPOINT_FILE: &str = "replicates.sums";
 
 /// The same while the study runs.
 pub(crate) const UNFINISHED_FILE: &str = "unfinished.sums";
@@ -31,7 +31,7 @@ const WORTH_KEEPING: f64 = 30.0;
 
 /// Keeps a study in its folder while it runs.
 #[derive(Debug)]
-pub struct Kept {
+pub struct Checkpoint {
     place: PathBuf,
     disk: Disk,
     origin: Origin,
@@ -39,17 +39,17 @@ pub struct Kept {
     is_stopped: fn() -> bool,
     /// When it was written last, or else begun, and how long writing took.
     last: (Instant, Duration),
-    failed: Option<KeptError>,
+    failed: Option<CheckpointError>,
 }
 
 /// Sums could not be kept, or are not a study's.
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
-pub enum KeptError {
+pub enum CheckpointError {
     /// The system refuses.
     #[error("{path}: cannot keep there what the replicates left behind: {source}")]
     #[diagnostic(help(
-        "give a folder that you may write to, on a disk with space left, and run the command again: what was kept before is gone on with"
+        "give a folder that you may write to, on a disk with space left, and run the command again: what was kept before is continued"
     ))]
     Unwritable {
         /// The file.
@@ -70,12 +70,12 @@ pub enum KeptError {
 #[derive(Debug)]
 pub struct Found {
     /// Where the study goes on: where it stood, or before the first replicate.
-    pub standing: Standing,
+    pub run_state: RunState,
     /// What a person should know of it.
-    pub told: Option<String>,
+    pub reported: Option<String>,
 }
 
-impl Kept {
+impl Checkpoint {
     /// A place in the folder of a report; nothing is written yet. `is_stopped` is asked between batches.
     pub fn new(folder: &Path, origin: Origin, is_stopped: fn() -> bool) -> Self {
         let last = (Instant::now(), Duration::ZERO);
@@ -86,27 +86,27 @@ impl Kept {
     /// Takes up what a former run left in the folder, the further of two; `begin` is the study before its first replicate.
     ///
     /// # Errors
-    /// [`KeptError`] if a file is there that is none of Switchback's, or cannot be read.
-    pub fn take_up(&self, begin: &Standing) -> Result<Found, KeptError> {
-        let mut found = Found { standing: begin.clone(), told: None };
-        for name in [KEPT_FILE, UNFINISHED_FILE] {
+    /// [`CheckpointError`] if a file is there that is none of Switchback's, or cannot be read.
+    pub fn take_up(&self, begin: &RunState) -> Result<Found, CheckpointError> {
+        let mut found = Found { run_state: begin.clone(), reported: None };
+        for name in [CHECKPOINT_FILE, UNFINISHED_FILE] {
             let place = self.place.with_file_name(name);
             let bytes = match fs::read(&place) {
                 Err(error) if is_nothing(&error) => continue,
                 other => other.map_err(|source| unwritable(&place, source))?,
             };
             match begin.clone().read(&bytes, &self.origin) {
-                Ok(standing) if standing.replicates() > found.standing.replicates() => {
-                    let told =
-                        format!("{} replicates of a former run are gone on with", standing.replicates());
-                    found = Found { standing, told: Some(told) };
+                Ok(run_state) if run_state.replicates() > found.run_state.replicates() => {
+                    let reported =
+                        format!("{} replicates of a former run are continued", run_state.replicates());
+                    found = Found { run_state, reported: Some(reported) };
                 }
                 Ok(_) => {}
                 Err(Unusable::Foreign) => {
-                    return Err(KeptError::Foreign { path: place.display().to_string() });
+                    return Err(CheckpointError::Foreign { path: place.display().to_string() });
                 }
-                Err(why) if found.told.is_none() => {
-                    found.told = Some(format!("{}: {why}: begun anew", place.display()));
+                Err(why) if found.reported.is_none() => {
+                    found.reported = Some(format!("{}: {why}: begun anew", place.display()));
                 }
                 Err(_) => {}
             }
@@ -117,8 +117,8 @@ impl Kept {
     /// Writes how far the study has come.
     ///
     /// # Errors
-    /// [`KeptError`] if the system refuses; what was written before is still there.
-    pub(crate) fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), KeptError> {
+    /// [`CheckpointError`] if the system refuses; what was written before is still there.
+    pub(crate) fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CheckpointError> {
         let begun = Instant::now();
         let folder = self.place.parent().map_or(Ok(()), fs::create_dir_all);
         let written = folder.and_then(|()| self.disk.replace(&self.place, &snapshot.to_bytes(&self.origin)));
@@ -129,11 +129,11 @@ impl Kept {
     /// The same after a study that was stopped, whatever stopped it.
     ///
     /// # Errors
-    /// [`KeptError`] if something could not be kept.
-    pub fn conclude(&mut self, standing: &Standing, ended: Ended) -> Result<(), KeptError> {
+    /// [`CheckpointError`] if something could not be kept.
+    pub fn conclude(&mut self, run_state: &RunState, ended: Ended) -> Result<(), CheckpointError> {
         match self.failed.take() {
             Some(error) => Err(error),
-            None if ended == Ended::Stopped => self.write(&standing.snapshot()),
+            None if ended == Ended::Stopped => self.write(&run_state.snapshot()),
             None => Ok(()),
         }
     }
@@ -144,15 +144,15 @@ impl Kept {
     }
 
     /// The file as a finished report keeps it.
-    pub fn bytes(&self, standing: &Standing) -> Vec<u8> {
-        standing.snapshot().to_bytes(&self.origin)
+    pub fn bytes(&self, run_state: &RunState) -> Vec<u8> {
+        run_state.snapshot().to_bytes(&self.origin)
     }
 
-    /// Removes it: the report tells all.
+    /// Removes it: the report shows all.
     ///
     /// # Errors
-    /// [`KeptError`] if the system refuses.
-    pub fn close(self) -> Result<(), KeptError> {
+    /// [`CheckpointError`] if the system refuses.
+    pub fn close(self) -> Result<(), CheckpointError> {
         match fs::remove_file(&self.place) {
             Err(error) if !is_nothing(&error) => Err(unwritable(&self.place, error)),
             _ => Ok(()),
@@ -160,7 +160,7 @@ impl Kept {
     }
 }
 
-impl Keeper for Kept {
+impl Keeper for Checkpoint {
     fn keep(&mut self, snapshot: &Snapshot<'_>) -> ControlFlow<()> {
         let (when, took) = self.last;
         if when.elapsed() < LEAST.max(took * SHARE) && !self.disk.is_eager() {
@@ -184,6 +184,6 @@ fn is_nothing(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }
 
-fn unwritable(place: &Path, source: io::Error) -> KeptError {
-    KeptError::Unwritable { path: place.display().to_string(), source }
+fn unwritable(place: &Path, source: io::Error) -> CheckpointError {
+    CheckpointError::Unwritable { path: place.display().to_string(), source }
 }

@@ -1,6 +1,6 @@
 //! What the program wrote and reads again: results of studies, and models, which must run once they were read.
 
-use super::{Scratch, text_of, told};
+use super::{Scratch, reported, text_of};
 use switchback_io::model;
 use switchback_study::results;
 
@@ -18,7 +18,7 @@ pub fn run(bytes: &[u8]) {
             let path = FOLDER.with(|folder| folder.write("again.json", again.as_bytes()));
             assert_eq!(results::read(&path).expect("what was written is read").cells.len(), read.cells.len());
         }
-        Err(refusal) => told(&refusal),
+        Err(refusal) => reported(&refusal),
     }
     match model::read(&path) {
         Ok(file) => {
@@ -29,6 +29,6 @@ pub fn run(bytes: &[u8]) {
             let path = FOLDER.with(|folder| folder.write("again.json", file.text().as_bytes()));
             model::read(&path).expect("what was written is read");
         }
-        Err(refusal) => told(&refusal),
+        Err(refusal) => reported(&refusal),
     }
 }

@@ -1,6 +1,6 @@
 //! Rig files beside a good file of measurements: a rig, or refused in words; a rig that was read is written and read back as the same.
 
-use super::{Scratch, text_of, told};
+use super::{Scratch, reported, text_of};
 use switchback_io::rig;
 
 thread_local!(static FOLDER: Scratch = {
@@ -21,6 +21,6 @@ pub fn run(bytes: &[u8]) {
             let again = rig::manifest(&loaded, path.parent());
             assert!(again.contains("[[record]]"), "{again}");
         }
-        Err(refusal) => told(&refusal),
+        Err(refusal) => reported(&refusal),
     }
 }

@@ -1,6 +1,6 @@
 //! Scenario files of all three kinds: a text is a scenario, or refused in words.
 
-use super::{Scratch, text_of, told};
+use super::{Scratch, reported, text_of};
 use switchback_lab::{blind, field};
 use switchback_study::scenario::Scenario;
 
@@ -10,17 +10,17 @@ thread_local!(static FOLDER: Scratch = Scratch::new());
 pub fn run(bytes: &[u8]) {
     let Some(text) = text_of(bytes) else { return };
     if let Err(refusal) = Scenario::parse("fuzz.toml", text) {
-        told(&refusal);
+        reported(&refusal);
     }
     let path = FOLDER.with(|folder| folder.write("fuzz.toml", bytes));
     if blind::is_blind(&path)
         && let Err(refusal) = blind::read(&path)
     {
-        told(&refusal);
+        reported(&refusal);
     }
     if field::is_field(&path)
         && let Err(refusal) = field::read(&path)
     {
-        told(&refusal);
+        reported(&refusal);
     }
 }

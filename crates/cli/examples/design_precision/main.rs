@@ -25,11 +25,11 @@ fn main() {
                 "{:32} P = {:.3}: {} periods, N = {}",
                 machine.name,
                 machine.precision,
-                planned.plan.campaign().periods(),
-                planned.plan.campaign().samples()
+                planned.plan.dataset().periods(),
+                planned.plan.dataset().samples()
             );
-            tell("  own plan", &planned.ratios(&planned.believed, method, replicates));
-            tell("  the machine", &planned.ratios(&machine, method, replicates));
+            describe("  own plan", &planned.ratios(&planned.believed, method, replicates));
+            describe("  the machine", &planned.ratios(&machine, method, replicates));
         }
     }
     println!("short experiments, method efficient, the machine known exactly");
@@ -38,16 +38,16 @@ fn main() {
         for periods in [3, 5, 10, 20, 50] {
             let plan = Plan::new(machine.request(), Length::Periods(periods)).expect("a plan");
             let forecast =
-                Forecast::new(&truth, plan.campaign().pulses(), PlanMethod::Efficient).expect("a forecast");
-            let achieved = machine.errors(plan.campaign(), PlanMethod::Efficient, replicates);
+                Forecast::new(&truth, plan.dataset().pulses(), PlanMethod::Efficient).expect("a forecast");
+            let achieved = machine.errors(plan.dataset(), PlanMethod::Efficient, replicates);
             let ratios: Vec<f64> =
                 achieved.iter().zip(forecast.at(periods).errors.all()).map(|(a, p)| a / p).collect();
-            tell(&format!("  {:30} {periods:3} periods", machine.name), &ratios);
+            describe(&format!("  {:30} {periods:3} periods", machine.name), &ratios);
         }
     }
 }
 
-fn tell(what: &str, ratios: &[f64]) {
+fn describe(what: &str, ratios: &[f64]) {
     let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = ratios.iter().copied().fold(0.0, f64::max);
     println!(

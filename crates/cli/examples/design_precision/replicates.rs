@@ -1,8 +1,8 @@
-//! Machines of known truth, and how well a planned campaign identifies them, over many replicates.
+//! Machines of known truth, and how well a planned dataset identifies them, over many replicates.
 
 use rayon::prelude::*;
 use std::path::Path;
-use switchback_identify::excitation::{Campaign, PlannedRecord};
+use switchback_identify::excitation::{Dataset, PlannedRecord};
 use switchback_identify::pulse::{PulseData, PulseMethod};
 use switchback_model::Record;
 use switchback_model::hysteresis::{
@@ -135,7 +135,7 @@ impl Machine {
     }
 
     /// All records of a plan, measured on it.
-    pub(crate) fn campaign(&self, plan: &Plan, seed: u64) -> Rig {
+    pub(crate) fn dataset(&self, plan: &Plan, seed: u64) -> Rig {
         let request = plan.request();
         let record = |(k, record): (usize, PlannedRecord)| {
             let y = self.measure(&record.v, StreamId { seed, experiment: k as u32, replicate: 0 });
@@ -159,11 +159,11 @@ impl Machine {
     }
 
     /// `a`, `b` and the borders at the levels of a plan, for `u_M − u_m = 1`.
-    fn parameters(&self, campaign: &Campaign) -> Vec<f64> {
+    fn parameters(&self, dataset: &Dataset) -> Vec<f64> {
         let span = self.hysteresis.span();
         let mut all = self.system.a().to_vec();
         all.extend(self.system.b().iter().map(|b| b * span));
-        for pulses in campaign.pulses() {
+        for pulses in dataset.pulses() {
             let branch = pulses.direction().visited_branch();
             all.extend(pulses.levels().iter().map(|v| self.hysteresis.border(branch, *v) / span));
         }
@@ -171,16 +171,16 @@ impl Machine {
     }
 
     /// Root mean square error of every parameter over replicates of both pulse experiments, identified from their records.
-    pub(crate) fn errors(&self, campaign: &Campaign, method: PlanMethod, replicates: u32) -> Vec<f64> {
-        let truth = self.parameters(campaign);
+    pub(crate) fn errors(&self, dataset: &Dataset, method: PlanMethod, replicates: u32) -> Vec<f64> {
+        let truth = self.parameters(dataset);
         let order = self.system.order();
-        let inputs = campaign.pulses().each_ref().map(|p| p.record_input(campaign.samples()));
+        let inputs = dataset.pulses().each_ref().map(|p| p.record_input(dataset.samples()));
         let estimate = |replicate: u32| -> Vec<f64> {
             let data = [0, 1].map(|k: usize| {
                 let stream = StreamId { seed: 2009, experiment: k as u32, replicate };
                 let y = self.measure(&inputs[k], stream);
                 let record = Record::new(inputs[k].clone(), y).expect("finite samples");
-                let branch = campaign.pulses()[k].direction().visited_branch();
+                let branch = dataset.pulses()[k].direction().visited_branch();
                 PulseData::from_record(&record, branch, order, 0).expect("a pulse experiment")
             });
             let fit = match method {
@@ -213,8 +213,8 @@ impl Planned {
     /// Measures a pilot, identifies it, and plans for the machine's precision.
     pub(crate) fn after_a_pilot(machine: &Machine, method: PlanMethod, seed: u64) -> Self {
         let pilot = Plan::new(machine.request(), Length::Periods(100)).expect("a pilot");
-        let truth = Truth::of(&machine.campaign(&pilot, seed), Path::new("pilot")).expect("a system");
-        let forecast = Forecast::new(&truth, pilot.campaign().pulses(), method).expect("a forecast");
+        let truth = Truth::of(&machine.dataset(&pilot, seed), Path::new("pilot")).expect("a system");
+        let forecast = Forecast::new(&truth, pilot.dataset().pulses(), method).expect("a forecast");
         let periods = forecast.periods_for(machine.precision);
         let plan = Plan::new(machine.request(), Length::Periods(periods)).expect("a plan");
         let predicted = forecast.at(periods).errors.all().collect();
@@ -223,7 +223,7 @@ impl Planned {
 
     /// Achieved over predicted, one ratio a parameter, over replicates measured on `machine`.
     pub(crate) fn ratios(&self, machine: &Machine, method: PlanMethod, replicates: u32) -> Vec<f64> {
-        let achieved = machine.errors(self.plan.campaign(), method, replicates);
+        let achieved = machine.errors(self.plan.dataset(), method, replicates);
         achieved.iter().zip(&self.predicted).map(|(a, p)| a / p).collect()
     }
 }

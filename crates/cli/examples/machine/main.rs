@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example machine -- --seeds 20 --play 1`: leaf springs that drive a second-order resonance, with a play of 1 mm (full
 //! width) before them. `--first N` is the first seed (1000), `--between` lets the drive go on between the samples, `--words` prints each
-//! diagnosis. Prints one line a machine and what was told how often.
+//! diagnosis. Prints one line a machine and what was reported how often.
 //!
 //! `--csv` prints the first machine's record instead, as its recorder would save it: `scenarios/data/bench.csv` is
 //! `cargo run --example machine -- --first 1004 --play 1 --csv`.
@@ -33,11 +33,11 @@ fn main() -> miette::Result<()> {
         let machine = Machine::draw(seed, play, holds);
         let (began, used) = (Instant::now(), processor_seconds());
         let report = diagnosis::examine(Subject::choose(machine.rig(seed), None)?, &Settings::default())?;
-        let told = told(&report, play);
-        counted.add(told);
+        let reported = reported(&report, play);
+        counted.add(reported);
         println!(
             "{seed} {machine}: {:<9} {} | {:.1} s, {:.1} processor s",
-            told.name(),
+            reported.name(),
             line(&report),
             began.elapsed().as_secs_f64(),
             processor_seconds() - used
@@ -55,7 +55,7 @@ fn main() -> miette::Result<()> {
 
 /// What a verdict is worth.
 #[derive(Debug, Clone, Copy)]
-enum Told {
+enum Reported {
     /// What was put in: play or its twin, or nothing but noise.
     Right,
     /// Neither this nor a cause that was not put in.
@@ -64,7 +64,7 @@ enum Told {
     Wrong,
 }
 
-impl Told {
+impl Reported {
     fn name(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -84,30 +84,34 @@ struct Counted {
 }
 
 impl Counted {
-    fn add(&mut self, told: Told) {
-        match told {
-            Told::Right => self.right += 1,
-            Told::Undecided => self.undecided += 1,
-            Told::Wrong => self.wrong += 1,
+    fn add(&mut self, reported: Reported) {
+        match reported {
+            Reported::Right => self.right += 1,
+            Reported::Undecided => self.undecided += 1,
+            Reported::Wrong => self.wrong += 1,
         }
     }
 }
 
-fn told(report: &Report, play: f64) -> Told {
+fn reported(report: &Report, play: f64) -> Reported {
     let verdict = &report.diagnosis.verdict;
     let operator = [Effect::Backlash, Effect::GradualTransition];
     let noise = [Effect::OutputNoise, Effect::ColouredNoise];
     let put_in = |e: &Effect| noise.contains(e) || play > 0.0 && operator.contains(e);
-    let told = || verdict.effects.iter().chain(&verdict.class);
+    let reported = || verdict.effects.iter().chain(&verdict.class);
     match verdict.status {
-        Status::None if play == 0.0 => Told::Right,
-        Status::Named | Status::Class | Status::Ambiguous if !told().all(put_in) => match verdict.status {
-            // Rivals that hold the cause name no wrong one.
-            Status::Ambiguous => Told::Undecided,
-            _ => Told::Wrong,
-        },
-        Status::Named | Status::Class if play == 0.0 || told().any(|e| operator.contains(e)) => Told::Right,
-        _ => Told::Undecided,
+        Status::None if play == 0.0 => Reported::Right,
+        Status::Named | Status::Class | Status::Ambiguous if !reported().all(put_in) => {
+            match verdict.status {
+                // Rivals that hold the cause name no wrong one.
+                Status::Ambiguous => Reported::Undecided,
+                _ => Reported::Wrong,
+            }
+        }
+        Status::Named | Status::Class if play == 0.0 || reported().any(|e| operator.contains(e)) => {
+            Reported::Right
+        }
+        _ => Reported::Undecided,
     }
 }
 
@@ -131,7 +135,7 @@ fn line(report: &Report) -> String {
     )
 }
 
-/// Processor time of this process so far, all threads; zero where the system does not tell.
+/// Processor time of this process so far, all threads; zero where the system does not show.
 fn processor_seconds() -> f64 {
     /// Ticks a second of the times in `/proc`.
     const TICKS: f64 = 100.0;

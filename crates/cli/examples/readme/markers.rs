@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The text with the quotes put between their markers; `{}` in a marker stands for the quote's name. Tells which were quoted.
+/// The text with the quotes put between their markers; `{}` in a marker stands for the quote's name. Shows which were quoted.
 ///
 /// # Errors
 /// What is wrong with the text: a name that there is no quote for, or a marker without its end.

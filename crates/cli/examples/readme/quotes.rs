@@ -103,7 +103,7 @@ fn inferred(file: &str) -> miette::Result<String> {
         data: DataArgs,
     }
     let loaded = Line::parse_from(["switchback", file]).data.load("gap", Quiet { quiet: true })?;
-    Ok(block(&loaded.told.to_string()))
+    Ok(block(&loaded.reported.to_string()))
 }
 
 fn read_study(name: &str) -> miette::Result<Results> {

@@ -25,9 +25,9 @@ fn rows(schema: &Value, path: &str, text: &mut String) {
         return rows(one, path, text);
     }
     for (key, value) in schema["properties"].as_object().into_iter().flatten() {
-        let told = value["description"].as_str();
-        if let Some(told) = told {
-            let _ = writeln!(text, "| {path}`{key}` | {} | {} |", kind(value), told.replace('|', "\\|"));
+        let reported = value["description"].as_str();
+        if let Some(reported) = reported {
+            let _ = writeln!(text, "| {path}`{key}` | {} | {} |", kind(value), reported.replace('|', "\\|"));
         }
         rows(value, &format!("{path}`{key}`."), text);
     }

@@ -14,7 +14,7 @@ use thiserror::Error;
 
 /// Fit the verdict on records that nobody designed to rigs whose cause is known.
 ///
-/// What it reaches is told beside what rules reach: every rig is predicted from rigs with another base and another law.
+/// What it reaches is reported beside what rules reach: every rig is predicted from rigs with another base and another law.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Folders of field examinations, or of parts of them: `switchback SCENARIO.toml --shard K/N --out DIR`.
@@ -75,7 +75,7 @@ fn judged(folder: &Path) -> miette::Result<(String, Vec<Case>)> {
     Ok((name.to_string_lossy().into_owned(), read_cases(folder)?))
 }
 
-/// Reads what was judged, fits, tells, writes.
+/// Reads what was judged, fits, shows, writes.
 ///
 /// # Errors
 /// Folders without judged rigs, too few of these, or a file that cannot be written.
@@ -97,6 +97,6 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(out) = out {
         out.commit(stamped(SCHEMA, &calibrated.verdict))?;
     }
-    args.output.quiet.tell(&calibrated.summary())?;
+    args.output.quiet.describe(&calibrated.summary())?;
     Ok(Outcome::Done)
 }

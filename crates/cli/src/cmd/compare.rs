@@ -46,7 +46,7 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&artefacts(&comparison, &summary, (&baseline, &new)))?;
     }
-    args.output.quiet.tell_or(
+    args.output.quiet.describe_or(
         args.json,
         || compare::json(&comparison, &baseline, &new),
         || summary.clone(),

@@ -5,8 +5,8 @@ use std::path::{Component, Path, PathBuf};
 use switchback_io::input::{FileKind, stream};
 use switchback_io::output::note;
 use switchback_io::rig::{
-    self, ColumnNames, HELD_OUT, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem, Sampling, Voice,
-    in_shell,
+    self, ColumnNames, HELD_OUT, InputForm, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem,
+    Sampling, in_shell,
 };
 use switchback_model::rig::{Role, Usage};
 
@@ -48,7 +48,7 @@ pub struct DataArgs {
 }
 
 impl DataArgs {
-    /// Reads the rig; what was inferred is told on stderr unless asked to be quiet. `verb` is the command's name, for remedies.
+    /// Reads the rig; what was inferred is reported on stderr unless asked to be quiet. `verb` is the command's name, for remedies.
     ///
     /// # Errors
     /// [`RigError`] with all that is wrong.
@@ -61,7 +61,7 @@ impl DataArgs {
             Source::Files => rig::load_plan(&self.plan(verb)?)?,
         };
         if !quiet.quiet {
-            note(&loaded.told.to_string());
+            note(&loaded.reported.to_string());
         }
         Ok(loaded)
     }
@@ -153,7 +153,7 @@ impl DataArgs {
             input_label: None,
             output_label: None,
             records,
-            voice: Voice::CommandLine(self.command(verb)),
+            input_form: InputForm::CommandLine(self.command(verb)),
         })
     }
 

@@ -5,7 +5,7 @@ use crate::options::{Output, positive, whole};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
-use switchback_identify::excitation::Campaign;
+use switchback_identify::excitation::Dataset;
 use switchback_io::rig;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Rig;
@@ -16,7 +16,7 @@ use thiserror::Error;
 
 /// Write the experiments that identify a system: inputs to play, and the rig.toml that waits for the outputs.
 ///
-/// With `--from RIG`, tell how long to measure: every parameter's standard error against the number of samples, predicted for
+/// With `--from RIG`, show how long to measure: every parameter's standard error against the number of samples, predicted for
 /// the system and the noise found on that rig.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -130,7 +130,7 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&design::artefacts(&report.plan))?;
     }
-    args.output.quiet.tell_or(args.json, || design::json(&report), || design::words(&report))?;
+    args.output.quiet.describe_or(args.json, || design::json(&report), || design::words(&report))?;
     Ok(Outcome::Done)
 }
 
@@ -224,7 +224,7 @@ fn length(args: &Asked) -> Length {
 
 /// The plan, as long as the precision wanted needs, and what is predicted of it.
 fn foresee(args: &Asked, request: Request, truth: Truth) -> Result<(Plan, Option<Outlook>), DesignError> {
-    let sketch = Campaign::new(request.interval, request.order, request.points, Campaign::FEWEST_PERIODS)?;
+    let sketch = Dataset::new(request.interval, request.order, request.points, Dataset::FEWEST_PERIODS)?;
     let forecast = Forecast::new(&truth, sketch.pulses(), args.method)?;
     let length = args.precision.map_or_else(|| length(args), |p| Length::Periods(forecast.periods_for(p)));
     let plan = Plan::new(request, length)?;

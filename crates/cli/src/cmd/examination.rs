@@ -3,7 +3,7 @@
 use super::partial;
 use crate::build::{BUILD, JUDGING_SOURCES};
 use crate::failure::{CommandResult, Outcome};
-use crate::interrupt::{self, Heeding};
+use crate::interrupt::{self, SignalGuard};
 use crate::journal::{Journal, SEALED_FILE};
 use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
@@ -22,7 +22,7 @@ use switchback_study::Shard;
 use switchback_study::consistency::Progress;
 use switchback_study::parts::PART_FILE;
 
-/// Where the report goes, and how it is made and told.
+/// Where the report goes, and how it is made and reported.
 #[derive(Debug, Clone, Copy)]
 pub struct Order<'a> {
     /// The folder asked for.
@@ -68,7 +68,7 @@ pub fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
         let report = threads.install(|| report(examination, &sha256(&keys), cases))??.of_part(partial);
         let files = pages::bound(report.files.clone())?;
         order.force.claim(&partial::place(&place), E::FILES)?.commit(&files)?;
-        tell(&report, &partial::place(&place), page)
+        describe(&report, &partial::place(&place), page)
     };
     let Some(cases) = examine(examination, sealed, (&mut journal, &partial), order)? else {
         return Ok(Outcome::Stopped);
@@ -106,10 +106,10 @@ pub fn run_part<E: Drawn>(
     let Begun { mut journal, sealed } = seal(examination, tickets, folder.path(), order)?;
     let keys = key_file(&sealed);
     let of = sealed.len();
-    let told = |cases: &[E::Case]| {
+    let reported = |cases: &[E::Case]| {
         order.page.say(&format!("stopped: {} of {of} rigs of part {shard} are judged and kept", cases.len()))
     };
-    let Some(cases) = examine(examination, sealed, (&mut journal, &told), order)? else {
+    let Some(cases) = examine(examination, sealed, (&mut journal, &reported), order)? else {
         return Ok(Outcome::Stopped);
     };
     let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
@@ -151,14 +151,14 @@ fn seal<E: Drawn>(
     Ok(Begun { journal, sealed })
 }
 
-/// Told of what is judged where an examination is stopped.
+/// Reported of what is judged where an examination is stopped.
 type Stopped<'a, C> = &'a dyn Fn(&[C]) -> miette::Result<()>;
 
 /// How often it is asked whether someone wished the examination to stop.
 const MOMENT: Duration = Duration::from_millis(100);
 
 /// Judges what the journal does not know, in parallel, and keeps each rig as soon as it is judged. Cases come by their number in the design;
-/// `None` if someone wished it to stop, after `stopped` has been told.
+/// `None` if someone wished it to stop, after `stopped` has been reported.
 fn examine<E: Drawn>(
     examination: &E,
     sealed: Vec<E::Sealed>,
@@ -179,20 +179,20 @@ fn examine<E: Drawn>(
     let meter = Meter::counting("rigs diagnosed", page.quiet);
     meter.planned(new.len() as u64);
     let start = Instant::now();
-    let _heeding = Heeding::new();
-    let (tell, told) = mpsc::channel();
-    let judge = |tell: &mut mpsc::Sender<_>, rig: &E::Sealed| {
+    let _signal_guard = SignalGuard::new();
+    let (describe, reported) = mpsc::channel();
+    let judge = |describe: &mut mpsc::Sender<_>, rig: &E::Sealed| {
         let judged = examination.judge(rig).map(|case| (rig.key_line(), case));
         // Nobody listens any more once the examination is stopped, or something has failed.
-        tell.send(judged).map_err(|_| ())
+        describe.send(judged).map_err(|_| ())
     };
     let is_done = thread::scope(|scope| -> miette::Result<bool> {
         // One rig may take as long as twenty others: each is a task of its own.
-        let judging = || new.par_iter().with_max_len(1).try_for_each_with(tell, judge);
+        let judging = || new.par_iter().with_max_len(1).try_for_each_with(describe, judge);
         scope.spawn(|| threads.install(judging));
-        let told = told;
+        let reported = reported;
         loop {
-            match told.recv_timeout(MOMENT) {
+            match reported.recv_timeout(MOMENT) {
                 Ok(judged) => {
                     let (key_line, case) = judged?;
                     journal.keep(&key_line, &case)?;
@@ -227,13 +227,13 @@ pub fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page
     report.files.add(KEY_FILE, keys);
     report.files = pages::bound(report.files)?;
     folder.commit(&report.files)?;
-    tell(&report, &out, page)?;
+    describe(&report, &out, page)?;
     Ok(if report.is_as_expected { Outcome::Done } else { Outcome::Unmet })
 }
 
-fn tell(report: &Report, out: &Path, page: Page) -> miette::Result<()> {
+fn describe(report: &Report, out: &Path, page: Page) -> miette::Result<()> {
     let words = || format!("{}\nwritten to {}\n", report.summary, out.display());
-    page.quiet.tell_or(page.json, || report.files.text("results.json"), words)
+    page.quiet.describe_or(page.json, || report.files.text("results.json"), words)
 }
 
 /// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.
@@ -247,6 +247,6 @@ pub struct Page {
 
 impl Page {
     fn say(self, line: &str) -> miette::Result<()> {
-        if self.json { Ok(()) } else { self.quiet.tell(&format!("{line}\n")) }
+        if self.json { Ok(()) } else { self.quiet.describe(&format!("{line}\n")) }
     }
 }

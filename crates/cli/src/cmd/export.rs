@@ -53,11 +53,11 @@ pub fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let name = args.asked.name(&file, args.out.as_deref());
     let out = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.{}", args.asked.to.ending())));
-    // What is missing is told before anything is claimed.
+    // What is missing is reported before anything is claimed.
     let made = made(&file, &args.asked, (&args.model, &name))?;
     let target = args.output.force.claim_file(Some(&out), &[&args.model])?.expect("a file was named");
     target.commit(made)?;
-    args.output.quiet.tell(&format!("{}\n", out.display()))?;
+    args.output.quiet.describe(&format!("{}\n", out.display()))?;
     Ok(Outcome::Done)
 }
 

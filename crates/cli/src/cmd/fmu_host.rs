@@ -4,7 +4,7 @@ use crate::failure::{CommandResult, Outcome};
 use std::path::PathBuf;
 use switchback_io::fmu;
 
-/// Run the library of an FMU over the inputs of a job, and tell of it in a file beside that.
+/// Run the library of an FMU over the inputs of a job, and report it in a file beside that.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     job: PathBuf,

@@ -83,7 +83,7 @@ pub struct Asked {
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     without: Vec<Effect>,
 
-    /// Tell this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// Show this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
     /// than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     ask: Vec<Effect>,
@@ -140,7 +140,7 @@ pub fn run(args: &Args) -> CommandResult {
         return run_power(args, &loaded);
     }
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
-    let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.told.warnings);
+    let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.reported.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
     let subject = Subject::choose(rig, args.asked.model())?.noting(notes);
     let watch = Watch::new(args.output.quiet);
@@ -153,7 +153,7 @@ pub fn run(args: &Args) -> CommandResult {
         let why = if args.explain { text::why(&report) } else { String::new() };
         text::words(&report, args.out.as_deref()) + &why
     };
-    args.output.quiet.tell_or(args.json, || text::json(&report), words)?;
+    args.output.quiet.describe_or(args.json, || text::json(&report), words)?;
     Ok(met(args, &report))
 }
 
@@ -164,11 +164,11 @@ fn simulated(args: &Args, rig: Rig) -> Result<Rig, FmuError> {
     fmu::predictions(rig, &Simulator { fmu, map, patience: args.patience })
 }
 
-/// Tells which expectations hold.
+/// Shows which expectations hold.
 fn met(args: &Args, report: &Report) -> Outcome {
     let checked: Vec<Checked> = args.expect.iter().map(|expected| expected.check(report)).collect();
     for one in &checked {
-        // What is broken is told even where nothing else is.
+        // What is broken is reported even where nothing else is.
         if !one.holds || !args.output.quiet.quiet {
             note(&format!("{}\n", one.says));
         }

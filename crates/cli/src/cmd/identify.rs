@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> CommandResult {
         folder.commit(&artefacts(&rig, &identification)?)?;
     }
     let json = || identification::json(&rig, &identification);
-    args.output.quiet.tell_or(args.json, json, || identification::table(&rig, &identification))?;
+    args.output.quiet.describe_or(args.json, json, || identification::table(&rig, &identification))?;
     Ok(Outcome::Done)
 }
 

@@ -73,11 +73,11 @@ enum SubmitError {
     #[diagnostic(help("submit it by hand where the scheduler is: bash {script}"))]
     NotRun { script: String, source: io::Error },
     #[error("{script}: did not get through")]
-    #[diagnostic(help("why is told above; once that is mended, go on with: bash {script}"))]
+    #[diagnostic(help("why is reported above; once that is mended, go on with: bash {script}"))]
     Failed { script: String },
 }
 
-/// Slurm tells a part that its time is up a minute before, or up to two.
+/// Slurm shows a part that its time is up a minute before, or up to two.
 const LEAST_OF_SLURM: u64 = 180;
 
 /// Prints the script, or writes and submits it.
@@ -121,13 +121,13 @@ fn check(args: &Args) -> miette::Result<()> {
         Scenario::read(file)?;
     }
     if args.calibrate && !is_field {
-        let told =
+        let reported =
             "is no field examination, the only kind that a verdict is fitted to; leave out --calibrate";
-        return Err(miette!("{} {told}", file.display()));
+        return Err(miette!("{} {reported}", file.display()));
     }
     if let Some(time) = args.time.as_ref().filter(|time| args.slurm && time.seconds() < LEAST_OF_SLURM) {
         return Err(miette!(
-            "--time {time}: Slurm tells a part up to two minutes before; give 3 minutes at least"
+            "--time {time}: Slurm shows a part up to two minutes before; give 3 minutes at least"
         ));
     }
     Ok(())

@@ -13,7 +13,7 @@ use switchback_lab::blind::{self, Blind};
 use switchback_lab::examination::{Part, Whole, merged};
 use switchback_lab::field::{self, Field};
 use switchback_report::examination::{Drawn, report};
-use switchback_study::checkpoint::KEPT_FILE;
+use switchback_study::checkpoint::CHECKPOINT_FILE;
 use switchback_study::parts::scenario_of;
 use thiserror::Error;
 
@@ -53,7 +53,7 @@ pub struct OtherProgram {
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    args.folders.iter().try_for_each(|folder| verify(folder, |name| name != KEPT_FILE))?;
+    args.folders.iter().try_for_each(|folder| verify(folder, |name| name != CHECKPOINT_FILE))?;
     let first = scenario_of(&args.folders[0])?;
     if field::is_field(&first) {
         return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));

@@ -10,7 +10,7 @@ pub(super) fn place(report: &Path) -> PathBuf {
     report.join("partial")
 }
 
-/// Removes it: the report tells all. Files of someone else stay, and the folder with them.
+/// Removes it: the report shows all. Files of someone else stay, and the folder with them.
 pub(super) fn forget(report: &Path, files: &[&str], force: Force) {
     let place = place(report);
     let claimed = if place.is_dir() { force.claim(&place, files).ok() } else { None };

@@ -13,7 +13,7 @@ use switchback_io::model::{self, ModelFile, System};
 use switchback_io::output::stamped;
 use switchback_io::rig;
 use switchback_lab::generate::{
-    Ingredient, OBSERVABLE, PlantedFault, PlantedRig, PlantingError, PlantingGround,
+    InjectedFault, InjectedRig, InjectionContext, InjectionError, OBSERVABLE, RequestedFault,
 };
 use switchback_model::rig::Rig;
 use thiserror::Error;
@@ -73,8 +73,8 @@ impl Asked {
         self.model.as_deref()
     }
 
-    fn ingredient(&self) -> Result<Ingredient, RigCommandError> {
-        Ok(Ingredient::with_law(&self.effect, self.law, self.size)?)
+    fn requested_fault(&self) -> Result<RequestedFault, RigCommandError> {
+        Ok(RequestedFault::with_law(&self.effect, self.law, self.size)?)
     }
 }
 
@@ -86,13 +86,13 @@ pub enum PlantError {
     #[error("{data}: {error}")]
     #[diagnostic(help(
         "faults are planted into records of a machine with a loop, at least one to fit and better one held out; `switchback identify` shows what \
-         the records tell"
+         the records show"
     ))]
-    Ground {
+    Context {
         /// The data.
         data: String,
         /// What is wrong.
-        error: PlantingError,
+        error: InjectionError,
     },
     /// The model is of another form.
     #[error("{model}: a model of the form `{kind}` cannot carry a fault")]
@@ -128,17 +128,17 @@ const FILES: [&str; 2] = [rig::RIG_FILE, "*.csv"];
 /// # Errors
 /// Data that cannot be read or carry nothing, an unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    args.asked.ingredient()?;
-    let carrier = args.asked.model().map(model::read).transpose()?;
-    let carrier = carrier.as_ref().zip(args.asked.model());
+    args.asked.requested_fault()?;
+    let host_model = args.asked.model().map(model::read).transpose()?;
+    let host_model = host_model.as_ref().zip(args.asked.model());
     let loaded = args.data.load("plant", args.output.quiet)?;
     let folder = args.output.force.claim_if_asked(Some(&args.out), &FILES, &args.data.inputs(&loaded))?;
-    let planted = planted(&loaded.rig, &args.asked, (args.data.path(), carrier))?;
+    let injected = injected(&loaded.rig, &args.asked, (args.data.path(), host_model))?;
     if let Some(folder) = folder {
-        folder.commit(&rig::artefacts(&planted.rig))?;
+        folder.commit(&rig::artefacts(&injected.rig))?;
     }
-    let words = || told(&planted.fault, &Units::of(&planted.rig).output);
-    args.output.quiet.tell_or(args.json, || page(&planted.fault), words)?;
+    let words = || reported(&injected.fault, &Units::of(&injected.rig).output);
+    args.output.quiet.describe_or(args.json, || page(&injected.fault), words)?;
     Ok(Outcome::Done)
 }
 
@@ -147,18 +147,18 @@ pub fn run(args: &Args) -> CommandResult {
 ///
 /// # Errors
 /// An unknown effect or law, or records or a model that cannot carry it.
-pub fn planted(
+pub fn injected(
     rig: &Rig,
     asked: &Asked,
-    (place, carrier): (&Path, Option<(&ModelFile, &Path)>),
-) -> miette::Result<PlantedRig> {
-    let ingredient = asked.ingredient()?;
-    let refused = |error| PlantError::Ground { data: name(place), error };
-    let ground = match carrier {
-        Some((file, path)) => PlantingGround::carried_by(rig, carrying(rig, file, path)?),
-        None => PlantingGround::new(rig),
+    (place, host_model): (&Path, Option<(&ModelFile, &Path)>),
+) -> miette::Result<InjectedRig> {
+    let requested_fault = asked.requested_fault()?;
+    let refused = |error| PlantError::Context { data: name(place), error };
+    let context = match host_model {
+        Some((file, path)) => InjectionContext::carried_by(rig, carrying(rig, file, path)?),
+        None => InjectionContext::new(rig),
     };
-    Ok(ground.and_then(|ground| ground.plant(&ingredient, asked.seed)).map_err(refused)?)
+    Ok(context.and_then(|context| context.plant(&requested_fault, asked.seed)).map_err(refused)?)
 }
 
 /// The model of a file, where it can carry a fault into the records of a rig.
@@ -185,8 +185,8 @@ fn name(path: &Path) -> String {
 const SCHEMA: &str = "switchback/plant/1";
 
 /// What was put in, in words; `unit` is that of the output.
-pub fn told(fault: &PlantedFault, unit: &str) -> String {
-    let how = if fault.planting.is_exact() {
+pub fn reported(fault: &InjectedFault, unit: &str) -> String {
+    let how = if fault.injection.is_exact() {
         "changed in the records themselves"
     } else {
         "carried by a model, as if it did not interact with what that misses"
@@ -215,10 +215,10 @@ pub fn told(fault: &PlantedFault, unit: &str) -> String {
 }
 
 /// The same as one JSON object.
-pub fn page(fault: &PlantedFault) -> String {
+pub fn page(fault: &InjectedFault) -> String {
     let page = serde_json::json!({
-        "effect": fault.effect, "law": fault.law, "stage": fault.stage.name(), "planting": fault.planting.name(),
-        "exact": fault.planting.is_exact(), "magnitude": fault.magnitude, "unit": fault.unit,
+        "effect": fault.effect, "law": fault.law, "stage": fault.stage.name(), "planting": fault.injection.name(),
+        "exact": fault.injection.is_exact(), "magnitude": fault.magnitude, "unit": fault.unit,
         "wanted_size": fault.wanted, "size": fault.size, "raw_size": fault.raw, "residual": fault.residual,
         "observable": fault.is_observable(),
     });

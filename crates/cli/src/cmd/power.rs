@@ -11,13 +11,13 @@ use switchback_io::diagnosis::GivenModel;
 use switchback_io::output::Artefacts;
 use switchback_io::rig::Loaded;
 use switchback_lab::generate::EFFECTS;
-use switchback_lab::power::{self, Ground, Plan, Power, PowerError};
+use switchback_lab::power::{self, Context, Plan, Power, PowerError};
 use switchback_report::plots;
 
 /// What `--power` takes.
 #[derive(Debug, clap::Args)]
 pub struct PowerArgs {
-    /// Instead of a diagnosis: put known faults of every effect into these records, diagnose each, and tell from which size on nine in ten are
+    /// Instead of a diagnosis: put known faults of every effect into these records, diagnose each, and show from which size on nine in ten are
     /// found. Takes about ten minutes on two cores for a few thousand samples.
     #[arg(long, help_heading = "Power")]
     pub power: bool,
@@ -69,17 +69,17 @@ pub(super) fn run(
     let model = order.model.map(GivenModel::read).transpose()?;
     let name = data.path.display().to_string();
     let meter = Meter::counting("diagnoses", quiet);
-    let (ground, power) = threads.install(|| {
-        let ground = Ground::new(&loaded.rig, model, order.settings, &name)?;
+    let (context, power) = threads.install(|| {
+        let context = Context::new(&loaded.rig, model, order.settings, &name)?;
         let clock = Instant::now();
-        let power = power::measure(&ground, &plan, &meter, || announce(&plan, clock.elapsed(), quiet))?;
-        Ok::<_, PowerError>((ground, power))
+        let power = power::measure(&context, &plan, &meter, || announce(&plan, clock.elapsed(), quiet))?;
+        Ok::<_, PowerError>((context, power))
     })??;
     meter.finish();
     if let Some(folder) = folder {
-        folder.commit(&artefacts(&power, &ground))?;
+        folder.commit(&artefacts(&power, &context))?;
     }
-    quiet.tell_or(order.json, || power::json(&power, &ground), || power::words(&power, &ground))?;
+    quiet.describe_or(order.json, || power::json(&power, &context), || power::words(&power, &context))?;
     Ok(Outcome::Done)
 }
 
@@ -121,19 +121,19 @@ fn announce(plan: &Plan, first: Duration, quiet: Quiet) {
     }
     let seconds = first.as_secs_f64();
     let all = seconds * (plan.draws as f64 + WITH_FAULT * plan.budget() as f64);
-    let told = if all < 90.0 { format!("{all:.0} s") } else { format!("{:.0} min", all / 60.0) };
+    let reported = if all < 90.0 { format!("{all:.0} s") } else { format!("{:.0} min", all / 60.0) };
     eprintln!(
-        "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {told} in all (less with `--draws` or `--effects`)",
+        "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {reported} in all (less with `--draws` or `--effects`)",
         plan.diagnoses()
     );
 }
 
 /// The files of what was found.
-pub fn artefacts(power: &Power, ground: &Ground<'_>) -> Artefacts {
+pub fn artefacts(power: &Power, context: &Context<'_>) -> Artefacts {
     let mut artefacts = Artefacts::default();
-    artefacts.add("power.json", power::json(power, ground));
+    artefacts.add("power.json", power::json(power, context));
     artefacts.add("power.csv", power::csv(power));
-    artefacts.add("power.txt", power::words(power, ground));
-    artefacts.add("power.svg", plots::power::figure(power, &ground.rig().name));
+    artefacts.add("power.txt", power::words(power, context));
+    artefacts.add("power.svg", plots::power::figure(power, &context.rig().name));
     artefacts
 }

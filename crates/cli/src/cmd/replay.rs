@@ -87,7 +87,7 @@ enum ReplayError {
     OtherCells { name: String, version: String },
 }
 
-/// Reads the results, runs the replicate, tells what came out.
+/// Reads the results, runs the replicate, shows what came out.
 ///
 /// # Errors
 /// Results that are none or of another version, a cell that is not there, or a folder that cannot be written.
@@ -127,7 +127,7 @@ pub fn run(args: &Args) -> CommandResult {
         [(_, cell, single)] if id.cell.is_some() => one_cell(id, cell, single, args.out.as_deref()),
         _ => all_cells(id, &chosen),
     };
-    args.output.quiet.tell_or(args.json, || json(id, &chosen), words)?;
+    args.output.quiet.describe_or(args.json, || json(id, &chosen), words)?;
     Ok(Outcome::Done)
 }
 

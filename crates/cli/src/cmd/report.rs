@@ -38,6 +38,6 @@ pub fn run(args: &Args) -> CommandResult {
         }
     };
     args.output.force.claim(&args.folder, names)?.commit(&artefacts)?;
-    args.output.quiet.tell(&format!("written to {}\n", args.folder.join(INDEX).display()))?;
+    args.output.quiet.describe(&format!("written to {}\n", args.folder.join(INDEX).display()))?;
     Ok(Outcome::Done)
 }

@@ -10,7 +10,7 @@ use switchback_io::input::closest;
 use switchback_io::output::{print, stamped};
 use switchback_io::rig;
 use switchback_lab::generate::{
-    EFFECTS, FOREIGN, Family, Ingredient, Key, MadeRig, MakeError, MakeRig, Setting, TrueEffect, laws_of,
+    EFFECTS, FOREIGN, Family, Key, MadeRig, MakeError, MakeRig, RequestedFault, Setting, TrueEffect, laws_of,
 };
 use switchback_model::rig::Rig;
 use thiserror::Error;
@@ -94,7 +94,7 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    args.output.quiet.tell_or(args.json, || stamped(SCHEMA, &key_json(&made)), || told(&made))?;
+    args.output.quiet.describe_or(args.json, || stamped(SCHEMA, &key_json(&made)), || reported(&made))?;
     Ok(Outcome::Done)
 }
 
@@ -103,7 +103,7 @@ fn recipe(args: &Args) -> Result<MakeRig, MakeError> {
     let setting = if args.field { Setting::Field } else { Setting::Laboratory };
     let mut recipe = MakeRig::new(args.seed).family(family).setting(setting);
     for effect in args.effect.iter().filter(|name| *name != "none") {
-        recipe = recipe.with(Ingredient::with_law(effect, args.law, args.size)?);
+        recipe = recipe.with(RequestedFault::with_law(effect, args.law, args.size)?);
     }
     Ok(recipe)
 }
@@ -120,7 +120,7 @@ fn measured(effect: &TrueEffect, (rig, key): (&Rig, &Key)) -> (f64, String) {
     length.map_or_else(|| (effect.magnitude, effect.unit.to_owned()), |x| (x, Units::of(rig).input))
 }
 
-fn told(MadeRig { rig, key, .. }: &MadeRig) -> String {
+fn reported(MadeRig { rig, key, .. }: &MadeRig) -> String {
     let between = if key.curved { " curved between the levels" } else { "" };
     let mut text =
         format!("order {}, {} borders{between}, noise sd {:.4}\n", key.order, key.borders, key.noise_sd);

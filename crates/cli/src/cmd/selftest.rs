@@ -25,7 +25,7 @@ pub struct Args {
     quiet: Quiet,
 }
 
-/// Runs every check, tells what was found.
+/// Runs every check, shows what was found.
 ///
 /// # Errors
 /// If the system gives no threads, or stdout cannot be written.
@@ -38,6 +38,6 @@ pub fn run(args: &Args) -> CommandResult {
         check.run(seed)
     };
     let findings: Vec<Finding> = args.threads.install(|| CHECKS.iter().enumerate().map(one).collect())?;
-    args.quiet.tell_or(args.json, || json(&findings, seed), || table(&findings, seed))?;
+    args.quiet.describe_or(args.json, || json(&findings, seed), || table(&findings, seed))?;
     Ok(if findings.iter().all(Finding::holds) { Outcome::Done } else { Outcome::Unmet })
 }

@@ -38,7 +38,7 @@ pub struct Args {
 #[derive(Debug, clap::Args)]
 pub struct Asked {
     /// The input to play: CSV in any dialect, one column at least. With a measured output beside it the run begins where the record does,
-    /// and the fit is told; where that is missing at the beginning, the run begins at rest.
+    /// and the fit is reported; where that is missing at the beginning, the run begins at rest.
     #[arg(value_name = "INPUT.csv")]
     file: PathBuf,
 
@@ -103,7 +103,7 @@ pub fn run(args: &Args) -> CommandResult {
     match target {
         Some(file) => {
             file.commit(simulation.csv())?;
-            args.output.quiet.tell_or(args.json, || simulation.json(), || simulation.words())?;
+            args.output.quiet.describe_or(args.json, || simulation.json(), || simulation.words())?;
         }
         None if args.json => print(&simulation.json())?,
         None => {

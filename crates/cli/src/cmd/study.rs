@@ -170,7 +170,7 @@ pub(super) struct OtherKind {
     remedy: String,
 }
 
-/// Data, rigs and what verbs wrote are told as such, with the verb that takes them.
+/// Data, rigs and what verbs wrote are reported as such, with the verb that takes them.
 pub(super) fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
     let path = file.display().to_string();
     let shown = in_shell(&path);

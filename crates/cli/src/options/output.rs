@@ -2,10 +2,10 @@
 
 use super::{Force, Quiet};
 
-/// The options of a verb that tells words and writes files.
+/// The options of a verb that shows words and writes files.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Output {
-    /// Whether anything but errors is told.
+    /// Whether anything but errors is reported.
     #[command(flatten)]
     pub quiet: Quiet,
 

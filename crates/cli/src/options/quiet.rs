@@ -2,7 +2,7 @@
 
 use switchback_io::output::{note, print, visible};
 
-/// Whether anything but errors is told.
+/// Whether anything but errors is reported.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
 pub struct Quiet {
     /// Neither progress nor words or tables, only errors and what --json asks for
@@ -15,22 +15,22 @@ impl Quiet {
     ///
     /// # Errors
     /// If stdout cannot be written.
-    pub fn tell(self, words: &str) -> miette::Result<()> {
+    pub fn describe(self, words: &str) -> miette::Result<()> {
         if self.quiet { Ok(()) } else { print(&visible(words)) }
     }
 
-    /// Tells on the standard error how the work goes, or keeps silent.
+    /// Shows on the standard error how the work goes, or keeps silent.
     pub fn note(self, words: &str) {
         if !self.quiet {
             note(words);
         }
     }
 
-    /// Prints the JSON that was asked for, or else tells the words.
+    /// Prints the JSON that was asked for, or else shows the words.
     ///
     /// # Errors
     /// If stdout cannot be written.
-    pub fn tell_or(
+    pub fn describe_or(
         self,
         is_json: bool,
         json: impl FnOnce() -> String,

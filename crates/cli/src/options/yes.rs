@@ -23,7 +23,7 @@ const DAY: f64 = 86_400.0;
 
 impl Yes {
     /// Lets work go on that takes so many seconds of one thread, unless that is more than a day on those at hand; where it is and is allowed,
-    /// the estimate is told on stderr.
+    /// the estimate is reported on stderr.
     ///
     /// # Errors
     /// [`TooLong`] with the estimate.
@@ -34,7 +34,7 @@ impl Yes {
             return Ok(());
         }
         let threads = if count == 1 { "1 thread".to_owned() } else { format!("{count} threads") };
-        let estimate = format!("{} on {threads}", told(seconds));
+        let estimate = format!("{} on {threads}", reported(seconds));
         if !self.yes {
             return Err(TooLong(estimate));
         }
@@ -46,7 +46,7 @@ impl Yes {
 }
 
 /// A time above a day, to the digits that an estimate is good for.
-fn told(seconds: f64) -> String {
+fn reported(seconds: f64) -> String {
     let units = [(365.25 * DAY, "years"), (DAY, "days"), (3600.0, "hours")];
     // Two of a unit at least: "400 days" rather than "1 years".
     let (size, unit) = units.into_iter().find(|(size, _)| seconds >= 2.0 * size).unwrap_or(units[2]);
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_day_is_free_and_more_is_told_in_sensible_units() {
+    fn a_day_is_free_and_more_is_reported_in_sensible_units() {
         let one = Threads { threads: Some(1) };
         let permit = |yes, days: f64| Yes { yes }.permit(days * DAY, one, Quiet { quiet: true });
         assert!(permit(false, 1.0).is_ok());

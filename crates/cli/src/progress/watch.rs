@@ -20,7 +20,7 @@ pub struct Watch {
     bar: ProgressBar,
 }
 
-/// How often the time is told where no piece is done for long.
+/// How often the time is reported where no piece is done for long.
 const TICK: Duration = Duration::from_millis(200);
 const ONE_PIECE: &str = "{spinner} {msg}, {elapsed}";
 const MANY_PIECES: &str = "{spinner} {msg} {bar:20} {pos}/{len}, {elapsed}";

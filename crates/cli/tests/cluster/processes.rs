@@ -1,4 +1,4 @@
-//! Processes of this machine, as /proc tells them.
+//! Processes of this machine, as /proc shows them.
 
 use std::fs;
 

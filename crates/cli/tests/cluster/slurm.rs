@@ -107,8 +107,8 @@ impl Cluster for Slurm {
         // other jobs, and then drains the nodes that know them.
         let file = self.folder.join("slurmctld.pid");
         let controller = number_in(&file).expect("it runs");
-        let told = Command::new("kill").args(["-TERM", &controller.to_string()]).status().expect("kill");
-        assert!(told.success());
+        let reported = Command::new("kill").args(["-TERM", &controller.to_string()]).status().expect("kill");
+        assert!(reported.success());
         let begun = Instant::now();
         while parent(controller).is_some() {
             assert!(begun.elapsed() < Duration::from_secs(60), "slurmctld does not end");
@@ -128,7 +128,7 @@ impl Drop for Slurm {
     }
 }
 
-/// Slurm counts time limits in minutes; told three minutes before their end, parts are stopped as soon as Slurm looks, every half minute.
+/// Slurm counts time limits in minutes; reported three minutes before their end, parts are stopped as soon as Slurm looks, every half minute.
 #[test]
 fn slurm_reaches_a_time_limit() {
     if is_full() {

@@ -64,8 +64,8 @@ impl Study {
     /// The report of one run.
     pub(crate) fn whole(&self) -> &Files {
         self.whole.get_or_init(|| {
-            let (code, told) = run(&self.folder, &["study.toml", "--quiet", "--out", "whole"], "");
-            assert_eq!(code, Some(0), "{told}");
+            let (code, reported) = run(&self.folder, &["study.toml", "--quiet", "--out", "whole"], "");
+            assert_eq!(code, Some(0), "{reported}");
             files(&self.folder.path("whole"))
         })
     }
@@ -90,7 +90,7 @@ impl Study {
     }
 }
 
-/// A study that is under way.
+/// A study that is running.
 pub(crate) struct Launched {
     pub(crate) out: PathBuf,
     pub(crate) work: PathBuf,
@@ -111,10 +111,10 @@ impl Launched {
     }
 
     fn start<C: Cluster>(&mut self, command: &mut Command, cluster: &C) {
-        let told =
+        let reported =
             File::options().create(true).append(true).open(self.work.join("told")).expect("a new file");
         command.envs(cluster.environment()).stdin(Stdio::null());
-        command.stderr(told.try_clone().expect("a second handle")).stdout(told);
+        command.stderr(reported.try_clone().expect("a second handle")).stdout(reported);
         self.script = Some(command.spawn().expect("it starts"));
     }
 
@@ -130,7 +130,7 @@ impl Launched {
         let begun = Instant::now();
         while !has_come(self) {
             let patience = Duration::from_secs(1800);
-            assert!(begun.elapsed() < patience, "not seen: {what}\n{}", self.told());
+            assert!(begun.elapsed() < patience, "not seen: {what}\n{}", self.reported());
             sleep(Duration::from_millis(50));
         }
     }
@@ -155,9 +155,9 @@ impl Launched {
     }
 
     /// What script, parts and merge have said.
-    pub(crate) fn told(&self) -> String {
-        let told = fs::read_to_string(self.work.join("told")).unwrap_or_default();
-        [vec![told], self.logs()].concat().concat()
+    pub(crate) fn reported(&self) -> String {
+        let reported = fs::read_to_string(self.work.join("told")).unwrap_or_default();
+        [vec![reported], self.logs()].concat().concat()
     }
 
     fn logs(&self) -> Vec<String> {

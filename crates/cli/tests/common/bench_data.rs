@@ -93,11 +93,11 @@ impl Bench {
             .load("gap", switchback::options::Quiet { quiet: true })
     }
 
-    /// The message of an error, as it is told, with the folder left out.
+    /// The message of an error, as it is reported, with the folder left out.
     pub(crate) fn refusal(&self, words: &[&str]) -> String {
         let error = self.load(words).expect_err("bad input");
-        let told = switchback::failure::plain(&error);
-        told.replace(&format!("{}/", self.root.path().display()), "")
+        let reported = switchback::failure::plain(&error);
+        reported.replace(&format!("{}/", self.root.path().display()), "")
     }
 
     /// `switchback`, run in this folder.

@@ -7,10 +7,10 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// Files of a folder by name, without those that tell of the run and not of what came out; none where it is not there.
+/// Files of a folder by name, without those that report the run and not of what came out; none where it is not there.
 pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 
-/// Files that tell of the run and not of what came out.
+/// Files that report the run and not of what came out.
 pub(crate) const BESIDE: [&str; 3] = ["provenance.json", "replicates.sums", ".switchback.beside.sha256"];
 
 pub(crate) fn files(folder: &Path) -> Files {
@@ -19,7 +19,7 @@ pub(crate) fn files(folder: &Path) -> Files {
     names.into_iter().filter(|name| !BESIDE.contains(&name.as_str())).map(read).collect()
 }
 
-/// Runs to the end: the exit code, and what is told.
+/// Runs to the end: the exit code, and what is reported.
 pub(crate) fn run(folder: &Folder, arguments: &[&str], faults: &str) -> (Option<i32>, String) {
     let output = folder.switchback(arguments).env("SWITCHBACK_FAULTS", faults).output().expect("it runs");
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
@@ -64,8 +64,8 @@ impl Change {
         let changed = STUDY.replace("seed = 3", "seed = 4").replace("\"efficient\"", "\"joint\"");
         let report = |text: &str| {
             folder.write("study.toml", text);
-            let (code, told) = run(&folder, &RUN, "");
-            assert_eq!(code, Some(0), "{told}");
+            let (code, reported) = run(&folder, &RUN, "");
+            assert_eq!(code, Some(0), "{reported}");
             files(&folder.path("out"))
         };
         let (new, old) = (report(&changed), report(STUDY));
@@ -98,8 +98,8 @@ impl Change {
     /// The same command succeeds after all, and leaves nothing beside the report.
     #[track_caller]
     pub(crate) fn ends_well(&self) {
-        let (code, told) = run(&self.folder, &RUN, "");
-        assert_eq!(code, Some(0), "{told}");
+        let (code, reported) = run(&self.folder, &RUN, "");
+        assert_eq!(code, Some(0), "{reported}");
         assert!(self.now() == self.new, "another report than that of an undisturbed run");
         assert_eq!(self.folder.listing(), self.entries);
     }

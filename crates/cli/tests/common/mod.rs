@@ -184,6 +184,6 @@ fn diagnosis_of_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde
     let made = folder.switchback(&[&["rig", "--out", "made"], what].concat()).output().expect("it runs");
     assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
     folder.edit("made/rig.toml", change);
-    let told = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
-    serde_json::from_slice(&told.stdout).expect("one JSON object on stdout")
+    let reported = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
+    serde_json::from_slice(&reported.stdout).expect("one JSON object on stdout")
 }

@@ -18,7 +18,7 @@ pub(crate) fn complaints(root: &Path, page: &Page) -> Vec<String> {
             continue;
         }
         match run(folder.path(), block) {
-            Err(told) => wrong.push(format!("{}: failed\n{}{told}", page.place(block), block.text)),
+            Err(reported) => wrong.push(format!("{}: failed\n{}{reported}", page.place(block), block.text)),
             Ok(printed) => {
                 let below = page.blocks.get(k + 1).filter(|below| below.follows && below.language == "text");
                 let missing = below.and_then(|quote| quoted::missing(&quote.text, &printed));
@@ -45,7 +45,7 @@ fn run(folder: &Path, block: &Block) -> Result<String, String> {
         .env("PATH", path)
         .output()
         .expect("bash");
-    let told = [output.stderr, output.stdout].concat();
-    let told = String::from_utf8_lossy(&told).into_owned();
-    if output.status.success() { Ok(told) } else { Err(told) }
+    let reported = [output.stderr, output.stdout].concat();
+    let reported = String::from_utf8_lossy(&reported).into_owned();
+    if output.status.success() { Ok(reported) } else { Err(reported) }
 }

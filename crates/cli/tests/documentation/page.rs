@@ -114,8 +114,8 @@ mod tests {
     fn blocks_know_their_place_and_who_checks_them() {
         let page = "# a\n```sh\nls\n```\n\n```text\nb\n```\n<!-- checked by .ci/run: ls -->\n```sh\nls\n```\n<!-- not run: no -->\n```julia\n```\n";
         let found = blocks(page);
-        let told: Vec<_> = found.iter().map(|b| (b.language.as_str(), b.line, b.follows)).collect();
-        assert_eq!(told, [("sh", 2, false), ("text", 6, true), ("sh", 10, false), ("julia", 14, false)]);
+        let reported: Vec<_> = found.iter().map(|b| (b.language.as_str(), b.line, b.follows)).collect();
+        assert_eq!(reported, [("sh", 2, false), ("text", 6, true), ("sh", 10, false), ("julia", 14, false)]);
         assert!(found[0].mark.is_none() && matches!(found[3].mark, Some(Mark::NotRun)));
         assert!(
             matches!(&found[2].mark, Some(Mark::CheckedBy { file, text }) if file == ".ci/run" && text == "ls")
@@ -123,17 +123,18 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_checks_is_told() {
+    fn what_nobody_checks_is_reported() {
         let page = Page {
             path: PathBuf::from("a.md"),
             blocks: blocks(
                 "```python\n1\n```\n<!-- checked by none: x -->\n```sh\nls\n```\n\n```toml\n= 1\n```\n",
             ),
         };
-        let told = page.unchecked(Path::new("."));
-        assert_eq!(told.len(), 3, "{told:?}");
+        let reported = page.unchecked(Path::new("."));
+        assert_eq!(reported.len(), 3, "{reported:?}");
         assert!(
-            told[0].contains("a.md:1: nobody runs this `python`") && told[1].contains("does not hold `x`")
+            reported[0].contains("a.md:1: nobody runs this `python`")
+                && reported[1].contains("does not hold `x`")
         );
     }
 }

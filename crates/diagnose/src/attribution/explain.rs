@@ -1,19 +1,19 @@
-//! Effects as an explanation: the best of their variants, fitted together with the nominal model.
+//! Effects as an candidate: the best of their variants, fitted together with the nominal model.
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::effect::Effect;
-use crate::effects::{Apply, Naming, Search, Sound, Variant, details};
+use crate::effects::{Apply, Naming, Search, Sound, Variant, refinement};
 use crate::likelihood::design::Design;
-use crate::likelihood::engine::{Fit, Ground, NonlinearParameter, fit};
-use crate::model::assembly::Assembly;
-use crate::records::campaign::Campaign;
+use crate::likelihood::engine::{Fit, FitContext, NonlinearParameter, fit};
+use crate::model::augmented::AugmentedModel;
+use crate::records::dataset::Dataset;
 
-/// One effect of an explanation: which, and how its nonlinear parameters change the assembly.
+/// One effect of an candidate: which, and how its nonlinear parameters change the augmented model.
 #[derive(Clone)]
-pub(crate) struct Part {
+pub(crate) struct EffectTerm {
     pub(crate) effect: Effect,
     /// Which law it is: the effect that offers it, and its number there. The signs of its fit may make it one of another effect.
     pub(crate) law: (Effect, usize),
@@ -24,13 +24,13 @@ pub(crate) struct Part {
     pub(crate) count: usize,
     pub(crate) search: Search,
     /// What the law adds to the deviance for its hidden freedom.
-    pub(crate) handicap: f64,
+    pub(crate) size_penalty: f64,
 }
 
 /// Rounds of a fit of one effect without the others.
 const ALONE: usize = 8;
 
-impl Part {
+impl EffectTerm {
     /// A law of an effect, given with its number.
     pub(crate) fn of(effect: Effect, (law, variant): (usize, &Variant)) -> Self {
         Self {
@@ -41,18 +41,18 @@ impl Part {
             naming: variant.naming,
             count: variant.starts[0].len(),
             search: variant.search,
-            handicap: variant.handicap,
+            size_penalty: variant.size_penalty,
         }
     }
 
     /// Details of the borders: they are in the grid.
-    pub(super) fn details() -> Self {
-        let (effect, variant) = details();
+    pub(super) fn refinement() -> Self {
+        let (effect, variant) = refinement();
         Self::of(effect, (0, &variant))
     }
 }
 
-impl fmt::Debug for Part {
+impl fmt::Debug for EffectTerm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}({})", self.effect, self.count)
     }
@@ -60,8 +60,8 @@ impl fmt::Debug for Part {
 
 /// A nominal model with any number of effects, fitted together.
 #[derive(Debug, Clone)]
-pub(crate) struct Explanation {
-    pub(crate) parts: Vec<Part>,
+pub(crate) struct Hypothesis {
+    pub(crate) effect_terms: Vec<EffectTerm>,
     pub(crate) fit: Fit,
     /// Added to the deviance beside the handicaps of the laws: what the knots of another fit are worth.
     pub(crate) set_back: f64,
@@ -69,21 +69,22 @@ pub(crate) struct Explanation {
     pub(crate) held_out: f64,
 }
 
-impl Explanation {
+impl Hypothesis {
     /// The nominal model alone.
     pub(crate) fn nominal(fit: Fit) -> Self {
-        Self { parts: Vec::new(), fit, set_back: 0.0, held_out: 0.0 }
+        Self { effect_terms: Vec::new(), fit, set_back: 0.0, held_out: 0.0 }
     }
 
-    /// The nominal model on a grid whose knots follow details of the borders.
+    /// The nominal model on a grid whose knots follow refinements of the borders.
     pub(crate) fn detailed(fit: Fit) -> Self {
-        Self { parts: vec![Part::details()], fit, set_back: 0.0, held_out: 0.0 }
+        Self { effect_terms: vec![EffectTerm::refinement()], fit, set_back: 0.0, held_out: 0.0 }
     }
 
-    /// Penalised deviance: Bayesian information criterion plus the handicap.
+    /// Penalised deviance: Bayesian information criterion plus the penalty.
     pub(crate) fn bic(&self) -> f64 {
-        let handicap = self.parts.iter().map(|part| part.handicap).sum::<f64>() + self.set_back;
-        self.fit.deviance + handicap + self.fit.parameters * (self.fit.samples as f64).ln()
+        let size_penalty =
+            self.effect_terms.iter().map(|effect_term| effect_term.size_penalty).sum::<f64>() + self.set_back;
+        self.fit.deviance + size_penalty + self.fit.parameters * (self.fit.samples as f64).ln()
     }
 
     /// Penalised deviance and what the held-out records add to it.
@@ -93,23 +94,23 @@ impl Explanation {
 
     /// Whether the nonlinear parameters of the law added last only weigh the samples.
     pub(crate) fn only_weighs(&self) -> bool {
-        self.parts.last().is_some_and(|part| part.search == Search::Weights)
+        self.effect_terms.last().is_some_and(|effect_term| effect_term.search == Search::Weights)
     }
 
     /// Whether the likelihood has corners in the nonlinear parameters of the law added last.
     pub(crate) fn has_corners(&self) -> bool {
-        self.parts.last().is_some_and(|part| part.search.is_by_pattern())
+        self.effect_terms.last().is_some_and(|effect_term| effect_term.search.is_by_pattern())
     }
 
     /// The effects, in the order they were added.
     pub(crate) fn effects(&self) -> Vec<Effect> {
-        self.parts.iter().map(|p| p.effect).collect()
+        self.effect_terms.iter().map(|p| p.effect).collect()
     }
 
     /// Where the nonlinear parameters of one of the effects lie among those of all.
     pub(crate) fn nonlinear_of(&self, number: usize) -> Range<usize> {
-        let from: usize = self.parts[..number].iter().map(|part| part.count).sum();
-        from..from + self.parts[number].count
+        let from: usize = self.effect_terms[..number].iter().map(|effect_term| effect_term.count).sum();
+        from..from + self.effect_terms[number].count
     }
 
     /// Whether it is what it says: neither the limit of another effect, nor one whose signs are another's, nor noise in disguise.
@@ -117,49 +118,57 @@ impl Explanation {
         self.is_sound() && self.names_hold() && !self.disguises_noise()
     }
 
-    /// The same explanation, each effect by the name that the signs of its fit give it.
+    /// The same candidate, each effect by the name that the signs of its fit give it.
     pub(crate) fn named_by_its_signs(mut self) -> Self {
-        self.parts = self.named_parts().map(|(part, effect)| Part { effect, ..part.clone() }).collect();
+        self.effect_terms = self
+            .named_effect_terms()
+            .map(|(effect_term, effect)| EffectTerm { effect, ..effect_term.clone() })
+            .collect();
         self
     }
 
     /// Whether each effect has the name that the signs of its fit give it.
     fn names_hold(&self) -> bool {
-        self.named_parts().all(|(part, effect)| part.effect == effect)
+        self.named_effect_terms().all(|(effect_term, effect)| effect_term.effect == effect)
     }
 
     /// Every effect with the name that the signs of its fit give it.
-    fn named_parts(&self) -> impl Iterator<Item = (&Part, Effect)> {
-        self.parts.iter().enumerate().map(|(number, part)| {
+    fn named_effect_terms(&self) -> impl Iterator<Item = (&EffectTerm, Effect)> {
+        self.effect_terms.iter().enumerate().map(|(number, effect_term)| {
             let nonlinear: Vec<f64> =
                 self.fit.nonlinear[self.nonlinear_of(number)].iter().map(|o| o.value).collect();
-            (part, part.naming.map_or(part.effect, |naming| naming(&nonlinear, &self.fit)))
+            (
+                effect_term,
+                effect_term.naming.map_or(effect_term.effect, |naming| naming(&nonlinear, &self.fit)),
+            )
         })
     }
 
     /// Whether an effect of it is but the colour of the noise under another name.
     pub(crate) fn disguises_noise(&self) -> bool {
-        self.parts.iter().any(|part| (part.effect.card().is_noise_in_disguise)(&self.fit))
+        self.effect_terms
+            .iter()
+            .any(|effect_term| (effect_term.effect.card().is_noise_in_disguise)(&self.fit))
     }
 
     /// Whether every law of it is still one of its effect, not the limit at which it is another one.
     pub(crate) fn is_sound(&self) -> bool {
         let values: Vec<f64> = self.fit.nonlinear.iter().map(|o| o.value).collect();
         let mut rest = &values[..];
-        self.parts.iter().all(|part| {
-            let (nonlinear, later) = rest.split_at(part.count);
+        self.effect_terms.iter().all(|effect_term| {
+            let (nonlinear, later) = rest.split_at(effect_term.count);
             rest = later;
-            (part.sound)(nonlinear, &self.fit)
+            (effect_term.sound)(nonlinear, &self.fit)
         })
     }
 
-    /// The same explanation for keeping, as [`Fit::set_aside`] has it.
+    /// The same candidate for keeping, as [`Fit::set_aside`] has it.
     #[must_use]
-    pub(crate) fn set_aside(self, held: &Arc<Design>) -> Self {
-        Self { fit: self.fit.set_aside(held), ..self }
+    pub(crate) fn set_aside(self, fixed: &Arc<Design>) -> Self {
+        Self { fit: self.fit.set_aside(fixed), ..self }
     }
 
-    /// The same explanation, less likely.
+    /// The same candidate, less likely.
     pub(crate) fn set_back(mut self, by: f64) -> Self {
         self.set_back += by;
         self
@@ -167,43 +176,43 @@ impl Explanation {
 
     /// One of the effects without the others, by the law and with the nonlinear parameters that it has beside them, the rest fitted
     /// anew on the same knots.
-    pub(crate) fn part(&self, number: usize, campaign: &Campaign) -> Option<Self> {
+    pub(crate) fn effect_term(&self, number: usize, dataset: &Dataset) -> Option<Self> {
         let nonlinear = &self.fit.nonlinear[self.nonlinear_of(number)];
-        let parts = vec![self.parts[number].clone()];
-        let fit = self.with_parts_replaced(&parts, nonlinear, campaign)?;
-        Some(Self { parts, fit, set_back: 0.0, held_out: 0.0 })
+        let effect_terms = vec![self.effect_terms[number].clone()];
+        let fit = self.with_effect_terms_replaced(&effect_terms, nonlinear, dataset)?;
+        Some(Self { effect_terms, fit, set_back: 0.0, held_out: 0.0 })
     }
 
     /// The nominal model alone, fitted anew on the same knots from where it is beside the effects.
-    pub(crate) fn without_parts(&self, campaign: &Campaign) -> Option<Self> {
-        self.with_parts_replaced(&[], &[], campaign).map(Self::nominal)
+    pub(crate) fn without_effect_terms(&self, dataset: &Dataset) -> Option<Self> {
+        self.with_effect_terms_replaced(&[], &[], dataset).map(Self::nominal)
     }
 
-    fn with_parts_replaced(
+    fn with_effect_terms_replaced(
         &self,
-        parts: &[Part],
+        effect_terms: &[EffectTerm],
         nonlinear: &[NonlinearParameter],
-        campaign: &Campaign,
+        dataset: &Dataset,
     ) -> Option<Fit> {
         let values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
         let mut linear = self.fit.linear.clone();
         linear.b.truncate(linear.a.len());
         linear.f.truncate(self.fit.grid.len());
         linear.d.clear();
-        let start = linear.padded(self.fit.grid.len(), &assembled(parts, &values));
-        let ground = Ground { campaign, grid: &self.fit.grid, known: Some(self.fit.near()) };
-        fit(ground, &|values| assembled(parts, values), nonlinear, &start, ALONE)
+        let start = linear.padded(self.fit.grid.len(), &assembled(effect_terms, &values));
+        let context = FitContext { dataset, grid: &self.fit.grid, known: Some(self.fit.near()) };
+        fit(context, &|values| assembled(effect_terms, values), nonlinear, &start, ALONE)
     }
 }
 
-/// The assembly of several parts, their nonlinear parameters one after the other.
-pub(crate) fn assembled(parts: &[Part], values: &[f64]) -> Assembly {
-    let mut assembly = Assembly::default();
+/// The augmented model of several parts, their nonlinear parameters one after the other.
+pub(crate) fn assembled(effect_terms: &[EffectTerm], values: &[f64]) -> AugmentedModel {
+    let mut augmented = AugmentedModel::default();
     let mut rest = values;
-    for part in parts {
-        let (nonlinear, later) = rest.split_at(part.count);
-        (part.apply)(nonlinear, &mut assembly);
+    for effect_term in effect_terms {
+        let (nonlinear, later) = rest.split_at(effect_term.count);
+        (effect_term.apply)(nonlinear, &mut augmented);
         rest = later;
     }
-    assembly
+    augmented
 }

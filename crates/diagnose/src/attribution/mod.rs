@@ -8,9 +8,9 @@ mod single_effects;
 pub(crate) mod starts;
 mod successive_halving;
 
-use self::explain::Explanation;
+use self::explain::Hypothesis;
 use crate::effect::Effect;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::settings::Settings;
 
 /// Penalised deviance that an effect must gain before anything is missing at all: covers the search over some twenty effects,
@@ -19,11 +19,11 @@ pub(crate) const SIGNIFICANT: f64 = 40.0;
 
 /// What is to be explained, and with what.
 pub(crate) struct Attribution<'a, W> {
-    pub(crate) campaign: &'a Campaign,
+    pub(crate) dataset: &'a Dataset,
     pub(crate) settings: &'a Settings,
-    pub(crate) nominal: &'a Explanation,
+    pub(crate) nominal: &'a Hypothesis,
     /// The nominal model with border knots placed from the data: what effects are added to.
-    pub(crate) detailed: &'a Explanation,
+    pub(crate) detailed: &'a Hypothesis,
     pub(crate) workers: &'a W,
     pub(crate) pair_effort: PairEffort,
 }
@@ -41,15 +41,15 @@ pub(crate) enum PairEffort {
 }
 
 impl<W> Attribution<'_, W> {
-    /// Whether all effects of an explanation are to be considered, each once: signs may have given a law the name of another.
-    pub(crate) fn considers(&self, explanation: &Explanation) -> bool {
-        let effects = explanation.effects();
+    /// Whether all effects of an candidate are to be considered, each once: signs may have given a law the name of another.
+    pub(crate) fn considers(&self, hypothesis: &Hypothesis) -> bool {
+        let effects = hypothesis.effects();
         let is_new = |(number, effect): (usize, &Effect)| !effects[..number].contains(effect);
         effects.iter().all(|e| self.settings.effects.contains(e)) && effects.iter().enumerate().all(is_new)
     }
 
     /// Penalised deviance gained over the nominal model.
-    pub(crate) fn gain(&self, explanation: Option<&Explanation>) -> f64 {
-        explanation.map_or(0.0, |e| self.nominal.bic() - e.bic())
+    pub(crate) fn gain(&self, hypothesis: Option<&Hypothesis>) -> f64 {
+        hypothesis.map_or(0.0, |e| self.nominal.bic() - e.bic())
     }
 }

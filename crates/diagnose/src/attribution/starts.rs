@@ -9,20 +9,20 @@
 
 use std::sync::Arc;
 
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::likelihood::design::{Design, Linear};
 use crate::likelihood::engine::{Build, NonlinearParameter};
 use crate::likelihood::gains::{Gains, Scored};
 use crate::likelihood::jacobian::Jacobian;
 use crate::likelihood::weights::{Weights, weigh};
-use crate::model::assembly::{Assembly, EquationColumn};
+use crate::model::augmented::{AugmentedModel, EquationColumn};
 use crate::nominal::dynamics::dynamics_refitted;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// A known model with what score tests on top of it share.
 pub(crate) struct Known<'a> {
-    pub(crate) campaign: &'a Campaign,
-    pub(crate) explanation: &'a Explanation,
+    pub(crate) dataset: &'a Dataset,
+    pub(crate) hypothesis: &'a Hypothesis,
     /// The fit records under it.
     pub(crate) design: Arc<Design>,
     /// On the fit records, before weighting.
@@ -33,21 +33,21 @@ pub(crate) struct Known<'a> {
 }
 
 impl<'a> Known<'a> {
-    pub(crate) fn new(campaign: &'a Campaign, explanation: &'a Explanation) -> Self {
-        let fit = &explanation.fit;
-        let (design, noise) = (fit.design(), &fit.assembly.noise);
+    pub(crate) fn new(dataset: &'a Dataset, hypothesis: &'a Hypothesis) -> Self {
+        let fit = &hypothesis.fit;
+        let (design, noise) = (fit.design(), &fit.augmented.noise);
         let whitener = design.whitener(noise, &fit.linear.a);
         let innovations = design.innovations(&fit.linear, &whitener);
         let weights = weigh(&design, noise, &fit.linear, &innovations);
         let jacobian = Jacobian::new(&design, &fit.linear, &whitener, &weights);
         let weighted = weights.applied(&innovations);
-        Self { campaign, explanation, design, innovations, weights, weighted, jacobian }
+        Self { dataset, hypothesis, design, innovations, weights, weighted, jacobian }
     }
 
     /// The test itself; nothing where the known parameters are not determined.
     pub(crate) fn test(&self) -> Option<ScoreTest<'_>> {
-        let fit = &self.explanation.fit;
-        let variance = fit.variance / self.campaign.criterion.share();
+        let fit = &self.hypothesis.fit;
+        let variance = fit.variance / self.dataset.criterion.share();
         Some(ScoreTest { known: self, gains: Gains::new(&self.jacobian, &self.weighted, variance)? })
     }
 }
@@ -77,13 +77,13 @@ impl Score {
 const NOTHING: f64 = 1e-9;
 
 impl ScoreTest<'_> {
-    /// How promising a law that changes the assembly to `build(known nonlinear parameters, those of the law)` is.
+    /// How promising a law that changes the augmented model to `build(known nonlinear parameters, those of the law)` is.
     pub(crate) fn score(&self, build: &Build<'_>, nonlinear: &[NonlinearParameter]) -> Score {
-        let fit = &self.known.explanation.fit;
+        let fit = &self.known.hypothesis.fit;
         let all: Vec<f64> = fit.nonlinear.iter().chain(nonlinear).map(|o| o.value).collect();
-        let assembly = build(&all);
-        let p = fit.linear.padded(fit.grid.len(), &assembly);
-        let there = self.moved(&assembly, &p, &self.known.design);
+        let augmented = build(&all);
+        let p = fit.linear.padded(fit.grid.len(), &augmented);
+        let there = self.moved(&augmented, &p, &self.known.design);
         let mut columns = Vec::new();
         let chord = self.column(&self.known.innovations, &there.innovations, 1.0);
         if nonlinear.is_empty() || energy(&chord) > NOTHING * fit.variance {
@@ -97,19 +97,19 @@ impl ScoreTest<'_> {
                 columns.push(self.column(&there.innovations, &beside.innovations, 1.0 / h));
             }
         }
-        columns.extend(self.added(&assembly, &p, &there));
+        columns.extend(self.added(&augmented, &p, &there));
         columns.retain(|c| energy(c) > NOTHING * fit.variance);
         let scored: Vec<Scored> = columns.into_iter().map(|c| self.gains.score(c)).collect();
         let n = fit.samples as f64;
         let share = self.gains.of(&scored.iter().collect::<Vec<_>>()) / n;
         let linear = -n * (1.0 - share.clamp(0.0, 0.999)).ln();
-        Score { linear, refitted: self.refitted(&assembly, &p, &there) }
+        Score { linear, refitted: self.refitted(&augmented, &p, &there) }
     }
 
-    /// Columns of the linear parameters that the assembly adds. What dies away at the start of a record orders nothing.
-    fn added(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Vec<Vec<f64>> {
-        let known = &self.known.explanation.fit.linear;
-        let whitener = there.design.whitener(&assembly.noise, &p.a);
+    /// Columns of the linear parameters that the augmented model adds. What dies away at the start of a record orders nothing.
+    fn added(&self, augmented: &AugmentedModel, p: &Linear, there: &Moved) -> Vec<Vec<f64>> {
+        let known = &self.known.hypothesis.fit.linear;
+        let whitener = there.design.whitener(&augmented.noise, &p.a);
         let with = |set: &dyn Fn(&mut Linear)| {
             let mut one = p.clone();
             set(&mut one);
@@ -118,23 +118,23 @@ impl ScoreTest<'_> {
         };
         let b = (known.b.len()..p.b.len()).map(|j| with(&|p| p.b[j] = 1.0));
         let f = (known.f.len()..p.f.len()).map(|j| with(&|p| p.f[j] = 1.0));
-        let lasts = |j: &usize| !matches!(assembly.equation_columns[*j], EquationColumn::Decay { .. });
+        let lasts = |j: &usize| !matches!(augmented.equation_columns[*j], EquationColumn::Decay { .. });
         let d = (known.d.len()..p.d.len())
             .filter(lasts)
             .map(|j| self.known.weights.applied(&there.design.disturbance(j, &whitener)));
         b.chain(f).chain(d).collect()
     }
 
-    /// Gain in deviance with `A` and `B` solved for, where the assembly filters.
-    fn refitted(&self, assembly: &Assembly, p: &Linear, there: &Moved) -> Option<f64> {
-        let fit = &self.known.explanation.fit;
-        let same_filter = assembly.parts().filter == fit.assembly.parts().filter;
-        if same_filter && assembly.noise.ar == fit.assembly.noise.ar
-            || self.known.campaign.criterion.simulates()
+    /// Gain in deviance with `A` and `B` solved for, where the augmented model filters.
+    fn refitted(&self, augmented: &AugmentedModel, p: &Linear, there: &Moved) -> Option<f64> {
+        let fit = &self.known.hypothesis.fit;
+        let same_filter = augmented.effect_terms().filter == fit.augmented.effect_terms().filter;
+        if same_filter && augmented.noise.ar == fit.augmented.noise.ar
+            || self.known.dataset.criterion.simulates()
         {
             return None;
         }
-        let whitener = there.design.whitener(&assembly.noise, &p.a);
+        let whitener = there.design.whitener(&augmented.noise, &p.a);
         let rss = |w: &[Vec<f64>]| energy(&self.known.weights.applied(w));
         let afresh = dynamics_refitted(&there.design, &whitener, p)
             .map(|p| rss(&there.design.innovations(&p, &whitener)));
@@ -143,13 +143,13 @@ impl ScoreTest<'_> {
         least.min_by(f64::total_cmp).map(gain)
     }
 
-    /// The innovations under another assembly, the other parameters as they are.
+    /// The innovations under another augmented model, the other parameters as they are.
     ///
     /// The log slope of a sensor enters as a factor, as it does in the fit.
-    fn moved(&self, assembly: &Assembly, p: &Linear, like: &Design) -> Moved {
-        let fit = &self.known.explanation.fit;
-        let design = Design::like(Some(like), self.known.campaign, &fit.grid, assembly);
-        let whitener = design.whitener(&assembly.noise, &p.a);
+    fn moved(&self, augmented: &AugmentedModel, p: &Linear, like: &Design) -> Moved {
+        let fit = &self.known.hypothesis.fit;
+        let design = Design::like(Some(like), self.known.dataset, &fit.grid, augmented);
+        let whitener = design.whitener(&augmented.noise, &p.a);
         let mut innovations = design.innovations(p, &whitener);
         let slope = design.log_slope() - self.known.design.log_slope();
         if slope != 0.0 {
@@ -182,33 +182,33 @@ fn energy(column: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
-    use crate::model::assembly::{BorderColumn, Clock};
-    use crate::testing::{small_campaign, small_model};
+    use crate::likelihood::engine::{FitContext, fit};
+    use crate::model::augmented::{BorderColumn, Clock};
+    use crate::testing::{small_dataset, small_model};
 
     /// The oracle of the score: a fit. Added linear parameters leave the problem nearly linear.
     #[test]
     fn linear_parameters_gain_what_a_fit_says() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let start = small_model(&grid);
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        let nominal = fit(ground, &|_| Assembly::default(), &[], &start, 30).expect("a fit");
-        let explanation = Explanation::nominal(nominal);
-        let known = Known::new(&campaign, &explanation);
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        let nominal = fit(context, &|_| AugmentedModel::default(), &[], &start, 30).expect("a fit");
+        let hypothesis = Hypothesis::nominal(nominal);
+        let known = Known::new(&dataset, &hypothesis);
         let test = known.test().expect("determined");
-        let trend = |_: &[f64]| Assembly {
+        let trend = |_: &[f64]| AugmentedModel {
             equation_columns: vec![EquationColumn::Trend { clock: Clock::Record, degree: 1 }],
-            ..Assembly::default()
+            ..AugmentedModel::default()
         };
-        let since = |_: &[f64]| Assembly {
+        let since = |_: &[f64]| AugmentedModel {
             border_columns: vec![BorderColumn::ReversalLog { scale: 3.0 }],
-            ..Assembly::default()
+            ..AugmentedModel::default()
         };
         let builds: [&Build<'_>; 2] = [&trend, &since];
         for build in builds {
-            let start = explanation.fit.linear.padded(grid.len(), &build(&[]));
-            let fitted = fit(ground, build, &[], &start, 30).expect("a fit");
-            let gain = explanation.fit.deviance - fitted.deviance;
+            let start = hypothesis.fit.linear.padded(grid.len(), &build(&[]));
+            let fitted = fit(context, build, &[], &start, 30).expect("a fit");
+            let gain = hypothesis.fit.deviance - fitted.deviance;
             let score = test.score(build, &[]);
             assert!((score.linear - gain).abs() < 0.15 * gain.max(2.0), "{} {gain}", score.linear);
             assert!(score.refitted.is_none());

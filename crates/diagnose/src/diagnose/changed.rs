@@ -8,16 +8,16 @@ use switchback_model::rig::Rig;
 
 use super::given_model::{GivenModel, predicted};
 use super::nominal::Nominal;
-use super::plan::{Plan, judged_tracks, note_what_the_records_lack};
+use super::plan::{Plan, judged_scaled_records, note_what_the_records_lack};
 use crate::attribution::PairEffort;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::error::DiagnoseError;
 use crate::export::Exporter;
-use crate::likelihood::engine::{Fit, Ground, fit};
-use crate::model::assembly::Assembly;
+use crate::likelihood::engine::{Fit, FitContext, fit};
+use crate::model::augmented::AugmentedModel;
 use crate::nominal::given::scaled;
 use crate::nominal::order::{Structure, best_simulator};
-use crate::records::campaign::{Campaign, Criterion};
+use crate::records::dataset::{Criterion, Dataset};
 use crate::residuals::score::innovations;
 use crate::residuals::spectrum::{independent_share, mean_square};
 use crate::settings::{Model, Settings};
@@ -36,7 +36,7 @@ const FAITHFUL: f64 = 0.1;
 pub(super) fn plan(
     workers: &impl Workers,
     (rig, model): (&Rig, &Model),
-    records: &Campaign,
+    records: &Dataset,
     settings: &Settings,
 ) -> Result<Option<Plan>, DiagnoseError> {
     let known = match model {
@@ -45,17 +45,17 @@ pub(super) fn plan(
         Model::Predicted => standing_in(workers, (rig, records), settings),
     };
     let Some((structure, known)) = known else { return Ok(None) };
-    let led = structure.applied(records).with_nominal_held(&known.grid);
-    let Some((campaign, nominal)) = compared_by_simulation(&led, &known) else { return Ok(None) };
+    let led = structure.applied(records).with_nominal_fixed(&known.grid);
+    let Some((dataset, nominal)) = compared_by_simulation(&led, &known) else { return Ok(None) };
     let mut limitations =
         vec!["effects were added to the given model, whose own parameters stayed as they are".to_owned()];
-    let judged = judged_tracks(&campaign, &mut limitations);
+    let judged = judged_scaled_records(&dataset, &mut limitations);
     let Some(given) = GivenModel::of(model, rig, records, &judged)? else { return Ok(None) };
-    note_what_the_records_lack(&campaign, &mut limitations);
+    note_what_the_records_lack(&dataset, &mut limitations);
     let mut settings = Settings { max_effects: 1, ..settings.clone() };
-    // Noise moves no simulation, and the given borders have the details that they have.
+    // Noise moves no simulation, and the given borders have the refinements that they have.
     settings.effects.retain(|e| !e.moves_no_simulation() && !e.card().lies_in_the_grid);
-    let plain = Explanation::nominal(nominal);
+    let plain = Hypothesis::nominal(nominal);
     Ok(Some(Plan {
         runs: given.runs.clone(),
         settings,
@@ -68,40 +68,42 @@ pub(super) fn plan(
         is_calibrated: false,
         limitations,
         exporter: Exporter::new(rig),
-        campaign,
+        dataset,
     }))
 }
 
 /// A nominal model that does on these records what the predictions in them say; nothing where none does, or where a record has none.
 fn standing_in(
     workers: &impl Workers,
-    (rig, records): (&Rig, &Campaign),
+    (rig, records): (&Rig, &Dataset),
     settings: &Settings,
 ) -> Option<(Structure, Fit)> {
     let predictions: Vec<Vec<f64>> = predicted(rig, records).into_iter().collect::<Option<_>>()?;
     let mut simulated = records.clone();
-    for (track, predicted) in simulated.tracks.iter_mut().zip(&predictions) {
-        track.y = predicted.clone().into();
+    for (scaled, predicted) in simulated.scaled_records.iter_mut().zip(&predictions) {
+        scaled.y = predicted.clone().into();
     }
     let chosen = best_simulator(workers, &simulated, settings)?;
     let (mut differs, mut missed) = (Vec::new(), Vec::new());
-    for (number, (track, sim)) in records.tracks.iter().zip(&chosen.campaign.tracks).enumerate() {
-        let run = free_run(&chosen.campaign, &chosen.fit, number, sim);
+    for (number, (scaled, sim)) in
+        records.scaled_records.iter().zip(&chosen.dataset.scaled_records).enumerate()
+    {
+        let run = free_run(&chosen.dataset, &chosen.fit, number, sim);
         differs.push(sim.y.iter().zip(&run).skip(sim.from).map(|(y, x)| y - x).collect());
-        missed.push(track.y.iter().zip(&sim.y).skip(sim.from).map(|(y, x)| y - x).collect());
+        missed.push(scaled.y.iter().zip(&sim.y).skip(sim.from).map(|(y, x)| y - x).collect());
     }
     (mean_square(&differs) < FAITHFUL * mean_square(&missed)).then_some((chosen.structure, chosen.fit))
 }
 
 /// The records and the known model on them, to be compared by free runs; nothing where the model has none.
-fn compared_by_simulation(led: &Campaign, known: &Fit) -> Option<(Campaign, Fit)> {
-    let on = |campaign: &Campaign| {
-        let ground = Ground { campaign, grid: &known.grid, known: None };
-        fit(ground, &|_| Assembly::default(), &[], &known.linear, 0)
+fn compared_by_simulation(led: &Dataset, known: &Fit) -> Option<(Dataset, Fit)> {
+    let on = |dataset: &Dataset| {
+        let context = FitContext { dataset, grid: &known.grid, known: None };
+        fit(context, &|_| AugmentedModel::default(), &[], &known.linear, 0)
     };
     let first = led.judged_by(Criterion::Simulation { share: 1.0 });
     let errors = innovations(&first, &on(&first)?, |t| t.is_fit());
-    let campaign = led.judged_by(Criterion::Simulation { share: independent_share(&errors) });
-    let nominal = on(&campaign)?;
-    Some((campaign, nominal))
+    let dataset = led.judged_by(Criterion::Simulation { share: independent_share(&errors) });
+    let nominal = on(&dataset)?;
+    Some((dataset, nominal))
 }

@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 use super::report::Conclusion;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::closure::measure;
 use crate::diagnosis::Gap;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
@@ -11,7 +11,7 @@ use crate::residuals::omnibus::omnibus;
 use crate::simulation::simulate::runs_away;
 use crate::workers::Workers;
 
-/// What explanations are compared with.
+/// What candidates are compared with.
 struct Baseline {
     /// The nominal model on the fit records.
     horizons: Reference,
@@ -23,8 +23,8 @@ struct Baseline {
 
 impl Plan {
     fn comparison(&self) -> Comparison {
-        match (self.campaign.holds_nominal(), self.campaign.criterion.simulates()) {
-            (true, _) => Comparison::GivenModelHeld,
+        match (self.dataset.holds_nominal(), self.dataset.criterion.simulates()) {
+            (true, _) => Comparison::GivenModelFixed,
             (false, true) => Comparison::Simulation,
             (false, false) => Comparison::OneStep,
         }
@@ -38,8 +38,8 @@ impl Plan {
             floor: self.noise_floor(&c.augmented.fit),
             score: self.score(nominal),
         };
-        let samples = self.campaign.fit_samples();
-        let left = omnibus(&self.campaign, nominal).map_or(0.0, |tests| tests.against(samples));
+        let samples = self.dataset.fit_samples();
+        let left = omnibus(&self.dataset, nominal).map_or(0.0, |tests| tests.against(samples));
         let before = self.gap(nominal, self.settings.resamples).before;
         let mut effects = workers.map(&c.fitted, |s| self.evidence_of(s, &baseline));
         effects.sort_by(|x, y| y.delta_bic.total_cmp(&x.delta_bic));
@@ -54,20 +54,20 @@ impl Plan {
         }
     }
 
-    fn evidence_of(&self, s: &Explanation, baseline: &Baseline) -> EffectEvidence {
+    fn evidence_of(&self, s: &Hypothesis, baseline: &Baseline) -> EffectEvidence {
         let runs = self.simulations(&s.fit);
         let Gap { before, closure, after, .. } =
-            measure(&self.campaign, &runs, baseline.floor, (self.settings.seed, 0));
+            measure(&self.dataset, &runs, baseline.floor, (self.settings.seed, 0));
         let unstable = runs_away(&s.fit, runs.iter().map(|run| &run.after[..]));
         let nominal = &self.nominal.plain;
         EffectEvidence {
-            effect: s.parts[0].effect,
+            effect: s.effect_terms[0].effect,
             parameters: s.fit.parameters - nominal.fit.parameters,
             delta_bic: nominal.bic() - s.bic(),
             heldout_log_score: self.score(&s.fit).zip(baseline.score).map_or(0.0, |(a, b)| a - b),
             gains: baseline.horizons.gains(&s.fit),
             closure: closure.filter(|_| !unstable).map(|_| 1.0 - after.estimate / before.estimate),
-            harms: self.harms(s),
+            degrades_validation: self.degrades_validation(s),
             unstable,
         }
     }

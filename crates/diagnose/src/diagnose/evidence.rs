@@ -1,7 +1,7 @@
 //! What the fits say before anything is weighed.
 
 use super::plan::Plan;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::pairs::{Firsts, Pair};
 use crate::attribution::search::{beside_the_model, on_a_free_drift_path};
 use crate::attribution::{Attribution, SIGNIFICANT};
@@ -15,18 +15,18 @@ use crate::workers::Workers;
 #[derive(Debug)]
 pub(super) struct Evidence {
     /// Every effect whose fit is one of it: what is no cause by itself may still be one of two.
-    pub(super) all: Vec<Explanation>,
+    pub(super) all: Vec<Hypothesis>,
     /// Those that may be the cause, best first.
-    pub(super) singles: Vec<Explanation>,
-    /// The same with what is out, since it harms held-out records by itself: it may still be one of two, and is a rival of the others.
-    pub(super) ranked: Vec<Explanation>,
-    /// Whether what is out, since it harms held-out records, follows the fit records better than all that are left: these, too, only
+    pub(super) singles: Vec<Hypothesis>,
+    /// The same with what is out, since it degrades held-out records by itself: it may still be one of two, and is a rival of the others.
+    pub(super) ranked: Vec<Hypothesis>,
+    /// Whether what is out, since it degrades held-out records, follows the fit records better than all that are left: these, too, only
     /// stand in for something else.
     pub(super) outdone: bool,
     /// Whether the best of them gains what chance does not.
     pub(super) significant: bool,
     /// The best of them, or the nominal model.
-    pub(super) best: Explanation,
+    pub(super) best: Hypothesis,
     /// What it leaves.
     pub(super) tests: Option<Omnibus>,
     pub(super) pair: Option<Pair>,
@@ -38,7 +38,7 @@ impl Plan {
     pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
         workers.begin(Phase::Effects);
         let attribution = &Attribution {
-            campaign: &self.campaign,
+            dataset: &self.dataset,
             settings: &self.settings,
             nominal: &self.nominal.plain,
             detailed: &self.nominal.detailed,
@@ -46,7 +46,7 @@ impl Plan {
             pair_effort: self.pair_effort,
         };
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
-        if !self.campaign.holds_nominal()
+        if !self.dataset.holds_nominal()
             && (evidence.leaves_something() || evidence.is_coloured())
             && let Some(better) = evidence.improved(attribution.dominant_reidentified(&evidence.all))
         {
@@ -54,7 +54,7 @@ impl Plan {
         }
         if evidence.leaves_something()
             // Only the best: a free drift path follows in time whatever else changes while it passes.
-            && let Some(freed) = on_a_free_drift_path(&self.campaign, &evidence.best)
+            && let Some(freed) = on_a_free_drift_path(&self.dataset, &evidence.best)
             // What a free drift path is after the last record fitted nobody knows.
             && self.simulation_error(&freed.fit) < self.simulation_error(&evidence.best.fit)
             && let Some(better) = evidence.improved(vec![freed])
@@ -65,20 +65,20 @@ impl Plan {
         if let Some(pair) = &evidence.pair
             && let Some(better) = evidence.improved(attribution.members_alone(pair))
         {
-            let found = (pair.explanation.clone(), pair.left);
+            let found = (pair.hypothesis.clone(), pair.left);
             evidence = self.weigh_in(attribution.workers, better);
             evidence.pair = evidence.tests().map(|tests| Pair::against(&evidence.best, tests, found));
         }
         evidence
     }
 
-    /// Compares the explanations on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
-    fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Explanation>) -> Evidence {
-        singles.retain(Explanation::may_be_a_cause);
-        if self.owns_colour && !self.campaign.holds_nominal() {
+    /// Compares the candidates on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
+    fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Hypothesis>) -> Evidence {
+        singles.retain(Hypothesis::may_be_a_cause);
+        if self.owns_colour && !self.dataset.holds_nominal() {
             self.put_noise_beside_the_model(workers, &mut singles);
         }
-        self.hear_the_held_out(workers, &mut singles);
+        self.validation_penalty(workers, &mut singles);
         self.keep_one_law_of_each(&mut singles);
         let all = singles.clone();
         let significant =
@@ -87,27 +87,27 @@ impl Plan {
         if significant {
             self.drop_noise_where_the_gap_is_systematic(&mut singles);
             ranked.clone_from(&singles);
-            let first = ranked.first().map(|s| (s.parts[0].effect, s.evidence()));
+            let first = ranked.first().map(|s| (s.effect_terms[0].effect, s.evidence()));
             self.drop_what_held_out_records_refute(workers, &mut singles);
-            outdone = !self.campaign.criterion.simulates()
+            outdone = !self.dataset.criterion.simulates()
                 && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
-                    let other = left.parts[0].effect;
-                    let alike = other == effect || effect.twins().contains(&other);
+                    let other = left.effect_terms[0].effect;
+                    let alike = other == effect || effect.confounded_effects().contains(&other);
                     !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
                 });
         }
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
-        let tests = omnibus(&self.campaign, &best.fit);
+        let tests = omnibus(&self.dataset, &best.fit);
         Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
     }
 
     /// Noise moves no simulation, nor does a sensor that rounds: where fitting the model anew with them spoils that of a held-out record,
     /// they are fitted beside the model as it is. Of records that nobody designed no model is right, and robust weights may move it anywhere.
-    fn put_noise_beside_the_model(&self, workers: &impl Workers, singles: &mut [Explanation]) {
-        let is_asked = |s: &Explanation| s.effects().iter().all(|effect| effect.moves_no_simulation());
-        let beside = |s: &Explanation| {
-            let spoils = is_asked(s) && self.harms(s);
-            spoils.then(|| beside_the_model(&self.campaign, &self.nominal.plain, s))
+    fn put_noise_beside_the_model(&self, workers: &impl Workers, singles: &mut [Hypothesis]) {
+        let is_asked = |s: &Hypothesis| s.effects().iter().all(|effect| effect.moves_no_simulation());
+        let beside = |s: &Hypothesis| {
+            let spoils = is_asked(s) && self.degrades_validation(s);
+            spoils.then(|| beside_the_model(&self.dataset, &self.nominal.plain, s))
         };
         let found = workers.map(singles, beside);
         singles.iter_mut().zip(found).for_each(|(single, beside)| {
@@ -120,12 +120,12 @@ impl Plan {
 
     /// Several laws may bear the name of one effect. One step ahead the likelihood chooses; of simulators, what they lose on held-out
     /// records counts as well.
-    fn keep_one_law_of_each(&self, singles: &mut Vec<Explanation>) {
-        let simulates = self.campaign.criterion.simulates();
-        let worth = |s: &Explanation| if simulates { s.evidence() } else { s.bic() };
-        let all: Vec<(Effect, f64)> = singles.iter().map(|s| (s.parts[0].effect, worth(s))).collect();
+    fn keep_one_law_of_each(&self, singles: &mut Vec<Hypothesis>) {
+        let simulates = self.dataset.criterion.simulates();
+        let worth = |s: &Hypothesis| if simulates { s.evidence() } else { s.bic() };
+        let all: Vec<(Effect, f64)> = singles.iter().map(|s| (s.effect_terms[0].effect, worth(s))).collect();
         let is_best = |effect: Effect, worth: f64| all.iter().all(|(e, w)| *e != effect || worth <= *w);
-        singles.retain(|s| is_best(s.parts[0].effect, worth(s)));
+        singles.retain(|s| is_best(s.effect_terms[0].effect, worth(s)));
     }
 
     fn pair(&self, attribution: &Attribution<'_, impl Workers>, evidence: &Evidence) -> Option<Pair> {
@@ -133,17 +133,17 @@ impl Plan {
         attribution.workers.begin(Phase::Pairs);
         let first = evidence.ranked.first()?;
         let is_best = first.effects() == evidence.best.effects();
-        let of_first = (!is_best).then(|| omnibus(&self.campaign, &first.fit)).flatten();
+        let of_first = (!is_best).then(|| omnibus(&self.dataset, &first.fit)).flatten();
         let firsts = Firsts { ranked: &evidence.ranked, all: &evidence.all };
         attribution.pair(firsts, of_first.as_ref().unwrap_or(tests))
     }
 }
 
 impl Evidence {
-    /// The single effects that may be the cause, and behind them what harms held-out records and follows the fit records less well than
+    /// The single effects that may be the cause, and behind them what degrades held-out records and follows the fit records less well than
     /// the best: their rivals all the same.
     pub(super) fn rivals(&self) -> Vec<(Effect, f64)> {
-        let of = |s: &Explanation| (s.parts[0].effect, s.evidence());
+        let of = |s: &Hypothesis| (s.effect_terms[0].effect, s.evidence());
         let singles: Vec<(Effect, f64)> = self.singles.iter().map(of).collect();
         let least = singles.first().map_or(f64::NEG_INFINITY, |best| best.1);
         let is_out = |(effect, evidence): &(Effect, f64)| {
@@ -168,12 +168,12 @@ impl Evidence {
     }
 
     /// All single effects, where others are better optima of some of them.
-    fn improved(&self, others: Vec<Explanation>) -> Option<Vec<Explanation>> {
+    fn improved(&self, others: Vec<Hypothesis>) -> Option<Vec<Hypothesis>> {
         let mut all = self.all.clone();
         let mut improved = false;
-        for other in others.into_iter().filter(Explanation::may_be_a_cause) {
-            let effect = other.parts[0].effect;
-            match all.iter().find(|known| known.parts[0].effect == effect) {
+        for other in others.into_iter().filter(Hypothesis::may_be_a_cause) {
+            let effect = other.effect_terms[0].effect;
+            match all.iter().find(|known| known.effect_terms[0].effect == effect) {
                 Some(known) if other.bic() >= known.bic() - SIGNIFICANT => continue,
                 // The held-out records may yet prefer the one that was known.
                 _ => all.push(other),

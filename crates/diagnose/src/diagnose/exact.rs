@@ -36,8 +36,8 @@ impl Plan {
     /// Variance of the output on the judged records, each about its mean.
     fn judged_variance(&self) -> f64 {
         let about_its_mean = |&number: &usize| {
-            let track = &self.campaign.tracks[number];
-            let y = &track.y[track.from..];
+            let scaled = &self.dataset.scaled_records[number];
+            let y = &scaled.y[scaled.from..];
             let mean = y.iter().sum::<f64>() / y.len().max(1) as f64;
             y.iter().map(|y| y - mean).collect()
         };
@@ -47,7 +47,7 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use crate::diagnose::harm::tests::plan;
+    use crate::diagnose::degradation::tests::plan;
 
     #[test]
     fn rounding_is_no_gap_and_what_a_sensor_sees_is_one() {
@@ -56,9 +56,9 @@ mod tests {
         plan.nominal.plain.fit.power = 1e-7;
         assert!(plan.nothing_to_explain().is_none(), "the held-out record has noise");
         let run = plan.run_before(1);
-        plan.campaign.tracks[1].y = run.iter().map(|y| y + 1e-4).collect();
+        plan.dataset.scaled_records[1].y = run.iter().map(|y| y + 1e-4).collect();
         assert!(plan.nothing_to_explain().is_some());
-        plan.campaign.tracks[1].y = run.iter().map(|y| y + 1e-2).collect();
+        plan.dataset.scaled_records[1].y = run.iter().map(|y| y + 1e-2).collect();
         assert!(plan.nothing_to_explain().is_none());
     }
 }

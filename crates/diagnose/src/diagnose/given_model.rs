@@ -5,7 +5,7 @@ use switchback_model::rig::{Rig, RigRecord};
 use crate::error::DiagnoseError;
 use crate::likelihood::engine::Fit;
 use crate::localise::Residuals;
-use crate::records::campaign::{Campaign, Track, dimensionless};
+use crate::records::dataset::{Dataset, ScaledRecord, dimensionless};
 use crate::settings::Model;
 use crate::simulation::simulate::free_run;
 
@@ -14,7 +14,7 @@ use crate::simulation::simulate::free_run;
 pub(super) struct GivenModel {
     /// The model itself, where it is known.
     pub(super) fit: Option<Fit>,
-    /// Simulated outputs, one a judged track.
+    /// Simulated outputs, one a judged record.
     pub(super) runs: Vec<Vec<f64>>,
     pub(super) residuals: Residuals,
     /// Whether the residuals are those of the output itself, not of predictions one step ahead.
@@ -26,45 +26,40 @@ impl GivenModel {
     pub(super) fn of(
         model: &Model,
         rig: &Rig,
-        campaign: &Campaign,
+        dataset: &Dataset,
         judged: &[usize],
     ) -> Result<Option<Self>, DiagnoseError> {
         Ok(match model {
             Model::Identify => None,
             Model::Given(model) => {
-                let given = crate::nominal::given::scaled(campaign, model)?;
-                let run = |&k: &usize| free_run(campaign, &given, k, &campaign.tracks[k]);
+                let given = crate::nominal::given::scaled(dataset, model)?;
+                let run = |&k: &usize| free_run(dataset, &given, k, &dataset.scaled_records[k]);
                 Some(Self {
                     runs: judged.iter().map(run).collect(),
-                    residuals: Residuals::of(campaign, &given),
+                    residuals: Residuals::of(dataset, &given),
                     is_output: false,
                     fit: Some(given),
                 })
             }
             Model::Predicted => {
-                let errors = |(track, predicted): (&Track, Option<Vec<f64>>)| {
+                let errors = |(scaled, predicted): (&ScaledRecord, Option<Vec<f64>>)| {
                     let errors = |run: Vec<f64>| {
-                        track.y.iter().zip(run).skip(track.from).map(|(y, x)| y - x).collect()
+                        scaled.y.iter().zip(run).skip(scaled.from).map(|(y, x)| y - x).collect()
                     };
                     predicted.map(errors).unwrap_or_default()
                 };
-                let known = predicted(rig, campaign);
-                let series = campaign.tracks.iter().zip(known).map(errors).collect();
+                let known = predicted(rig, dataset);
+                let series = dataset.scaled_records.iter().zip(known).map(errors).collect();
                 let residuals = Residuals { series, simulated: true };
-                Some(Self {
-                    fit: None,
-                    runs: predictions(rig, campaign, judged)?,
-                    residuals,
-                    is_output: true,
-                })
+                Some(Self { fit: None, runs: predictions(rig, dataset, judged)?, residuals, is_output: true })
             }
         })
     }
 }
 
 /// The `y_sim` of every record that has one for each of its samples, dimensionless.
-pub(super) fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>> {
-    let scaled = |y: &Vec<f64>| dimensionless(y, campaign.y_mean, campaign.y_scale);
+pub(super) fn predicted(rig: &Rig, dataset: &Dataset) -> Vec<Option<Vec<f64>>> {
+    let scaled = |y: &Vec<f64>| dimensionless(y, dataset.y_mean, dataset.y_scale);
     let whole = |r: &RigRecord| {
         r.predicted
             .as_ref()
@@ -75,7 +70,7 @@ pub(super) fn predicted(rig: &Rig, campaign: &Campaign) -> Vec<Option<Vec<f64>>>
 }
 
 /// The `y_sim` of the judged records, dimensionless.
-fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
+fn predictions(rig: &Rig, dataset: &Dataset, judged: &[usize]) -> Result<Vec<Vec<f64>>, DiagnoseError> {
     judged
         .iter()
         .map(|&k| {
@@ -91,7 +86,7 @@ fn predictions(rig: &Rig, campaign: &Campaign, judged: &[usize]) -> Result<Vec<V
             if let Some((index, &value)) = found.iter().enumerate().find(|(_, x)| !x.is_finite()) {
                 return Err(DiagnoseError::PredictionNotFinite { record: r.name.clone(), index, value });
             }
-            Ok(dimensionless(found, campaign.y_mean, campaign.y_scale))
+            Ok(dimensionless(found, dataset.y_mean, dataset.y_scale))
         })
         .collect()
 }

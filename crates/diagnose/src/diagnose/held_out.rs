@@ -1,12 +1,12 @@
-//! What the held-out records say about the explanations.
+//! What the held-out records say about the candidates.
 
 use super::plan::Plan;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::closure::measure;
 use crate::diagnosis::Gap;
 use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
-use crate::records::campaign::Criterion;
+use crate::records::dataset::Criterion;
 use crate::records::repeats::Repeating;
 use crate::residuals::clustering::come_where_the_input_is;
 use crate::residuals::omnibus::omnibus;
@@ -19,7 +19,7 @@ use crate::workers::Workers;
 
 /// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
 const RUNAWAY: f64 = 20.0;
-/// Share of the simulation error that may repeat with the input under an explanation by noise.
+/// Share of the simulation error that may repeat with the input under an candidate by noise.
 const REPEATS: f64 = 0.12;
 /// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that
 /// it must gain to be heard.
@@ -32,30 +32,30 @@ const AS_GOOD: f64 = 0.01;
 const CLEARLY: f64 = 0.9;
 
 /// Log score a sample that a model has for the quantisation grid it puts the outputs on, of which their density knows nothing.
-pub(super) fn told_by_rounding(fit: &Fit) -> f64 {
-    fit.assembly.noise.quantisation.map_or(0.0, |_| 0.5 * worth(1))
+pub(super) fn reported_by_rounding(fit: &Fit) -> f64 {
+    fit.augmented.noise.quantisation.map_or(0.0, |_| 0.5 * worth(1))
 }
 
-/// Share of the gap that an explanation closes which is its cause: the upper end of the interval lies above.
+/// Share of the gap that an candidate closes which is its cause: the upper end of the interval lies above.
 const MATERIAL: f64 = 0.5;
 
 impl Plan {
-    /// The held-out records have their say: what an explanation loses on them in log score counts like a loss in
+    /// The held-out records have their say: what an candidate loses on them in log score counts like a loss in
     /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
-    pub(super) fn hear_the_held_out(&self, workers: &impl Workers, singles: &mut [Explanation]) {
+    pub(super) fn validation_penalty(&self, workers: &impl Workers, singles: &mut [Hypothesis]) {
         let Some(nominal) = self.score(&self.nominal.plain.fit) else { return };
-        let held_out = self.campaign.tracks.iter().filter(|t| !t.is_fit());
+        let held_out = self.dataset.scaled_records.iter().filter(|t| !t.is_fit());
         let samples = held_out.map(|t| t.v.len().saturating_sub(t.from)).sum::<usize>() as f64;
         let heard = workers.map(singles, |s| (self.score(&s.fit), self.simulation_error(&s.fit)));
         // Simulators are no safer for beating the nominal model: what they lose to the best of them counts.
-        let reference = match self.campaign.criterion {
+        let reference = match self.dataset.criterion {
             Criterion::OneStep => nominal,
             Criterion::Simulation { .. } => heard.iter().filter_map(|h| h.0).fold(nominal, f64::max),
         };
         let nominal_error = self.simulation_error(&self.nominal.plain.fit);
         for (single, (score, error)) in singles.iter_mut().zip(heard) {
             let lost = score.map_or(0.0, |s| reference - s);
-            let excused = single.parts.iter().any(|p| p.effect.is_of_its_record());
+            let excused = single.effect_terms.iter().any(|p| p.effect.is_of_its_record());
             single.held_out = if excused { 0.0 } else { 2.0 * samples * lost.max(0.0) };
             if error > RUNAWAY * nominal_error {
                 // What runs away on other records is no account of these either.
@@ -65,66 +65,66 @@ impl Plan {
         singles.sort_by(|x, y| x.evidence().total_cmp(&y.evidence()));
     }
 
-    /// Whether one explanation predicts the held-out records better than another; true without any, and for effects of
+    /// Whether one candidate predicts the held-out records better than another; true without any, and for effects of
     /// their own record, which need not hold in others.
-    pub(super) fn better_held_out(&self, one: &Explanation, than: &Explanation) -> bool {
+    pub(super) fn better_held_out(&self, one: &Hypothesis, than: &Hypothesis) -> bool {
         let excused = one.effects().iter().any(|e| e.is_of_its_record());
         let (error, other) = (self.simulation_error(&one.fit), self.simulation_error(&than.fit));
-        let score = |e: &Explanation| self.score(&e.fit).map(|score| score + told_by_rounding(&e.fit));
+        let score = |e: &Hypothesis| self.score(&e.fit).map(|score| score + reported_by_rounding(&e.fit));
         let scores = score(one).zip(score(than));
         error < RUNAWAY * other
             && (excused || error < CLEARLY * other || scores.is_none_or(|(one, other)| one > other - AS_GOOD))
     }
 
-    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise explanation, or
+    /// Noise moves no simulation error: where much of the error repeats with the input under the best noise candidate, or
     /// an effect that does move it takes much of it away on the held-out records, the noise is no cause of it, however
     /// well it predicts one step ahead.
-    pub(super) fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Explanation>) {
-        let Some(best) = singles.first().filter(|s| s.parts[0].effect.is_noise()) else { return };
+    pub(super) fn drop_noise_where_the_gap_is_systematic(&self, singles: &mut Vec<Hypothesis>) {
+        let Some(best) = singles.first().filter(|s| s.effect_terms[0].effect.is_noise()) else { return };
         // Noise that lasts makes simulation errors of any size, and leaves nothing.
-        let lasts = best.parts[0].effect.card().colours_noise;
-        if lasts && omnibus(&self.campaign, &best.fit).is_some_and(|left| left.excess() < IMMATERIAL) {
+        let lasts = best.effect_terms[0].effect.card().colours_noise;
+        if lasts && omnibus(&self.dataset, &best.fit).is_some_and(|left| left.excess() < IMMATERIAL) {
             return;
         }
         let mut repeating = Repeating::default();
-        for (number, track) in self.campaign.tracks.iter().enumerate() {
-            let run = free_run(&self.campaign, &best.fit, number, track);
-            let error: Vec<f64> = track.y.iter().zip(&run).map(|(y, run)| y - run).collect();
-            repeating.add(track, &error);
+        for (number, scaled) in self.dataset.scaled_records.iter().enumerate() {
+            let run = free_run(&self.dataset, &best.fit, number, scaled);
+            let error: Vec<f64> = scaled.y.iter().zip(&run).map(|(y, run)| y - run).collect();
+            repeating.add(scaled, &error);
         }
-        let error = |s: &Explanation| self.simulation_error(&s.fit);
+        let error = |s: &Hypothesis| self.simulation_error(&s.fit);
         let gained = self.nominal.plain.evidence() - best.evidence();
         let rivals = singles.iter().filter(|s| {
-            let effect = s.parts[0].effect;
+            let effect = s.effect_terms[0].effect;
             let serious = self.nominal.plain.evidence() - s.evidence() > SERIOUS * gained;
             serious && !effect.is_noise() && !effect.is_of_its_record()
         });
         let least = rivals.map(error).fold(f64::INFINITY, f64::min);
         let repeats = repeating.share().is_some_and(|share| share > REPEATS);
         if repeats || least < SYSTEMATIC * error(best) {
-            singles.retain(|s| !s.parts[0].effect.is_noise());
+            singles.retain(|s| !s.effect_terms[0].effect.is_noise());
         }
     }
 
     /// What is worse on held-out records explains nothing, however well it follows those it was fitted to: a simulator that closes none
-    /// of the gap, and whatever harms a record beyond its error.
+    /// of the gap, and whatever degrades a record beyond its error.
     pub(super) fn drop_what_held_out_records_refute(
         &self,
         workers: &impl Workers,
-        singles: &mut Vec<Explanation>,
+        singles: &mut Vec<Hypothesis>,
     ) {
-        if self.campaign.criterion.simulates() {
+        if self.dataset.criterion.simulates() {
             singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
         }
-        let harm = workers.map(singles, |s| self.harms(s));
-        let mut harm = harm.into_iter();
-        singles.retain(|_| !harm.next().unwrap_or_default());
+        let degradation = workers.map(singles, |s| self.degrades_validation(s));
+        let mut degradation = degradation.into_iter();
+        singles.retain(|_| !degradation.next().unwrap_or_default());
     }
 
     /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
     /// gap.
     pub(super) fn held_out_closure(&self, fit: &Fit) -> Option<f64> {
-        if !self.campaign.criterion.simulates() {
+        if !self.dataset.criterion.simulates() {
             return None;
         }
         let before = mean_square(&self.errors(|number| self.run_before(number)));
@@ -133,53 +133,53 @@ impl Plan {
         (before > noise).then(|| (before - after) / (before - noise))
     }
 
-    /// Whether there is a gap on the judged records that an explanation does not close, though a cause would.
+    /// Whether there is a gap on the judged records that an candidate does not close, though a cause would.
     ///
     /// Effects that depend on time, or on a phase that differs from record to record, need not close it. Nor do random effects whose errors last, and
     /// noise that leaves no deviance (`left`): coloured noise alone makes a simulation differ from the record.
-    pub(super) fn hardly_closes(&self, explanation: &Explanation, left: f64) -> bool {
+    pub(super) fn hardly_closes(&self, hypothesis: &Hypothesis, left: f64) -> bool {
         let excused = |e: &Effect| e.is_of_its_record() || e.card().errors_last;
-        let effects = explanation.effects();
+        let effects = hypothesis.effects();
         let whole = left < IMMATERIAL && effects.iter().all(|e| e.is_noise());
-        if self.campaign.criterion.simulates() || effects.iter().any(excused) || whole {
+        if self.dataset.criterion.simulates() || effects.iter().any(excused) || whole {
             return false;
         }
-        let gap = self.gap(&explanation.fit, self.settings.resamples);
+        let gap = self.gap(&hypothesis.fit, self.settings.resamples);
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
-    /// Whether an explanation makes the simulation of the held-out records worse beyond chance. Explanations that consist of noise are exempt, and so
+    /// Whether an candidate makes the simulation of the held-out records worse beyond chance. Explanations that consist of noise are exempt, and so
     /// are effects that depend on time beside others that do not.
-    pub(super) fn worsens(&self, explanation: &Explanation) -> bool {
-        let effects = explanation.effects();
+    pub(super) fn worsens(&self, hypothesis: &Hypothesis) -> bool {
+        let effects = hypothesis.effects();
         let of_its_record = effects.iter().any(|e| e.is_of_its_record());
         let lasting = effects.iter().any(|e| !e.is_noise() && !e.is_of_its_record());
         let all_noise = !of_its_record && !lasting;
         let excused = all_noise || of_its_record && lasting;
-        let closure = || self.gap(&explanation.fit, self.settings.resamples).closure;
+        let closure = || self.gap(&hypothesis.fit, self.settings.resamples).closure;
         !excused && closure().is_some_and(|closure| closure.ci90[1] < 0.0)
     }
 
     /// Whether outliers that explain the gap, alone or beside another effect, come where the input is: something is missed there.
-    pub(super) fn misses_at_places(&self, explanation: &Explanation) -> bool {
-        explanation.effects().iter().any(|e| e.card().heavy_tails)
-            && come_where_the_input_is(&self.campaign, &explanation.fit)
+    pub(super) fn misses_at_places(&self, hypothesis: &Hypothesis) -> bool {
+        hypothesis.effects().iter().any(|e| e.card().heavy_tails)
+            && come_where_the_input_is(&self.dataset, &hypothesis.fit)
     }
 
     /// Whether something beside the rounding of the sensor, to which the tests are blind, shows on the judged records: what
     /// closes a gap there, unless it moves no simulation or need not hold in other records.
-    pub(super) fn shows_in_simulations(&self, explanation: &Explanation) -> bool {
+    pub(super) fn shows_in_simulations(&self, hypothesis: &Hypothesis) -> bool {
         let beside = |e: &&Effect| !e.card().rounds;
         let excused = |e: &Effect| e.is_noise() || e.is_of_its_record();
-        let gap = self.gap(&explanation.fit, self.settings.resamples);
-        explanation.effects().iter().filter(beside).all(excused)
+        let gap = self.gap(&hypothesis.fit, self.settings.resamples);
+        hypothesis.effects().iter().filter(beside).all(excused)
             || gap.closure.is_some_and(|closure| closure.ci90[0] > MATERIAL)
     }
 
     /// The gap on the judged records before and after.
     pub(super) fn gap(&self, fit: &Fit, resamples: usize) -> Gap {
         let draws = (self.settings.seed, resamples);
-        measure(&self.campaign, &self.simulations(fit), self.noise_floor(fit), draws)
+        measure(&self.dataset, &self.simulations(fit), self.noise_floor(fit), draws)
     }
 
     /// Share of the gap on the judged records that a model leaves, where there is a gap.
@@ -190,8 +190,8 @@ impl Plan {
 
     /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.
     pub(super) fn score(&self, fit: &Fit) -> Option<f64> {
-        match self.campaign.criterion {
-            Criterion::OneStep => heldout_log_score(&self.campaign, fit),
+        match self.dataset.criterion {
+            Criterion::OneStep => heldout_log_score(&self.dataset, fit),
             Criterion::Simulation { share } => {
                 Some(-0.5 * share * mean_square(&self.judged_errors(fit)).max(1e-300).ln())
             }

@@ -4,7 +4,7 @@ use super::plan::Plan;
 use crate::closure::Simulated;
 use crate::likelihood::engine::Fit;
 use crate::model::sensor::SensorCurve;
-use crate::records::campaign::Criterion;
+use crate::records::dataset::Criterion;
 use crate::residuals::spectrum::unpredictable_variance;
 use crate::simulation::noise_response::NoiseResponse;
 use crate::simulation::own_paths::without_own_paths;
@@ -16,15 +16,15 @@ impl Plan {
     /// Repetition within periodic records needs no model; the augmented model's own floor is the other estimate. Effects
     /// that do not repeat with the input inflate the first, effects left out the second: the smaller one holds.
     pub(super) fn noise_floor(&self, fit: &Fit) -> (f64, f64) {
-        if self.campaign.criterion.simulates() {
+        if self.dataset.criterion.simulates() {
             return self.unforeseeable(fit);
         }
         let response = NoiseResponse::of(fit);
-        let model = fit.power * response.gain() * self.noise_shown(&fit.assembly.curve);
+        let model = fit.power * response.gain() * self.noise_shown(&fit.augmented.curve);
         let relative = |n: f64| (2.0 / n).sqrt() * 2.0;
         // Rounding repeats with the input, and is noise all the same.
-        let rounding = fit.assembly.noise.quantisation.map_or(0.0, |step| step * step / 12.0);
-        match response.repeat_variance(&self.campaign, |_| true).map(|(repeat, n)| (repeat + rounding, n)) {
+        let rounding = fit.augmented.noise.quantisation.map_or(0.0, |step| step * step / 12.0);
+        match response.repeat_variance(&self.dataset, |_| true).map(|(repeat, n)| (repeat + rounding, n)) {
             Some((repeat, count)) if repeat < model => (repeat, relative(count as f64)),
             _ => (model, relative(fit.samples as f64)),
         }
@@ -33,11 +33,11 @@ impl Plan {
     /// Variance that the sensor's characteristic makes of one unit of it on the judged records: where it is steep it shows more of
     /// what lies before it.
     fn noise_shown(&self, curve: &SensorCurve) -> f64 {
-        let tracks = self.judged.iter().map(|&number| &self.campaign.tracks[number]);
-        curve.shown(tracks.flat_map(|track| &track.y[track.from..]).copied())
+        let scaled_records = self.judged.iter().map(|&number| &self.dataset.scaled_records[number]);
+        curve.shown(scaled_records.flat_map(|scaled| &scaled.y[scaled.from..]).copied())
     }
 
-    /// The part of the simulation error on the judged records that its own past does not foretell: noise in the output is
+    /// The part of the simulation error on the judged records that its own past does not predict: noise in the output is
     /// at most that.
     pub(super) fn unforeseeable(&self, fit: &Fit) -> (f64, f64) {
         let errors = self.judged_errors(fit);
@@ -48,17 +48,17 @@ impl Plan {
     /// Errors of the free run on the judged records. Where models are compared as simulators, what a record has of its own (the phase of a
     /// wave, the path of a zero) is taken out: it is unknown in a record that was not fitted, and no fault of the model.
     pub(super) fn judged_errors(&self, fit: &Fit) -> Vec<Vec<f64>> {
-        let run = |number: usize| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]);
+        let run = |number: usize| free_run(&self.dataset, fit, number, &self.dataset.scaled_records[number]);
         let errors = self.errors(run);
-        match self.campaign.criterion.simulates() {
-            true => without_own_paths(&self.campaign, fit, &self.judged, errors),
+        match self.dataset.criterion.simulates() {
+            true => without_own_paths(&self.dataset, fit, &self.judged, errors),
             false => errors,
         }
     }
 
     /// Variance of the innovations without the gap.
     pub(super) fn innovation_floor(&self, fit: &Fit) -> f64 {
-        let power = match self.campaign.criterion {
+        let power = match self.dataset.criterion {
             Criterion::OneStep => fit.power,
             Criterion::Simulation { .. } => self.unforeseeable(fit).0,
         };
@@ -71,8 +71,8 @@ impl Plan {
             .iter()
             .enumerate()
             .map(|(i, &number)| {
-                let track = &self.campaign.tracks[number];
-                let after = free_run(&self.campaign, fit, number, track);
+                let scaled = &self.dataset.scaled_records[number];
+                let after = free_run(&self.dataset, fit, number, scaled);
                 Simulated { number, before: self.runs[i].clone(), after }
             })
             .collect()

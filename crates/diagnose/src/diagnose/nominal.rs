@@ -1,39 +1,42 @@
-//! The nominal model, with and without knots that follow details of the borders.
+//! The nominal model, with and without knots that follow refinements of the borders.
 
-use crate::attribution::explain::Explanation;
-use crate::nominal::knots::detail;
-use crate::records::campaign::Campaign;
+use crate::attribution::explain::Hypothesis;
+use crate::nominal::knots::refinement;
+use crate::records::dataset::Dataset;
 use crate::settings::Settings;
 use crate::simulation::simulate::free_run;
 
 /// The nominal model.
 #[derive(Debug)]
 pub(super) struct Nominal {
-    /// Without knots that follow details of the borders.
-    pub(super) plain: Explanation,
-    /// With border knots placed from the data; the same where details are no candidate.
-    pub(super) detailed: Explanation,
+    /// Without knots that follow refinements of the borders.
+    pub(super) plain: Hypothesis,
+    /// With border knots placed from the data; the same where refinements are no candidate.
+    pub(super) detailed: Hypothesis,
 }
 
 impl Nominal {
-    pub(super) fn new(campaign: &Campaign, settings: &Settings, detailed: Explanation) -> Self {
-        let plain = coarse(campaign, &detailed);
-        // Where details of the borders are no candidate, no other may take what knots that follow them gain.
-        let follows = settings.consider_details();
+    pub(super) fn new(dataset: &Dataset, settings: &Settings, detailed: Hypothesis) -> Self {
+        let plain = coarse(dataset, &detailed);
+        // Where refinements of the borders are no candidate, no other may take what knots that follow them gain.
+        let follows = settings.consider_refinement();
         let detailed = if follows { detailed } else { plain.clone() };
         Self { plain, detailed }
     }
 
-    /// Free runs over some tracks.
-    pub(super) fn runs(&self, campaign: &Campaign, tracks: &[usize]) -> Vec<Vec<f64>> {
-        tracks.iter().map(|&k| free_run(campaign, &self.plain.fit, k, &campaign.tracks[k])).collect()
+    /// Free runs over some records.
+    pub(super) fn runs(&self, dataset: &Dataset, scaled_records: &[usize]) -> Vec<Vec<f64>> {
+        scaled_records
+            .iter()
+            .map(|&k| free_run(dataset, &self.plain.fit, k, &dataset.scaled_records[k]))
+            .collect()
     }
 }
 
-/// The model without the knots that follow details, where these matter; else the model itself.
-fn coarse(campaign: &Campaign, detailed: &Explanation) -> Explanation {
-    match detailed.on_a_smooth_grid(campaign) {
-        Some(even) if even.bic() - detailed.bic() > detail(campaign) => even,
+/// The model without the knots that follow refinements, where these matter; else the model itself.
+fn coarse(dataset: &Dataset, detailed: &Hypothesis) -> Hypothesis {
+    match detailed.on_a_smooth_grid(dataset) {
+        Some(even) if even.bic() - detailed.bic() > refinement(dataset) => even,
         _ => detailed.clone(),
     }
 }

@@ -16,13 +16,13 @@ impl Plan {
     /// 1969).
     pub(super) fn held_out_errors_beyond_chance(&self, fit: &Fit) -> Option<f64> {
         // A held-out record too short to be judged says nothing of a machine either.
-        let holds_out = self.judged.iter().all(|&number| !self.campaign.tracks[number].is_fit());
+        let holds_out = self.judged.iter().all(|&number| !self.dataset.scaled_records[number].is_fit());
         if self.given.is_some() || !holds_out || self.resolves_no_gap(fit) {
             return None;
         }
         let share = fit.parameters / fit.samples.max(1) as f64;
         let expected = fit.power * (1.0 + share) / (1.0 - share).max(f64::MIN_POSITIVE);
-        let errors = innovations(&self.campaign, fit, |track| track.usage == Usage::Holdout);
+        let errors = innovations(&self.dataset, fit, |scaled| scaled.usage == Usage::Holdout);
         let ratios: Vec<Vec<f64>> =
             errors.iter().map(|errors| errors.iter().map(|w| w * w / expected).collect()).collect();
         // What is expected is a variance of so many samples itself: its relative error is √(2/(N − k)).
@@ -36,16 +36,16 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use crate::diagnose::harm::tests::plan;
+    use crate::diagnose::degradation::tests::plan;
 
     #[test]
-    fn the_same_machine_is_told_from_one_with_another_gain_or_zero() {
+    fn the_same_machine_is_distinguished_from_one_with_another_gain_or_zero() {
         let mut plan = plan();
         let fit = plan.nominal.plain.fit.clone();
         assert_eq!(plan.held_out_errors_beyond_chance(&fit), None);
-        let taken = plan.campaign.tracks[1].y.clone();
+        let taken = plan.dataset.scaled_records[1].y.clone();
         for change in [|y: f64| 1.3 * y, |y: f64| y + 0.5, |y: f64| -y] {
-            plan.campaign.tracks[1].y = taken.iter().map(|y| change(*y)).collect();
+            plan.dataset.scaled_records[1].y = taken.iter().map(|y| change(*y)).collect();
             let times = plan.held_out_errors_beyond_chance(&fit);
             assert!(times.is_some_and(|times| times > 1.5), "{times:?}");
         }

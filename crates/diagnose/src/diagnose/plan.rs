@@ -5,18 +5,18 @@ use switchback_model::rig::Rig;
 use super::given_model::GivenModel;
 use super::nominal::Nominal;
 use crate::attribution::PairEffort;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::error::DiagnoseError;
 use crate::export::Exporter;
 use crate::nominal::order::{Chosen, Structure};
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
 
 /// What is known before any effect is tried.
 #[derive(Debug)]
 pub(super) struct Plan {
     pub(super) settings: Settings,
-    pub(super) campaign: Campaign,
+    pub(super) dataset: Dataset,
     /// The nominal model as identified here.
     pub(super) nominal: Nominal,
     /// The model under diagnosis, where it is not the identified one.
@@ -44,31 +44,31 @@ impl Plan {
         settings: &Settings,
         chosen: Chosen,
     ) -> Result<Self, DiagnoseError> {
-        let Chosen { campaign, fit, structure, told } = chosen;
-        let declared = told.is_none();
+        let Chosen { dataset, fit, structure, reported } = chosen;
+        let declared = reported.is_none();
         let mut settings = settings.clone();
-        let mut limitations = Vec::from_iter(told);
-        if campaign.criterion.simulates() {
+        let mut limitations = Vec::from_iter(reported);
+        if dataset.criterion.simulates() {
             // What changes only the noise moves no simulation.
             settings.effects.retain(|e| !e.moves_no_simulation());
         }
-        let judged = judged_tracks(&campaign, &mut limitations);
-        let given = GivenModel::of(model, rig, &campaign, &judged)?;
-        note_what_the_records_lack(&campaign, &mut limitations);
-        let nominal = Nominal::new(&campaign, &settings, Explanation::nominal(fit));
+        let judged = judged_scaled_records(&dataset, &mut limitations);
+        let given = GivenModel::of(model, rig, &dataset, &judged)?;
+        note_what_the_records_lack(&dataset, &mut limitations);
+        let nominal = Nominal::new(&dataset, &settings, Hypothesis::nominal(fit));
         let runs = match &given {
             Some(given) => given.runs.clone(),
-            None => nominal.runs(&campaign, &judged),
+            None => nominal.runs(&dataset, &judged),
         };
-        let pair_effort = if campaign.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
+        let pair_effort = if dataset.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
         let owns_colour =
-            !declared && !campaign.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
+            !declared && !dataset.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
         let exporter = Exporter::new(rig);
-        let holds_out = campaign.tracks.iter().any(|t| !t.is_fit());
-        let is_calibrated = declared && holds_out && given.is_none() && !campaign.criterion.simulates();
+        let holds_out = dataset.scaled_records.iter().any(|t| !t.is_fit());
+        let is_calibrated = declared && holds_out && given.is_none() && !dataset.criterion.simulates();
         Ok(Self {
             settings,
-            campaign,
+            dataset,
             nominal,
             given,
             judged,
@@ -84,23 +84,23 @@ impl Plan {
 
     /// Whether the nominal model was identified from records that nobody designed, its order unknown.
     pub(super) fn is_of_the_field(&self) -> bool {
-        self.owns_colour && !self.campaign.holds_nominal()
+        self.owns_colour && !self.dataset.holds_nominal()
     }
 
     /// Founds the diagnosis on another optimum of the nominal model.
     pub(super) fn found_on(&mut self, nominal: Nominal) {
         if self.given.is_none() {
-            self.runs = nominal.runs(&self.campaign, &self.judged);
+            self.runs = nominal.runs(&self.dataset, &self.judged);
         }
         self.nominal = nominal;
     }
 }
 
 /// The hold-out records; without any, the fit records, with a word about it.
-pub(super) fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) -> Vec<usize> {
+pub(super) fn judged_scaled_records(dataset: &Dataset, limitations: &mut Vec<String>) -> Vec<usize> {
     let numbers = |fit: bool| {
-        campaign
-            .tracks
+        dataset
+            .scaled_records
             .iter()
             .enumerate()
             .filter(|(_, t)| t.is_fit() == fit && t.from + 20 < t.v.len())
@@ -119,30 +119,30 @@ pub(super) fn judged_tracks(campaign: &Campaign, limitations: &mut Vec<String>) 
     held_out
 }
 
-pub(super) fn note_what_the_records_lack(campaign: &Campaign, limitations: &mut Vec<String>) {
-    for track in campaign.tracks.iter().filter(|t| t.y.iter().all(|y| *y == t.y[0])) {
+pub(super) fn note_what_the_records_lack(dataset: &Dataset, limitations: &mut Vec<String>) {
+    for scaled in dataset.scaled_records.iter().filter(|t| t.y.iter().all(|y| *y == t.y[0])) {
         limitations.push(format!(
             "y never moves in `{}`: its sensor may have been off; check the record, or leave it out",
-            track.name
+            scaled.name
         ));
     }
-    if campaign.fit().all(|t| t.is_pulsed()) {
+    if dataset.fit().all(|t| t.is_pulsed()) {
         limitations.push(
             "no free record among the fit records: pulse experiments cannot see backlash or gradual transition, and hardly \
              rate dependence; add a free record with reversals of many sizes"
                 .into(),
         );
     }
-    if campaign.tracks.iter().all(|t| t.period.is_none()) {
+    if dataset.scaled_records.iter().all(|t| t.period.is_none()) {
         limitations.push(
-            "no record repeats its input three times: noise is told from the systematic part by the model's floor alone"
+            "no record repeats its input three times: noise is distinguished from the systematic part by the model's floor alone"
                 .into(),
         );
     }
-    if campaign.rule.threshold > 0.0 {
+    if dataset.rule.threshold > 0.0 {
         limitations.push(format!(
             "noise on v fakes reversals: moves below {:.3e} input units against the branch were not counted as such",
-            campaign.rule.threshold * campaign.v_width
+            dataset.rule.threshold * dataset.v_width
         ));
     }
 }

@@ -1,31 +1,31 @@
 //! Whether the model under diagnosis lacks a cause or only the right parameters.
 
-use super::harm::differences;
+use super::degradation::differences;
 use super::plan::Plan;
 use super::report::{Conclusion, Other};
 use crate::effects::Room;
 use crate::likelihood::engine::Fit;
 use crate::nominal::order::Chosen;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::simulation::simulate::free_run;
 use crate::verdict::answer::{Status, Verdict};
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
 /// Whether a verdict names, alone or among others, an effect that a higher order or another delay could describe as well.
-pub(super) fn tells_dynamics(verdict: &Verdict) -> bool {
+pub(super) fn shows_dynamics(verdict: &Verdict) -> bool {
     verdict.effects.iter().chain(&verdict.class).any(|effect| effect.card().room.is_some())
 }
 
-/// Whether a verdict tells a delay.
-pub(super) fn tells_a_delay(verdict: &Verdict) -> bool {
+/// Whether a verdict shows a delay.
+pub(super) fn shows_a_delay(verdict: &Verdict) -> bool {
     verdict.effects.iter().chain(&verdict.class).any(|effect| effect.card().room == Some(Room::Delay))
 }
 
 impl Plan {
-    /// Whether the same model, identified anew, closes as much of the gap of one that was given as the explanation of a verdict does:
+    /// Whether the same model, identified anew, closes as much of the gap of one that was given as the candidate of a verdict does:
     /// on the judged records it saves what the other one does, but for the error of the difference.
     ///
-    /// Where the explanation is none of the candidates, nothing may be left of the gap.
+    /// Where the candidate is none of the candidates, nothing may be left of the gap.
     pub(super) fn only_parameters_are_off(&self, status: Status, explained: &Fit) -> bool {
         if self.given.is_none() {
             return false;
@@ -34,7 +34,9 @@ impl Plan {
         let gap = self.gap(anew, self.settings.resamples);
         let saves = self.mean(&self.saved_in_simulation(anew), anew).is_some_and(|m| m.low > 0.0);
         let errors = |fit: &Fit| {
-            self.squared_errors(|number| free_run(&self.campaign, fit, number, &self.campaign.tracks[number]))
+            self.squared_errors(|number| {
+                free_run(&self.dataset, fit, number, &self.dataset.scaled_records[number])
+            })
         };
         let adds = || {
             let saved = differences(&errors(anew), &errors(explained));
@@ -48,32 +50,32 @@ impl Plan {
         gap.before.ci90[0] > 0.0 && saves && suffices
     }
 
-    /// Whether a nominal model of another structure does as well on the judged records as an explanation, but for the error of the
+    /// Whether a nominal model of another structure does as well on the judged records as an candidate, but for the error of the
     /// difference.
     pub(super) fn does_the_same(&self, chosen: &Chosen, explained: &Fit) -> bool {
-        self.mean(&self.saved_over((&chosen.campaign, &chosen.fit), explained), explained)
+        self.mean(&self.saved_over((&chosen.dataset, &chosen.fit), explained), explained)
             .is_some_and(|saved| saved.low <= 0.0)
     }
 
-    /// Whether a model does better on the judged records than an explanation, beyond the error of the difference.
-    pub(super) fn is_outdone_by(&self, other: (&Campaign, &Fit), explained: &Fit) -> bool {
+    /// Whether a model does better on the judged records than an candidate, beyond the error of the difference.
+    pub(super) fn is_outdone_by(&self, other: (&Dataset, &Fit), explained: &Fit) -> bool {
         self.mean(&self.saved_over(other, explained), explained).is_some_and(|saved| saved.high < 0.0)
     }
 
-    /// Squared error that simulating the judged records with an explanation saves over another model, which sees them as a campaign of its
+    /// Squared error that simulating the judged records with an candidate saves over another model, which sees them as a dataset of its
     /// own.
-    fn saved_over(&self, (campaign, fit): (&Campaign, &Fit), explained: &Fit) -> Vec<Vec<f64>> {
-        let run = |campaign: &Campaign, fit: &Fit, number: usize| {
-            free_run(campaign, fit, number, &campaign.tracks[number])
+    fn saved_over(&self, (dataset, fit): (&Dataset, &Fit), explained: &Fit) -> Vec<Vec<f64>> {
+        let run = |dataset: &Dataset, fit: &Fit, number: usize| {
+            free_run(dataset, fit, number, &dataset.scaled_records[number])
         };
-        let other = self.squared_errors(|number| run(campaign, fit, number));
-        differences(&other, &self.squared_errors(|number| run(&self.campaign, explained, number)))
+        let other = self.squared_errors(|number| run(dataset, fit, number));
+        differences(&other, &self.squared_errors(|number| run(&self.dataset, explained, number)))
     }
 
     /// The conclusion that the order is off: `again` is the plan on the nominal model that does what the effects do.
     pub(super) fn refitted(&self, conclusion: Conclusion, again: &Self) -> Conclusion {
         let fit = &again.nominal.plain.fit;
-        let runs = again.nominal.runs(&again.campaign, &again.judged);
+        let runs = again.nominal.runs(&again.dataset, &again.judged);
         let other = Other { structure: again.structure, runs, floor: again.noise_floor(fit) };
         let mut verdict = match self.resolves_no_gap(&conclusion.augmented.fit) {
             true => unresolved(&conclusion.odds),

@@ -3,7 +3,7 @@
 use super::given_model::GivenModel;
 use super::parameters::parameters;
 use super::plan::Plan;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::pairs::Pair;
 use crate::attribution::search::profiled;
 use crate::closure::{Simulated, closures, measure};
@@ -24,12 +24,12 @@ use crate::workers::Workers;
 /// What the report is made of.
 pub(super) struct Conclusion {
     /// Every effect with a fit of its own.
-    pub(super) fitted: Vec<Explanation>,
+    pub(super) fitted: Vec<Hypothesis>,
     /// Those of them that may be the cause.
-    pub(super) singles: Vec<Explanation>,
+    pub(super) singles: Vec<Hypothesis>,
     pub(super) odds: Odds,
     pub(super) verdict: Verdict,
-    pub(super) augmented: Explanation,
+    pub(super) augmented: Hypothesis,
     pub(super) left: f64,
     pub(super) together: Option<Together>,
     /// The nominal model of another structure that is the answer: order, delay, its runs of the judged records and the noise that it
@@ -38,9 +38,10 @@ pub(super) struct Conclusion {
 }
 
 impl Conclusion {
-    /// The effect that is the likeliest explanation by rules, with its probability; none where nothing or none of these is likelier.
+    /// The effect that is the likeliest candidate by rules, with its probability; none where nothing or none of these is likelier.
     pub(super) fn likeliest(&self) -> Option<(Effect, f64)> {
-        let weighed = self.singles.iter().zip(&self.odds.effects).map(|(s, p)| (s.parts[0].effect, *p));
+        let weighed =
+            self.singles.iter().zip(&self.odds.effects).map(|(s, p)| (s.effect_terms[0].effect, *p));
         let first = weighed.reduce(|best, x| if x.1 > best.1 { x } else { best });
         first.filter(|(_, p)| *p > self.odds.none.max(self.odds.unexplained))
     }
@@ -61,7 +62,7 @@ impl Plan {
         candidates: Vec<Candidate>,
         evidence: Vec<Compared>,
     ) -> Diagnosis {
-        let campaign = &self.campaign;
+        let dataset = &self.dataset;
         let mut floor = self.noise_floor(&c.augmented.fit);
         let mut runs = self.simulations(&c.augmented.fit);
         if let Some(other) = &c.other {
@@ -69,8 +70,8 @@ impl Plan {
             runs.iter_mut().zip(&other.runs).for_each(|(run, other)| run.after.clone_from(other));
         }
         let mut limitations = self.limitations.clone();
-        let mut gap = measure(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
-        let each = closures(campaign, &runs, floor, (self.settings.seed, self.settings.resamples));
+        let mut gap = measure(dataset, &runs, floor, (self.settings.seed, self.settings.resamples));
+        let each = closures(dataset, &runs, floor, (self.settings.seed, self.settings.resamples));
         gap.per_record.iter_mut().zip(each).for_each(|(record, closure)| record.closure = closure);
         gap.identified_anew = self.identified_anew(floor);
         if self.given.is_some() && gap.before.ci90[0] > 1.0 {
@@ -83,7 +84,7 @@ impl Plan {
         let nominal_score = self.score(&self.nominal.plain.fit);
         gap.predictive_gain =
             self.score(&c.augmented.fit).zip(nominal_score).map_or(0.0, |(after, before)| after - before);
-        if campaign.criterion.simulates() {
+        if dataset.criterion.simulates() {
             // Nobody predicted one step ahead.
             gap.predictive_gain = 0.0;
         }
@@ -101,16 +102,16 @@ impl Plan {
             }
             Status::Refit => {
                 let structure = c.other.as_ref().map_or(self.structure, |other| other.structure);
-                let told = |closure| Refit { order: structure.order, delay: -structure.lead, closure };
-                verdict.refit = gap.closure.map(told);
+                let reported = |closure| Refit { order: structure.order, delay: -structure.lead, closure };
+                verdict.refit = gap.closure.map(reported);
             }
             _ => {}
         }
         let where_ = self.map(&c.augmented.fit, floor.0);
-        let before = picture(campaign, &innovations(campaign, &self.nominal.plain.fit, |t| t.is_fit()));
-        let after = picture(campaign, &innovations(campaign, &c.augmented.fit, |t| t.is_fit()));
+        let before = picture(dataset, &innovations(dataset, &self.nominal.plain.fit, |t| t.is_fit()));
+        let after = picture(dataset, &innovations(dataset, &c.augmented.fit, |t| t.is_fit()));
         let added = self.added(&c.augmented, &candidates, c.together.as_ref());
-        let next_experiment = crate::experiments::propose(campaign, &verdict, &c.singles, floor.0);
+        let next_experiment = crate::experiments::propose(dataset, &verdict, &c.singles, floor.0);
         Diagnosis {
             where_,
             verdict,
@@ -120,8 +121,8 @@ impl Plan {
             probability_none: c.odds.none,
             probability_unexplained: c.odds.unexplained,
             left: c.left,
-            samples: campaign.fit_samples(),
-            passes: campaign.passes.so_far(),
+            samples: dataset.fit_samples(),
+            passes: dataset.passes.so_far(),
             together: c.together,
             next_experiment,
             series: self.series(&runs),
@@ -131,39 +132,39 @@ impl Plan {
             evidence,
             models: Some(Models {
                 nominal: self.nominal_model(),
-                augmented: self.exporter.fitted(campaign, &c.augmented),
+                augmented: self.exporter.fitted(dataset, &c.augmented),
                 added,
             }),
         }
     }
 
-    /// The effects of the augmented model; parameters with the intervals that they are told with elsewhere, where they are.
+    /// The effects of the augmented model; parameters with the intervals that they are reported with elsewhere, where they are.
     fn added(
         &self,
-        augmented: &Explanation,
+        augmented: &Hypothesis,
         candidates: &[Candidate],
         together: Option<&Together>,
     ) -> Vec<(Effect, Vec<FittedParameter>)> {
         let effects = augmented.effects();
-        let told = match effects[..] {
+        let reported = match effects[..] {
             [only] => candidates.iter().find(|c| c.effect == only).map(|c| vec![c.parameters.clone()]),
             _ => together.filter(|pair| pair.effects == effects).map(|pair| pair.parameters.clone()),
         };
         let intervals = augmented.fit.intervals();
-        let fitted = |number: usize| parameters(&self.campaign, (augmented, number), &intervals);
+        let fitted = |number: usize| parameters(&self.dataset, (augmented, number), &intervals);
         let all: Vec<_> = (0..effects.len()).map(fitted).collect();
         let values =
             |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
-        // An explanation on other knots has other estimates.
-        let told = told.filter(|told| values(told) == values(&all));
-        effects.into_iter().zip(told.unwrap_or(all)).collect()
+        // An candidate on other knots has other estimates.
+        let reported = reported.filter(|reported| values(reported) == values(&all));
+        effects.into_iter().zip(reported.unwrap_or(all)).collect()
     }
 
     /// The model under diagnosis; nothing where only its predictions are known.
     fn nominal_model(&self) -> Option<PortableModel> {
         match &self.given {
-            Some(given) => given.fit.as_ref().map(|fit| self.exporter.given(&self.campaign, fit)),
-            None => Some(self.exporter.fitted(&self.campaign, &self.nominal.plain)),
+            Some(given) => given.fit.as_ref().map(|fit| self.exporter.given(&self.dataset, fit)),
+            None => Some(self.exporter.fitted(&self.dataset, &self.nominal.plain)),
         }
     }
 
@@ -171,7 +172,7 @@ impl Plan {
     fn identified_anew(&self, floor: (f64, f64)) -> Option<Figure> {
         self.given.as_ref()?;
         let runs = self.simulations(&self.nominal.plain.fit);
-        Some(measure(&self.campaign, &runs, floor, (self.settings.seed, self.settings.resamples)).after)
+        Some(measure(&self.dataset, &runs, floor, (self.settings.seed, self.settings.resamples)).after)
     }
 
     /// Where the model under diagnosis misses: as it was given, or else the identified nominal one. `noise` is the variance of the
@@ -179,27 +180,28 @@ impl Plan {
     fn map(&self, augmented: &Fit, noise: f64) -> Vec<Cell> {
         let floor = self.innovation_floor(augmented);
         match &self.given {
-            Some(GivenModel { residuals, is_output: true, .. }) => localise(&self.campaign, residuals, noise),
-            Some(GivenModel { residuals, .. }) => localise(&self.campaign, residuals, floor),
-            None => localise(&self.campaign, &Residuals::of(&self.campaign, &self.nominal.plain.fit), floor),
+            Some(GivenModel { residuals, is_output: true, .. }) => localise(&self.dataset, residuals, noise),
+            Some(GivenModel { residuals, .. }) => localise(&self.dataset, residuals, floor),
+            None => localise(&self.dataset, &Residuals::of(&self.dataset, &self.nominal.plain.fit), floor),
         }
     }
 
-    /// What is told of a pair; `gains` are those of the single effects over the nominal model, the best first.
+    /// What is reported a pair; `gains` are those of the single effects over the nominal model, the best first.
     pub(super) fn together(&self, workers: &impl Workers, pair: &Pair, gains: &[(Effect, f64)]) -> Together {
-        let (campaign, both) = (&self.campaign, &pair.explanation);
-        let intervals = profiled(workers, campaign, both);
-        let parameters = (0..both.parts.len()).map(|number| parameters(campaign, (both, number), &intervals));
+        let (dataset, both) = (&self.dataset, &pair.hypothesis);
+        let intervals = profiled(workers, dataset, both);
+        let parameters =
+            (0..both.effect_terms.len()).map(|number| parameters(dataset, (both, number), &intervals));
         Together::of(pair, gains, parameters.collect())
     }
 
     fn series(&self, runs: &[Simulated]) -> Vec<HoldoutSeries> {
-        let c = &self.campaign;
+        let c = &self.dataset;
         let physical = |y: &[f64]| y.iter().map(|y| c.y_mean + c.y_scale * y).collect::<Vec<f64>>();
         runs.iter()
             .map(|run| HoldoutSeries {
-                record: c.tracks[run.number].name.clone(),
-                measured: physical(&c.tracks[run.number].y),
+                record: c.scaled_records[run.number].name.clone(),
+                measured: physical(&c.scaled_records[run.number].y),
                 nominal: physical(&run.before),
                 augmented: physical(&run.after),
             })

@@ -1,6 +1,6 @@
-//! The borders have more detail than the grid they are tabulated on.
+//! The borders have more refinement than the grid they are tabulated on.
 //!
-//! The nominal model already places its knots from the data ([`crate::nominal::knots`]); what remains for this effect is detail finer than
+//! The nominal model already places its knots from the data ([`crate::nominal::knots`]); what remains for this effect is refinement finer than
 //! that placement resolves. A jump is finer than a table only where designed experiments tabulate the borders at levels; without them
 //! it is the border's own. Law: three times the knots. Stage: operator. Confused with: outliers, sensor effects.
 
@@ -9,7 +9,7 @@ use crate::effect::{Effect, Stage};
 use crate::model::borders::Grid;
 
 pub(super) const CARD: Card =
-    Card { supple: true, stopgap: true, lies_in_the_grid: true, ..Card::of(Stage::Operator, variants) };
+    Card { flexible: true, catch_all: true, lies_in_the_grid: true, ..Card::of(Stage::Operator, variants) };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let knots = scene.fit.grid.knots.clone().map(|knots| {
@@ -29,6 +29,6 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 }
 
 /// Details of the borders that the knots of a fit follow already: nothing is left to apply.
-pub(crate) fn details() -> (Effect, Variant) {
+pub(crate) fn refinement() -> (Effect, Variant) {
     (Effect::BorderResolution, Variant::new(vec![Vec::new()], |_, _| {}))
 }

@@ -6,15 +6,15 @@
 //! u = C(v) + c·clock on one border                                   one face wears
 //! ```
 //!
-//! Parameters: coefficients of the slow change; clocks: samples of the campaign, samples of the record, travel of the campaign. Stage: operator.
+//! Parameters: coefficients of the slow change; clocks: samples of the dataset, samples of the record, travel of the dataset. Stage: operator.
 //! Late records have other loops than early ones, with the mid-line untouched. Confused with: gain drift, a loop that steps.
 
 use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
-use crate::model::assembly::{BorderColumn, Clock, Slow};
+use crate::model::augmented::{BorderColumn, Clock, Slow};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::GainDrift, Effect::StepChange],
+    confounded_effects: &[Effect::GainDrift, Effect::StepChange],
     of_its_record: true,
     dominates_dynamics: true,
     ..Card::of(Stage::Operator, variants)
@@ -22,23 +22,23 @@ pub(super) const CARD: Card = Card {
 
 fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
-    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
+    for clock in [Clock::Dataset, Clock::Record, Clock::Travel] {
         for degree in [1, 2] {
             // Where the loop all but closes, the nominal model is that of another system.
             let starts = [0.0, 0.5, 1.0, -0.5].map(|end| {
                 let value = |k| if k == 0 { end } else { 0.0 };
                 (0..degree).map(|k| parameter("narrowing", "1", value(k), (-1.5, 1.5), 0.002)).collect()
             });
-            out.push(Variant::new(starts.into(), move |p, assembly| {
-                assembly.wear = Some(Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
+            out.push(Variant::new(starts.into(), move |p, augmented| {
+                augmented.wear = Some(Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
             }));
         }
-        out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
-            assembly.border_columns.push(BorderColumn::BranchSlow { clock });
+        out.push(Variant::new(vec![Vec::new()], move |_, augmented| {
+            augmented.border_columns.push(BorderColumn::BranchSlow { clock });
         }));
         for branch in [-1.0, 1.0] {
-            out.push(Variant::new(vec![Vec::new()], move |_, assembly| {
-                assembly.border_columns.push(BorderColumn::SideSlow { clock, branch });
+            out.push(Variant::new(vec![Vec::new()], move |_, augmented| {
+                augmented.border_columns.push(BorderColumn::SideSlow { clock, branch });
             }));
         }
     }

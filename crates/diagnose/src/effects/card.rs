@@ -4,7 +4,7 @@ use super::{Scene, Variant};
 use crate::effect::{Effect, Stage};
 use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// Everything about one effect. A card says what is special about its effect; [`Card::of`] has the rest.
 ///
@@ -16,7 +16,7 @@ pub(crate) struct Card {
     pub(crate) laws: fn(&Scene<'_>) -> Vec<Variant>,
     /// The effects that leave nearly the same trace in ordinary records. They are never looked for beside it, and the verdict names them
     /// together with it, as one class (`attribution`, `verdict`).
-    pub(crate) twins: &'static [Effect],
+    pub(crate) confounded_effects: &'static [Effect],
 
     /// It changes the noise only, and so no simulation; where models are compared by their simulations it is no candidate (`attribution`,
     /// `diagnose`, `verdict`).
@@ -31,7 +31,7 @@ pub(crate) struct Card {
     /// not close the gap on held-out records (`diagnose::held_out`).
     pub(crate) errors_last: bool,
     /// The sensor distorts an output that the model has right. No law of a sensor is exact, so that a second effect beside it must improve
-    /// held-out records (`diagnose::harm`).
+    /// held-out records (`diagnose::degradation`).
     pub(crate) misreads: bool,
     /// The sensor rounds. Where its steps are coarse the tests see nothing else, and simulations are as good without it (`diagnose`).
     pub(crate) rounds: bool,
@@ -40,14 +40,14 @@ pub(crate) struct Card {
     pub(crate) of_its_record: bool,
 
     /// Its laws are flexible enough to imitate other effects almost exactly (`verdict::odds`).
-    pub(crate) supple: bool,
+    pub(crate) flexible: bool,
     /// It may hide the dynamics altogether, so that they are identified anew together with it (`attribution::successive_halving`).
     pub(crate) dominates_dynamics: bool,
     /// It may describe the remaining error of another effect whose law is inexact. Where it gains little beside that effect it is a correction
     /// and no cause (`attribution::pairs`).
     pub(crate) follows: Option<Follows>,
     /// It describes the remaining error of any inexact law, so that it is not looked for as a second effect (`attribution::pairs`).
-    pub(crate) stopgap: bool,
+    pub(crate) catch_all: bool,
     /// It is a property of the border grid: its law is to place knots from the data. Where it is no candidate no knots are placed
     /// (`attribution`, `diagnose::nominal`).
     pub(crate) lies_in_the_grid: bool,
@@ -60,13 +60,13 @@ pub(crate) struct Card {
     /// Whether a fit of it describes coloured noise and nothing else (`attribution::explain`).
     pub(crate) is_noise_in_disguise: fn(&Fit) -> bool,
     /// A law with more freedom, from where a fit by one of [`Self::laws`] ended (`attribution::search`).
-    pub(crate) freed: fn(&Campaign, &Fit) -> Option<Variant>,
+    pub(crate) freed: fn(&Dataset, &Fit) -> Option<Variant>,
 
     /// Nonlinear parameters that reports call otherwise: their name in the law, and in reports (`diagnose::parameters`).
     pub(crate) renamed: &'static [(&'static str, &'static str)],
     /// Quantities that a user would measure, reported before the fitted parameters: taken from the data or the fit, or derived from the
     /// parameters (`diagnose::parameters`).
-    pub(crate) told_first: fn(&Reading<'_>) -> Vec<FittedParameter>,
+    pub(crate) reported_first: fn(&Reading<'_>) -> Vec<FittedParameter>,
 }
 
 /// Which remaining error of another effect an effect may describe.
@@ -97,7 +97,7 @@ impl Card {
         Self {
             stage,
             laws,
-            twins: &[],
+            confounded_effects: &[],
             noise: false,
             colours_noise: false,
             heavy_tails: false,
@@ -105,24 +105,24 @@ impl Card {
             misreads: false,
             rounds: false,
             of_its_record: false,
-            supple: false,
+            flexible: false,
             dominates_dynamics: false,
             follows: None,
-            stopgap: false,
+            catch_all: false,
             lies_in_the_grid: false,
             room: None,
             most_left: MOST_LEFT,
             is_noise_in_disguise: |_| false,
             freed: |_, _| None,
             renamed: &[],
-            told_first: |_| Vec::new(),
+            reported_first: |_| Vec::new(),
         }
     }
 }
 
 /// What an effect's parameters are read off.
 pub(crate) struct Reading<'a> {
-    pub(crate) campaign: &'a Campaign,
+    pub(crate) dataset: &'a Dataset,
     pub(crate) fit: &'a Fit,
     /// The effect's nonlinear parameters as they were searched for.
     pub(crate) searched: &'a [FittedParameter],
@@ -131,12 +131,12 @@ pub(crate) struct Reading<'a> {
 impl Reading<'_> {
     /// A level of the output.
     pub(super) fn level(&self, name: &'static str, y: f64) -> FittedParameter {
-        known(name, "output units", self.campaign.y_mean + self.campaign.y_scale * y)
+        known(name, "output units", self.dataset.y_mean + self.dataset.y_scale * y)
     }
 
     /// A difference of two outputs.
     pub(super) fn step(&self, name: &'static str, y: f64) -> FittedParameter {
-        known(name, "output units", self.campaign.y_scale * y)
+        known(name, "output units", self.dataset.y_scale * y)
     }
 }
 

@@ -12,10 +12,10 @@ use crate::effect::{Effect, Stage};
 use crate::residuals::spectrum::moving_average;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::OutputNoise, Effect::InputNoise],
+    confounded_effects: &[Effect::OutputNoise, Effect::InputNoise],
     noise: true,
     colours_noise: true,
-    supple: true,
+    flexible: true,
     dominates_dynamics: true,
     follows: Some(Follows::Anything),
     ..Card::of(Stage::Disturbance, variants)
@@ -34,18 +34,18 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                     (0..degree).map(|i| parameter("d", "1", value(i), (-2.5, 2.5), 0.003)).collect()
                 })
                 .collect();
-            Variant::conditional(starts, |p, assembly| {
-                assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, p);
+            Variant::conditional(starts, |p, augmented| {
+                augmented.noise.ar = crate::model::augmented::times_monic(&augmented.noise.ar, p);
             })
         })
         .collect();
     let starts = [-0.3, 0.3].iter().map(|&c| vec![parameter("c", "1", c, (-0.97, 0.97), 0.003)]).collect();
-    out.push(Variant::new(starts, |p, assembly| assembly.noise.ma = vec![p[0]]));
+    out.push(Variant::new(starts, |p, augmented| augmented.noise.ma = vec![p[0]]));
     // Small steps from white noise do not get to zeros beside the unit circle.
     out.extend([3, 8].map(|degree| {
         let coefficients = moving_average(scene.innovations, degree);
         let start = coefficients.into_iter().map(|c| parameter("c", "1", c, (-4.0, 4.0), 0.003)).collect();
-        Variant::conditional(vec![start], |p, assembly| assembly.noise.ma = p.to_vec())
+        Variant::conditional(vec![start], |p, augmented| augmented.noise.ma = p.to_vec())
     }));
     out
 }

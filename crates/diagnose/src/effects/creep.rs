@@ -16,17 +16,19 @@
 //! drifting: the same way, or back where `kappa` is negative or `k` positive (relaxation, which is the creep of a force at rest). Both are one
 //! cause, and the parameters' signs say which. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
-use super::{Card, Scene, Variant, fitted_tracks, parameter};
+use super::{Card, Scene, Variant, fitted_scaled_records, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::{EquationColumn, Relaxation, convolve};
-use crate::simulation::beginnings::begins_as_a_filter;
+use crate::model::augmented::{EquationColumn, Relaxation, convolve};
+use crate::simulation::initial_conditions::begins_as_a_filter;
 
-pub(super) const CARD: Card =
-    Card { twins: &[Effect::RateDependence, Effect::ExtraPole], ..Card::of(Stage::Operator, variants) };
+pub(super) const CARD: Card = Card {
+    confounded_effects: &[Effect::RateDependence, Effect::ExtraPole],
+    ..Card::of(Stage::Operator, variants)
+};
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let tracks = fitted_tracks(scene.campaign);
+    let scaled_records = fitted_scaled_records(scene.dataset);
     let starts = [(0.1, 15.0), (0.1, 80.0), (0.1, 500.0), (0.6, 40.0), (0.6, 200.0)]
         .iter()
         .map(|&(kappa, tau): &(f64, f64)| {
@@ -36,25 +38,25 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             ]
         })
         .collect();
-    let linear = Variant::conditional(starts, move |p, assembly| {
+    let linear = Variant::conditional(starts, move |p, augmented| {
         let pole = pole(p[1]);
-        assembly.filter(&[1.0 + p[0] * (1.0 - pole), -pole], &[1.0, -pole]);
+        augmented.filter(&[1.0 + p[0] * (1.0 - pole), -pole], &[1.0, -pole]);
         // How far the creep had gone when a record began is unknown.
-        for &track in &tracks {
-            let decay = EquationColumn::Decay { track, radius: pole, frequency: 0.0, sine: false };
-            assembly.equation_columns.push(decay);
+        for &scaled in &scaled_records {
+            let decay = EquationColumn::Decay { scaled, radius: pole, frequency: 0.0, sine: false };
+            augmented.equation_columns.push(decay);
         }
     });
-    // With beginnings at will, a creep that is next to none follows whatever drifts in each record.
+    // With initial conditions at will, a creep that is next to none follows whatever drifts in each record.
     let linear = linear.sound_if(|p, fit| begins_as_a_filter(fit, pole(p[1]), p[0]));
-    let mut out = vec![linear, spread(fitted_tracks(scene.campaign)).sound_if(begins_spread)];
+    let mut out = vec![linear, spread(fitted_scaled_records(scene.dataset)).sound_if(begins_spread)];
     for column in [after_effect::logarithmic, after_effect::ending, after_effect::since_reversal] {
         let starts = [3.0, 30.0]
             .iter()
             .map(|&tau: &f64| vec![parameter("log_tau", "ln samples", tau.ln(), (-1.0, 7.0), 0.02)])
             .collect();
-        out.push(Variant::conditional(starts, move |p, assembly| {
-            assembly.border_columns.push(column(p[0].exp()));
+        out.push(Variant::conditional(starts, move |p, augmented| {
+            augmented.border_columns.push(column(p[0].exp()));
         }));
     }
     out.push(relaxing());
@@ -71,8 +73,8 @@ fn relaxing() -> Variant {
             ]
         })
         .collect();
-    Variant::conditional(starts, |p, assembly| {
-        assembly.relaxation = Some(Relaxation { share: p[0], tau: p[1].exp() });
+    Variant::conditional(starts, |p, augmented| {
+        augmented.relaxation = Some(Relaxation { share: p[0], tau: p[1].exp() });
     })
 }
 
@@ -88,7 +90,7 @@ fn poles(p: &[f64]) -> [f64; 4] {
 
 /// What the borders go on doing by themselves.
 mod after_effect {
-    use crate::model::assembly::BorderColumn;
+    use crate::model::augmented::BorderColumn;
 
     pub(super) fn logarithmic(scale: f64) -> BorderColumn {
         BorderColumn::RestingLog { scale }
@@ -108,7 +110,7 @@ fn begins_spread(p: &[f64], fit: &Fit) -> bool {
     poles(p)[2..].iter().all(|&pole| begins_as_a_filter(fit, pole, 0.25 * p[0]))
 }
 
-fn spread(tracks: Vec<usize>) -> Variant {
+fn spread(scaled_records: Vec<usize>) -> Variant {
     let starts = [1.5, 6.0, 25.0]
         .iter()
         .map(|&tau: &f64| {
@@ -119,7 +121,7 @@ fn spread(tracks: Vec<usize>) -> Variant {
             ]
         })
         .collect();
-    Variant::conditional(starts, move |p, assembly| {
+    Variant::conditional(starts, move |p, augmented| {
         let poles = poles(p);
         let without = |left_out: Option<usize>| {
             let others = poles.iter().enumerate().filter(|(k, _)| Some(*k) != left_out);
@@ -131,11 +133,11 @@ fn spread(tracks: Vec<usize>) -> Variant {
             let weight = 0.25 * p[0] * (1.0 - pole);
             numerator.iter_mut().zip(without(Some(k))).for_each(|(n, w)| *n += weight * w);
         }
-        assembly.filter(&numerator, &denominator);
-        for &track in &tracks {
+        augmented.filter(&numerator, &denominator);
+        for &scaled in &scaled_records {
             for radius in [poles[2], poles[3]] {
-                let decay = EquationColumn::Decay { track, radius, frequency: 0.0, sine: false };
-                assembly.equation_columns.push(decay);
+                let decay = EquationColumn::Decay { scaled, radius, frequency: 0.0, sine: false };
+                augmented.equation_columns.push(decay);
             }
         }
     })

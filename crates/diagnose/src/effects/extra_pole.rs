@@ -9,20 +9,20 @@
 //!
 //! Parameter: `pole` (0.004…0.98; with feedthrough from 0.15, below which it is a delay; from 0.5 where what a record began with still shows). Stage: dynamics. Confused with: input delay, resonance, creep.
 
-use super::{Card, Room, Scene, Sound, Variant, fitted_tracks, outlasts_the_records, parameter};
+use super::{Card, Room, Scene, Sound, Variant, fitted_scaled_records, outlasts_the_records, parameter};
 use crate::effect::{Effect, Stage};
 use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::EquationColumn;
-use crate::simulation::beginnings::begins_as_a_filter;
+use crate::model::augmented::EquationColumn;
+use crate::simulation::initial_conditions::begins_as_a_filter;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::InputDelay, Effect::Resonance, Effect::Creep],
+    confounded_effects: &[Effect::InputDelay, Effect::Resonance, Effect::Creep],
     dominates_dynamics: true,
     room: Some(Room::Order),
     // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
     most_left: 0.02,
-    told_first: |reading| {
+    reported_first: |reading| {
         let pole = reading.searched.iter().find(|o| o.name == "pole");
         pole.and_then(time_constant).into_iter().collect()
     },
@@ -72,25 +72,25 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             let (least, poles) = lag.poles();
             let starts =
                 poles.iter().map(|&p| vec![parameter("pole", "1", p, (least, 0.98), 0.003)]).collect();
-            let tracks = if lag.slow { fitted_tracks(scene.campaign) } else { Vec::new() };
+            let scaled_records = if lag.slow { fitted_scaled_records(scene.dataset) } else { Vec::new() };
             // What comes twice begins with more than one exponential.
             let sound: Sound = match lag.poles {
                 1 => |p, fit| is_a_lag(fit) && begins_as_a_filter(fit, p[0], 1.0),
                 _ => |_, fit| is_a_lag(fit),
             };
-            let law = Variant::conditional(starts, move |p, assembly| {
+            let law = Variant::conditional(starts, move |p, augmented| {
                 for _ in 0..lag.poles {
-                    assembly.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
+                    augmented.filter(&[1.0 - p[0]], &[1.0, -p[0]]);
                 }
-                assembly.extra_b += usize::from(lag.feeds_through);
+                augmented.extra_b += usize::from(lag.feeds_through);
                 let modes = &MODES[..lag.poles];
-                for &track in &tracks {
+                for &scaled in &scaled_records {
                     let decay =
-                        |&(frequency, sine)| EquationColumn::Decay { track, radius: p[0], frequency, sine };
-                    assembly.equation_columns.extend(modes.iter().map(decay));
+                        |&(frequency, sine)| EquationColumn::Decay { scaled, radius: p[0], frequency, sine };
+                    augmented.equation_columns.extend(modes.iter().map(decay));
                 }
                 if lag.passes {
-                    assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, &[-p[0]]);
+                    augmented.noise.ar = crate::model::augmented::times_monic(&augmented.noise.ar, &[-p[0]]);
                 }
             });
             law.sound_if(sound)
@@ -99,15 +99,15 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 }
 
 /// Least magnitude of the fastest pole of `A`.
-const GONE: f64 = 0.03;
+const ANALYSED: f64 = 0.03;
 
 /// A pole in series is no extra one where `A` has given up one of its own: the plant's noise then is that of its output.
 fn keeps_its_poles(fit: &Fit) -> bool {
-    let in_series = fit.assembly.denominator.len() > 1;
+    let in_series = fit.augmented.denominator.len() > 1;
     let a = &fit.linear.a;
     let before_last = if a.len() > 1 { a[a.len() - 2].abs() } else { 1.0 };
     // Vieta: far poles apart, the last two coefficients have the ratio of the fastest.
-    !in_series || a.last().is_none_or(|last| last.abs() > GONE * before_last)
+    !in_series || a.last().is_none_or(|last| last.abs() > ANALYSED * before_last)
 }
 
 /// Whether a lag is still one beside `A`.

@@ -12,20 +12,20 @@
 //! Nobody records how long the pauses between records are, and a gain may wander: where a law with a clock leaves something, the
 //! gain is straight between knots in each record, from where that law ended.
 //!
-//! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the campaign or of the record. Stage: dynamics. Outputs scale with time,
-//! mid-line and loop alike. Confused with: border wear (the mid-line tells), a gain that steps, sensor drift.
+//! Parameters: coefficients; rate of the sinusoid. Clocks: samples of the dataset or of the record. Stage: dynamics. Outputs scale with time,
+//! mid-line and loop alike. Confused with: border wear (the mid-line shows), a gain that steps, sensor drift.
 
 use super::{Card, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::rows::clock;
-use crate::model::assembly::{Assembly, Clock, EquationColumn, Slow};
-use crate::records::campaign::Campaign;
+use crate::model::augmented::{AugmentedModel, Clock, EquationColumn, Slow};
+use crate::records::dataset::Dataset;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::BorderWear, Effect::StepChange],
+    confounded_effects: &[Effect::BorderWear, Effect::StepChange],
     of_its_record: true,
-    supple: true,
+    flexible: true,
     dominates_dynamics: true,
     freed: free_course,
     ..Card::of(Stage::Dynamics, variants)
@@ -39,14 +39,14 @@ const PHASES: [(f64, f64); 4] = [(0.2, 0.0), (0.0, 0.2), (-0.2, 0.0), (0.0, -0.2
 
 fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let mut out = Vec::new();
-    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
+    for clock in [Clock::Dataset, Clock::Record, Clock::Travel] {
         for degree in [1, 3] {
             let start = |slope: f64| -> Vec<_> {
                 let value = |k: usize| if k == 0 { slope } else { 0.0 };
                 (0..degree).map(|k| parameter("gain_change", "1", value(k), (-1.0, 1.0), 0.001)).collect()
             };
-            let law = Variant::new(vec![start(0.0)], move |p, assembly| {
-                drift(assembly, Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
+            let law = Variant::new(vec![start(0.0)], move |p, augmented| {
+                drift(augmented, Slow { coefficients: p.to_vec(), ..Slow::on(clock) });
             });
             let afresh = if degree == 1 { AFRESH.map(start).into() } else { Vec::new() };
             out.push(Variant { afresh, ..law.sound_if(turns_about_an_output) });
@@ -58,10 +58,10 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
                 parameter("rate", "radians per clock", rate, (1.0, 60.0), 0.02),
             ]
         };
-        let law = Variant::new(RATES.map(|rate| start(rate, (0.0, 0.0))).into(), move |p, assembly| {
-            drift(assembly, Slow { wave: Some((p[2], p[0], p[1])), ..Slow::on(clock) });
+        let law = Variant::new(RATES.map(|rate| start(rate, (0.0, 0.0))).into(), move |p, augmented| {
+            drift(augmented, Slow { wave: Some((p[2], p[0], p[1])), ..Slow::on(clock) });
         });
-        let afresh = RATES.iter().filter(|_| clock == Clock::Campaign);
+        let afresh = RATES.iter().filter(|_| clock == Clock::Dataset);
         let afresh = afresh.flat_map(|&rate| PHASES.map(|phase| start(rate, phase))).collect();
         out.push(Variant { afresh, ..law.sound_if(turns_about_an_output) });
     }
@@ -69,9 +69,9 @@ fn variants(_: &Scene<'_>) -> Vec<Variant> {
 }
 
 /// The gain changes about a zero of the output that is estimated.
-pub(super) fn drift(assembly: &mut Assembly, gain: Slow) {
-    assembly.gain = Some(gain);
-    assembly.equation_columns.push(EquationColumn::Gain);
+pub(super) fn drift(augmented: &mut AugmentedModel, gain: Slow) {
+    augmented.gain = Some(gain);
+    augmented.equation_columns.push(EquationColumn::Gain);
 }
 
 /// Samples between knots of a free drift path, and pieces of a record at most.
@@ -79,15 +79,15 @@ const PIECE: usize = 1000;
 const PIECES: usize = 4;
 
 /// A law of the gain that is straight between knots, from where the gain of a fit ended; none where that does not change.
-fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
-    let gain = fit.assembly.gain.as_ref().filter(|gain| gain.changes())?;
-    let known = campaign.fit().flat_map(|track| {
-        let pieces = (track.v.len() / PIECE).clamp(1, PIECES);
-        let last = track.v.len() - 1;
+fn free_course(dataset: &Dataset, fit: &Fit) -> Option<Variant> {
+    let gain = fit.augmented.gain.as_ref().filter(|gain| gain.changes())?;
+    let known = dataset.fit().flat_map(|scaled| {
+        let pieces = (scaled.v.len() / PIECE).clamp(1, PIECES);
+        let last = scaled.v.len() - 1;
         (0..=pieces).map(move |k| {
             let t = last * k / pieces;
-            let value = gain.at(clock(gain.clock, campaign, track, t, track.moves[t].path));
-            ((track.clock + t) as f64, value)
+            let value = gain.at(clock(gain.clock, dataset, scaled, t, scaled.moves[t].path));
+            ((scaled.clock + t) as f64, value)
         })
     });
     let known: Vec<(f64, f64)> = known.collect();
@@ -96,20 +96,20 @@ fn free_course(campaign: &Campaign, fit: &Fit) -> Option<Variant> {
     let change = |value: f64| (1.0 + value) / (1.0 + first.1) - 1.0;
     let start = rest.iter().map(|k| parameter("gain_change", "1", change(k.1), (-1.0, 2.0), 0.001)).collect();
     let clocks: Vec<f64> = known.iter().map(|k| k.0).collect();
-    let law = Variant::new(vec![start], move |p, assembly| {
+    let law = Variant::new(vec![start], move |p, augmented| {
         let values = std::iter::once(0.0).chain(p.iter().copied());
         let bends = clocks.iter().copied().zip(values).collect();
-        drift(assembly, Slow { bends, ..Slow::on(Clock::Samples) });
+        drift(augmented, Slow { bends, ..Slow::on(Clock::Samples) });
     });
     Some(law.sound_if(turns_about_an_output))
 }
 
-/// Distance of the output's zero from the middle of the borders, in their range, at which a gain that changes is not told from a drift.
+/// Distance of the output's zero from the middle of the borders, in their range, at which a gain that changes is not distinguished from a drift.
 const FARTHEST: f64 = 3.0;
 
 /// Whether the zero that the gain turns about is one that an output may have.
 pub(super) fn turns_about_an_output(_own: &[f64], fit: &Fit) -> bool {
-    let static_gain = fit.linear.b.iter().sum::<f64>() * fit.assembly.static_gain();
+    let static_gain = fit.linear.b.iter().sum::<f64>() * fit.augmented.static_gain();
     let Some(zero) = share_of_the_change(fit).map(|share| share / static_gain) else { return true };
     let borders = &fit.linear.f[..fit.grid.len()];
     let low = borders.iter().copied().fold(f64::INFINITY, f64::min);
@@ -119,7 +119,7 @@ pub(super) fn turns_about_an_output(_own: &[f64], fit: &Fit) -> bool {
 
 /// The drift of the equation as a share of the gain's change, where that changes.
 fn share_of_the_change(fit: &Fit) -> Option<f64> {
-    fit.assembly.gain.as_ref().filter(|gain| gain.changes())?;
-    let mut columns = fit.assembly.equation_columns.iter().zip(&fit.linear.d);
+    fit.augmented.gain.as_ref().filter(|gain| gain.changes())?;
+    let mut columns = fit.augmented.equation_columns.iter().zip(&fit.linear.d);
     columns.find(|(column, _)| **column == EquationColumn::Gain).map(|(_, share)| *share)
 }

@@ -11,11 +11,12 @@
 //! the more the smaller the loop; borders on large loops are untouched. Pulse experiments hardly see it. Confused
 //! with: backlash. Laws of Dahl, Bouc–Wen and Coleman–Hodgdon kind are near the exponential envelope.
 
-use super::{Card, Scene, Variant, fitted_tracks, parameter};
+use super::{Card, Scene, Variant, fitted_scaled_records, parameter};
 use crate::effect::{Effect, Stage};
-use crate::model::assembly::{BorderColumn, Transition, TransitionLaw};
+use crate::model::augmented::{BorderColumn, Transition, TransitionLaw};
 
-pub(super) const CARD: Card = Card { twins: &[Effect::Backlash], ..Card::of(Stage::Operator, variants) };
+pub(super) const CARD: Card =
+    Card { confounded_effects: &[Effect::Backlash], ..Card::of(Stage::Operator, variants) };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing]
@@ -31,14 +32,14 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
                 })
                 .collect();
             // A working point that remembers was somewhere when the record began; the first pulse makes it forget.
-            let mut tracks = fitted_tracks(scene.campaign);
-            if !scene.campaign.criterion.simulates() {
-                tracks.retain(|track| !scene.campaign.tracks[*track].is_pulsed());
+            let mut scaled_records = fitted_scaled_records(scene.dataset);
+            if !scene.dataset.criterion.simulates() {
+                scaled_records.retain(|scaled| !scene.dataset.scaled_records[*scaled].is_pulsed());
             }
-            Variant::conditional(starts, move |p, assembly| {
-                assembly.transition = Some(Transition { length: p[0], shape: p[1], law });
-                let columns = tracks.iter().map(|&track| BorderColumn::Start { track });
-                assembly.border_columns.extend(columns);
+            Variant::conditional(starts, move |p, augmented| {
+                augmented.transition = Some(Transition { length: p[0], shape: p[1], law });
+                let columns = scaled_records.iter().map(|&scaled| BorderColumn::Start { scaled });
+                augmented.border_columns.extend(columns);
             })
         })
         .collect()

@@ -12,7 +12,7 @@ use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::NonlinearParameter;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::ExtraPole, Effect::Resonance],
+    confounded_effects: &[Effect::ExtraPole, Effect::Resonance],
     dominates_dynamics: true,
     room: Some(Room::Delay),
     ..Card::of(Stage::Input, variants)
@@ -26,18 +26,21 @@ const WITHIN_A_LATER: [f64; 4] = [0.05, 0.2, 0.5, 0.8];
 fn variants(_: &Scene<'_>) -> Vec<Variant> {
     let delay = |d: f64, step: f64| vec![parameter("delay", "samples", d, (0.0, 10.0), step)];
     let responses = [0.15, 0.4, 0.6, 0.85, 1.15, 1.4, 1.6, 1.85, 2.2, 2.5, 2.8, 3.3, 3.7, 5.0];
-    let response = Variant::conditional(responses.map(|d| delay(d, 0.02)).into(), |p, assembly| {
-        assembly.delay = p[0];
+    let response = Variant::conditional(responses.map(|d| delay(d, 0.02)).into(), |p, augmented| {
+        augmented.delay = p[0];
     });
     // B takes a whole sample where it has room: every whole sample is a valley of its own.
     let whole = |nonlinear: &[NonlinearParameter]| nonlinear[0].value.floor() as i64;
     let response = Variant { climbs: response.starts.len(), valley: Some(whole), ..response };
-    let later = [1.0, 2.0, 3.0].into_iter().flat_map(|k| WITHIN_A_LATER.map(|part| (k + part, part)));
-    let starts = WITHIN_THE_FIRST.into_iter().map(|part| (part, part)).chain(later);
-    let positions = Variant::new(starts.map(|(d, part)| delay(d, 0.3 * part)).collect(), |p, assembly| {
-        assembly.delay = p[0].floor();
-        assembly.late = p[0] - assembly.delay;
-    });
+    let later = [1.0, 2.0, 3.0]
+        .into_iter()
+        .flat_map(|k| WITHIN_A_LATER.map(|effect_term| (k + effect_term, effect_term)));
+    let starts = WITHIN_THE_FIRST.into_iter().map(|effect_term| (effect_term, effect_term)).chain(later);
+    let positions =
+        Variant::new(starts.map(|(d, effect_term)| delay(d, 0.3 * effect_term)).collect(), |p, augmented| {
+            augmented.delay = p[0].floor();
+            augmented.late = p[0] - augmented.delay;
+        });
     let positions = Variant { search: Search::Profile, ..positions };
     [response, positions].map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit))).into()
 }

@@ -12,13 +12,13 @@
 //! inverse variance of the equation error. The colour that the response gives the noise counts as well. Stage: input. Confused with:
 //! outliers, and coloured noise, which what is added to `u` is at order 2.
 
-use crate::model::assembly::InputNoise;
+use crate::model::augmented::InputNoise;
 
 use super::{Card, Scene, Search, Variant, parameter};
 use crate::effect::{Effect, Stage};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::Outliers, Effect::ColouredNoise],
+    confounded_effects: &[Effect::Outliers, Effect::ColouredNoise],
     noise: true,
     errors_last: true,
     ..Card::of(Stage::Input, variants)
@@ -39,11 +39,11 @@ fn jitter(scene: &Scene<'_>) -> Variant {
             ]
         })
         .collect();
-    let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.jitter = p[0].exp();
+    let mut variant = Variant::new(starts, |p, augmented| {
+        augmented.jitter = p[0].exp();
         let flips = p[1].exp();
-        let by_slope = flips * assembly.jitter.powi(2);
-        assembly.noise.input = Some(InputNoise { by_slope, by_gap: flips, ..InputNoise::default() });
+        let by_slope = flips * augmented.jitter.powi(2);
+        augmented.noise.input = Some(InputNoise { by_slope, by_gap: flips, ..InputNoise::default() });
     });
     variant.search = Search::Profile;
     variant
@@ -54,8 +54,9 @@ fn kept() -> Variant {
         .iter()
         .map(|&ratio| vec![parameter("log_ratio", "ln variance ratio", ratio, (-12.0, 14.0), 1.0)])
         .collect();
-    let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.noise.input = Some(InputNoise { by_slope: p[0].exp(), kept: true, ..InputNoise::default() });
+    let mut variant = Variant::new(starts, |p, augmented| {
+        augmented.noise.input =
+            Some(InputNoise { by_slope: p[0].exp(), kept: true, ..InputNoise::default() });
     });
     variant.search = Search::Weights;
     variant
@@ -66,8 +67,8 @@ fn direct() -> Variant {
         .iter()
         .map(|&ratio| vec![parameter("log_ratio", "ln variance ratio", ratio, (-8.0, 14.0), 1.0)])
         .collect();
-    let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.noise.input = Some(InputNoise { direct: p[0].exp(), ..InputNoise::default() });
+    let mut variant = Variant::new(starts, |p, augmented| {
+        augmented.noise.input = Some(InputNoise { direct: p[0].exp(), ..InputNoise::default() });
     });
     variant.search = Search::Weights;
     variant
@@ -83,8 +84,8 @@ fn small() -> Variant {
             ]
         })
         .collect();
-    let mut variant = Variant::new(starts, |p, assembly| {
-        assembly.noise.input =
+    let mut variant = Variant::new(starts, |p, augmented| {
+        augmented.noise.input =
             Some(InputNoise { by_slope: p[0].exp(), by_gap: p[1].exp(), ..InputNoise::default() });
     });
     // The ratios act on the weights only: the innovations have no derivative that would lead to them.

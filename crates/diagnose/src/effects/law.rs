@@ -1,12 +1,12 @@
-//! A law of an effect: a function from its nonlinear parameters to changes of an assembly, and how it is searched.
+//! A law of an effect: a function from its nonlinear parameters to changes of an augmented model, and how it is searched.
 
 use std::sync::Arc;
 
 use crate::effect::Effect;
 use crate::likelihood::engine::{Fit, NonlinearParameter};
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 use crate::model::borders::Grid;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// How the nonlinear parameters are searched after the starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,8 +21,8 @@ pub(crate) enum Search {
     Weights,
 }
 
-/// The change an effect makes to an assembly, given its nonlinear parameters.
-pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut Assembly) + Send + Sync>;
+/// The change an effect makes to an augmented model, given its nonlinear parameters.
+pub(crate) type Apply = Arc<dyn Fn(&[f64], &mut AugmentedModel) + Send + Sync>;
 
 /// Whether a law, given its fitted nonlinear parameters, is still a law of its effect, not the limit at which it is another one.
 pub(crate) type Sound = fn(&[f64], &Fit) -> bool;
@@ -48,7 +48,7 @@ pub(crate) struct Variant {
     /// A finer border grid that comes with the law.
     pub(crate) grid: Option<Grid>,
     /// Added to the deviance: evidence that the innovations do not show, or a penalty.
-    pub(crate) handicap: f64,
+    pub(crate) size_penalty: f64,
 }
 
 /// Refines a law whose starts lie along one valley of the likelihood.
@@ -64,7 +64,7 @@ impl Search {
 impl Variant {
     pub(super) fn new(
         starts: Vec<Vec<NonlinearParameter>>,
-        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
+        apply: impl Fn(&[f64], &mut AugmentedModel) + Send + Sync + 'static,
     ) -> Self {
         Self {
             starts,
@@ -76,13 +76,13 @@ impl Variant {
             sound: |_, _| true,
             naming: None,
             grid: None,
-            handicap: 0.0,
+            size_penalty: 0.0,
         }
     }
 
     pub(super) fn conditional(
         starts: Vec<Vec<NonlinearParameter>>,
-        apply: impl Fn(&[f64], &mut Assembly) + Send + Sync + 'static,
+        apply: impl Fn(&[f64], &mut AugmentedModel) + Send + Sync + 'static,
     ) -> Self {
         Self { search: Search::Conditional, ..Self::new(starts, apply) }
     }
@@ -100,7 +100,7 @@ impl Variant {
 
 /// What an effect may look at when it proposes its variants.
 pub(crate) struct Scene<'a> {
-    pub(crate) campaign: &'a Campaign,
+    pub(crate) dataset: &'a Dataset,
     /// The best model so far.
     pub(crate) fit: &'a Fit,
     /// Its innovations on the fit records.

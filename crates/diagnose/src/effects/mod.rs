@@ -2,7 +2,7 @@
 //! what it leaves in the data and what it is confused with.
 //!
 //! An effect is a handful of [`Variant`]s: laws that physics offers for the same cause, each a function from nonlinear
-//! parameters to changes of an [`Assembly`](crate::model::assembly::Assembly). The same assembly is fitted
+//! parameters to changes of an [`AugmentedModel`](crate::model::augmented::AugmentedModel). The same augmented model is fitted
 //! ([`crate::likelihood::engine`]) and simulated ([`crate::simulation::simulate`]), and effects compose by being applied one after the
 //! other.
 
@@ -15,7 +15,7 @@ pub(crate) use card::{Card, Follows, Reading, Room};
 pub(crate) use law::{Apply, Naming, Scene, Search, Sound, Variant};
 
 use crate::likelihood::engine::{Fit, NonlinearParameter};
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// Declares the effects: of each its key, its file, which is its name as well, and what it changes.
 macro_rules! catalogue {
@@ -87,7 +87,7 @@ catalogue! {
     StepChange in step_change: "The gain or the distance of the borders changes at one instant.",
 }
 
-pub(crate) use border_resolution::details;
+pub(crate) use border_resolution::refinement;
 
 /// Whether a pole of `A` dies away in no record: it follows a drift, and a lag has taken its place.
 fn outlasts_the_records(fit: &Fit) -> bool {
@@ -96,8 +96,8 @@ fn outlasts_the_records(fit: &Fit) -> bool {
 }
 
 /// Typical speed of the free records, strokes per sample: the median of the moves.
-fn typical_speed(campaign: &Campaign) -> f64 {
-    let mut speeds: Vec<f64> = campaign
+fn typical_speed(dataset: &Dataset) -> f64 {
+    let mut speeds: Vec<f64> = dataset
         .fit()
         .filter(|t| !t.is_pulsed())
         .flat_map(|t| t.v.windows(2).map(|w| (w[1] - w[0]).abs()))
@@ -110,12 +110,12 @@ fn typical_speed(campaign: &Campaign) -> f64 {
     *speeds.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Numbers of the tracks that are fitted.
-fn fitted_tracks(campaign: &Campaign) -> Vec<usize> {
-    campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).map(|(i, _)| i).collect()
+/// Numbers of the records that are fitted.
+fn fitted_scaled_records(dataset: &Dataset) -> Vec<usize> {
+    dataset.scaled_records.iter().enumerate().filter(|(_, t)| t.is_fit()).map(|(i, _)| i).collect()
 }
 
-/// A parameter with its bounds; the derivative step is a thousandth of the range unless told.
+/// A parameter with its bounds; the derivative step is a thousandth of the range unless reported.
 fn parameter(
     name: &'static str,
     unit: &'static str,

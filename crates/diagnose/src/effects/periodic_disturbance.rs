@@ -1,7 +1,7 @@
 //! A sinusoid of unknown frequency.
 //!
 //! ```text
-//! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the campaign;
+//! A y = B u + Σ (α cos ωt + β sin ωt),   amplitude and phase free a record, or one for the dataset;
 //!                                      two frequencies; or the harmonics 1, 2, 3 and 5, or 1, 3, …, 11, of one wave; the latter free a record, too
 //! ```
 //!
@@ -11,9 +11,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{Card, Follows, Scene, Variant, fitted_tracks, parameter};
+use super::{Card, Follows, Scene, Variant, fitted_scaled_records, parameter};
 use crate::effect::Stage;
-use crate::model::assembly::{Assembly, EquationColumn};
+use crate::model::augmented::{AugmentedModel, EquationColumn};
 use crate::residuals::spectrum::{share_of_line, sharpened, strongest_lines};
 
 pub(super) const CARD: Card = Card {
@@ -38,7 +38,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // Few periods are a drift.
     let slowest = (8.0 * TAU / longest).max(2.0 * TAU / shortest);
     let is_line = |omega: &f64| *omega > slowest && *omega < FASTEST;
-    let tracks = fitted_tracks(scene.campaign);
+    let scaled_records = fitted_scaled_records(scene.dataset);
     let start =
         |omega: f64| parameter("omega", "radians per sample", omega, (slowest, FASTEST), 0.05 / longest);
     // Lines that rule the output have made pole pairs of `A` their own: the innovations have none of them, the output has.
@@ -54,10 +54,10 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let pairs: Vec<_> = pairs.map(|two| two.map(start).to_vec()).collect();
     // Slower than any line, once it is folded: a drift, which no harmonic is.
     let audible = move |frequency: f64| folded(frequency) > slowest;
-    let a_record = move |p: &[f64], assembly: &mut Assembly| {
+    let a_record = move |p: &[f64], augmented: &mut AugmentedModel| {
         for &frequency in p {
-            let columns = tracks.iter().flat_map(|&track| wave(frequency, audible, Some(track)));
-            assembly.equation_columns.extend(columns);
+            let columns = scaled_records.iter().flat_map(|&scaled| wave(frequency, audible, Some(scaled)));
+            augmented.equation_columns.extend(columns);
         }
     };
     let each_record = a_record.clone();
@@ -68,18 +68,18 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     // What rises as it falls has odd harmonics only, those of a square wave fall slowly.
     const HARMONICS: [&[f64]; 2] = [&[1.0, 2.0, 3.0, 5.0], &[1.0, 3.0, 5.0, 7.0, 9.0, 11.0]];
     out.extend(HARMONICS.map(|harmonics| {
-        Variant::new(starts.clone(), move |p, assembly| {
+        Variant::new(starts.clone(), move |p, augmented| {
             let columns = harmonics.iter().flat_map(|harmonic| wave(harmonic * p[0], audible, None));
-            assembly.equation_columns.extend(columns);
+            augmented.equation_columns.extend(columns);
         })
     }));
-    let square = move |p: &[f64], assembly: &mut Assembly| {
+    let square = move |p: &[f64], augmented: &mut AugmentedModel| {
         let frequencies: Vec<f64> = HARMONICS[1].iter().map(|harmonic| harmonic * p[0]).collect();
-        each_record(&frequencies, assembly);
+        each_record(&frequencies, augmented);
     };
     out.push(Variant::new(starts.clone(), square));
-    out.push(Variant::new(starts, move |p, assembly| {
-        assembly.equation_columns.extend(wave(p[0], audible, None));
+    out.push(Variant::new(starts, move |p, augmented| {
+        augmented.equation_columns.extend(wave(p[0], audible, None));
     }));
     out
 }
@@ -88,11 +88,15 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 fn wave(
     frequency: f64,
     audible: impl Fn(f64) -> bool,
-    track: Option<usize>,
+    scaled: Option<usize>,
 ) -> impl Iterator<Item = EquationColumn> {
     let heard = audible(frequency);
     let frequency = if heard { frequency } else { 0.0 };
-    [false, true].into_iter().map(move |sine| EquationColumn::Line { frequency, track, sine: sine || !heard })
+    [false, true].into_iter().map(move |sine| EquationColumn::Line {
+        frequency,
+        scaled,
+        sine: sine || !heard,
+    })
 }
 
 /// Where sampling puts a frequency, between 0 and π.
@@ -117,7 +121,7 @@ mod tests {
         // The second harmonic of a line at half the sampling frequency, but for a little.
         let omega = 0.5 * TAU - 1e-4;
         let heard = |frequency: f64| wave(frequency, |f| folded(f) > 0.01, None).collect::<Vec<_>>();
-        let line = |frequency, sine| EquationColumn::Line { frequency, track: None, sine };
+        let line = |frequency, sine| EquationColumn::Line { frequency, scaled: None, sine };
         assert_eq!(heard(omega), [line(omega, false), line(omega, true)]);
         assert_eq!(heard(2.0 * omega), [line(0.0, true), line(0.0, true)]);
     }

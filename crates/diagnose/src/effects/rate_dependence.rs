@@ -13,10 +13,10 @@
 use super::{Card, Scene, Variant, parameter, speed, typical_speed};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::augmented::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::Stribeck, Effect::Creep],
+    confounded_effects: &[Effect::Stribeck, Effect::Creep],
     dominates_dynamics: true,
     // A law of falling friction that fitted one that rises.
     renamed: &[("stribeck_speed", "speed_scale")],
@@ -24,13 +24,13 @@ pub(super) const CARD: Card = Card {
 };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let scale = typical_speed(scene.campaign);
+    let scale = typical_speed(scene.dataset);
     let mut out = Vec::new();
     for while_resting in [Resting::Held, Resting::Zero] {
         // Viscous friction is the commonest.
         let starts = [0.4, 1.0].iter().map(|&p| vec![parameter("power", "1", p, (0.1, 3.0), 0.02)]).collect();
-        let law = Variant::conditional(starts, move |p, assembly| {
-            assembly.border_columns.push(BorderColumn::Speed { power: p[0], scale, while_resting });
+        let law = Variant::conditional(starts, move |p, augmented| {
+            augmented.border_columns.push(BorderColumn::Speed { power: p[0], scale, while_resting });
         });
         out.push(law.named_by(name_of_a_column));
     }
@@ -40,8 +40,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
             parameter("power", "1", power, (0.1, 3.0), 0.02),
         ]
     });
-    let widening = Variant::conditional(starts.into(), move |p, assembly| {
-        assembly.widening = Some(Widening { share: p[0], power: p[1], scale, speeds: Speeds::High });
+    let widening = Variant::conditional(starts.into(), move |p, augmented| {
+        augmented.widening = Some(Widening { share: p[0], power: p[1], scale, speeds: Speeds::High });
     });
     out.push(widening.named_by(|p, _| speed::of_a_widening(Speeds::High, p[0])));
     out

@@ -9,15 +9,15 @@
 
 use nalgebra::Complex;
 
-use super::{Card, Follows, Room, Scene, Variant, fitted_tracks, outlasts_the_records, parameter};
+use super::{Card, Follows, Room, Scene, Variant, fitted_scaled_records, outlasts_the_records, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::{Fit, NonlinearParameter};
-use crate::model::assembly::EquationColumn;
+use crate::model::augmented::EquationColumn;
 use crate::residuals::spectrum::strongest_lines;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::ExtraPole, Effect::InputDelay],
-    supple: true,
+    confounded_effects: &[Effect::ExtraPole, Effect::InputDelay],
+    flexible: true,
     follows: Some(Follows::Steps),
     room: Some(Room::Order),
     // Two poles and a zero that are free follow the lines, lags and frictions of others a good part of the way.
@@ -47,7 +47,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let laws = [(alone.clone(), false), (alone, true), (two, false)];
     let laws = laws.into_iter().filter(|(starts, _)| !starts.is_empty());
     // Every line is a valley of its own.
-    let ringing = |(starts, passes)| ringing(fitted_tracks(scene.campaign), starts, passes);
+    let ringing = |(starts, passes)| ringing(fitted_scaled_records(scene.dataset), starts, passes);
     laws.map(ringing)
         .map(|law| law.sound_if(|_, fit| !outlasts_the_records(fit)))
         .map(|law| Variant { climbs: LINES + 1, ..law })
@@ -73,22 +73,22 @@ fn mode(omega: f64, radius: f64) -> [NonlinearParameter; 2] {
 }
 
 /// Modes one after the other, `omega` and `zeta` each.
-fn ringing(tracks: Vec<usize>, starts: Vec<Vec<NonlinearParameter>>, passes: bool) -> Variant {
-    Variant::conditional(starts, move |p, assembly| {
+fn ringing(scaled_records: Vec<usize>, starts: Vec<Vec<NonlinearParameter>>, passes: bool) -> Variant {
+    Variant::conditional(starts, move |p, augmented| {
         for mode in p.chunks_exact(2) {
             let (frequency, radius) = (mode[0], radius(mode[1], mode[0]));
             let poles = [1.0, -2.0 * radius * frequency.cos(), radius * radius];
-            assembly.filter(&[1.0], &poles);
-            assembly.extra_b += 2;
+            augmented.filter(&[1.0], &poles);
+            augmented.extra_b += 2;
             // The mode rings when a record begins, nobody knows how.
-            for &track in &tracks {
+            for &scaled in &scaled_records {
                 for sine in [false, true] {
-                    let ring = EquationColumn::Decay { track, radius, frequency, sine };
-                    assembly.equation_columns.push(ring);
+                    let ring = EquationColumn::Decay { scaled, radius, frequency, sine };
+                    augmented.equation_columns.push(ring);
                 }
             }
             if passes {
-                assembly.noise.ar = crate::model::assembly::times_monic(&assembly.noise.ar, &poles[1..]);
+                augmented.noise.ar = crate::model::augmented::times_monic(&augmented.noise.ar, &poles[1..]);
             }
         }
     })
@@ -114,7 +114,7 @@ fn damping(rho: f64, omega: f64) -> f64 {
 /// A y = B u + ξ/D   ⟺   D·A y = D·B u + ξ
 /// ```
 fn is_coloured_noise(fit: &Fit) -> bool {
-    let passes = !fit.assembly.noise.ar.is_empty();
+    let passes = !fit.augmented.noise.ar.is_empty();
     let b = &fit.linear.b;
     passes && fit.linear.poles().into_iter().any(|pole| pole.norm() > LASTING && undone(b, pole) < UNDONE)
 }

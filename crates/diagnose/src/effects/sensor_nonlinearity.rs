@@ -12,13 +12,13 @@
 use super::{Card, Follows, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::NonlinearParameter;
-use crate::model::forwards::Forwards;
 use crate::model::sensor::Bumps;
+use crate::model::sensor_polynomial::SensorPolynomial;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::SensorSaturation],
+    confounded_effects: &[Effect::SensorSaturation],
     misreads: true,
-    supple: true,
+    flexible: true,
     follows: Some(Follows::Steps),
     ..Card::of(Stage::Sensor, variants)
 };
@@ -29,14 +29,14 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
         .map(|count| {
             let names = ["theta2", "theta3", "theta4", "theta5", "theta6", "theta7"];
             let start = (0..count).map(|k| parameter(names[k], UNIT, 0.0, (-0.6, 0.6), 0.0005)).collect();
-            Variant::new(vec![start], |p, assembly| assembly.curve.powers = p.to_vec())
+            Variant::new(vec![start], |p, augmented| augmented.curve.powers = p.to_vec())
         })
         .collect();
-    let forwards =
+    let sensor_polynomial =
         [(0.0, 0.0), (0.0, 0.1), (0.0, 0.4), (0.0, -0.05), (0.2, 0.0), (-0.2, 0.0), (0.4, 0.1), (-0.4, 0.1)]
             .map(|(square, cube)| vec![gamma("gamma2", square), gamma("gamma3", cube)]);
-    out.push(Variant::conditional(forwards.into(), |p, assembly| {
-        assembly.curve.forwards = Some(Forwards::new(p[0], p[1]));
+    out.push(Variant::conditional(sensor_polynomial.into(), |p, augmented| {
+        augmented.curve.sensor_polynomial = Some(SensorPolynomial::new(p[0], p[1]));
     }));
     out.push(bumps(scene, BUMPS));
     out
@@ -52,7 +52,7 @@ const UNIT: &str = "per standard deviation of y";
 const BUMPS: usize = 12;
 
 fn bumps(scene: &Scene<'_>, count: usize) -> Variant {
-    let readings = || scene.campaign.fit().flat_map(|t| &t.y);
+    let readings = || scene.dataset.fit().flat_map(|t| &t.y);
     let low = readings().fold(f64::INFINITY, |l, &y| l.min(y));
     let high = readings().fold(f64::NEG_INFINITY, |h, &y| h.max(y));
     let spacing = (high - low) / (count - 1) as f64;
@@ -61,7 +61,7 @@ fn bumps(scene: &Scene<'_>, count: usize) -> Variant {
             parameter("height", "standard deviations of y", 0.0, (-0.8 * spacing, 0.8 * spacing), 0.0005)
         })
         .collect();
-    Variant::new(vec![start], move |p, assembly| {
-        assembly.curve.bumps = Some(Bumps { first: low, spacing, heights: p.to_vec() });
+    Variant::new(vec![start], move |p, augmented| {
+        augmented.curve.bumps = Some(Bumps { first: low, spacing, heights: p.to_vec() });
     })
 }

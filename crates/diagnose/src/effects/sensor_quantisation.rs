@@ -15,22 +15,22 @@ pub(super) const CARD: Card = Card {
     errors_last: true,
     misreads: true,
     rounds: true,
-    told_first: |reading| {
-        let step = reading.fit.assembly.noise.quantisation;
+    reported_first: |reading| {
+        let step = reading.fit.augmented.noise.quantisation;
         step.map(|step| reading.step("step", step)).into_iter().collect()
     },
     ..Card::of(Stage::Sensor, variants)
 };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let Some(step) = quantisation_step(scene.campaign).filter(|step| is_material(*step, scene.fit)) else {
+    let Some(step) = quantisation_step(scene.dataset).filter(|step| is_material(*step, scene.fit)) else {
         return Vec::new();
     };
     let ratio = super::parameter("log_ratio", "ln variance ratio", 0.0, (-7.0, 9.0), 0.02);
-    let mut variant = Variant::new(vec![vec![ratio]], move |p, assembly| {
-        assembly.noise.output_ratio = p[0].exp();
-        assembly.noise.quantisation = Some(step);
+    let mut variant = Variant::new(vec![vec![ratio]], move |p, augmented| {
+        augmented.noise.output_ratio = p[0].exp();
+        augmented.noise.quantisation = Some(step);
     });
-    variant.handicap = -worth(scene.campaign.fit_samples());
+    variant.size_penalty = -worth(scene.dataset.fit_samples());
     vec![variant]
 }

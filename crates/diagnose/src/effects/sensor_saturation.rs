@@ -11,14 +11,14 @@
 use super::{Card, Follows, Reading, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
 use crate::fitted_parameter::FittedParameter;
-use crate::model::assembly::Saturation;
+use crate::model::augmented::Saturation;
 use crate::model::sensor::Knee;
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::SensorNonlinearity],
+    confounded_effects: &[Effect::SensorNonlinearity],
     misreads: true,
     follows: Some(Follows::Steps),
-    told_first: limits_and_knees,
+    reported_first: limits_and_knees,
     ..Card::of(Stage::Sensor, variants)
 };
 
@@ -36,7 +36,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
 
 /// Knees at either end of the readings or at both.
 fn soft(scene: &Scene<'_>) -> Vec<Variant> {
-    let readings = || scene.campaign.fit().flat_map(|t| &t.y);
+    let readings = || scene.dataset.fit().flat_map(|t| &t.y);
     let low = readings().fold(f64::INFINITY, |l, &y| l.min(y));
     let high = readings().fold(f64::NEG_INFINITY, |h, &y| h.max(y));
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
@@ -52,8 +52,8 @@ fn soft(scene: &Scene<'_>) -> Vec<Variant> {
                     ]
                 })
                 .collect();
-            Variant::conditional(starts, move |p, assembly| {
-                assembly.curve.knees.extend(ends.iter().map(|&sign| Knee {
+            Variant::conditional(starts, move |p, augmented| {
+                augmented.curve.knees.extend(ends.iter().map(|&sign| Knee {
                     level: middle + sign * p[0] * half,
                     width: p[1] * half,
                     sign,
@@ -65,15 +65,15 @@ fn soft(scene: &Scene<'_>) -> Vec<Variant> {
 
 fn hard(scene: &Scene<'_>) -> Vec<Variant> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for y in scene.campaign.fit().flat_map(|t| &t.y) {
+    for y in scene.dataset.fit().flat_map(|t| &t.y) {
         low = low.min(*y);
         high = high.max(*y);
     }
-    let ties = |limit: f64| scene.campaign.fit().flat_map(|t| &t.y).filter(|y| **y == limit).count();
+    let ties = |limit: f64| scene.dataset.fit().flat_map(|t| &t.y).filter(|y| **y == limit).count();
     // On a coarse quantisation grid every value has ties: the extreme one must have more than its inner neighbour.
     let inner = |limit: f64| {
         let next = scene
-            .campaign
+            .dataset
             .fit()
             .flat_map(|t| &t.y)
             .filter(|y| **y != limit)
@@ -92,23 +92,23 @@ fn hard(scene: &Scene<'_>) -> Vec<Variant> {
         order: scene.fit.linear.a.len(),
     };
     let tied = if at_low { low_ties } else { 0 } + if at_high { high_ties } else { 0 };
-    let mut variant = Variant::new(vec![Vec::new()], move |_, assembly| assembly.saturation = Some(limits));
+    let mut variant = Variant::new(vec![Vec::new()], move |_, augmented| augmented.saturation = Some(limits));
     let mut rest: Vec<f64> =
-        scene.campaign.fit().flat_map(|t| t.y.iter().copied()).filter(|y| *y != low && *y != high).collect();
+        scene.dataset.fit().flat_map(|t| t.y.iter().copied()).filter(|y| *y != low && *y != high).collect();
     let count = rest.len();
     rest.sort_by(f64::total_cmp);
     rest.dedup();
     // Rounding ties every plateau, at the extremes too.
     if 3 * rest.len() > 2 * count {
-        variant.handicap = TIE * tied as f64;
+        variant.size_penalty = TIE * tied as f64;
     }
     vec![variant]
 }
 
 fn limits_and_knees(reading: &Reading<'_>) -> Vec<FittedParameter> {
-    let assembly = &reading.fit.assembly;
-    let limits = assembly.saturation.iter().flat_map(|s| [("lower_limit", s.low), ("upper_limit", s.high)]);
+    let augmented = &reading.fit.augmented;
+    let limits = augmented.saturation.iter().flat_map(|s| [("lower_limit", s.low), ("upper_limit", s.high)]);
     let knee = |sign: f64| if sign > 0.0 { "upper_knee" } else { "lower_knee" };
-    let knees = assembly.curve.knees.iter().map(|k| (knee(k.sign), k.level));
+    let knees = augmented.curve.knees.iter().map(|k| (knee(k.sign), k.level));
     limits.chain(knees).filter(|(_, y)| y.is_finite()).map(|(name, y)| reading.level(name, y)).collect()
 }

@@ -12,14 +12,14 @@
 use crate::effect::Effect;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::{BorderColumn, Speeds};
+use crate::model::augmented::{BorderColumn, Speeds};
 use crate::model::borders::Grid;
 
-/// The name of the friction that a column of the borders fitted, the one that `is_it` tells; none where there is no such
+/// The name of the friction that a column of the borders fitted, the one that `is_it` shows; none where there is no such
 /// column, or the loop is none of friction: then the law's own name stands.
 pub(super) fn of_a_column(fit: &Fit, is_it: impl Fn(&BorderColumn) -> bool) -> Option<Effect> {
-    let at = fit.assembly.border_columns.iter().position(is_it)?;
-    let rises = matches!(fit.assembly.border_columns[at], BorderColumn::Speed { .. });
+    let at = fit.augmented.border_columns.iter().position(is_it)?;
+    let rises = matches!(fit.augmented.border_columns[at], BorderColumn::Speed { .. });
     let coefficient = fit.linear.f[fit.grid.len() + at];
     orientation(fit).map(|orientation| named(rises, coefficient * orientation))
 }
@@ -61,12 +61,12 @@ fn between_the_borders(grid: &Grid, f: &[f64]) -> f64 {
 /// What a unit of each column adds along the branch, in the mean over the samples in which the input moves; the borders' values are the
 /// first `borders` columns of the rows.
 fn mean_added(design: &Design, borders: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; design.assembly.border_columns.len()];
+    let mut sums = vec![0.0; design.augmented.border_columns.len()];
     let mut count = 0.0;
-    for track in &design.tracks {
-        for (t, motion) in track.moves.iter().enumerate().filter(|(_, motion)| motion.moves) {
+    for scaled in &design.scaled_records {
+        for (t, motion) in scaled.moves.iter().enumerate().filter(|(_, motion)| motion.moves) {
             count += 1.0;
-            for &(i, x) in track.rows.row(t) {
+            for &(i, x) in scaled.rows.row(t) {
                 if let Some(column) = (i as usize).checked_sub(borders) {
                     sums[column] += motion.branch * x;
                 }

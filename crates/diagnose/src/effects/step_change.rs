@@ -14,8 +14,8 @@
 //! Records differ in more than their time: one alone on its side of a change has whatever its own input makes of an inexact law. So the change falls
 //! well within a record, or between records of which two at least lie on either side.
 //!
-//! Parameters: change `g` of the gain (−0.95…4) or narrowing `w` of the loop (−1.5…1.5), `instant` in samples of the campaign, the middle of a
-//! `ramp` of 1 sample to [`LONGEST`] of the campaign. Told: the record by its number, the sample and the time in it, the change in per cent. Stage: operator.
+//! Parameters: change `g` of the gain (−0.95…4) or narrowing `w` of the loop (−1.5…1.5), `instant` in samples of the dataset, the middle of a
+//! `ramp` of 1 sample to [`LONGEST`] of the dataset. Reported: the record by its number, the sample and the time in it, the change in per cent. Stage: operator.
 //! Left by a setting of the actuator that somebody changed, a belt that slipped, a bolt that came loose. Confused with: gain drift, border wear.
 
 use super::gain_drift::{drift, turns_about_an_output};
@@ -24,15 +24,15 @@ use crate::effect::{Effect, Stage};
 use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, NonlinearParameter};
-use crate::model::assembly::{Assembly, Clock, Slow};
-use crate::records::campaign::Campaign;
+use crate::model::augmented::{AugmentedModel, Clock, Slow};
+use crate::records::dataset::Dataset;
 use crate::residuals::change_point::{ChangePoint, change_points, likeliest};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::GainDrift, Effect::BorderWear],
+    confounded_effects: &[Effect::GainDrift, Effect::BorderWear],
     of_its_record: true,
     dominates_dynamics: true,
-    told_first: when_and_how_much,
+    reported_first: when_and_how_much,
     ..Card::of(Stage::Operator, variants)
 };
 
@@ -48,8 +48,8 @@ const LOOP: Changing = Changing { name: "loop_narrowing", bounds: (-1.5, 1.5) };
 /// The name of the instant.
 const INSTANT: &str = "instant";
 
-/// Boundaries between records from which a search starts, and sizes there: borders in which every record has details of its own may have
-/// taken all of a change between records, so that the errors tell nothing of it.
+/// Boundaries between records from which a search starts, and sizes there: borders in which every record has refinements of its own may have
+/// taken all of a change between records, so that the errors show nothing of it.
 const BOUNDARIES: usize = 4;
 const SIZES: [f64; 2] = [-0.5, 0.5];
 
@@ -57,17 +57,17 @@ const SIZES: [f64; 2] = [-0.5, 0.5];
 const INSTANTS: usize = 3;
 const APART: f64 = 0.02;
 /// Length of a ramp in the beginning, samples: the next instant is found from half of it away. And the longest, as a share of the
-/// campaign: what takes longer is a drift.
+/// dataset: what takes longer is a drift.
 const RAMP: f64 = 8.0;
 const LONGEST: f64 = 0.02;
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let gain = |assembly: &mut Assembly, step| assembly.gain = Some(step);
-    let wear = |assembly: &mut Assembly, step| assembly.wear = Some(step);
+    let gain = |augmented: &mut AugmentedModel, step| augmented.gain = Some(step);
+    let wear = |augmented: &mut AugmentedModel, step| augmented.wear = Some(step);
     let penalty = (scene.fit.samples.max(1) as f64).ln();
-    let law = |starts: Vec<Vec<NonlinearParameter>>, apply: fn(&mut Assembly, Slow)| {
-        let law = Variant::new(starts, move |p, assembly| apply(assembly, step(p)));
-        Variant { handicap: penalty, ..law }
+    let law = |starts: Vec<Vec<NonlinearParameter>>, apply: fn(&mut AugmentedModel, Slow)| {
+        let law = Variant::new(starts, move |p, augmented| apply(augmented, step(p)));
+        Variant { size_penalty: penalty, ..law }
     };
     let laws = [
         law(starts(scene, &GAIN, gain), drift)
@@ -90,12 +90,12 @@ const MARGIN: f64 = 0.1;
 /// Records on either side of a change between records at least.
 const RECORDS: usize = 2;
 
-/// Where a change may be told from what differs between records: ranges of the campaign's samples.
-fn ranges(campaign: &Campaign) -> Vec<(f64, f64)> {
-    let count = campaign.fit().count();
+/// Where a change may be distinguished from what differs between records: ranges of the dataset's samples.
+fn ranges(dataset: &Dataset) -> Vec<(f64, f64)> {
+    let count = dataset.fit().count();
     let mut ranges: Vec<(f64, f64)> = Vec::new();
-    for (before, track) in campaign.fit().enumerate() {
-        let at = |share: f64| track.clock as f64 + share * track.v.len() as f64;
+    for (before, scaled) in dataset.fit().enumerate() {
+        let at = |share: f64| scaled.clock as f64 + share * scaled.v.len() as f64;
         let end = at(1.0 - MARGIN);
         match ranges.last_mut() {
             Some(range) if before >= RECORDS && count - before >= RECORDS => range.1 = end,
@@ -118,24 +118,24 @@ const PROBE: f64 = 1e-3;
 fn starts(
     scene: &Scene<'_>,
     changing: &Changing,
-    apply: impl Fn(&mut Assembly, Slow),
+    apply: impl Fn(&mut AugmentedModel, Slow),
 ) -> Vec<Vec<NonlinearParameter>> {
     let fit = scene.fit;
-    let mut assembly = fit.assembly.clone();
-    apply(&mut assembly, Slow { bends: vec![(0.0, PROBE)], ..Slow::on(Clock::Samples) });
-    let design = Design::like(Some(fit.near()), scene.campaign, &fit.grid, &assembly);
-    let probed = design.innovations(&fit.linear, &design.whitener(&assembly.noise, &fit.linear.a));
+    let mut augmented = fit.augmented.clone();
+    apply(&mut augmented, Slow { bends: vec![(0.0, PROBE)], ..Slow::on(Clock::Samples) });
+    let design = Design::like(Some(fit.near()), scene.dataset, &fit.grid, &augmented);
+    let probed = design.innovations(&fit.linear, &design.whitener(&augmented.noise, &fit.linear.a));
     let (mut errors, mut slopes, mut clocks) = (Vec::new(), Vec::new(), Vec::new());
     let mut firsts_of_records = Vec::new();
-    for ((track, w), probed) in scene.campaign.fit().zip(scene.innovations).zip(&probed) {
+    for ((scaled, w), probed) in scene.dataset.fit().zip(scene.innovations).zip(&probed) {
         errors.extend(w);
         firsts_of_records.push(errors.len() - w.len());
         slopes.extend(w.iter().zip(probed).map(|(w, probed)| (probed - w) / PROBE));
-        clocks.extend((0..w.len()).map(|k| (track.clock + track.from + k) as f64));
+        clocks.extend((0..w.len()).map(|k| (scaled.clock + scaled.from + k) as f64));
     }
-    let longest = (LONGEST * scene.campaign.total as f64).max(2.0 * RAMP);
+    let longest = (LONGEST * scene.dataset.total as f64).max(2.0 * RAMP);
     let apart = ((APART * errors.len() as f64) as usize).max(1);
-    let ranges = ranges(scene.campaign);
+    let ranges = ranges(scene.dataset);
     let range =
         |at: usize| ranges.iter().find(|(low, high)| (*low..*high).contains(&(clocks[at] - 0.5))).copied();
     let bounds = changing.bounds;
@@ -143,7 +143,7 @@ fn starts(
         let range = range(at).unwrap_or_default();
         vec![
             parameter(changing.name, "1", size.clamp(0.9 * bounds.0, 0.9 * bounds.1), bounds, 0.001),
-            parameter(INSTANT, "samples of the campaign", clocks[at] - 0.5, range, 0.5),
+            parameter(INSTANT, "samples of the dataset", clocks[at] - 0.5, range, 0.5),
             parameter("ramp", "samples", RAMP, (1.0, longest), 0.5),
         ]
     };
@@ -160,7 +160,7 @@ fn starts(
 /// Where the change begins to act, and by how many per cent.
 fn when_and_how_much(reading: &Reading<'_>) -> Vec<FittedParameter> {
     let [size, instant, _] = reading.searched else { return Vec::new() };
-    let (number, sample) = place(reading.campaign, instant.value);
+    let (number, sample) = place(reading.dataset, instant.value);
     let [low, high] = size.ci90.map(|end| 100.0 * end);
     let (name, value, ci90) = match size.name {
         name if name == LOOP.name => ("loop_change", -100.0 * size.value, [-high, -low]),
@@ -170,15 +170,15 @@ fn when_and_how_much(reading: &Reading<'_>) -> Vec<FittedParameter> {
         FittedParameter { name, unit: "%", value, ci90 },
         known("record", "count", (number + 1) as f64),
         known("sample_in_record", "count", sample as f64),
-        known("time_in_record", "s", sample as f64 * reading.campaign.sample_time),
+        known("time_in_record", "s", sample as f64 * reading.dataset.sample_time),
     ]
 }
 
-/// Number of the record, and sample in it, that is the first after an instant of the campaign.
-fn place(campaign: &Campaign, instant: f64) -> (usize, usize) {
+/// Number of the record, and sample in it, that is the first after an instant of the dataset.
+fn place(dataset: &Dataset, instant: f64) -> (usize, usize) {
     let first = instant.ceil().max(0.0) as usize;
-    let number = campaign.tracks.partition_point(|track| track.clock <= first).saturating_sub(1);
-    (number, first - campaign.tracks[number].clock)
+    let number = dataset.scaled_records.partition_point(|scaled| scaled.clock <= first).saturating_sub(1);
+    (number, first - dataset.scaled_records[number].clock)
 }
 
 #[cfg(test)]
@@ -186,19 +186,19 @@ mod tests {
     use super::*;
     use crate::attribution::SIGNIFICANT;
     use crate::effects::tests::{HALF, explained, loop_of, measured};
-    use crate::records::campaign::Track;
+    use crate::records::dataset::ScaledRecord;
 
-    /// What is told of a change of a known kind, by the laws of the effect.
-    fn told(assembly: &Assembly) -> Vec<FittedParameter> {
-        let campaign = measured(assembly, &loop_of(HALF, &[]));
-        let (best, gain) = explained(&campaign, Effect::StepChange).expect("a fit");
+    /// What is reported a change of a known kind, by the laws of the effect.
+    fn reported(augmented: &AugmentedModel) -> Vec<FittedParameter> {
+        let dataset = measured(augmented, &loop_of(HALF, &[]));
+        let (best, gain) = explained(&dataset, Effect::StepChange).expect("a fit");
         assert!(gain > SIGNIFICANT, "{gain}");
         let intervals = best.fit.intervals();
         let searched = best.fit.nonlinear.iter().zip(intervals);
         let searched: Vec<FittedParameter> = searched
             .map(|(o, ci90)| FittedParameter { name: o.name, unit: o.unit, value: o.value, ci90 })
             .collect();
-        when_and_how_much(&Reading { campaign: &campaign, fit: &best.fit, searched: &searched })
+        when_and_how_much(&Reading { dataset: &dataset, fit: &best.fit, searched: &searched })
     }
 
     fn at_130(size: f64) -> Slow {
@@ -214,24 +214,24 @@ mod tests {
     /// The oracle: the machine that the records were made with.
     #[test]
     fn instant_and_size_are_those_of_the_machine() {
-        let gain = Assembly { gain: Some(at_130(0.25)), ..Assembly::default() };
-        let narrower = Assembly { wear: Some(at_130(0.4)), ..Assembly::default() };
-        for (assembly, name, percent) in [(gain, "gain_change", 25.0), (narrower, "loop_change", -40.0)] {
-            let told = told(&assembly);
-            assert_eq!(told[0].name, name);
-            assert!((told[0].value / percent - 1.0).abs() < 0.05, "{told:?}");
-            assert_eq!(told[1].value, 1.0);
-            assert!((told[2].value - 130.0).abs() <= 2.0, "{told:?}");
+        let gain = AugmentedModel { gain: Some(at_130(0.25)), ..AugmentedModel::default() };
+        let narrower = AugmentedModel { wear: Some(at_130(0.4)), ..AugmentedModel::default() };
+        for (augmented, name, percent) in [(gain, "gain_change", 25.0), (narrower, "loop_change", -40.0)] {
+            let reported = reported(&augmented);
+            assert_eq!(reported[0].name, name);
+            assert!((reported[0].value / percent - 1.0).abs() < 0.05, "{reported:?}");
+            assert_eq!(reported[1].value, 1.0);
+            assert!((reported[2].value - 130.0).abs() <= 2.0, "{reported:?}");
         }
     }
 
     #[test]
-    fn a_record_alone_on_its_side_tells_nothing_of_a_change_beside_it() {
-        let mut campaign = measured(&Assembly::default(), &loop_of(HALF, &[]));
-        let record = campaign.tracks.remove(0);
+    fn a_record_alone_on_its_side_shows_nothing_of_a_change_beside_it() {
+        let mut dataset = measured(&AugmentedModel::default(), &loop_of(HALF, &[]));
+        let record = dataset.scaled_records.remove(0);
         let taken = |count: usize| {
-            let tracks = (0..count).map(|k| Track { clock: 240 * k, ..record.clone() });
-            ranges(&Campaign { tracks: tracks.collect(), ..campaign.clone() })
+            let scaled_records = (0..count).map(|k| ScaledRecord { clock: 240 * k, ..record.clone() });
+            ranges(&Dataset { scaled_records: scaled_records.collect(), ..dataset.clone() })
         };
         assert_eq!(taken(1), [(24.0, 216.0)]);
         assert_eq!(taken(2), [(24.0, 216.0), (264.0, 456.0)]);
@@ -239,13 +239,13 @@ mod tests {
     }
 
     #[test]
-    fn an_instant_is_told_by_record_and_sample() {
-        let mut campaign = measured(&Assembly::default(), &loop_of(HALF, &[]));
-        let mut second = campaign.tracks[0].clone();
+    fn an_instant_is_reported_by_record_and_sample() {
+        let mut dataset = measured(&AugmentedModel::default(), &loop_of(HALF, &[]));
+        let mut second = dataset.scaled_records[0].clone();
         second.clock = 240;
-        campaign.tracks.push(second);
-        assert_eq!(place(&campaign, 239.5), (1, 0));
-        assert_eq!(place(&campaign, 239.0), (0, 239));
-        assert_eq!(place(&campaign, 300.2), (1, 61));
+        dataset.scaled_records.push(second);
+        assert_eq!(place(&dataset, 239.5), (1, 0));
+        assert_eq!(place(&dataset, 239.0), (0, 239));
+        assert_eq!(place(&dataset, 300.2), (1, 61));
     }
 }

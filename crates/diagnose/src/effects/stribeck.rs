@@ -14,16 +14,16 @@
 use super::{Card, Scene, Variant, parameter, speed, typical_speed};
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::Fit;
-use crate::model::assembly::{BorderColumn, Resting, Speeds, Widening};
+use crate::model::augmented::{BorderColumn, Resting, Speeds, Widening};
 
 pub(super) const CARD: Card = Card {
-    twins: &[Effect::RateDependence],
+    confounded_effects: &[Effect::RateDependence],
     dominates_dynamics: true,
     ..Card::of(Stage::Operator, variants)
 };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
-    let typical = typical_speed(scene.campaign);
+    let typical = typical_speed(scene.dataset);
     let slow = |(share, power): (f64, f64)| {
         let scale = share * typical;
         let range = (0.02 * typical, 20.0 * typical);
@@ -34,9 +34,9 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     };
     let low_speed = |while_resting| {
         let starts = [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)].map(slow);
-        Variant::conditional(starts.into(), move |p, assembly| {
+        Variant::conditional(starts.into(), move |p, augmented| {
             let column = BorderColumn::LowSpeed { power: p[1], scale: p[0], while_resting };
-            assembly.border_columns.push(column);
+            augmented.border_columns.push(column);
         })
         .named_by(|p, fit| {
             let of_it = |power: f64, scale: f64| [scale, power] == p[..2];
@@ -46,9 +46,9 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let bends = parameter("length", "strokes", 0.02, (0.002, 0.2), 0.001);
     let starts =
         [(0.7, 1.0), (0.5, 2.0), (2.0, 2.0), (6.0, 2.0)].map(|start| [slow(start), vec![bends]].concat());
-    let bristle = Variant::conditional(starts.into(), |p, assembly| {
+    let bristle = Variant::conditional(starts.into(), |p, augmented| {
         let column = BorderColumn::Bristle { power: p[1], scale: p[0], length: p[2] };
-        assembly.border_columns.push(column);
+        augmented.border_columns.push(column);
     });
     let bristle = bristle.named_by(|p, fit| {
         let of_it = |power: f64, scale: f64, length: f64| [scale, power, length] == p[..3];
@@ -60,8 +60,8 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let share = parameter("widening", "half widths of the loop", 0.3, (-0.9, 20.0), 0.005);
     let starts =
         [(0.2, 1.0), (0.7, 1.0), (0.5, 2.0), (2.0, 2.0)].map(|start| [vec![share], slow(start)].concat());
-    let wider = Variant::conditional(starts.into(), |p, assembly| {
-        assembly.widening = Some(Widening { share: p[0], power: p[2], scale: p[1], speeds: Speeds::Low });
+    let wider = Variant::conditional(starts.into(), |p, augmented| {
+        augmented.widening = Some(Widening { share: p[0], power: p[2], scale: p[1], speeds: Speeds::Low });
     });
     let wider = wider.named_by(|p, _| speed::of_a_widening(Speeds::Low, p[0]));
     vec![low_speed(Resting::Held), low_speed(Resting::Zero), bristle, wider]

@@ -7,7 +7,7 @@ use crate::model::linear::Linear;
 
 /// Variance of every sample of a free run that the errors of the parameters make; nothing where these are unknown.
 ///
-/// `run` gives the output for linear parameters; `moved` the run under the moved assembly of each nonlinear parameter, whose difference
+/// `run` gives the output for linear parameters; `moved` the run under the moved augmented model of each nonlinear parameter, whose difference
 /// quotient is its derivative.
 pub(super) fn variances(
     model: &Wire,

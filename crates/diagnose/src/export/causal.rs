@@ -6,15 +6,15 @@ use thiserror::Error;
 use super::lasting::{notes, without_waves};
 use super::portable::{PortableModel, Wire};
 use crate::likelihood::rows::at_the_end;
-use crate::model::assembly::{
+use crate::model::augmented::{
     BorderColumn, Clock, EquationColumn, Resting, Slow, Speeds, TransitionLaw, convolve,
 };
-use crate::model::forwards::FLATTEST;
-use crate::model::parts::{Operator, Parts};
+use crate::model::effect_terms::{EffectTerms, Operator};
 use crate::model::sensor::{STEEPEST, SensorCurve};
-use crate::records::campaign::RESOLUTION;
+use crate::model::sensor_polynomial::FLATTEST;
+use crate::records::dataset::RESOLUTION;
 use crate::records::motion::Begins;
-use crate::simulation::beginnings::{Level, with_level};
+use crate::simulation::initial_conditions::{Level, with_level};
 use crate::simulation::simulate::LIMIT;
 
 /// Why a model cannot run in real time.
@@ -24,7 +24,7 @@ pub enum LooksAhead {
     /// An output depends on later inputs.
     #[error("it weighs the input {0} sample(s) ahead")]
     Input(usize),
-    /// A branch begins before the move that tells it.
+    /// A branch begins before the move that shows it.
     #[error("it dates a reversal back once the input has moved by {0}")]
     Reversals(f64),
 }
@@ -40,33 +40,33 @@ impl PortableModel {
 
     /// What is assumed on records that the model was not made from, one sentence each.
     pub fn elsewhere(&self) -> Vec<String> {
-        notes(&self.0.assembly)
+        notes(&self.0.augmented)
     }
 }
 
 impl Wire {
     fn causal(&self) -> Result<step::Model, LooksAhead> {
-        let parts = self.assembly.parts();
+        let effect_terms = self.augmented.effect_terms();
         let s = self.scales;
         let on_scale = |origin, size| step::Scale { origin, size, grid: None };
         let rule = self.rule;
         if rule.threshold > 0.0 && rule.begins == Begins::AtExtreme {
             return Err(LooksAhead::Reversals(rule.threshold * s.v_width));
         }
-        let play = parts.positions.play;
+        let play = effect_terms.positions.play;
         Ok(step::Model {
             input: step::Scale { grid: Some(RESOLUTION), ..on_scale(s.v_low, s.v_width) },
             output: on_scale(s.y_mean, s.y_scale),
-            late: parts.positions.late,
+            late: effect_terms.positions.late,
             direction: step::Direction::Place {
                 threshold: rule.threshold,
                 play: step::Play { width: play.width, taper: play.taper },
                 between_borders: self.criterion.simulates(),
             },
             borders: self.borders(),
-            effects: self.effects(&parts.operator),
-            linear: self.linear(&parts)?,
-            sensor: sensor(parts.curve, parts.saturation.map(|range| [range.low, range.high])),
+            effects: self.effects(&effect_terms.operator),
+            linear: self.linear(&effect_terms)?,
+            sensor: sensor(effect_terms.curve, effect_terms.saturation.map(|range| [range.low, range.high])),
         })
     }
 
@@ -80,7 +80,7 @@ impl Wire {
         step::Borders::Two { descending, ascending }
     }
 
-    /// Slow changes stand where the campaign ended.
+    /// Slow changes stand where the dataset ended.
     fn at_the_end(&self, clock: Clock) -> f64 {
         at_the_end(clock, self.clock.total, self.clock.records.len())
     }
@@ -117,7 +117,7 @@ impl Wire {
         }
     }
 
-    /// A border column away from the campaign; what only the start of one record had is none.
+    /// A border column away from the dataset; what only the start of one record had is none.
     fn column(&self, column: &BorderColumn) -> Option<step::Column> {
         let held = |while_resting| while_resting == Resting::Held;
         Some(match *column {
@@ -139,31 +139,31 @@ impl Wire {
         })
     }
 
-    fn linear(&self, parts: &Parts<'_>) -> Result<step::Linear, LooksAhead> {
-        let b = convolve(&self.linear.b, &parts.filter.taps());
+    fn linear(&self, effect_terms: &EffectTerms<'_>) -> Result<step::Linear, LooksAhead> {
+        let b = convolve(&self.linear.b, &effect_terms.filter.taps());
         // A delay is zeros before the first coefficient.
         let zeros = b.iter().take_while(|b| **b == 0.0).count().min(b.len() - 1);
         let lag = 1 + zeros as isize - self.lead;
         let lag = usize::try_from(lag).map_err(|_| LooksAhead::Input(lag.unsigned_abs()))?;
         Ok(step::Linear {
-            poles: parts.filter.poles().to_vec(),
+            poles: effect_terms.filter.poles().to_vec(),
             a: self.linear.a.clone(),
             b: b[zeros..].to_vec(),
             lag,
-            constant: self.disturbance(parts.columns),
+            constant: self.disturbance(effect_terms.columns),
             limit: Some(LIMIT),
         })
     }
 
     /// The sum of the equation columns on a record of which nothing is known.
     fn disturbance(&self, columns: &[EquationColumn]) -> f64 {
-        let linear = without_waves(&self.linear, &self.assembly);
+        let linear = without_waves(&self.linear, &self.augmented);
         let value = |column: &EquationColumn| match *column {
             EquationColumn::Trend { clock, degree } => {
                 (2.0 * self.at_the_end(clock) - 1.0).powi(degree as i32)
             }
             EquationColumn::Gain => {
-                let gain = self.assembly.gain.as_ref();
+                let gain = self.augmented.gain.as_ref();
                 gain.map_or(0.0, |gain| gain.at(self.at_the_end(gain.clock)))
             }
             // These belong to other records, and the phase of a wave is unknown.
@@ -173,14 +173,14 @@ impl Wire {
             | EquationColumn::Offset { .. } => 0.0,
         };
         let lasting: f64 = columns.iter().zip(&linear.d).map(|(column, d)| d * value(column)).sum();
-        let has_level = !with_level(&self.assembly, self.clock.records.len()).1.is_empty();
-        let level = Level::of(&self.assembly, &linear.d).filter(|_| has_level);
+        let has_level = !with_level(&self.augmented, self.clock.records.len()).1.is_empty();
+        let level = Level::of(&self.augmented, &linear.d).filter(|_| has_level);
         lasting + level.map_or(0.0, Level::expected)
     }
 }
 
 fn sensor(curve: &SensorCurve, range: Option<[f64; 2]>) -> step::Sensor {
-    let SensorCurve { powers, forwards, bumps, knees } = curve;
+    let SensorCurve { powers, sensor_polynomial, bumps, knees } = curve;
     step::Sensor {
         powers: powers.clone(),
         bumps: bumps.as_ref().map(|bumps| step::Bumps {
@@ -197,8 +197,8 @@ fn sensor(curve: &SensorCurve, range: Option<[f64; 2]>) -> step::Sensor {
                 steepest: STEEPEST,
             })
             .collect(),
-        cubic: forwards.map(|curve| {
-            let ([square, cube], range) = curve.told();
+        cubic: sensor_polynomial.map(|curve| {
+            let ([square, cube], range) = curve.reported();
             step::Cubic { square, cube, range, flattest: FLATTEST }
         }),
         range,

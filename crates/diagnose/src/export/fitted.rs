@@ -4,10 +4,10 @@ use switchback_model::rig::Rig;
 
 use super::place::{Known, print};
 use super::portable::{Moved, PortableModel, Scales, Wire};
-use crate::attribution::explain::{Explanation, assembled};
-use crate::likelihood::engine::{Fit, Ground};
+use crate::attribution::explain::{Hypothesis, assembled};
+use crate::likelihood::engine::{Fit, FitContext};
 use crate::likelihood::uncertainty::{Uncertainty, uncertainty};
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::simulation::noise_response::NoiseResponse;
 
 /// Makes models of the fits to one rig.
@@ -22,44 +22,44 @@ impl Exporter {
         Self { prints: rig.records.iter().map(|r| print(r.record.v(), r.record.y())).collect() }
     }
 
-    /// An explanation with the covariance of all that it estimates.
-    pub(crate) fn fitted(&self, campaign: &Campaign, explanation: &Explanation) -> PortableModel {
-        let fit = &explanation.fit;
-        let ground = Ground { campaign, grid: &fit.grid, known: Some(fit.near()) };
-        let known = uncertainty(ground, &|values| assembled(&explanation.parts, values), fit);
-        self.model(campaign, fit, known)
+    /// An candidate with the covariance of all that it estimates.
+    pub(crate) fn fitted(&self, dataset: &Dataset, hypothesis: &Hypothesis) -> PortableModel {
+        let fit = &hypothesis.fit;
+        let context = FitContext { dataset, grid: &fit.grid, known: Some(fit.near()) };
+        let known = uncertainty(context, &|values| assembled(&hypothesis.effect_terms, values), fit);
+        self.model(dataset, fit, known)
     }
 
     /// A model that was given: nothing of it was estimated.
-    pub(crate) fn given(&self, campaign: &Campaign, fit: &Fit) -> PortableModel {
-        self.model(campaign, fit, None)
+    pub(crate) fn given(&self, dataset: &Dataset, fit: &Fit) -> PortableModel {
+        self.model(dataset, fit, None)
     }
 
-    fn model(&self, campaign: &Campaign, fit: &Fit, known: Option<Uncertainty>) -> PortableModel {
+    fn model(&self, dataset: &Dataset, fit: &Fit, known: Option<Uncertainty>) -> PortableModel {
         // Errors of simulation are those of the output already.
-        let gain = if campaign.criterion.simulates() { 1.0 } else { NoiseResponse::of(fit).gain() };
+        let gain = if dataset.criterion.simulates() { 1.0 } else { NoiseResponse::of(fit).gain() };
         let (covariance, moved) = match known {
             Some(known) => (Some(lower(known.covariance)), known.moved),
             None => (None, Vec::new()),
         };
         PortableModel(Wire {
             scales: Scales {
-                v_low: campaign.v_low,
-                v_width: campaign.v_width,
-                y_mean: campaign.y_mean,
-                y_scale: campaign.y_scale,
+                v_low: dataset.v_low,
+                v_width: dataset.v_width,
+                y_mean: dataset.y_mean,
+                y_scale: dataset.y_scale,
             },
-            lead: campaign.lead,
-            rule: campaign.rule,
-            criterion: campaign.criterion,
-            clock: Known::of(campaign, &self.prints),
+            lead: dataset.lead,
+            rule: dataset.rule,
+            criterion: dataset.criterion,
+            clock: Known::of(dataset, &self.prints),
             grid: fit.grid.clone(),
-            assembly: fit.assembly.clone(),
-            linear: fit.linear.padded(fit.grid.len(), &fit.assembly),
+            augmented: fit.augmented.clone(),
+            linear: fit.linear.padded(fit.grid.len(), &fit.augmented),
             variance: fit.variance,
             output_noise: fit.power * gain,
             covariance,
-            moved: moved.into_iter().map(|(step, assembly)| Moved { step, assembly }).collect(),
+            moved: moved.into_iter().map(|(step, augmented)| Moved { step, augmented }).collect(),
         })
     }
 }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
-/// The campaign's clock: its records, as far as slow changes follow them.
+/// The dataset's clock: its records, as far as slow changes follow them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Known {
@@ -27,20 +27,20 @@ pub(super) struct Placed {
 }
 
 impl Known {
-    pub(super) fn of(campaign: &Campaign, prints: &[String]) -> Self {
-        let placed = |(track, print): (&crate::records::campaign::Track, &String)| Placed {
-            name: track.name.clone(),
-            fit: track.is_fit(),
-            samples: track.v.len(),
-            clock: track.clock,
-            before: track.before,
-            travelled: track.travelled,
+    pub(super) fn of(dataset: &Dataset, prints: &[String]) -> Self {
+        let placed = |(scaled, print): (&crate::records::dataset::ScaledRecord, &String)| Placed {
+            name: scaled.name.clone(),
+            fit: scaled.is_fit(),
+            samples: scaled.v.len(),
+            clock: scaled.clock,
+            before: scaled.before,
+            travelled: scaled.travelled,
             print: print.clone(),
         };
         Self {
-            total: campaign.total,
-            travel: campaign.travel,
-            records: campaign.tracks.iter().zip(prints).map(placed).collect(),
+            total: dataset.total,
+            travel: dataset.travel,
+            records: dataset.scaled_records.iter().zip(prints).map(placed).collect(),
         }
     }
 

@@ -5,11 +5,11 @@ use thiserror::Error;
 
 use super::lasting::notes;
 use super::place::Known;
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 use crate::model::borders::Grid;
 use crate::model::linear::Linear;
 use crate::nominal_model::NominalModel;
-use crate::records::campaign::{Criterion, HIGHEST_ORDER};
+use crate::records::dataset::{Criterion, HIGHEST_ORDER};
 use crate::records::motion::ReversalRule;
 
 /// A fitted model as plain data: all that its free runs depend on, to the last bit.
@@ -26,14 +26,14 @@ use crate::records::motion::ReversalRule;
 /// | `lead` | samples by which the output follows the input sooner than in `A y(t) = b₁u(t−1) + …` |
 /// | `rule` | what counts as a reversal: `threshold` in strokes, and where the new branch `begins` |
 /// | `criterion` | what it was fitted to: `one_step` predictions, or `simulation` with the `share` of independent errors |
-/// | `clock` | samples (`total`) and `travel` of the campaign, and its `records`: `name`, `fit`, `samples`, the `clock`, records `before` and strokes `travelled` at their start, and a `print` of their samples by which they are known again |
+/// | `clock` | samples (`total`) and `travel` of the dataset, and its `records`: `name`, `fit`, `samples`, the `clock`, records `before` and strokes `travelled` at their start, and a `print` of their samples by which they are known again |
 /// | `grid` | `knots` of the descending, then of the ascending border; a knot that stands twice is a jump |
-/// | `assembly` | the effects: `delay`, `jitter`, `late`, `play`, `transition`, `wear`, `widening`, `relaxation`, `border_columns`, `gain`, the filter's `numerator` and `denominator`, `equation_columns`, the sensor's `curve` and `saturation`, the law of the `noise`, and `extra_b` coefficients of B |
+/// | `augmented` | the effects: `delay`, `jitter`, `late`, `play`, `transition`, `wear`, `widening`, `relaxation`, `border_columns`, `gain`, the filter's `numerator` and `denominator`, `equation_columns`, the sensor's `curve` and `saturation`, the law of the `noise`, and `extra_b` coefficients of B |
 /// | `linear` | `a`; `b`; `f`, border values by knots and the coefficients of the border columns; `d`, those of the equation columns |
 /// | `variance` | of the equation error as fitted, weighted where its law weighs |
 /// | `output_noise` | variance of the noise in the output before the sensor |
 /// | `covariance` | of `a`, `b`, `f`, `d` and the nonlinear parameters of the effects: rows of the lower triangle; null where nothing was estimated |
-/// | `moved` | for each nonlinear parameter of the effects a `step`, and the `assembly` that far from the fitted one: its derivative |
+/// | `moved` | for each nonlinear parameter of the effects a `step`, and the `augmented` that far from the fitted one: its derivative |
 ///
 /// A model that was read has parts that fit together: [`PortableError`] says what does not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,7 +50,7 @@ pub(super) struct Wire {
     pub(super) criterion: Criterion,
     pub(super) clock: Known,
     pub(super) grid: Grid,
-    pub(super) assembly: Assembly,
+    pub(super) augmented: AugmentedModel,
     pub(super) linear: Linear,
     pub(super) variance: f64,
     pub(super) output_noise: f64,
@@ -68,12 +68,12 @@ pub(super) struct Scales {
     pub(super) y_scale: f64,
 }
 
-/// What a step of a nonlinear parameter makes of the assembly.
+/// What a step of a nonlinear parameter makes of the augmented model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Moved {
     pub(super) step: f64,
-    pub(super) assembly: Assembly,
+    pub(super) augmented: AugmentedModel,
 }
 
 /// Why parts make no model.
@@ -81,20 +81,20 @@ pub(super) struct Moved {
 #[non_exhaustive]
 pub(crate) enum PortableError {
     /// A list has not as many entries as the rest of the model asks for.
-    #[error("`{part}` has {found} entries, but the rest of the model makes {expected}")]
+    #[error("`{effect_term}` has {found} entries, but the rest of the model makes {expected}")]
     Length {
         /// The list.
-        part: &'static str,
+        effect_term: &'static str,
         /// Its entries.
         found: usize,
         /// Those expected.
         expected: usize,
     },
     /// A number is out of its range.
-    #[error("`{part}` is {found}, but must be {expected}")]
+    #[error("`{effect_term}` is {found}, but must be {expected}")]
     Range {
         /// The number's key.
-        part: &'static str,
+        effect_term: &'static str,
         /// Its value.
         found: f64,
         /// The range in words.
@@ -127,8 +127,8 @@ impl PortableModel {
 
     /// Whether [`Self::system`] is all of it: no effects, no lead, fitted to predictions one step ahead.
     pub fn is_plain(&self) -> bool {
-        let Wire { assembly, lead, criterion, .. } = &self.0;
-        *assembly == Assembly::default() && *lead == 0 && !criterion.simulates()
+        let Wire { augmented, lead, criterion, .. } = &self.0;
+        *augmented == AugmentedModel::default() && *lead == 0 && !criterion.simulates()
     }
 
     /// Samples by which the output follows the input sooner than in the paper; negative where it follows later.
@@ -136,9 +136,9 @@ impl PortableModel {
         self.0.lead
     }
 
-    /// Whether anything in it changes with the campaign's clock or belongs to single records, so that a run depends on its place there.
+    /// Whether anything in it changes with the dataset's clock or belongs to single records, so that a run depends on its place there.
     pub fn follows_clock(&self) -> bool {
-        !notes(&self.0.assembly).is_empty()
+        !notes(&self.0.augmented).is_empty()
     }
 
     /// A move against the branch below this is no reversal, input units.
@@ -165,41 +165,49 @@ impl From<PortableModel> for Wire {
 
 impl Wire {
     fn check_numbers(&self) -> Result<(), PortableError> {
-        let positive = |part, found: f64| match found > 0.0 && found.is_finite() {
+        let positive = |effect_term, found: f64| match found > 0.0 && found.is_finite() {
             true => Ok(()),
-            false => Err(PortableError::Range { part, found, expected: "positive" }),
+            false => Err(PortableError::Range { effect_term, found, expected: "positive" }),
         };
         positive("v_width", self.scales.v_width)?;
         positive("y_scale", self.scales.y_scale)?;
         positive("total", self.clock.total as f64)?;
-        for (part, found) in [("variance", self.variance), ("output_noise", self.output_noise)] {
+        for (effect_term, found) in [("variance", self.variance), ("output_noise", self.output_noise)] {
             if !(found >= 0.0 && found.is_finite()) {
-                return Err(PortableError::Range { part, found, expected: "zero or positive" });
+                return Err(PortableError::Range { effect_term, found, expected: "zero or positive" });
             }
         }
-        for assembly in self.assemblies() {
-            if !(0.0..LONGEST).contains(&assembly.delay) {
+        for augmented in self.augmented_models() {
+            if !(0.0..LONGEST).contains(&augmented.delay) {
                 let expected = "at least 0 and below 100000 samples";
-                return Err(PortableError::Range { part: "delay", found: assembly.delay, expected });
+                return Err(PortableError::Range { effect_term: "delay", found: augmented.delay, expected });
             }
             if let Some(s) =
-                assembly.saturation.filter(|s| s.low > s.high || s.low.is_nan() || s.high.is_nan())
+                augmented.saturation.filter(|s| s.low > s.high || s.low.is_nan() || s.high.is_nan())
             {
-                return Err(PortableError::Range { part: "low", found: s.low, expected: "at most `high`" });
+                return Err(PortableError::Range {
+                    effect_term: "low",
+                    found: s.low,
+                    expected: "at most `high`",
+                });
             }
         }
         for moved in &self.moved {
             if moved.step == 0.0 {
-                return Err(PortableError::Range { part: "step", found: 0.0, expected: "other than zero" });
+                return Err(PortableError::Range {
+                    effect_term: "step",
+                    found: 0.0,
+                    expected: "other than zero",
+                });
             }
         }
         Ok(())
     }
 
     fn check_lengths(&self) -> Result<(), PortableError> {
-        let equal = |part, found, expected| match found == expected {
+        let equal = |effect_term, found, expected| match found == expected {
             true => Ok(()),
-            false => Err(PortableError::Length { part, found, expected }),
+            false => Err(PortableError::Length { effect_term, found, expected }),
         };
         let falls = |knots: &Vec<f64>| knots.len() < 2 || knots.windows(2).any(|w| w[1] < w[0]);
         if self.grid.knots.iter().any(falls) {
@@ -208,13 +216,13 @@ impl Wire {
         let order = self.linear.a.len();
         if order == 0 || order > HIGHEST_ORDER {
             let expected = "from 1 to 20 coefficients";
-            return Err(PortableError::Range { part: "a", found: order as f64, expected });
+            return Err(PortableError::Range { effect_term: "a", found: order as f64, expected });
         }
-        equal("b", self.linear.b.len(), order + self.assembly.extra_b)?;
-        for assembly in self.assemblies() {
-            let columns = self.grid.len() + assembly.border_columns.len();
+        equal("b", self.linear.b.len(), order + self.augmented.extra_b)?;
+        for augmented in self.augmented_models() {
+            let columns = self.grid.len() + augmented.border_columns.len();
             equal("f", self.linear.f.len(), columns)?;
-            equal("d", self.linear.d.len(), assembly.equation_columns.len())?;
+            equal("d", self.linear.d.len(), augmented.equation_columns.len())?;
         }
         if let Some(rows) = &self.covariance {
             equal("covariance", rows.len(), self.linear.len() + self.moved.len())?;
@@ -225,7 +233,7 @@ impl Wire {
         Ok(())
     }
 
-    fn assemblies(&self) -> impl Iterator<Item = &Assembly> {
-        std::iter::once(&self.assembly).chain(self.moved.iter().map(|m| &m.assembly))
+    fn augmented_models(&self) -> impl Iterator<Item = &AugmentedModel> {
+        std::iter::once(&self.augmented).chain(self.moved.iter().map(|m| &m.augmented))
     }
 }

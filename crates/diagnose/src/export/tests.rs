@@ -7,13 +7,13 @@ use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 use switchback_model::step::Machine;
 
 use super::{Exporter, LooksAhead, PortableModel};
-use crate::attribution::explain::Explanation;
-use crate::likelihood::engine::{Fit, Ground, fit};
-use crate::model::assembly::*;
+use crate::attribution::explain::Hypothesis;
+use crate::likelihood::engine::{Fit, FitContext, fit};
+use crate::model::augmented::*;
 use crate::model::borders::Grid;
-use crate::model::forwards::Forwards;
 use crate::model::sensor::{Bumps, Knee, SensorCurve};
-use crate::records::campaign::{Campaign, Criterion};
+use crate::model::sensor_polynomial::SensorPolynomial;
+use crate::records::dataset::{Criterion, Dataset};
 use crate::records::motion::{Begins, Play};
 use crate::simulation::simulate::free_run;
 use crate::testing::{small_model, white};
@@ -68,18 +68,18 @@ fn grid() -> Grid {
     Grid { knots: [vec![0.0, 0.4, 1.0], vec![0.0, 0.5, 0.5, 1.0]] }
 }
 
-fn fitted(campaign: &Campaign, grid: &Grid, assembly: &Assembly) -> Fit {
-    let start = small_model(grid).padded(grid.len(), assembly);
-    let ground = Ground { campaign, grid, known: None };
-    fit(ground, &|_| assembly.clone(), &[], &start, 4).expect("a fit")
+fn fitted(dataset: &Dataset, grid: &Grid, augmented: &AugmentedModel) -> Fit {
+    let start = small_model(grid).padded(grid.len(), augmented);
+    let context = FitContext { dataset, grid, known: None };
+    fit(context, &|_| augmented.clone(), &[], &start, 4).expect("a fit")
 }
 
-fn column(column: BorderColumn) -> Assembly {
-    Assembly { border_columns: vec![column], ..Assembly::default() }
+fn column(column: BorderColumn) -> AugmentedModel {
+    AugmentedModel { border_columns: vec![column], ..AugmentedModel::default() }
 }
 
-fn disturbed(columns: Vec<EquationColumn>) -> Assembly {
-    Assembly { equation_columns: columns, ..Assembly::default() }
+fn disturbed(columns: Vec<EquationColumn>) -> AugmentedModel {
+    AugmentedModel { equation_columns: columns, ..AugmentedModel::default() }
 }
 
 /// A slow change as effects make it: a path between samples by the clock in samples, polynomials and waves by the others, which end at one.
@@ -96,68 +96,75 @@ fn slow(clock: Clock) -> Slow {
     }
 }
 
-/// One assembly for every part that an effect may add.
-fn assemblies() -> Vec<Assembly> {
-    let none = Assembly::default;
+/// One augmented model for every part that an effect may add.
+fn augmented_models() -> Vec<AugmentedModel> {
+    let none = AugmentedModel::default;
     let laws = [TransitionLaw::Offset, TransitionLaw::Held, TransitionLaw::Crossing];
     let mut filtered = none();
     filtered.filter(&[0.3, 0.1], &[1.0, -0.6]);
-    let curve = |curve: SensorCurve| Assembly { curve, ..Assembly::default() };
-    let noisy = |noise: NoiseLaw| Assembly { noise, ..Assembly::default() };
-    let decay = |track| EquationColumn::Decay { track, radius: 0.7, frequency: 0.0, sine: false };
-    let line = |track, sine| EquationColumn::Line { frequency: 0.3, track, sine };
+    let curve = |curve: SensorCurve| AugmentedModel { curve, ..AugmentedModel::default() };
+    let noisy = |noise: NoiseLaw| AugmentedModel { noise, ..AugmentedModel::default() };
+    let decay = |scaled| EquationColumn::Decay { scaled, radius: 0.7, frequency: 0.0, sine: false };
+    let line = |scaled, sine| EquationColumn::Line { frequency: 0.3, scaled, sine };
     let mut all = vec![
         none(),
         filtered,
-        Assembly { delay: 1.4, extra_b: 1, ..none() },
-        Assembly { jitter: 0.01, ..none() },
-        Assembly { late: 0.3, ..none() },
-        Assembly { play: Play { width: 0.08, taper: 0.3 }, ..none() },
-        Assembly {
+        AugmentedModel { delay: 1.4, extra_b: 1, ..none() },
+        AugmentedModel { jitter: 0.01, ..none() },
+        AugmentedModel { late: 0.3, ..none() },
+        AugmentedModel { play: Play { width: 0.08, taper: 0.3 }, ..none() },
+        AugmentedModel {
             widening: Some(Widening { share: 0.2, power: 0.5, scale: 0.05, speeds: Speeds::Low }),
             ..none()
         },
-        Assembly { relaxation: Some(Relaxation { share: 0.5, tau: 2.0 }), ..none() },
+        AugmentedModel { relaxation: Some(Relaxation { share: 0.5, tau: 2.0 }), ..none() },
         column(BorderColumn::Speed { power: 1.0, scale: 0.05, while_resting: Resting::Held }),
         column(BorderColumn::LowSpeed { power: 1.0, scale: 0.05, while_resting: Resting::Zero }),
         column(BorderColumn::Bristle { power: 1.0, scale: 0.05, length: 0.03 }),
         column(BorderColumn::RestingLog { scale: 2.0 }),
         column(BorderColumn::RestingRise { scale: 2.0 }),
         column(BorderColumn::ReversalLog { scale: 2.0 }),
-        Assembly {
+        AugmentedModel {
             transition: Some(Transition { length: 0.05, shape: 1.0, law: TransitionLaw::Offset }),
-            ..column(BorderColumn::Start { track: 0 })
+            ..column(BorderColumn::Start { scaled: 0 })
         },
         disturbed(vec![line(None, false), line(None, true)]),
         disturbed(vec![line(Some(0), false), line(Some(0), true), line(Some(1), true)]),
         disturbed(vec![decay(0), decay(1)]),
-        disturbed((0..3).map(|piece| EquationColumn::Local { track: 1, piece, pieces: 2 }).collect()),
-        disturbed(vec![EquationColumn::Offset { track: 1, against: Some(0) }]),
-        Assembly { gain: Some(slow(Clock::Campaign)), ..disturbed(vec![EquationColumn::Gain]) },
+        disturbed((0..3).map(|piece| EquationColumn::Local { scaled: 1, piece, pieces: 2 }).collect()),
+        disturbed(vec![EquationColumn::Offset { scaled: 1, against: Some(0) }]),
+        AugmentedModel { gain: Some(slow(Clock::Dataset)), ..disturbed(vec![EquationColumn::Gain]) },
         curve(SensorCurve { powers: vec![0.03, 0.01], ..SensorCurve::default() }),
-        curve(SensorCurve { forwards: Some(Forwards::new(0.04, -0.01)), ..SensorCurve::default() }),
+        curve(SensorCurve {
+            sensor_polynomial: Some(SensorPolynomial::new(0.04, -0.01)),
+            ..SensorCurve::default()
+        }),
         curve(SensorCurve {
             bumps: Some(Bumps { first: -1.5, spacing: 1.0, heights: vec![0.02, -0.03] }),
             knees: vec![Knee { level: 1.0, width: 0.5, sign: 1.0 }],
             ..SensorCurve::default()
         }),
-        Assembly { saturation: Some(Saturation { low: f64::NEG_INFINITY, high: 1.2, order: 2 }), ..none() },
+        AugmentedModel {
+            saturation: Some(Saturation { low: f64::NEG_INFINITY, high: 1.2, order: 2 }),
+            ..none()
+        },
         noisy(NoiseLaw { ar: vec![-0.3], ..NoiseLaw::default() }),
         noisy(NoiseLaw { output_ratio: 0.5, quantisation: Some(0.01), ..NoiseLaw::default() }),
         noisy(NoiseLaw { mixture: Some((0.05, 5.0)), ..NoiseLaw::default() }),
     ];
-    all.extend(
-        laws.map(|law| Assembly { transition: Some(Transition { length: 0.05, shape: 1.0, law }), ..none() }),
-    );
-    for clock in [Clock::Campaign, Clock::Samples, Clock::Record, Clock::Travel] {
-        all.push(Assembly { wear: Some(slow(clock)), ..none() });
-        all.push(Assembly { gain: Some(slow(clock)), ..none() });
+    all.extend(laws.map(|law| AugmentedModel {
+        transition: Some(Transition { length: 0.05, shape: 1.0, law }),
+        ..none()
+    }));
+    for clock in [Clock::Dataset, Clock::Samples, Clock::Record, Clock::Travel] {
+        all.push(AugmentedModel { wear: Some(slow(clock)), ..none() });
+        all.push(AugmentedModel { gain: Some(slow(clock)), ..none() });
     }
-    for clock in [Clock::Campaign, Clock::Record, Clock::Travel] {
+    for clock in [Clock::Dataset, Clock::Record, Clock::Travel] {
         all.push(column(BorderColumn::BranchSlow { clock }));
         all.push(column(BorderColumn::SideSlow { clock, branch: 1.0 }));
     }
-    for clock in [Clock::Campaign, Clock::Record, Clock::Pauses] {
+    for clock in [Clock::Dataset, Clock::Record, Clock::Pauses] {
         all.push(disturbed(vec![EquationColumn::Trend { clock, degree: 2 }]));
     }
     all
@@ -172,19 +179,19 @@ fn reread(model: &PortableModel) -> PortableModel {
 #[test]
 fn what_leaves_runs_as_the_diagnosis_does_to_the_last_bit() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let dataset = Dataset::new(&rig).expect("a usable rig");
     let exporter = Exporter::new(&rig);
-    for led in [campaign.clone(), campaign.led_by(2)] {
-        for assembly in assemblies() {
-            let fit = fitted(&led, &grid(), &assembly);
+    for led in [dataset.clone(), dataset.led_by(2)] {
+        for augmented in augmented_models() {
+            let fit = fitted(&led, &grid(), &augmented);
             let model = exporter.given(&led, &fit);
-            assert_eq!(reread(&model), model, "{assembly:?}");
+            assert_eq!(reread(&model), model, "{augmented:?}");
             let model = reread(&model);
             for (number, record) in rig.records.iter().enumerate() {
-                let inside = free_run(&led, &fit, number, &led.tracks[number]);
+                let inside = free_run(&led, &fit, number, &led.scaled_records[number]);
                 let inside: Vec<f64> = inside.iter().map(|y| led.y_mean + led.y_scale * y).collect();
                 let outside = model.outputs(number, record.record.v(), record.record.y());
-                assert_eq!(outside, inside, "{}: {assembly:?}", record.name);
+                assert_eq!(outside, inside, "{}: {augmented:?}", record.name);
                 // It is known by its samples, and keeps its place.
                 let known = model.simulate(record.record.v(), Some(record.record.y()));
                 assert_eq!(known.record.as_deref(), Some(record.name.as_str()));
@@ -208,20 +215,20 @@ fn largest_difference(model: &PortableModel, v: &[f64], scale: f64) -> f64 {
 #[test]
 fn sample_by_sample_it_runs_as_from_rest() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let dataset = Dataset::new(&rig).expect("a usable rig");
     let exporter = Exporter::new(&rig);
-    let simulated = campaign.judged_by(Criterion::Simulation { share: 0.2 });
-    for assembly in assemblies() {
-        let fit = fitted(&campaign, &grid(), &assembly);
+    let simulated = dataset.judged_by(Criterion::Simulation { share: 0.2 });
+    for augmented in augmented_models() {
+        let fit = fitted(&dataset, &grid(), &augmented);
         // Fitted to inputs of the wrong time a model of these records is unstable, and rounding grows with its output.
-        let led = [0, 1, -2].map(|lead| exporter.given(&campaign.led_by(lead), &fit));
-        let simulated = exporter.given(&simulated, &fitted(&simulated, &grid(), &assembly));
+        let led = [0, 1, -2].map(|lead| exporter.given(&dataset.led_by(lead), &fit));
+        let simulated = exporter.given(&simulated, &fitted(&simulated, &grid(), &augmented));
         for model in led.iter().chain([&simulated]) {
             for v in [input(150, 0.4), input(150, 3.6), [vec![4.0; 9], input(80, 1.1)].concat()] {
                 let largest = model.simulate(&v, None).y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
-                assert!(largest < 20.0 * campaign.y_scale, "{largest}: {assembly:?}");
-                let difference = largest_difference(model, &v, campaign.y_scale);
-                assert!(difference < 1e-12, "{difference}: {assembly:?}");
+                assert!(largest < 20.0 * dataset.y_scale, "{largest}: {augmented:?}");
+                let difference = largest_difference(model, &v, dataset.y_scale);
+                assert!(difference < 1e-12, "{difference}: {augmented:?}");
             }
         }
     }
@@ -230,51 +237,51 @@ fn sample_by_sample_it_runs_as_from_rest() {
 #[test]
 fn what_looks_ahead_is_refused_sample_by_sample() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let dataset = Dataset::new(&rig).expect("a usable rig");
     let exporter = Exporter::new(&rig);
-    let causal = |campaign: &Campaign, assembly: &Assembly| {
-        exporter.given(campaign, &fitted(campaign, &grid(), assembly)).causal()
+    let causal = |dataset: &Dataset, augmented: &AugmentedModel| {
+        exporter.given(dataset, &fitted(dataset, &grid(), augmented)).causal()
     };
-    let none = Assembly::default();
-    assert_eq!(causal(&campaign.led_by(3), &none), Err(LooksAhead::Input(2)));
+    let none = AugmentedModel::default();
+    assert_eq!(causal(&dataset.led_by(3), &none), Err(LooksAhead::Input(2)));
     // A delay makes up for it.
-    assert!(causal(&campaign.led_by(3), &Assembly { delay: 2.5, ..none.clone() }).is_ok());
-    let mut thresholded = campaign.with_branches_from(Begins::AtExtreme);
+    assert!(causal(&dataset.led_by(3), &AugmentedModel { delay: 2.5, ..none.clone() }).is_ok());
+    let mut thresholded = dataset.with_branches_from(Begins::AtExtreme);
     assert!(causal(&thresholded, &none).is_ok());
     thresholded.rule.threshold = 0.05;
-    let told = causal(&thresholded, &none).expect_err("dated back");
-    assert_eq!(told, LooksAhead::Reversals(0.05 * campaign.v_width));
+    let reported = causal(&thresholded, &none).expect_err("dated back");
+    assert_eq!(reported, LooksAhead::Reversals(0.05 * dataset.v_width));
 }
 
 #[test]
 fn at_rest_everything_stays() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
-    for assembly in assemblies().into_iter().filter(|a| a.relaxation.is_none()) {
+    let dataset = Dataset::new(&rig).expect("a usable rig");
+    for augmented in augmented_models().into_iter().filter(|a| a.relaxation.is_none()) {
         // What acts on time at rest does not stay.
         let ages =
             |c: &BorderColumn| !matches!(c, BorderColumn::Speed { .. } | BorderColumn::LowSpeed { .. });
-        if assembly.border_columns.iter().any(ages)
-            || assembly.equation_columns.iter().any(|c| matches!(c, EquationColumn::Decay { .. }))
+        if augmented.border_columns.iter().any(ages)
+            || augmented.equation_columns.iter().any(|c| matches!(c, EquationColumn::Decay { .. }))
         {
             continue;
         }
-        let model = Exporter::new(&rig).given(&campaign, &fitted(&campaign, &grid(), &assembly));
+        let model = Exporter::new(&rig).given(&dataset, &fitted(&dataset, &grid(), &augmented));
         let run = model.simulate(&[4.0; 60], None);
         assert_eq!(run.start, 0);
         for y in &run.y {
-            assert!((y - run.y[0]).abs() < 1e-6 * campaign.y_scale, "{assembly:?}: {y} {}", run.y[0]);
+            assert!((y - run.y[0]).abs() < 1e-6 * dataset.y_scale, "{augmented:?}: {y} {}", run.y[0]);
         }
-        assert!(run.low[5] < run.y[5] && run.high[5] > run.y[5] || assembly.saturation.is_some());
+        assert!(run.low[5] < run.y[5] && run.high[5] > run.y[5] || augmented.saturation.is_some());
     }
 }
 
-/// The oracle: the plain recursion in physical units, from the borders and coefficients that the model tells.
+/// The oracle: the plain recursion in physical units, from the borders and coefficients that the model shows.
 #[test]
 fn a_plain_model_from_rest_is_what_its_system_says() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
-    let model = Exporter::new(&rig).given(&campaign, &fitted(&campaign, &grid(), &Assembly::default()));
+    let dataset = Dataset::new(&rig).expect("a usable rig");
+    let model = Exporter::new(&rig).given(&dataset, &fitted(&dataset, &grid(), &AugmentedModel::default()));
     assert!(model.is_plain());
     let system = model.system();
     let border = |points: &[(f64, f64)], v: f64| {
@@ -310,33 +317,33 @@ fn a_plain_model_from_rest_is_what_its_system_says() {
 #[test]
 fn elsewhere_slow_changes_stand_at_their_end_and_it_is_said() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
+    let dataset = Dataset::new(&rig).expect("a usable rig");
     let trend = disturbed(vec![EquationColumn::Trend { clock: Clock::Samples, degree: 1 }]);
-    let mut fit = fitted(&campaign, &grid(), &trend);
+    let mut fit = fitted(&dataset, &grid(), &trend);
     fit.linear.d = vec![1e-3];
-    let model = Exporter::new(&rig).given(&campaign, &fit);
+    let model = Exporter::new(&rig).given(&dataset, &fit);
     let run = |v: &[f64]| model.simulate(v, None);
     let there = run(&[4.0; 10]);
-    assert!(there.notes[0].contains("at the end of the campaign"), "{:?}", there.notes);
+    assert!(there.notes[0].contains("at the end of the dataset"), "{:?}", there.notes);
     // The oracle: the model without the trend, and the trend's last value through the gain at rest.
     let mut still = fit.clone();
     still.linear.d = vec![0.0];
-    let plain = Exporter::new(&rig).given(&campaign, &still).simulate(&[4.0; 10], None);
+    let plain = Exporter::new(&rig).given(&dataset, &still).simulate(&[4.0; 10], None);
     let at_rest = 1.0 + fit.linear.a.iter().sum::<f64>();
-    let expected = 1e-3 * (2.0 * campaign.total as f64 - 1.0) / at_rest * campaign.y_scale;
+    let expected = 1e-3 * (2.0 * dataset.total as f64 - 1.0) / at_rest * dataset.y_scale;
     assert!((there.y[7] - plain.y[7] - expected).abs() < 1e-9, "{} {expected}", there.y[7] - plain.y[7]);
 }
 
 #[test]
 fn a_wave_elsewhere_is_in_the_band_and_not_in_the_output() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
-    let line = |sine| EquationColumn::Line { frequency: 0.3, track: None, sine };
-    let mut fit = fitted(&campaign, &grid(), &disturbed(vec![line(false), line(true)]));
+    let dataset = Dataset::new(&rig).expect("a usable rig");
+    let line = |sine| EquationColumn::Line { frequency: 0.3, scaled: None, sine };
+    let mut fit = fitted(&dataset, &grid(), &disturbed(vec![line(false), line(true)]));
     let width = |fit: &Fit| {
-        let run = Exporter::new(&rig).given(&campaign, fit).simulate(&[4.0; 50], None);
-        assert!(run.y.iter().all(|y| (y - run.y[0]).abs() < 1e-9 * campaign.y_scale));
-        ((run.high[30] - run.low[30]) / (2.0 * 1.959_963_984_540_054 * campaign.y_scale)).powi(2)
+        let run = Exporter::new(&rig).given(&dataset, fit).simulate(&[4.0; 50], None);
+        assert!(run.y.iter().all(|y| (y - run.y[0]).abs() < 1e-9 * dataset.y_scale));
+        ((run.high[30] - run.low[30]) / (2.0 * 1.959_963_984_540_054 * dataset.y_scale)).powi(2)
     };
     fit.linear.d = vec![0.0, 0.0];
     let without = width(&fit);
@@ -361,11 +368,11 @@ fn the_band_holds_what_it_says() {
     let (mut inside, mut count, mut narrow) = (0, 0, 0);
     for _ in 0..30 {
         let rig = rig(&mut noise);
-        let campaign = Campaign::new(&rig).expect("a usable rig");
+        let dataset = Dataset::new(&rig).expect("a usable rig");
         let grid = Grid { knots: [vec![0.0, 0.5, 1.0], vec![0.0, 0.5, 1.0]] };
-        let fit = fitted(&campaign, &grid, &Assembly::default());
-        let floor = Exporter::new(&rig).given(&campaign, &fit);
-        let model = Exporter::new(&rig).fitted(&campaign, &Explanation::nominal(fit));
+        let fit = fitted(&dataset, &grid, &AugmentedModel::default());
+        let floor = Exporter::new(&rig).given(&dataset, &fit);
+        let model = Exporter::new(&rig).fitted(&dataset, &Hypothesis::nominal(fit));
         assert!(model.has_covariance());
         let v = input(SAMPLES, 2.5);
         let y = output(&v, &mut noise);
@@ -387,14 +394,14 @@ fn the_band_holds_what_it_says() {
 #[test]
 fn what_contradicts_itself_is_refused() {
     let rig = rig(&mut white());
-    let campaign = Campaign::new(&rig).expect("a usable rig");
-    let model = Exporter::new(&rig).given(&campaign, &fitted(&campaign, &grid(), &Assembly::default()));
+    let dataset = Dataset::new(&rig).expect("a usable rig");
+    let model = Exporter::new(&rig).given(&dataset, &fitted(&dataset, &grid(), &AugmentedModel::default()));
     let good = serde_json::to_value(&model).expect("plain data");
     let refused = |change: &dyn Fn(&mut serde_json::Value), word: &str| {
         let mut bad = good.clone();
         change(&mut bad);
-        let told = serde_json::from_value::<PortableModel>(bad).expect_err("no model").to_string();
-        assert!(told.contains(word), "{told}");
+        let reported = serde_json::from_value::<PortableModel>(bad).expect_err("no model").to_string();
+        assert!(reported.contains(word), "{reported}");
     };
     refused(&|m| m["linear"]["f"] = serde_json::json!([1.0]), "`f` has 1 entries");
     refused(&|m| m["linear"]["b"] = serde_json::json!([]), "`b` has 0 entries");

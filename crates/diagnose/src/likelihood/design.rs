@@ -1,4 +1,4 @@
-//! From an assembly and the records to residuals and their derivatives.
+//! From an augmented model and the records to residuals and their derivatives.
 //!
 //! ```text
 //! e(t) = x(t) + Σ aᵢ x(t−i) − Σ b̃ⱼ ũ(t−j) − Σ d ψ(t),   ũ = u / den,   b̃ = b ∗ taps,   u = rows · f
@@ -12,11 +12,11 @@ use std::sync::Arc;
 
 use crate::likelihood::mask::{Mask, masked};
 use crate::likelihood::rows::{EquationColumns, Rows, equation_columns, rows, sensitivity_rows};
-use crate::model::assembly::{Assembly, EquationColumn, LEAST_VARIANCE, NoiseLaw, convolve};
+use crate::model::augmented::{AugmentedModel, EquationColumn, LEAST_VARIANCE, NoiseLaw, convolve};
 use crate::model::borders::Grid;
-use crate::model::parts::{Parts, Positions};
+use crate::model::effect_terms::{EffectTerms, Positions};
 use crate::model::sensor::SensorCurve;
-use crate::records::campaign::{Campaign, Criterion, Track, WARM_UP};
+use crate::records::dataset::{Criterion, Dataset, ScaledRecord, WARM_UP};
 use crate::records::motion::{Motion, motions};
 use crate::records::passes::Passes;
 use crate::records::signal::Signal;
@@ -26,9 +26,9 @@ use crate::likelihood::whitener::add_lagged;
 pub(crate) use crate::likelihood::whitener::{LEAD, Whitener};
 pub(crate) use crate::model::linear::Linear;
 
-/// One track as the fit sees it. Its parts are shared among designs that differ elsewhere.
+/// One record as the fit sees it. Its parts are shared among designs that differ elsewhere.
 #[derive(Debug, Clone)]
-pub(crate) struct DesignTrack {
+pub(crate) struct DesignScaled {
     /// How the input moves, behind the play.
     pub(crate) moves: Arc<[Motion]>,
     pub(crate) rows: Arc<Rows>,
@@ -47,146 +47,154 @@ pub(crate) struct DesignTrack {
 
 /// Errors that are known where those before them are not.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Unforetold {
+pub(crate) struct InnovationShare {
     count: usize,
     energy: f64,
 }
 
-impl Unforetold {
-    /// The deviance of `n` samples with these among them; `foretold` is that of the others, stretched to all `n`.
-    pub(crate) fn among(self, n: f64, foretold: f64) -> f64 {
+impl InnovationShare {
+    /// The deviance of `n` samples with these among them; `forecast` is that of the others, stretched to all `n`.
+    pub(crate) fn among(self, n: f64, forecast: f64) -> f64 {
         if self.count == 0 {
-            return foretold;
+            return forecast;
         }
         let count = self.count as f64;
-        foretold * (1.0 - count / n) + count * (self.energy / count).max(LEAST_VARIANCE).ln()
+        forecast * (1.0 - count / n) + count * (self.energy / count).max(LEAST_VARIANCE).ln()
     }
 }
 
-/// The chosen tracks under an assembly.
+/// The chosen records under an augmented model.
 #[derive(Debug, Clone)]
 pub(crate) struct Design {
-    pub(crate) tracks: Vec<DesignTrack>,
+    pub(crate) scaled_records: Vec<DesignScaled>,
     pub(crate) taps: Vec<f64>,
     /// Denominator beyond its leading one.
     pub(crate) poles: Vec<f64>,
     pub(crate) criterion: Criterion,
     /// What it was built from.
     pub(crate) grid: Grid,
-    pub(crate) assembly: Assembly,
+    pub(crate) augmented: AugmentedModel,
     passes: Passes,
 }
 
 impl Design {
     /// A design of no records: what is [like](Self::like) it is built from the beginning.
-    pub(crate) fn of_nothing(campaign: &Campaign) -> Self {
-        Self::new(campaign, &Grid { knots: [Vec::new(), Vec::new()] }, &Assembly::default(), |_| false)
+    pub(crate) fn of_nothing(dataset: &Dataset) -> Self {
+        Self::new(dataset, &Grid { knots: [Vec::new(), Vec::new()] }, &AugmentedModel::default(), |_| false)
     }
 
-    /// Whether it is the design of a grid and an assembly.
-    pub(super) fn serves(&self, grid: &Grid, assembly: &Assembly) -> bool {
-        !self.tracks.is_empty() && self.grid == *grid && self.assembly.same_design(assembly)
+    /// Whether it is the design of a grid and an augmented model.
+    pub(super) fn serves(&self, grid: &Grid, augmented: &AugmentedModel) -> bool {
+        !self.scaled_records.is_empty() && self.grid == *grid && self.augmented.same_design(augmented)
     }
 
-    /// Builds the design of the tracks that `chosen` picks.
+    /// Builds the design of the records that `chosen` picks.
     pub(crate) fn new(
-        campaign: &Campaign,
+        dataset: &Dataset,
         grid: &Grid,
-        assembly: &Assembly,
-        chosen: impl Fn(&Track) -> bool,
+        augmented: &AugmentedModel,
+        chosen: impl Fn(&ScaledRecord) -> bool,
     ) -> Self {
-        let numbered: Vec<(usize, &Track)> =
-            campaign.tracks.iter().enumerate().filter(|(_, t)| chosen(t)).collect();
-        Self::of(campaign, grid, assembly, &numbered)
+        let numbered: Vec<(usize, &ScaledRecord)> =
+            dataset.scaled_records.iter().enumerate().filter(|(_, t)| chosen(t)).collect();
+        Self::of(dataset, grid, augmented, &numbered)
     }
 
     /// The design of the fit records; what a design of the same records has in common with it is shared. Borders that are known lie where
-    /// the assembly's play has moved them to.
-    pub(crate) fn like(known: Option<&Self>, campaign: &Campaign, grid: &Grid, assembly: &Assembly) -> Self {
-        let grid = &*campaign.placed(grid, assembly.play);
-        let numbered: Vec<(usize, &Track)> =
-            campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()).collect();
-        let known = known.filter(|k| k.criterion == campaign.criterion && k.tracks.len() == numbered.len());
-        let common = known.map_or(Common::default(), |k| Common::between(k, grid, assembly));
-        Self::sharing(known.map(|k| (k, common)), campaign, (grid, assembly), &numbered)
+    /// the augmented model's play has moved them to.
+    pub(crate) fn like(
+        known: Option<&Self>,
+        dataset: &Dataset,
+        grid: &Grid,
+        augmented: &AugmentedModel,
+    ) -> Self {
+        let grid = &*dataset.placed(grid, augmented.play);
+        let numbered: Vec<(usize, &ScaledRecord)> =
+            dataset.scaled_records.iter().enumerate().filter(|(_, t)| t.is_fit()).collect();
+        let known =
+            known.filter(|k| k.criterion == dataset.criterion && k.scaled_records.len() == numbered.len());
+        let common = known.map_or(Common::default(), |k| Common::between(k, grid, augmented));
+        Self::sharing(known.map(|k| (k, common)), dataset, (grid, augmented), &numbered)
     }
 
-    /// Builds the design of tracks given with their numbers in the campaign.
+    /// Builds the design of records given with their numbers in the dataset.
     pub(crate) fn of(
-        campaign: &Campaign,
+        dataset: &Dataset,
         grid: &Grid,
-        assembly: &Assembly,
-        tracks: &[(usize, &Track)],
+        augmented: &AugmentedModel,
+        scaled_records: &[(usize, &ScaledRecord)],
     ) -> Self {
-        let grid = &*campaign.placed(grid, assembly.play);
-        Self::sharing(None, campaign, (grid, assembly), tracks)
+        let grid = &*dataset.placed(grid, augmented.play);
+        Self::sharing(None, dataset, (grid, augmented), scaled_records)
     }
 
     fn sharing(
         known: Option<(&Self, Common)>,
-        campaign: &Campaign,
-        (grid, assembly): (&Grid, &Assembly),
-        tracks: &[(usize, &Track)],
+        dataset: &Dataset,
+        (grid, augmented): (&Grid, &AugmentedModel),
+        scaled_records: &[(usize, &ScaledRecord)],
     ) -> Self {
         // B has its coefficients beyond the order in `Linear::padded`, the limits of the sensor are in the mask.
-        let Parts { extra_b: _, positions, operator, filter, columns: _, curve, saturation: _, noise } =
-            assembly.parts();
+        let EffectTerms { extra_b: _, positions, operator, filter, columns: _, curve, saturation: _, noise } =
+            augmented.effect_terms();
         let Positions { late, play } = positions;
-        campaign.passes.count();
-        let tracks = tracks
+        dataset.passes.count();
+        let scaled_records = scaled_records
             .iter()
             .enumerate()
-            .map(|(k, &(number, track))| {
-                let moved = (late > 0.0).then(|| track.late(late, campaign.rule));
-                let track = moved.as_ref().unwrap_or(track);
-                // The same track of the known design, where a part of it serves.
-                let same = |part: fn(&Common) -> bool| {
-                    known.filter(|(_, common)| part(common)).map(|(design, _)| &design.tracks[k])
+            .map(|(k, &(number, scaled))| {
+                let moved = (late > 0.0).then(|| scaled.late(late, dataset.rule));
+                let scaled = moved.as_ref().unwrap_or(scaled);
+                // The same record of the known design, where a part of it serves.
+                let same = |effect_term: fn(&Common) -> bool| {
+                    known
+                        .filter(|(_, common)| effect_term(common))
+                        .map(|(design, _)| &design.scaled_records[k])
                 };
                 let (x, log_slope) = match same(|c| c.output) {
                     Some(t) => (t.x.clone(), t.log_slope),
-                    None => undo_sensor(track, curve),
+                    None => undo_sensor(scaled, curve),
                 };
                 let moves = match same(|c| c.moves) {
                     Some(t) => Arc::clone(&t.moves),
-                    None if play.is_none() => Arc::clone(&track.moves),
-                    None => motions(&track.v, play, campaign.rule).into(),
+                    None if play.is_none() => Arc::clone(&scaled.moves),
+                    None => motions(&scaled.v, play, dataset.rule).into(),
                 };
                 let sensitive = noise.input.is_some();
                 let mask = match same(|c| c.masked) {
                     Some(t) => t.mask.clone(),
-                    None => masked(track, assembly, campaign.rule),
+                    None => masked(scaled, augmented, dataset.rule),
                 };
-                DesignTrack {
+                DesignScaled {
                     rows: same(|c| c.rows).map_or_else(
-                        || rows((campaign, number, track), &moves, grid, &operator).into(),
+                        || rows((dataset, number, scaled), &moves, grid, &operator).into(),
                         |t| Arc::clone(&t.rows),
                     ),
                     moves,
                     columns: same(|c| c.columns).map_or_else(
-                        || equation_columns(campaign, (number, track), assembly).into(),
+                        || equation_columns(dataset, (number, scaled), augmented).into(),
                         |t| Arc::clone(&t.columns),
                     ),
                     x,
                     log_slope,
-                    from: track.from,
+                    from: scaled.from,
                     sensitivity: sensitive.then(|| {
                         same(|c| c.sensitivity)
                             .and_then(|t| t.sensitivity.clone())
-                            .unwrap_or_else(|| sensitivity_rows(track, grid, operator.jitter).into())
+                            .unwrap_or_else(|| sensitivity_rows(scaled, grid, operator.jitter).into())
                     }),
                     mask,
                 }
             })
             .collect();
         Self {
-            tracks,
+            scaled_records,
             taps: filter.taps(),
             poles: filter.poles().to_vec(),
-            criterion: campaign.criterion,
+            criterion: dataset.criterion,
             grid: grid.clone(),
-            assembly: assembly.clone(),
-            passes: campaign.passes.clone(),
+            augmented: augmented.clone(),
+            passes: dataset.passes.clone(),
         }
     }
 
@@ -206,17 +214,17 @@ impl Design {
 
     /// Samples counted.
     pub(crate) fn samples(&self) -> usize {
-        self.tracks.iter().map(|t| t.x.len() - t.from).sum()
+        self.scaled_records.iter().map(|t| t.x.len() - t.from).sum()
     }
 
     /// Sum of `ln dx/dy` over the counted samples.
     pub(crate) fn log_slope(&self) -> f64 {
-        self.tracks.iter().map(|t| t.log_slope).sum()
+        self.scaled_records.iter().map(|t| t.log_slope).sum()
     }
 
-    /// `ũ` of one track.
-    pub(crate) fn input(&self, track: &DesignTrack, f: &[f64]) -> Vec<f64> {
-        let mut u = track.rows.times(f);
+    /// `ũ` of one record.
+    pub(crate) fn input(&self, scaled: &DesignScaled, f: &[f64]) -> Vec<f64> {
+        let mut u = scaled.rows.times(f);
         if !self.poles.is_empty() {
             let rest = 1.0 / (1.0 + self.poles.iter().sum::<f64>());
             let before = u[0] * rest;
@@ -230,26 +238,26 @@ impl Design {
         u
     }
 
-    /// Equation errors `e(t)` of one track from sample `from − LEAD`.
-    pub(crate) fn errors(&self, track: &DesignTrack, p: &Linear) -> Vec<f64> {
-        self.errors_from(track, p, track.from.saturating_sub(LEAD))
+    /// Equation errors `e(t)` of one record from sample `from − LEAD`.
+    pub(crate) fn errors(&self, scaled: &DesignScaled, p: &Linear) -> Vec<f64> {
+        self.errors_from(scaled, p, scaled.from.saturating_sub(LEAD))
     }
 
-    /// Equation errors `e(t)` of one track from a sample that has a past.
-    pub(crate) fn errors_from(&self, track: &DesignTrack, p: &Linear, first: usize) -> Vec<f64> {
-        let u = self.input(track, &p.f);
+    /// Equation errors `e(t)` of one record from a sample that has a past.
+    pub(crate) fn errors_from(&self, scaled: &DesignScaled, p: &Linear, first: usize) -> Vec<f64> {
+        let u = self.input(scaled, &p.f);
         let b = convolve(&p.b, &self.taps);
-        let mut e = track.x[first..].to_vec();
+        let mut e = scaled.x[first..].to_vec();
         for (i, a) in p.a.iter().enumerate() {
-            add_lagged(&mut e, &track.x, first, (i + 1, *a));
+            add_lagged(&mut e, &scaled.x, first, (i + 1, *a));
         }
         for (j, b) in b.iter().enumerate() {
             add_lagged(&mut e, &u, first, (j + 1, -b));
         }
-        let d = track.columns.coefficients(&p.d);
+        let d = scaled.columns.coefficients(&p.d);
         if !d.is_empty() {
             for (t, e) in e.iter_mut().enumerate() {
-                *e -= d.iter().zip(track.columns.row(first + t)).map(|(d, psi)| d * psi).sum::<f64>();
+                *e -= d.iter().zip(scaled.columns.row(first + t)).map(|(d, psi)| d * psi).sum::<f64>();
             }
         }
         e
@@ -257,20 +265,20 @@ impl Design {
 
     /// The derivative of the innovations with respect to the coefficient of an equation column.
     pub(crate) fn disturbance(&self, column: usize, whitener: &Whitener) -> Vec<Vec<f64>> {
-        let of_track = |track: &DesignTrack| {
-            let Some(at) = track.columns.numbers.iter().position(|&j| j == column) else {
-                return vec![0.0; track.x.len() - track.from];
+        let of_scaled = |scaled: &DesignScaled| {
+            let Some(at) = scaled.columns.numbers.iter().position(|&j| j == column) else {
+                return vec![0.0; scaled.x.len() - scaled.from];
             };
-            let first = track.from.saturating_sub(LEAD);
-            let e = (first..track.x.len()).map(|t| -track.columns.row(t)[at]);
+            let first = scaled.from.saturating_sub(LEAD);
+            let e = (first..scaled.x.len()).map(|t| -scaled.columns.row(t)[at]);
             let mut w = whitener.apply(e.collect());
-            w.drain(..(track.from - first).min(w.len()));
+            w.drain(..(scaled.from - first).min(w.len()));
             w
         };
-        self.tracks.iter().map(of_track).collect()
+        self.scaled_records.iter().map(of_scaled).collect()
     }
 
-    /// Innovations of every track on the counted samples, before weighting.
+    /// Innovations of every record on the counted samples, before weighting.
     pub(crate) fn innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
         self.whitened(self.all_errors(p), whitener)
     }
@@ -278,58 +286,58 @@ impl Design {
     /// The same, nothing where a sample has no say.
     pub(crate) fn counted_innovations(&self, p: &Linear, whitener: &Whitener) -> Vec<Vec<f64>> {
         let mut all = self.innovations(p, whitener);
-        for (track, w) in self.tracks.iter().zip(&mut all) {
-            let masked = track.mask.out.iter().flat_map(|masked| masked.iter());
+        for (scaled, w) in self.scaled_records.iter().zip(&mut all) {
+            let masked = scaled.mask.out.iter().flat_map(|masked| masked.iter());
             w.iter_mut().zip(masked).filter(|(_, masked)| **masked).for_each(|(w, _)| *w = 0.0);
         }
         all
     }
 
-    /// The errors, from sample `from − LEAD` of every track, that nothing foretells.
-    pub(crate) fn unforetold(&self, errors: &[Vec<f64>]) -> Unforetold {
+    /// The errors, from sample `from − LEAD` of every record, that nothing predicts.
+    pub(crate) fn innovation_share(&self, errors: &[Vec<f64>]) -> InnovationShare {
         let whitens = self.criterion == Criterion::OneStep;
-        let mut out = Unforetold::default();
-        for (track, e) in self.tracks.iter().zip(errors).filter(|_| whitens) {
-            let lead = track.from - track.from.saturating_sub(LEAD);
-            out.count += track.mask.unforetold.len();
-            out.energy += track.mask.unforetold.iter().map(|k| e[lead + k].powi(2)).sum::<f64>();
+        let mut out = InnovationShare::default();
+        for (scaled, e) in self.scaled_records.iter().zip(errors).filter(|_| whitens) {
+            let lead = scaled.from - scaled.from.saturating_sub(LEAD);
+            out.count += scaled.mask.innovation_share.len();
+            out.energy += scaled.mask.innovation_share.iter().map(|k| e[lead + k].powi(2)).sum::<f64>();
         }
         out
     }
 
-    /// Equation errors of every track.
+    /// Equation errors of every record.
     pub(crate) fn all_errors(&self, p: &Linear) -> Vec<Vec<f64>> {
         self.passes.count();
-        self.tracks.iter().map(|track| self.errors(track, p)).collect()
+        self.scaled_records.iter().map(|scaled| self.errors(scaled, p)).collect()
     }
 
-    /// Innovations from the equation errors of every track.
+    /// Innovations from the equation errors of every record.
     pub(crate) fn whitened(&self, errors: Vec<Vec<f64>>, whitener: &Whitener) -> Vec<Vec<f64>> {
-        let of_track = |(track, e): (&DesignTrack, Vec<f64>)| {
+        let of_scaled = |(scaled, e): (&DesignScaled, Vec<f64>)| {
             let mut w = whitener.apply(e);
-            let skip = track.from - track.from.saturating_sub(LEAD);
+            let skip = scaled.from - scaled.from.saturating_sub(LEAD);
             w.drain(..skip.min(w.len()));
             w
         };
-        self.tracks.iter().zip(errors).map(of_track).collect()
+        self.scaled_records.iter().zip(errors).map(of_scaled).collect()
     }
 }
 
 const _: () = assert!(LEAD < WARM_UP);
 
-/// `x` of one track and its summed log slope.
-fn undo_sensor(track: &Track, curve: &SensorCurve) -> (Signal, f64) {
+/// `x` of one record and its summed log slope.
+fn undo_sensor(scaled: &ScaledRecord, curve: &SensorCurve) -> (Signal, f64) {
     if curve.is_straight() {
-        return (track.y.clone(), 0.0);
+        return (scaled.y.clone(), 0.0);
     }
     let mut log_slope = 0.0;
-    let x = track
+    let x = scaled
         .y
         .iter()
         .enumerate()
         .map(|(t, &y)| {
             let (x, slope) = curve.undo(y);
-            if t >= track.from {
+            if t >= scaled.from {
                 // A characteristic that folds back is no sensor: the floor makes it expensive, not undefined.
                 log_slope += slope.max(1e-3).ln();
             }
@@ -339,7 +347,7 @@ fn undo_sensor(track: &Track, curve: &SensorCurve) -> (Signal, f64) {
     (x, log_slope)
 }
 
-/// Which parts of a design serve another assembly or grid unchanged.
+/// Which parts of a design serve another augmented model or grid unchanged.
 #[derive(Debug, Clone, Copy, Default)]
 struct Common {
     moves: bool,
@@ -351,11 +359,11 @@ struct Common {
 }
 
 impl Common {
-    fn between(known: &Design, grid: &Grid, assembly: &Assembly) -> Self {
-        let had = known.assembly.parts();
-        // B and the filter are no part of a track, the law of the noise is none but for what follows.
-        let Parts { extra_b: _, positions, operator, filter: _, columns, curve, saturation, noise } =
-            assembly.parts();
+    fn between(known: &Design, grid: &Grid, augmented: &AugmentedModel) -> Self {
+        let had = known.augmented.effect_terms();
+        // B and the filter are no part of a record, the law of the noise is none but for what follows.
+        let EffectTerms { extra_b: _, positions, operator, filter: _, columns, curve, saturation, noise } =
+            augmented.effect_terms();
         let moves = had.positions == positions;
         let same_grid = known.grid == *grid;
         Self {
@@ -379,11 +387,11 @@ mod tests {
     #[test]
     fn what_nothing_foretells_counts_by_itself() {
         let white = 1000.0 * 0.25_f64.ln();
-        // As large as the others: as if it were foretold.
-        let alike = Unforetold { count: 40, energy: 40.0 * 0.25 };
+        // As large as the others: as if it were predicted.
+        let alike = InnovationShare { count: 40, energy: 40.0 * 0.25 };
         assert!((alike.among(1000.0, white) - white).abs() < 1e-9);
         // What a filter gained on the rest is not gained here.
-        let larger = Unforetold { count: 40, energy: 40.0 };
+        let larger = InnovationShare { count: 40, energy: 40.0 };
         assert!((larger.among(1000.0, white) - 960.0 * 0.25_f64.ln()).abs() < 1e-9);
     }
 }

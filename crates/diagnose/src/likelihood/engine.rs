@@ -1,4 +1,4 @@
-//! Maximum likelihood of a nominal model together with an assembly of effects.
+//! Maximum likelihood of a nominal model together with an augmented model of effects.
 //!
 //! Gauss–Newton on everything at once; the effects' nonlinear parameters get numerical derivatives. With concentrated noise
 //! variance the deviance (minus twice the log-likelihood, constants dropped) is
@@ -7,7 +7,7 @@
 //! dev = N ln(Σ s²w²/N) − 2 Σ ln s − 2 Σ ln dx/dy
 //! ```
 //!
-//! Samples without a say count as much as the others do in the mean; but those whose error is known, and only what foretells it is
+//! Samples without a say count as much as the others do in the mean; but those whose error is known, and only what predicts it is
 //! not, have the variance of their own errors: a filter gains nothing where it cannot be applied. The steps take no account of these few; whether
 //! one is taken does.
 
@@ -19,10 +19,10 @@ use crate::least_squares::sums::energy;
 use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::{Weights, weigh};
-use crate::model::assembly::{Assembly, EquationColumn};
+use crate::model::augmented::{AugmentedModel, EquationColumn};
 use crate::model::borders::Grid;
 use crate::model::stability::settles;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// One nonlinear parameter of an effect: its value and how it may move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,13 +43,13 @@ impl NonlinearParameter {
     }
 }
 
-/// From nonlinear parameters to an assembly.
-pub(crate) type Build<'a> = dyn Fn(&[f64]) -> Assembly + 'a;
+/// From nonlinear parameters to an augmented model.
+pub(crate) type Build<'a> = dyn Fn(&[f64]) -> AugmentedModel + 'a;
 
 /// A fitted model.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
-    pub(crate) assembly: Assembly,
+    pub(crate) augmented: AugmentedModel,
     pub(crate) grid: Grid,
     pub(crate) linear: Linear,
     pub(crate) nonlinear: Vec<NonlinearParameter>,
@@ -69,15 +69,15 @@ pub(crate) struct Fit {
 /// The records that a model is fitted to.
 #[derive(Debug, Clone)]
 pub(crate) struct FitRecords {
-    campaign: Campaign,
+    dataset: Dataset,
     /// Their design, or one that has much in common with it.
     near: Arc<Design>,
 }
 
 impl FitRecords {
-    /// Those of a campaign, and their design.
-    pub(crate) fn new(campaign: &Campaign, design: Design) -> Self {
-        Self { campaign: campaign.clone(), near: Arc::new(design) }
+    /// Those of a dataset, and their design.
+    pub(crate) fn new(dataset: &Dataset, design: Design) -> Self {
+        Self { dataset: dataset.clone(), near: Arc::new(design) }
     }
 }
 
@@ -87,16 +87,16 @@ const Z90: f64 = 1.644_853_626_951_472_6;
 impl Fit {
     /// The fit records under it; built anew where they were [set aside](Self::set_aside).
     pub(crate) fn design(&self) -> Arc<Design> {
-        let FitRecords { campaign, near } = &self.records;
-        match near.serves(&self.grid, &self.assembly) {
+        let FitRecords { dataset, near } = &self.records;
+        match near.serves(&self.grid, &self.augmented) {
             true => Arc::clone(near),
-            false => Design::like(Some(near), campaign, &self.grid, &self.assembly).into(),
+            false => Design::like(Some(near), dataset, &self.grid, &self.augmented).into(),
         }
     }
 
     /// Samples of the longest record fitted.
     pub(crate) fn longest_record(&self) -> usize {
-        self.records.campaign.fit().map(|track| track.v.len()).max().unwrap_or(0)
+        self.records.dataset.fit().map(|scaled| scaled.v.len()).max().unwrap_or(0)
     }
 
     /// A design that has much in common with that of the fit, for what is built from it.
@@ -106,8 +106,8 @@ impl Fit {
 
     /// The same fit for keeping: its design, which holds hundreds of bytes a sample, is given up for one that is held anyway.
     #[must_use]
-    pub(crate) fn set_aside(self, held: &Arc<Design>) -> Self {
-        let records = FitRecords { near: Arc::clone(held), ..self.records };
+    pub(crate) fn set_aside(self, fixed: &Arc<Design>) -> Self {
+        let records = FitRecords { near: Arc::clone(fixed), ..self.records };
         Self { records, ..self }
     }
 
@@ -120,8 +120,8 @@ impl Fit {
 
 /// Where the fit is done.
 #[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    pub(crate) campaign: &'a Campaign,
+pub(crate) struct FitContext<'a> {
+    pub(crate) dataset: &'a Dataset,
     pub(crate) grid: &'a Grid,
     /// A design of the same records: what the fit has in common with it is not built again.
     pub(crate) known: Option<&'a Design>,
@@ -130,7 +130,7 @@ pub(crate) struct Ground<'a> {
 /// Weight of the prior that ties border values nobody visits to their neighbours, in units of one sample's information.
 const SMOOTHNESS: f64 = 1e-3;
 
-/// Gain in deviance, of independent samples, below which a round is the last one; a step that foretells no more and fails is
+/// Gain in deviance, of independent samples, below which a round is the last one; a step that predicts no more and fails is
 /// not tried again.
 const SETTLED: f64 = 0.2;
 /// Shares of a step that are tried where the whole of it leads uphill.
@@ -144,7 +144,7 @@ const STRONGEST: f64 = 0.5;
 
 /// The state of a fit at given parameters.
 pub(super) struct State {
-    assembly: Assembly,
+    augmented: AugmentedModel,
     pub(super) whitener: Whitener,
     pub(super) innovations: Vec<Vec<f64>>,
     pub(super) weights: Weights,
@@ -153,56 +153,56 @@ pub(super) struct State {
 }
 
 /// Evaluates the model; `None` where it is not finite.
-pub(super) fn evaluate(design: &Design, assembly: Assembly, p: &Linear) -> Option<State> {
+pub(super) fn evaluate(design: &Design, augmented: AugmentedModel, p: &Linear) -> Option<State> {
     if design.criterion.simulates() && !settles(&p.a) {
         return None;
     }
-    let whitener = design.whitener(&assembly.noise, &p.a);
+    let whitener = design.whitener(&augmented.noise, &p.a);
     let errors = design.all_errors(p);
-    let unforetold = design.unforetold(&errors);
+    let innovation_share = design.innovation_share(&errors);
     let innovations = design.whitened(errors, &whitener);
-    let weights = weigh(design, &assembly.noise, p, &innovations);
+    let weights = weigh(design, &augmented.noise, p, &innovations);
     let n = design.samples() as f64;
-    let sum: f64 = weights.by_track(&innovations).iter().map(|w| energy(w)).sum();
+    let sum: f64 = weights.by_scaled(&innovations).iter().map(|w| energy(w)).sum();
     let variance = sum / (n - weights.left_out as f64).max(1.0);
-    let foretold = match weights.deviance {
+    let forecast = match weights.deviance {
         Some(direct) => direct,
         None => n * variance.ln() - 2.0 * weights.log_scale,
     };
-    let deviance = unforetold.among(n, foretold) - 2.0 * design.log_slope();
+    let deviance = innovation_share.among(n, forecast) - 2.0 * design.log_slope();
     let deviance = deviance * design.criterion.share();
-    deviance.is_finite().then_some(State { assembly, whitener, innovations, weights, deviance, variance })
+    deviance.is_finite().then_some(State { augmented, whitener, innovations, weights, deviance, variance })
 }
 
 /// Fits everything from a start; at most `rounds` Gauss–Newton steps.
 pub(crate) fn fit(
-    ground: Ground<'_>,
+    context: FitContext<'_>,
     build: &Build<'_>,
     nonlinear: &[NonlinearParameter],
     start: &Linear,
     rounds: usize,
 ) -> Option<Fit> {
-    let design_of = |assembly: &Assembly, known: Option<&Design>| {
-        Design::like(known, ground.campaign, ground.grid, assembly)
+    let design_of = |augmented: &AugmentedModel, known: Option<&Design>| {
+        Design::like(known, context.dataset, context.grid, augmented)
     };
     let mut nonlinear = nonlinear.to_vec();
     let mut p = start.clone().gauged();
     let values = |nonlinear: &[NonlinearParameter]| nonlinear.iter().map(|o| o.value).collect::<Vec<f64>>();
-    let assembly = build(&values(&nonlinear));
-    let mut design = design_of(&assembly, ground.known);
-    let mut state = evaluate(&design, assembly, &p)?;
+    let augmented = build(&values(&nonlinear));
+    let mut design = design_of(&augmented, context.known);
+    let mut state = evaluate(&design, augmented, &p)?;
     let mut nonlinear_se = vec![f64::NAN; nonlinear.len()];
     let mut damping = 1e-9;
     // Border columns, filters' taps and all else that an effect adds lie behind these.
     let order = p.a.len();
-    let held = [0..2 * order, order + p.b.len()..order + p.b.len() + ground.grid.len()];
+    let fixed = [0..2 * order, order + p.b.len()..order + p.b.len() + context.grid.len()];
     for _ in 0..rounds {
-        let extra = derivatives(&ground, build, &nonlinear, &design, &state, &p);
+        let extra = derivatives(&context, build, &nonlinear, &design, &state, &p);
         let w = state.weights.applied(&state.innovations);
         let mut normal = normal_equations(&design, &p, &state.whitener, &state.weights, (&w, &extra));
-        priors(&mut normal, ground.grid, &p, &state.assembly);
-        if ground.campaign.holds_nominal() {
-            normal = normal.restricted(|i| !held.iter().any(|held| held.contains(&i)));
+        priors(&mut normal, context.grid, &p, &state.augmented);
+        if context.dataset.holds_nominal() {
+            normal = normal.restricted(|i| !fixed.iter().any(|fixed| fixed.contains(&i)));
         }
         let mut better = None;
         let mut step_norm = 0.0;
@@ -227,18 +227,18 @@ pub(crate) fn fit(
                 for (o, s) in next.iter_mut().zip(&step[p.len()..]) {
                     o.value = (o.value - share * s).clamp(o.low, o.high);
                 }
-                let mut assembly = build(&values(&next));
+                let mut augmented = build(&values(&next));
                 // A mixture goes on from the one before: expectation–maximisation ends after fewer rounds.
-                assembly.noise.mixture = state.weights.mixture.or(assembly.noise.mixture);
+                augmented.noise.mixture = state.weights.mixture.or(augmented.noise.mixture);
                 let redesign =
-                    (!assembly.same_design(&state.assembly)).then(|| design_of(&assembly, Some(&design)));
-                let s = evaluate(redesign.as_ref().unwrap_or(&design), assembly, &moved)?;
+                    (!augmented.same_design(&state.augmented)).then(|| design_of(&augmented, Some(&design)));
+                let s = evaluate(redesign.as_ref().unwrap_or(&design), augmented, &moved)?;
                 (s.deviance < state.deviance).then_some((moved, next, redesign, s))
             };
             better = tried(&step, 1.0);
             if better.is_none() {
-                let foretold: f64 = step.iter().zip(&normal.gradient).map(|(x, g)| x * g).sum();
-                if foretold < SETTLED * state.variance {
+                let forecast: f64 = step.iter().zip(&normal.gradient).map(|(x, g)| x * g).sum();
+                if forecast < SETTLED * state.variance {
                     break;
                 }
                 // Where b and f trade against each other the joint step overshoots; each block alone is exactly linear.
@@ -294,14 +294,14 @@ pub(crate) fn fit(
     }
     let power = sum / f64::max(count, 1.0);
     // One direction of (b, f) is fixed by the gauge.
-    let known = if ground.campaign.holds_nominal() { held.iter().map(|held| held.len()).sum() } else { 1 };
+    let known = if context.dataset.holds_nominal() { fixed.iter().map(|fixed| fixed.len()).sum() } else { 1 };
     let parameters = (p.len() - known + nonlinear.len()) as f64;
-    let mut assembly = state.assembly;
+    let mut augmented = state.augmented;
     if let Some(mixture) = state.weights.mixture {
-        assembly.noise.mixture = Some(mixture);
+        augmented.noise.mixture = Some(mixture);
     }
     Some(Fit {
-        assembly,
+        augmented,
         grid: design.grid.clone(),
         linear: p,
         nonlinear,
@@ -311,7 +311,7 @@ pub(crate) fn fit(
         power,
         samples,
         parameters,
-        records: FitRecords::new(ground.campaign, design),
+        records: FitRecords::new(context.dataset, design),
     })
 }
 
@@ -320,7 +320,7 @@ pub(crate) fn fit(
 /// The log slope of the sensor enters as the factor `exp(−log_slope/N)` on all innovations, which makes the sum of
 /// squares monotone in the deviance.
 pub(super) fn derivatives(
-    ground: &Ground<'_>,
+    context: &FitContext<'_>,
     build: &Build<'_>,
     nonlinear: &[NonlinearParameter],
     design: &Design,
@@ -335,13 +335,13 @@ pub(super) fn derivatives(
             let mut values: Vec<f64> = nonlinear.iter().map(|o| o.value).collect();
             let h = nonlinear[j].inward_step();
             values[j] += h;
-            let assembly = build(&values);
-            let (moved, factor) = if assembly.same_design(&state.assembly) {
+            let augmented = build(&values);
+            let (moved, factor) = if augmented.same_design(&state.augmented) {
                 let errors = errors.get_or_init(|| design.all_errors(p)).clone();
-                (design.whitened(errors, &design.whitener(&assembly.noise, &p.a)), 1.0)
+                (design.whitened(errors, &design.whitener(&augmented.noise, &p.a)), 1.0)
             } else {
-                let there = Design::like(Some(design), ground.campaign, ground.grid, &assembly);
-                let moved = there.innovations(p, &there.whitener(&assembly.noise, &p.a));
+                let there = Design::like(Some(design), context.dataset, context.grid, &augmented);
+                let moved = there.innovations(p, &there.whitener(&augmented.noise, &p.a));
                 (moved, (-(there.log_slope() - design.log_slope()) / n).exp())
             };
             let slopes: Vec<Vec<f64>> = moved
@@ -355,7 +355,7 @@ pub(super) fn derivatives(
 }
 
 /// The prior on border values: neighbours on a straight line, jumps free.
-pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &Assembly) {
+pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, augmented: &AugmentedModel) {
     let present = p.flat();
     // The gauge: no step may trade the scale of b for that of f, which the data cannot see.
     let gauge: Vec<(usize, f64)> = p.b.iter().enumerate().map(|(j, b)| (p.a.len() + j, *b)).collect();
@@ -377,10 +377,10 @@ pub(crate) fn priors(normal: &mut Normal, grid: &Grid, p: &Linear, assembly: &As
         }
         offset += knots.len();
     }
-    let columns = assembly.equation_columns.iter().enumerate();
-    // A gain that does not change yet tells nothing of the output's zero.
+    let columns = augmented.equation_columns.iter().enumerate();
+    // A gain that does not change yet shows nothing of the output's zero.
     let idle = columns.filter(|(_, c)| **c == EquationColumn::Gain).map(|(j, _)| base + p.f.len() + j);
-    for i in (0..assembly.border_columns.len()).map(|j| offset + j).chain(idle) {
+    for i in (0..augmented.border_columns.len()).map(|j| offset + j).chain(idle) {
         normal.add_prior(&[(i, 1.0)], 1e-6, &present);
     }
 }

@@ -99,7 +99,7 @@ impl<'a> Gains<'a> {
     }
 }
 
-/// Columns that are all known before they are tested: sums over the samples tell their gains, and no row of derivatives is kept.
+/// Columns that are all known before they are tested: sums over the samples show their gains, and no row of derivatives is kept.
 pub(crate) struct Tested {
     /// Schur complement of the columns in their sums with the present parameters' derivatives.
     schur: Normal,
@@ -147,23 +147,23 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
+    use crate::likelihood::engine::{FitContext, fit};
     use crate::likelihood::jacobian::normal_equations;
     use crate::likelihood::weights::Weights;
-    use crate::model::assembly::Assembly;
-    use crate::testing::{small_campaign, small_model, white};
+    use crate::model::augmented::AugmentedModel;
+    use crate::testing::{small_dataset, small_model, white};
 
     /// The oracle: columns tested one by one, with all derivatives kept.
     #[test]
-    fn sums_alone_tell_what_columns_gain() {
-        let (campaign, grid) = small_campaign();
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        let mut assembly = Assembly::default();
+    fn sums_alone_describe_what_columns_gain() {
+        let (dataset, grid) = small_dataset();
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        let mut augmented = AugmentedModel::default();
         for ma in [Vec::new(), vec![0.4]] {
-            assembly.noise.ma = ma;
-            let fit = fit(ground, &|_| assembly.clone(), &[], &small_model(&grid), 4).expect("a fit");
+            augmented.noise.ma = ma;
+            let fit = fit(context, &|_| augmented.clone(), &[], &small_model(&grid), 4).expect("a fit");
             let (design, weights) = (fit.design(), Weights::default());
-            let whitener = design.whitener(&assembly.noise, &fit.linear.a);
+            let whitener = design.whitener(&augmented.noise, &fit.linear.a);
             let w = design.innovations(&fit.linear, &whitener).concat();
             let mut noise = white();
             let columns: Vec<Vec<f64>> = (0..3).map(|_| w.iter().map(|_| noise()).collect()).collect();

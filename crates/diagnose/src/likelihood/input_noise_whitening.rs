@@ -9,30 +9,30 @@
 //! Given the past, `e(t)` is normal: a Kalman filter whose state is the last `m` turns errors into independent ones of unit
 //! variance, and the likelihood is exact (Harvey, Forecasting, structural time series models and the Kalman filter, 1989, 3.4).
 
-use crate::likelihood::design::DesignTrack;
+use crate::likelihood::design::DesignScaled;
 use crate::likelihood::rows::Rows;
-use crate::model::assembly::InputNoise;
+use crate::model::augmented::InputNoise;
 use crate::model::linear::Linear;
 
 /// The longest response whose colour is followed; behind a longer one the noise counts as white.
 const LONGEST: usize = 12;
 
-/// The noise of one track in units of `u`.
+/// The noise of one record in units of `u`.
 struct EnteringNoise {
     /// Variance of a new `m(t)`; `None` where the last one is kept.
     fresh: Vec<Option<f64>>,
 }
 
 impl EnteringNoise {
-    fn new(track: &DesignTrack, law: InputNoise, p: &Linear) -> Option<Self> {
-        let [slope, gap] = track.sensitivity.as_deref()?;
-        let moved = |t: usize| t == 0 || track.moves[t].step != 0.0 || !law.kept;
+    fn new(scaled: &DesignScaled, law: InputNoise, p: &Linear) -> Option<Self> {
+        let [slope, gap] = scaled.sensitivity.as_deref()?;
+        let moved = |t: usize| t == 0 || scaled.moves[t].step != 0.0 || !law.kept;
         let squared = |ratio: f64, by: &Rows, t: usize| match ratio {
             0.0 => 0.0,
             _ => ratio * by.dot(t, &p.f).powi(2),
         };
         let variance = |t: usize| law.direct + squared(law.by_slope, slope, t) + squared(law.by_gap, gap, t);
-        Some(Self { fresh: (0..track.x.len()).map(|t| moved(t).then(|| variance(t))).collect() })
+        Some(Self { fresh: (0..scaled.x.len()).map(|t| moved(t).then(|| variance(t))).collect() })
     }
 
     /// Variance of each `m(t)`.
@@ -45,12 +45,12 @@ impl EnteringNoise {
     }
 }
 
-/// Whitens one track.
+/// Whitens one record.
 #[derive(Debug, Clone)]
 pub(crate) struct Predictor {
     /// `h` at lags 1, 2, …; nothing where the noise counts as white.
     response: Vec<f64>,
-    /// What a counted sample's surprise tells of the last `m`, one entry a lag.
+    /// What a counted sample's surprise reports the last `m`, one entry a lag.
     gains: Vec<f64>,
     /// Whether the last `m` lives on after a counted sample.
     kept: Vec<bool>,
@@ -69,15 +69,15 @@ impl Predictor {
         }
     }
 
-    fn new(track: &DesignTrack, noise: &EnteringNoise, h: &[f64], left_out: Option<&[bool]>) -> Self {
-        let samples = track.x.len() - track.from;
+    fn new(scaled: &DesignScaled, noise: &EnteringNoise, h: &[f64], left_out: Option<&[bool]>) -> Self {
+        let samples = scaled.x.len() - scaled.from;
         let used = |k: usize| left_out.is_none_or(|left_out| !left_out[k]);
         if h.len() > LONGEST {
             let squares: Vec<f64> = h.iter().map(|h| h * h).collect();
             let variances: Vec<f64> = noise.variances().collect();
             let variance =
                 |t: usize| -> f64 { variances[..t].iter().rev().zip(&squares).map(|(m, h)| m * h).sum() };
-            let scale = |k: usize| if used(k) { 1.0 / (1.0 + variance(track.from + k)).sqrt() } else { 0.0 };
+            let scale = |k: usize| if used(k) { 1.0 / (1.0 + variance(scaled.from + k)).sqrt() } else { 0.0 };
             return Self { scale: (0..samples).map(scale).collect(), ..Self::none(samples) };
         }
         let mut state = Covariance::new(h);
@@ -88,8 +88,8 @@ impl Predictor {
             scale: Vec::with_capacity(samples),
         };
         for (t, fresh) in noise.fresh.iter().enumerate() {
-            if t >= track.from {
-                let scale = state.observe(used(t - track.from), &mut out.gains);
+            if t >= scaled.from {
+                let scale = state.observe(used(t - scaled.from), &mut out.gains);
                 out.scale.push(scale);
                 out.kept.push(fresh.is_none());
             }
@@ -191,13 +191,18 @@ impl<'a> Covariance<'a> {
     }
 }
 
-/// The whitening of every track, for noise through the response `h` of `B̃/den`.
-pub(crate) fn predictors(tracks: &[DesignTrack], law: InputNoise, p: &Linear, h: &[f64]) -> Vec<Predictor> {
-    let of_track = |track: &DesignTrack| match EnteringNoise::new(track, law, p) {
-        Some(noise) => Predictor::new(track, &noise, h, track.mask.out.as_deref()),
-        None => Predictor::none(track.x.len() - track.from),
+/// The whitening of every record, for noise through the response `h` of `B̃/den`.
+pub(crate) fn predictors(
+    scaled_records: &[DesignScaled],
+    law: InputNoise,
+    p: &Linear,
+    h: &[f64],
+) -> Vec<Predictor> {
+    let of_scaled = |scaled: &DesignScaled| match EnteringNoise::new(scaled, law, p) {
+        Some(noise) => Predictor::new(scaled, &noise, h, scaled.mask.out.as_deref()),
+        None => Predictor::none(scaled.x.len() - scaled.from),
     };
-    tracks.iter().map(of_track).collect()
+    scaled_records.iter().map(of_scaled).collect()
 }
 
 #[cfg(test)]
@@ -206,11 +211,11 @@ mod tests {
 
     use super::*;
     use crate::likelihood::design::Design;
-    use crate::model::assembly::Assembly;
-    use crate::records::campaign::Track;
-    use crate::testing::{small_campaign, small_model};
+    use crate::model::augmented::AugmentedModel;
+    use crate::records::dataset::ScaledRecord;
+    use crate::testing::{small_dataset, small_model};
 
-    /// The oracle: the covariance of all errors of a track, written down and factored.
+    /// The oracle: the covariance of all errors of a record, written down and factored.
     fn covariance(noise: &EnteringNoise, h: &[f64], from: usize) -> Vec<Vec<f64>> {
         let samples = noise.fresh.len();
         let variances: Vec<f64> = noise.variances().collect();
@@ -252,13 +257,13 @@ mod tests {
         (out, (0..n).map(|i| l[i][i]).collect())
     }
 
-    fn track_with(samples: usize, from: usize) -> DesignTrack {
-        let (campaign, grid) = small_campaign();
-        let design = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
-        let mut track = design.tracks[0].clone();
-        track.x = vec![0.0; samples].into();
-        track.from = from;
-        track
+    fn scaled_with(samples: usize, from: usize) -> DesignScaled {
+        let (dataset, grid) = small_dataset();
+        let design = Design::new(&dataset, &grid, &AugmentedModel::default(), ScaledRecord::is_fit);
+        let mut scaled = design.scaled_records[0].clone();
+        scaled.x = vec![0.0; samples].into();
+        scaled.from = from;
+        scaled
     }
 
     proptest! {
@@ -270,9 +275,9 @@ mod tests {
         ) {
             let mut noise = EnteringNoise { fresh };
             noise.fresh[0] = Some(1.0);
-            let track = track_with(30, from);
+            let scaled = scaled_with(30, from);
             let x: Vec<f64> = (from..30).map(|t| (t as f64 * 1.7).sin() * 2.0).collect();
-            let predictor = Predictor::new(&track, &noise, &h, None);
+            let predictor = Predictor::new(&scaled, &noise, &h, None);
             let (expected, sd) = whitened(&covariance(&noise, &h, from), &x);
             for (k, found) in predictor.applied(&x).into_iter().enumerate() {
                 prop_assert!((found - expected[k]).abs() < 1e-9, "{k}: {found} {}", expected[k]);
@@ -286,7 +291,7 @@ mod tests {
             h in prop::collection::vec(-1.5..1.5_f64, 1..4),
         ) {
             let left_out: Vec<bool> = (0..17).map(|k| k % 5 == 2).collect();
-            let predictor = Predictor::new(&track_with(20, 3), &EnteringNoise { fresh }, &h, Some(&left_out));
+            let predictor = Predictor::new(&scaled_with(20, 3), &EnteringNoise { fresh }, &h, Some(&left_out));
             let signals = [1.1, 0.3].map(|f: f64| (0..17).map(|k| (k as f64 * f).cos()).collect::<Vec<f64>>());
             let mut follower = predictor.follow(2);
             let [one, other] = signals.each_ref().map(|s| predictor.applied(s));
@@ -303,7 +308,7 @@ mod tests {
     fn behind_a_long_response_the_noise_counts_as_white() {
         let h: Vec<f64> = (0..LONGEST + 3).map(|k| 0.8_f64.powi(k as i32)).collect();
         let noise = EnteringNoise { fresh: vec![Some(0.5); 40] };
-        let predictor = Predictor::new(&track_with(40, 5), &noise, &h, None);
+        let predictor = Predictor::new(&scaled_with(40, 5), &noise, &h, None);
         let short = covariance(&noise, &h, 5);
         for (k, scale) in predictor.scale.iter().enumerate() {
             assert!((scale - 1.0 / short[k][k].sqrt()).abs() < 1e-12);
@@ -312,17 +317,17 @@ mod tests {
 
     #[test]
     fn noise_acts_by_the_slope_and_is_kept_at_rest() {
-        let (campaign, grid) = small_campaign();
-        let mut assembly = Assembly::default();
+        let (dataset, grid) = small_dataset();
+        let mut augmented = AugmentedModel::default();
         let law = InputNoise { by_slope: 2.0, kept: true, ..InputNoise::default() };
-        assembly.noise.input = Some(law);
+        augmented.noise.input = Some(law);
         let p = small_model(&grid);
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
-        for track in &design.tracks {
-            let noise = EnteringNoise::new(track, law, &p).expect("a sensitivity");
-            let slope = &track.sensitivity.as_deref().expect("a sensitivity")[0];
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
+        for scaled in &design.scaled_records {
+            let noise = EnteringNoise::new(scaled, law, &p).expect("a sensitivity");
+            let slope = &scaled.sensitivity.as_deref().expect("a sensitivity")[0];
             for (t, fresh) in noise.fresh.iter().enumerate().skip(1) {
-                let moves = track.moves[t].step != 0.0;
+                let moves = scaled.moves[t].step != 0.0;
                 assert_eq!(*fresh, moves.then(|| 2.0 * slope.dot(t, &p.f).powi(2)), "{t}");
             }
         }

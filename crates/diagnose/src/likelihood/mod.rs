@@ -1,4 +1,4 @@
-//! Maximum likelihood: from an assembly and the records to residuals and derivatives, whitened and weighed, and to the estimates.
+//! Maximum likelihood: from an augmented model and the records to residuals and derivatives, whitened and weighed, and to the estimates.
 
 pub(crate) mod design;
 pub(crate) mod engine;

@@ -1,8 +1,8 @@
 //! How well everything that a fit estimates is known together.
 
-use crate::likelihood::engine::{Build, Fit, Ground, derivatives, evaluate, priors};
+use crate::likelihood::engine::{Build, Fit, FitContext, derivatives, evaluate, priors};
 use crate::likelihood::jacobian::normal_equations;
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 
 /// Relative damping of the normal equations: that of a fit's last steps.
 const DAMPING: f64 = 1e-9;
@@ -12,20 +12,20 @@ const DAMPING: f64 = 1e-9;
 pub(crate) struct Uncertainty {
     /// Covariance of `a`, `b`, `f`, `d` and the nonlinear parameters, a row each.
     pub(crate) covariance: Vec<Vec<f64>>,
-    /// For each nonlinear parameter a step, and the assembly that far from the fitted one.
-    pub(crate) moved: Vec<(f64, Assembly)>,
+    /// For each nonlinear parameter a step, and the augmented model that far from the fitted one.
+    pub(crate) moved: Vec<(f64, AugmentedModel)>,
 }
 
-/// `σ²(JᵀWJ + prior)⁻¹/share` at a fit, `build` that of its explanation; nothing where the normal equations have no solution.
+/// `σ²(JᵀWJ + prior)⁻¹/share` at a fit, `build` that of its candidate; nothing where the normal equations have no solution.
 ///
 /// The direction along which `b` and `f` trade their scale is held: no output depends on it.
-pub(crate) fn uncertainty(ground: Ground<'_>, build: &Build<'_>, fit: &Fit) -> Option<Uncertainty> {
+pub(crate) fn uncertainty(context: FitContext<'_>, build: &Build<'_>, fit: &Fit) -> Option<Uncertainty> {
     let (design, p) = (&*fit.design(), &fit.linear);
-    let state = evaluate(design, fit.assembly.clone(), p)?;
-    let extra = derivatives(&ground, build, &fit.nonlinear, design, &state, p);
+    let state = evaluate(design, fit.augmented.clone(), p)?;
+    let extra = derivatives(&context, build, &fit.nonlinear, design, &state, p);
     let w = state.weights.applied(&state.innovations);
     let mut normal = normal_equations(design, p, &state.whitener, &state.weights, (&w, &extra));
-    priors(&mut normal, ground.grid, p, &fit.assembly);
+    priors(&mut normal, context.grid, p, &fit.augmented);
     let factor = normal.factor(DAMPING)?;
     let scale = state.variance / design.criterion.share();
     let column = |i: usize| {

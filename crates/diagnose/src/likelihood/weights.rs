@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use crate::likelihood::design::{Design, DesignTrack, Linear};
+use crate::likelihood::design::{Design, DesignScaled, Linear};
 use crate::likelihood::input_noise_whitening::{Predictor, predictors};
-use crate::model::assembly::{NoiseLaw, convolve};
+use crate::model::augmented::{NoiseLaw, convolve};
 
 /// What a law of the innovations makes of them.
 #[derive(Debug, Clone, Default)]
@@ -24,13 +24,13 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// Signals on the counted samples, weighted, all tracks one after the other.
+    /// Signals on the counted samples, weighted, all records one after the other.
     pub(crate) fn applied(&self, signals: &[Vec<f64>]) -> Vec<f64> {
-        self.by_track(signals).concat()
+        self.by_scaled(signals).concat()
     }
 
     /// Signals on the counted samples, weighted.
-    pub(crate) fn by_track<'a>(&self, signals: &'a [Vec<f64>]) -> Cow<'a, [Vec<f64>]> {
+    pub(crate) fn by_scaled<'a>(&self, signals: &'a [Vec<f64>]) -> Cow<'a, [Vec<f64>]> {
         if let Some(predictors) = &self.predictors {
             return signals.iter().zip(predictors).map(|(w, p)| p.applied(w)).collect();
         }
@@ -39,10 +39,10 @@ impl Weights {
         signals.iter().zip(scale).map(products).collect()
     }
 
-    /// Weighs rows of derivatives of one track, one after the other.
-    pub(crate) fn rows(&self, track: usize, width: usize) -> impl FnMut(&mut [f64]) + '_ {
-        let mut follower = self.predictors.as_ref().map(|predictors| predictors[track].follow(width));
-        let mut factors = self.scale.as_ref().map(|scale| scale[track].iter());
+    /// Weighs rows of derivatives of one record, one after the other.
+    pub(crate) fn rows(&self, scaled: usize, width: usize) -> impl FnMut(&mut [f64]) + '_ {
+        let mut follower = self.predictors.as_ref().map(|predictors| predictors[scaled].follow(width));
+        let mut factors = self.scale.as_ref().map(|scale| scale[scaled].iter());
         move |row| match (&mut follower, &mut factors) {
             (Some(follower), _) => follower.next(row),
             (None, Some(factors)) => {
@@ -54,8 +54,8 @@ impl Weights {
     }
 
     /// Whether the counted sample has a say.
-    pub(crate) fn counts(&self, track: usize, sample: usize) -> bool {
-        self.scale.as_ref().is_none_or(|s| s[track][sample] > 0.0)
+    pub(crate) fn counts(&self, scaled: usize, sample: usize) -> bool {
+        self.scale.as_ref().is_none_or(|s| s[scaled][sample] > 0.0)
     }
 }
 
@@ -63,7 +63,7 @@ impl Weights {
 pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>]) -> Weights {
     if let Some(noise) = law.input {
         let response = impulse_response(&convolve(&p.b, &design.taps), &design.poles);
-        let predictors = predictors(&design.tracks, noise, p, &response);
+        let predictors = predictors(&design.scaled_records, noise, p, &response);
         let scale: Vec<Vec<f64>> = predictors.iter().map(|p| p.scale.clone()).collect();
         let left_out = scale.iter().flatten().filter(|s| **s == 0.0).count();
         let counted = sum_of_logarithms(scale.iter().flatten().copied().filter(|s| *s > 0.0));
@@ -71,12 +71,13 @@ pub(crate) fn weigh(design: &Design, law: &NoiseLaw, p: &Linear, w: &[Vec<f64>])
         let (scale, predictors) = (Some(scale), Some(predictors));
         return Weights { scale, predictors, left_out, log_scale, ..Weights::default() };
     }
-    let masked: Option<Vec<Vec<bool>>> = (design.tracks.iter().any(|t| t.mask.out.is_some())).then(|| {
-        let mask = |t: &DesignTrack| {
-            t.mask.out.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
-        };
-        design.tracks.iter().map(mask).collect()
-    });
+    let masked: Option<Vec<Vec<bool>>> =
+        (design.scaled_records.iter().any(|t| t.mask.out.is_some())).then(|| {
+            let mask = |t: &DesignScaled| {
+                t.mask.out.as_deref().map_or_else(|| vec![false; t.x.len() - t.from], <[bool]>::to_vec)
+            };
+            design.scaled_records.iter().map(mask).collect()
+        });
     match (law.mixture, masked) {
         (Some(start), None) => mixture(start, law.least_variance(), w),
         (Some(start), Some(masked)) => mixture_of_the_rest(start, law.least_variance(), w, &masked),
@@ -136,10 +137,10 @@ fn mixture_of_the_rest(start: (f64, f64), least: f64, w: &[Vec<f64>], masked: &[
     };
     let mut found = weights.scale.iter().flatten().flatten().copied();
     let mut left_out = 0;
-    let scale = masked.iter().map(|track| {
+    let scale = masked.iter().map(|scaled| {
         let one = |c: &bool| if *c { 0.0 } else { found.next().unwrap_or(1.0) };
-        left_out += track.iter().filter(|c| **c).count();
-        track.iter().map(one).collect()
+        left_out += scaled.iter().filter(|c| **c).count();
+        scaled.iter().map(one).collect()
     });
     let scale: Vec<Vec<f64>> = scale.collect();
     weights.deviance = weights.deviance.map(|d| d * stretch(&scale, left_out));
@@ -229,7 +230,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::model::assembly::LEAST_VARIANCE;
+    use crate::model::augmented::LEAST_VARIANCE;
 
     proptest! {
         #[test]

@@ -1,6 +1,6 @@
 //! The filter that turns equation errors into innovations.
 
-use crate::model::assembly::NoiseLaw;
+use crate::model::augmented::NoiseLaw;
 
 /// Samples before the first counted one that feed the whitening filter.
 pub(crate) const LEAD: usize = 6;

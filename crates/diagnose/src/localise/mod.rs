@@ -5,7 +5,7 @@ mod energy;
 use self::energy::{Blocks, Portion, false_discovery_rates, portions, upper_tail};
 use crate::diagnosis::{Cell, CellInterval, CellUnit};
 use crate::likelihood::engine::Fit;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::records::motion::Motion;
 use crate::residuals::score::innovations;
 
@@ -22,16 +22,16 @@ struct Sample {
 /// Residuals of a model on all records, dimensionless.
 #[derive(Debug, Clone)]
 pub(crate) struct Residuals {
-    /// One series a track, from its first counted sample; empty where nothing is known of it.
+    /// One series a record, from its first counted sample; empty where nothing is known of it.
     pub(crate) series: Vec<Vec<f64>>,
     /// Whether they are errors of a simulation: as slow as the input, wherever they come from.
     pub(crate) simulated: bool,
 }
 
 impl Residuals {
-    /// Those of a model as the campaign judges it.
-    pub(crate) fn of(campaign: &Campaign, fit: &Fit) -> Self {
-        Self { series: innovations(campaign, fit, |_| true), simulated: campaign.criterion.simulates() }
+    /// Those of a model as the dataset judges it.
+    pub(crate) fn of(dataset: &Dataset, fit: &Fit) -> Self {
+        Self { series: innovations(dataset, fit, |_| true), simulated: dataset.criterion.simulates() }
     }
 }
 
@@ -44,16 +44,16 @@ const FEWEST: usize = 10;
 ///
 /// Two questions a cell: whether there is energy beyond the floor, `w²/σ² − 1` summed, and whether it is denser there than elsewhere
 /// ([`portions`]). q-values are Benjamini–Hochberg over all cells of all axes, for each question by itself.
-pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64) -> Vec<Cell> {
-    let mut map = Map { samples: samples(campaign, residuals, variance), cells: Vec::new() };
-    map.kinds("record", campaign.tracks.iter().map(|t| t.name.clone()), |s| s.record);
+pub(crate) fn localise(dataset: &Dataset, residuals: &Residuals, variance: f64) -> Vec<Cell> {
+    let mut map = Map { samples: samples(dataset, residuals, variance), cells: Vec::new() };
+    map.kinds("record", dataset.scaled_records.iter().map(|t| t.name.clone()), |s| s.record);
     let branches = ["descending", "ascending", "holding"].map(String::from);
     map.kinds("branch", branches.into_iter(), |s| {
         if s.motion.step == 0.0 { 2 } else { usize::from(s.motion.branch > 0.0) }
     });
-    let stroke = Scale { unit: CellUnit::Input, zero: 0.0, one: campaign.v_width };
+    let stroke = Scale { unit: CellUnit::Input, zero: 0.0, one: dataset.v_width };
     let tenths: Vec<f64> = (0..=10).map(|i| i as f64 / 10.0).collect();
-    map.intervals("v", &tenths, Scale { zero: campaign.v_low, ..stroke }, |s| s.v);
+    map.intervals("v", &tenths, Scale { zero: dataset.v_low, ..stroke }, |s| s.v);
     let since = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, f64::INFINITY];
     map.intervals("rest_samples", &since, Scale::plain(CellUnit::Samples), |s| s.motion.rest as f64);
     let travel = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, f64::INFINITY];
@@ -62,32 +62,32 @@ pub(crate) fn localise(campaign: &Campaign, residuals: &Residuals, variance: f64
     map.intervals("loop_size", &sizes, stroke, |s| s.motion.loop_size);
     // A rest has no speed.
     let speeds = [1e-12, 0.01, 0.02, 0.05, 0.1, 0.2, f64::INFINITY];
-    let per_second = campaign.v_width / campaign.sample_time;
+    let per_second = dataset.v_width / dataset.sample_time;
     let scale = Scale { unit: CellUnit::InputPerSecond, one: per_second, ..stroke };
     map.intervals("speed", &speeds, scale, |s| s.motion.step.abs());
-    map.intervals("time", &tenths, Scale::plain(CellUnit::ShareOfCampaign), |s| s.time);
+    map.intervals("time", &tenths, Scale::plain(CellUnit::ShareOfDataset), |s| s.time);
     let outputs = [f64::NEG_INFINITY, -1.5, -0.75, 0.0, 0.75, 1.5, f64::INFINITY];
-    let scale = Scale { unit: CellUnit::Output, zero: campaign.y_mean, one: campaign.y_scale };
+    let scale = Scale { unit: CellUnit::Output, zero: dataset.y_mean, one: dataset.y_scale };
     map.intervals("y", &outputs, scale, |s| s.y);
     if !residuals.simulated {
-        map.cells.extend(spectrum_cells(&residuals.series, variance, campaign.sample_time));
+        map.cells.extend(spectrum_cells(&residuals.series, variance, dataset.sample_time));
     }
     map.judged()
 }
 
 /// The counted samples, with their energy beyond the floor.
-fn samples(campaign: &Campaign, residuals: &Residuals, variance: f64) -> Vec<Sample> {
+fn samples(dataset: &Dataset, residuals: &Residuals, variance: f64) -> Vec<Sample> {
     let mut samples = Vec::new();
-    for (record, (track, w)) in campaign.tracks.iter().zip(&residuals.series).enumerate() {
+    for (record, (scaled, w)) in dataset.scaled_records.iter().zip(&residuals.series).enumerate() {
         for (k, w) in w.iter().enumerate() {
             // The innovation at t answers to the input one sample before.
-            let t = track.from + k - 1;
+            let t = scaled.from + k - 1;
             samples.push(Sample {
                 record,
-                motion: track.moves[t],
-                v: track.v[t],
-                y: track.y[t],
-                time: (track.clock + t) as f64 / campaign.total as f64,
+                motion: scaled.moves[t],
+                v: scaled.v[t],
+                y: scaled.y[t],
+                time: (scaled.clock + t) as f64 / dataset.total as f64,
                 excess: w * w / variance - 1.0,
             });
         }
@@ -122,7 +122,7 @@ struct Found {
     portion: Portion,
 }
 
-/// A map under way.
+/// A map running.
 struct Map {
     samples: Vec<Sample>,
     cells: Vec<Found>,
@@ -149,8 +149,8 @@ impl Map {
         property: impl Fn(&Sample) -> f64,
     ) {
         // An edge that only keeps zero out is zero for the user.
-        let told = |x: &f64| if *x < 1e-9 && *x > 0.0 { scale.of(0.0) } else { scale.of(*x) };
-        let names = labels(&edges.iter().map(told).collect::<Vec<_>>(), scale.unit);
+        let reported = |x: &f64| if *x < 1e-9 && *x > 0.0 { scale.of(0.0) } else { scale.of(*x) };
+        let names = labels(&edges.iter().map(reported).collect::<Vec<_>>(), scale.unit);
         self.add(axis, names, |s| bin(edges, property(s)));
     }
 
@@ -193,7 +193,7 @@ impl Map {
     }
 }
 
-/// Cells by their edges, with as many decimals as tell the closest edges apart.
+/// Cells by their edges, with as many decimals as show the closest edges apart.
 fn labels(edges: &[f64], unit: CellUnit) -> Vec<(String, Option<CellInterval>)> {
     let widths = edges.windows(2).map(|w| w[1] - w[0]);
     let narrowest = widths.filter(|x| *x > 0.0 && x.is_finite()).fold(f64::INFINITY, f64::min);
@@ -201,12 +201,12 @@ fn labels(edges: &[f64], unit: CellUnit) -> Vec<(String, Option<CellInterval>)> 
         true => (3.0 - narrowest.log10().floor()).clamp(4.0, 300.0) as usize,
         false => 4,
     };
-    let told = |x: f64| format!("{x:.decimals$}");
+    let reported = |x: f64| format!("{x:.decimals$}");
     // Label and figures say the same.
-    let figure = |x: f64| told(x).parse().unwrap_or(x);
+    let figure = |x: f64| reported(x).parse().unwrap_or(x);
     let cell = |w: &[f64]| {
         let interval = CellInterval { low: figure(w[0]), high: figure(w[1]), unit };
-        (format!("{}..{}", told(w[0]), told(w[1])), Some(interval))
+        (format!("{}..{}", reported(w[0]), reported(w[1])), Some(interval))
     };
     edges.windows(2).map(cell).collect()
 }
@@ -238,7 +238,7 @@ fn spectrum_cells(innovations: &[Vec<f64>], variance: f64, sample_time: f64) -> 
     let bands = portions(&ordinates, BANDS, Blocks { length: SEGMENT / 2 - 1, variance: 1.0 });
     let found = |(band, ((cell, interval), portion)): (usize, ((String, Option<CellInterval>), Portion))| {
         let energy: f64 = ordinates.iter().filter(|o| o.1 == Some(band)).map(|o| o.0).sum();
-        // White noise tells the bands' variance; segments are too few to do so.
+        // White noise shows the bands' variance; segments are too few to do so.
         let excess = upper_tail(energy, segments * (SEGMENT / 2 / BANDS) as f64);
         Found {
             axis: "frequency",
@@ -255,7 +255,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_close_together_are_told_apart() {
+    fn cells_close_together_are_distinguished() {
         let labels =
             |edges: &[f64]| labels(edges, CellUnit::Input).into_iter().map(|l| l.0).collect::<Vec<_>>();
         assert_eq!(labels(&[0.0, 0.1, 0.25]), ["0.0000..0.1000", "0.1000..0.2500"]);

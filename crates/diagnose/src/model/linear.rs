@@ -3,7 +3,7 @@
 use nalgebra::{Complex, DMatrix};
 use serde::{Deserialize, Serialize};
 
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 
 /// `a`, `b`, border values and disturbance coefficients.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -37,16 +37,16 @@ impl Linear {
         out
     }
 
-    /// The same with zeros for what an assembly adds, the border values on a grid of the given size.
-    pub(crate) fn padded(&self, grid: usize, assembly: &Assembly) -> Self {
+    /// The same with zeros for what an augmented model adds, the border values on a grid of the given size.
+    pub(crate) fn padded(&self, grid: usize, augmented: &AugmentedModel) -> Self {
         let mut p = self.clone();
-        p.b.resize(p.a.len() + assembly.extra_b, 0.0);
-        p.f.resize(grid + assembly.border_columns.len(), 0.0);
-        p.d.resize(assembly.equation_columns.len(), 0.0);
+        p.b.resize(p.a.len() + augmented.extra_b, 0.0);
+        p.f.resize(grid + augmented.border_columns.len(), 0.0);
+        p.d.resize(augmented.equation_columns.len(), 0.0);
         p
     }
 
-    /// What innovations of white equation errors make of the output: each track through `1/A`.
+    /// What innovations of white equation errors make of the output: each record through `1/A`.
     pub(crate) fn behind_poles(&self, innovations: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let through = |w: &Vec<f64>| {
             let mut x: Vec<f64> = Vec::with_capacity(w.len());

@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::forwards::Forwards;
+use crate::model::sensor_polynomial::SensorPolynomial;
 
 /// The inverse characteristic `x = z + Σ θₖ zᵏ⁺² + Σ hⱼ bump((z−cⱼ)/s) + knees(z)`, dimensionless, `z + γ₂z² + γ₃z³ = y`.
 ///
 /// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly: it is the inverse that is linear in
-/// them, and the inverse that the likelihood of `y` needs. Curves that are powers forwards have no short inverse.
+/// them, and the inverse that the likelihood of `y` needs. Curves that are powers sensor polynomial have no short inverse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SensorCurve {
     /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
-    pub(crate) forwards: Option<Forwards>,
+    pub(crate) sensor_polynomial: Option<SensorPolynomial>,
     pub(crate) bumps: Option<Bumps>,
     pub(crate) knees: Vec<Knee>,
 }
@@ -44,12 +44,15 @@ const FLATTEST: f64 = 0.05;
 
 impl SensorCurve {
     pub(crate) fn is_straight(&self) -> bool {
-        self.powers.is_empty() && self.forwards.is_none() && self.bumps.is_none() && self.knees.is_empty()
+        self.powers.is_empty()
+            && self.sensor_polynomial.is_none()
+            && self.bumps.is_none()
+            && self.knees.is_empty()
     }
 
     /// `x` and `dx/dy` at a reading `y`.
     pub(crate) fn undo(&self, y: f64) -> (f64, f64) {
-        let (z, inner) = self.forwards.map_or((y, 1.0), |curve| curve.undo(y));
+        let (z, inner) = self.sensor_polynomial.map_or((y, 1.0), |curve| curve.undo(y));
         let (x, slope) = self.undo_inverse(z);
         (x, slope * inner)
     }
@@ -97,7 +100,7 @@ impl SensorCurve {
         if self.is_straight() {
             return x;
         }
-        // Powers forwards come last.
+        // Powers sensor polynomial come last.
         let mut y = x;
         for _ in 0..40 {
             let (value, slope) = self.undo_inverse(y);
@@ -107,7 +110,7 @@ impl SensorCurve {
                 break;
             }
         }
-        self.forwards.map_or(y, |curve| curve.at(y).0)
+        self.sensor_polynomial.map_or(y, |curve| curve.at(y).0)
     }
 }
 
@@ -127,7 +130,10 @@ mod tests {
             ..SensorCurve::default()
         };
         inverts(&inverse);
-        inverts(&SensorCurve { forwards: Some(Forwards::new(0.08, -0.01)), ..SensorCurve::default() });
+        inverts(&SensorCurve {
+            sensor_polynomial: Some(SensorPolynomial::new(0.08, -0.01)),
+            ..SensorCurve::default()
+        });
     }
 
     /// The oracle: readings a little beside each other.

@@ -10,12 +10,12 @@ pub(crate) fn dynamics_refitted(design: &Design, whitener: &Whitener, p: &Linear
     let (na, nb) = (p.a.len(), p.b.len());
     let mut normal = Normal::new(na + nb);
     let mut row = vec![0.0; na + nb];
-    for track in &design.tracks {
-        let u = design.input(track, &p.f);
-        let x = whitener.apply(track.x.to_vec());
+    for scaled in &design.scaled_records {
+        let u = design.input(scaled, &p.f);
+        let x = whitener.apply(scaled.x.to_vec());
         let ahead = |t: usize| design.taps.iter().enumerate().map(|(k, c)| c * u[t.saturating_sub(k)]).sum();
         let u = whitener.apply((0..u.len()).map(ahead).collect());
-        for t in track.from..x.len() {
+        for t in scaled.from..x.len() {
             (0..na).for_each(|i| row[i] = -x[t - i - 1]);
             (0..nb).for_each(|j| row[na + j] = u[t - j - 1]);
             normal.add(&row, x[t]);

@@ -1,17 +1,17 @@
-//! A model given by the user, in the campaign's dimensionless form.
+//! A model given by the user, in the dataset's dimensionless form.
 
 use switchback_model::linear::is_stable;
 
 use crate::error::DiagnoseError;
 use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::engine::{Fit, FitRecords};
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 use crate::model::borders::Grid;
 use crate::nominal_model::NominalModel;
-use crate::records::campaign::{Campaign, dimensionless};
+use crate::records::dataset::{Dataset, dimensionless};
 
 /// Checks a given model and scales it: `u' = u/s − A(1)·μ/(B(1)·s)` keeps `A y = B u` for `y' = (y − μ)/s`.
-pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, DiagnoseError> {
+pub(crate) fn scaled(dataset: &Dataset, model: &NominalModel) -> Result<Fit, DiagnoseError> {
     let bad = |reason: &str| Err(DiagnoseError::Model { reason: reason.into() });
     if model.a.is_empty() || model.a.len() != model.b.len() {
         return bad("a and b must have the same length, at least 1");
@@ -21,7 +21,7 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
     }
     let dc = model.b.iter().sum::<f64>();
     if dc == 0.0 {
-        return bad("B(1) is zero, so the borders cannot be told from their level");
+        return bad("B(1) is zero, so the borders cannot be distinguished from their level");
     }
     for border in [&model.descending, &model.ascending] {
         if border.len() < 2 || border.windows(2).any(|w| w[1].0 < w[0].0) {
@@ -34,21 +34,21 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
     if !is_stable(&model.a) {
         return bad("A is unstable");
     }
-    let level = (1.0 + model.a.iter().sum::<f64>()) * campaign.y_mean / dc;
+    let level = (1.0 + model.a.iter().sum::<f64>()) * dataset.y_mean / dc;
     let places = |border: &[(f64, f64)]| border.iter().map(|p| p.0).collect::<Vec<f64>>();
     let knots = [&model.descending, &model.ascending]
-        .map(|border| dimensionless(&places(border), campaign.v_low, campaign.v_width));
+        .map(|border| dimensionless(&places(border), dataset.v_low, dataset.v_width));
     let values: Vec<f64> = model.descending.iter().chain(&model.ascending).map(|p| p.1).collect();
-    let f = dimensionless(&values, level, campaign.y_scale);
+    let f = dimensionless(&values, level, dataset.y_scale);
     let grid = Grid { knots };
     let linear = Linear { a: model.a.clone(), b: model.b.clone(), f, d: Vec::new() };
-    let assembly = Assembly::default();
-    let design = Design::new(campaign, &grid, &assembly, |t| t.is_fit());
+    let augmented = AugmentedModel::default();
+    let design = Design::new(dataset, &grid, &augmented, |t| t.is_fit());
     let w = design.innovations(&linear, &Whitener::default());
     let samples = design.samples();
     let variance = w.iter().flatten().map(|w| w * w).sum::<f64>() / samples.max(1) as f64;
     Ok(Fit {
-        assembly,
+        augmented,
         grid,
         linear,
         nonlinear: Vec::new(),
@@ -58,6 +58,6 @@ pub(crate) fn scaled(campaign: &Campaign, model: &NominalModel) -> Result<Fit, D
         power: variance,
         samples,
         parameters: 0.0,
-        records: FitRecords::new(campaign, design),
+        records: FitRecords::new(dataset, design),
     })
 }

@@ -8,32 +8,32 @@ use crate::error::DiagnoseError;
 use crate::least_squares::dense_sums::DenseSums;
 use crate::least_squares::normal::Normal;
 use crate::likelihood::design::{Design, Linear, filtered_rows};
-use crate::likelihood::engine::{Fit, Ground, fit};
-use crate::model::assembly::Assembly;
+use crate::likelihood::engine::{Fit, FitContext, fit};
+use crate::model::augmented::AugmentedModel;
 use crate::nominal::knots::{first_grid, refine};
-use crate::records::campaign::{Campaign, Track};
+use crate::records::dataset::{Dataset, ScaledRecord};
 
 /// Identifies the nominal model of a given order and places the border knots.
-pub(crate) fn identify(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
-    Ok(refine(campaign, first_fit(campaign, order)?, &|_| Assembly::default()))
+pub(crate) fn identify(dataset: &Dataset, order: usize) -> Result<Fit, DiagnoseError> {
+    Ok(refine(dataset, first_fit(dataset, order)?, &|_| AugmentedModel::default()))
 }
 
 /// The nominal model of a given order on the first grid.
-pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, DiagnoseError> {
-    let grid = first_grid(campaign);
+pub(crate) fn first_fit(dataset: &Dataset, order: usize) -> Result<Fit, DiagnoseError> {
+    let grid = first_grid(dataset);
     let needed = 2 * (2 * order + grid.len());
-    if campaign.fit_samples() < needed {
+    if dataset.fit_samples() < needed {
         return Err(DiagnoseError::TooShort {
-            samples: campaign.fit_samples(),
+            samples: dataset.fit_samples(),
             order,
             knots: grid.len(),
             needed,
         });
     }
-    let design = Design::new(campaign, &grid, &Assembly::default(), Track::is_fit);
+    let design = Design::new(dataset, &grid, &AugmentedModel::default(), ScaledRecord::is_fit);
     let start = first_guess(&design, order)?;
-    let ground = Ground { campaign, grid: &grid, known: Some(&design) };
-    fit(ground, &|_| Assembly::default(), &[], &start, 12)
+    let context = FitContext { dataset, grid: &grid, known: Some(&design) };
+    fit(context, &|_| AugmentedModel::default(), &[], &start, 12)
         .ok_or_else(|| DiagnoseError::Singular { reason: "the regression has no finite solution".into() })
 }
 
@@ -43,30 +43,30 @@ pub(crate) fn first_fit(campaign: &Campaign, order: usize) -> Result<Fit, Diagno
 /// a constant shared among lags: their part of the rows of `g` is centred before the decomposition. (Bai, Automatica 1998.)
 pub(crate) fn first_guess(design: &Design, n: usize) -> Result<Linear, DiagnoseError> {
     design.pass_begins();
-    let assembly = &design.assembly;
+    let augmented = &design.augmented;
     let hats = design.grid.len();
-    let k = hats + assembly.border_columns.len();
-    let nb = n + assembly.extra_b;
+    let k = hats + augmented.border_columns.len();
+    let nb = n + augmented.extra_b;
     let columns = n + nb * k;
-    let size = columns + assembly.equation_columns.len();
+    let size = columns + augmented.equation_columns.len();
     let mut normal = Normal::new(size);
     // A recursive filter leaves few zeros in a row, and so does the memory of the errors.
-    let is_dense = !design.poles.is_empty() || !assembly.noise.ar.is_empty();
+    let is_dense = !design.poles.is_empty() || !augmented.noise.ar.is_empty();
     let mut sums = is_dense.then(|| DenseSums::new((0..size).collect()));
     let mut row = vec![0.0; size];
-    for track in &design.tracks {
-        let dense = (!design.poles.is_empty()).then(|| filtered_rows(design, track, k));
+    for scaled in &design.scaled_records {
+        let dense = (!design.poles.is_empty()).then(|| filtered_rows(design, scaled, k));
         // What the errors remember is taken from every term of the equation.
-        let mut whitened = Remembering::new(&assembly.noise.ar);
-        for t in track.from.saturating_sub(assembly.noise.ar.len()).max(n)..track.x.len() {
-            let may_count = |masked: &[bool]| !masked[t - track.from];
-            let counts = t >= track.from && track.mask.out.as_deref().is_none_or(may_count);
-            if !counts && assembly.noise.ar.is_empty() {
+        let mut whitened = Remembering::new(&augmented.noise.ar);
+        for t in scaled.from.saturating_sub(augmented.noise.ar.len()).max(n)..scaled.x.len() {
+            let may_count = |masked: &[bool]| !masked[t - scaled.from];
+            let counts = t >= scaled.from && scaled.mask.out.as_deref().is_none_or(may_count);
+            if !counts && augmented.noise.ar.is_empty() {
                 continue;
             }
             row.fill(0.0);
             for i in 0..n {
-                row[i] = -track.x[t - i - 1];
+                row[i] = -scaled.x[t - i - 1];
             }
             for i in 0..nb {
                 let block = &mut row[n + i * k..n + (i + 1) * k];
@@ -79,17 +79,17 @@ pub(crate) fn first_guess(design: &Design, n: usize) -> Result<Linear, DiagnoseE
                             }
                         }
                         None => {
-                            for &(j, x) in track.rows.row(past) {
+                            for &(j, x) in scaled.rows.row(past) {
                                 block[j as usize] += tap * x;
                             }
                         }
                     }
                 }
             }
-            for (&j, psi) in track.columns.numbers.iter().zip(track.columns.row(t)) {
+            for (&j, psi) in scaled.columns.numbers.iter().zip(scaled.columns.row(t)) {
                 row[columns + j] = *psi;
             }
-            let (row, x) = whitened.next(&row, track.x[t]);
+            let (row, x) = whitened.next(&row, scaled.x[t]);
             match &mut sums {
                 Some(sums) if counts => sums.push(row, std::iter::empty(), x),
                 None if counts => normal.add(row, x),
@@ -166,19 +166,19 @@ impl<'a> Remembering<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::assembly::{BorderColumn, EquationColumn, Resting};
-    use crate::testing::{noise_free, small_campaign};
+    use crate::model::augmented::{BorderColumn, EquationColumn, Resting};
+    use crate::testing::{noise_free, small_dataset};
 
     #[test]
     fn a_column_that_rules_the_input_is_found_with_the_dynamics() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let speed = BorderColumn::Speed { power: 1.0, scale: 0.01, while_resting: Resting::Zero };
-        let assembly = Assembly { border_columns: vec![speed], ..Assembly::default() };
+        let augmented = AugmentedModel { border_columns: vec![speed], ..AugmentedModel::default() };
         let mut truth = Linear { a: vec![-0.9, 0.3], b: vec![0.8, 0.6], f: Vec::new(), d: Vec::new() };
         // Centred, as the guess is.
         truth.f = vec![-0.3, 0.0, 0.3, -0.2, -0.1, 0.1, 0.2, 2.0];
-        let campaign = noise_free(campaign, &grid, &assembly, &truth);
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let dataset = noise_free(dataset, &grid, &augmented, &truth);
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let guess = first_guess(&design, 2).expect("a guess");
         for (guess, a) in guess.a.iter().zip(&truth.a) {
             assert!((guess - a).abs() < 1e-4, "{:?}", guess);
@@ -210,17 +210,17 @@ mod tests {
 
     #[test]
     fn a_slow_lag_is_found_with_what_it_began_with() {
-        let (campaign, grid) = small_campaign();
-        let mut assembly = Assembly::default();
-        assembly.filter(&[0.06], &[1.0, -0.94]);
-        let decay = EquationColumn::Decay { track: 0, radius: 0.94, frequency: 0.0, sine: false };
-        assembly.equation_columns.push(decay);
+        let (dataset, grid) = small_dataset();
+        let mut augmented = AugmentedModel::default();
+        augmented.filter(&[0.06], &[1.0, -0.94]);
+        let decay = EquationColumn::Decay { scaled: 0, radius: 0.94, frequency: 0.0, sine: false };
+        augmented.equation_columns.push(decay);
         let mut truth = Linear { a: vec![-0.9, 0.3], b: vec![0.8, 0.6], f: Vec::new(), d: vec![0.5] };
         truth.f = vec![-0.3, 0.0, 0.3, -0.2, -0.1, 0.1, 0.2];
-        let campaign = noise_free(campaign, &grid, &assembly, &truth);
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let dataset = noise_free(dataset, &grid, &augmented, &truth);
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let guess = first_guess(&design, 2).expect("a guess");
-        // Hats behind a lag are hardly told apart: the damping of the solution shows in the third figure.
+        // Hats behind a lag are hardly distinguished: the damping of the solution shows in the third figure.
         for (found, a) in guess.a.iter().zip(&truth.a) {
             assert!((found - a).abs() < 5e-3, "{guess:?}");
         }

@@ -4,13 +4,13 @@ use switchback_model::rig::Rig;
 
 use crate::error::DiagnoseError;
 use crate::likelihood::design::Design;
-use crate::likelihood::engine::{Fit, Ground, fit};
+use crate::likelihood::engine::{Fit, FitContext, fit};
 use crate::likelihood::weights::weigh;
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 use crate::model::stability::settles;
 use crate::nominal::identify::{first_fit, identify};
 use crate::nominal::knots::{first_grid, refine};
-use crate::records::campaign::{Campaign, Criterion, Track};
+use crate::records::dataset::{Criterion, Dataset, ScaledRecord};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
 use crate::residuals::spectrum::{independent_share, mean_square, unpredictable_variance};
@@ -23,12 +23,12 @@ use crate::workers::Workers;
 #[derive(Debug)]
 pub(crate) struct Chosen {
     /// The records with the lead and the criterion chosen.
-    pub(crate) campaign: Campaign,
+    pub(crate) dataset: Dataset,
     pub(crate) fit: Fit,
     /// What was chosen or declared.
     pub(crate) structure: Structure,
     /// What was chosen, in words, where the rig does not declare it.
-    pub(crate) told: Option<String>,
+    pub(crate) reported: Option<String>,
 }
 
 /// What the fit records leave to choose from.
@@ -54,7 +54,7 @@ impl Choice {
 #[derive(Debug)]
 pub(crate) struct Simulator {
     /// The records as they are.
-    campaign: Campaign,
+    dataset: Dataset,
     structure: Structure,
     /// On the first grid.
     first: Fit,
@@ -74,7 +74,7 @@ const AS_GOOD: f64 = 1.03;
 const EFFICIENT: f64 = 0.8;
 /// A simulation error up to this many times the variance between repeated periods is noise for the most part.
 const NOISE: f64 = 2.0;
-/// Share of the innovations' variance foretold by their past, from which the equation error is not white for any use.
+/// Share of the innovations' variance predicted by their past, from which the equation error is not white for any use.
 const COLOURED: f64 = 0.1;
 /// Rounds of fitting as a simulator while structures are compared.
 const ROUNDS: usize = 10;
@@ -90,7 +90,7 @@ pub(crate) struct Structure {
 
 impl Structure {
     /// In words.
-    fn told(&self) -> String {
+    fn reported(&self) -> String {
         let lead = match self.lead {
             0 => String::new(),
             1 => " and an output that follows the input within its sample".to_owned(),
@@ -113,8 +113,8 @@ impl Structure {
     }
 
     /// The records as this structure sees them.
-    pub(crate) fn applied(&self, campaign: &Campaign) -> Campaign {
-        campaign.with_branches_from(self.begins).led_by(self.lead).counted_for(self.order)
+    pub(crate) fn applied(&self, dataset: &Dataset) -> Dataset {
+        dataset.with_branches_from(self.begins).led_by(self.lead).counted_for(self.order)
     }
 }
 
@@ -148,18 +148,18 @@ pub(crate) fn declared(rig: &Rig, model: &Model) -> Result<Option<usize>, Diagno
 /// The structure of the nominal model: of the order declared, else chosen.
 pub(crate) fn structure(
     workers: &impl Workers,
-    campaign: Campaign,
+    dataset: Dataset,
     declared: Option<usize>,
     settings: &Settings,
 ) -> Result<Choice, DiagnoseError> {
     match declared {
         Some(n) => {
-            let campaign = campaign.counted_for(n);
-            let fit = identify(&campaign, n.max(1))?;
+            let dataset = dataset.counted_for(n);
+            let fit = identify(&dataset, n.max(1))?;
             let structure = Structure::of_order(n);
-            Ok(Choice::One(Chosen { campaign, fit, structure, told: None }))
+            Ok(Choice::One(Chosen { dataset, fit, structure, reported: None }))
         }
-        None => choose(workers, &campaign, settings),
+        None => choose(workers, &dataset, settings),
     }
 }
 
@@ -168,8 +168,8 @@ pub(crate) fn structure(
 /// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
 /// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
 /// says.
-fn choose(workers: &impl Workers, campaign: &Campaign, settings: &Settings) -> Result<Choice, DiagnoseError> {
-    let attempts = workers.map(&structures(campaign, settings), |s| attempt(campaign, *s));
+fn choose(workers: &impl Workers, dataset: &Dataset, settings: &Settings) -> Result<Choice, DiagnoseError> {
+    let attempts = workers.map(&structures(dataset, settings), |s| attempt(dataset, *s));
     let mut tried = Vec::new();
     let mut failure = None;
     for attempt in attempts {
@@ -182,13 +182,13 @@ fn choose(workers: &impl Workers, campaign: &Campaign, settings: &Settings) -> R
         return Err(failure.unwrap_or_else(unstable));
     }
     let steps =
-        simplest(&tried, |t| t.one_step).map(|found| one_step(campaign, found.structure)).transpose()?;
+        simplest(&tried, |t| t.one_step).map(|found| one_step(dataset, found.structure)).transpose()?;
     let runs = simplest(&tried, Tried::simulated).and_then(|t| {
         let first = t.simulator.clone()?;
-        Some(Simulator { campaign: campaign.clone(), structure: t.structure, first })
+        Some(Simulator { dataset: dataset.clone(), structure: t.structure, first })
     });
     match (steps, runs) {
-        (Some(steps), Some(runs)) if !runs.is_needless_beside(&steps.campaign, &steps.fit) => {
+        (Some(steps), Some(runs)) if !runs.is_needless_beside(&steps.dataset, &steps.fit) => {
             Ok(Choice::Either(steps, Box::new(runs)))
         }
         (Some(steps), _) => Ok(Choice::One(steps)),
@@ -201,14 +201,14 @@ fn choose(workers: &impl Workers, campaign: &Campaign, settings: &Settings) -> R
 /// records hold.
 pub(crate) fn best_simulator(
     workers: &impl Workers,
-    campaign: &Campaign,
+    dataset: &Dataset,
     settings: &Settings,
 ) -> Option<Chosen> {
-    match choose(workers, campaign, settings).ok()? {
+    match choose(workers, dataset, settings).ok()? {
         Choice::One(chosen) => Some(chosen),
         Choice::Either(steps, simulator) => {
             let error = if settles(&steps.fit.linear.a) {
-                simulation_error(&steps.campaign, &steps.fit)
+                simulation_error(&steps.dataset, &steps.fit)
             } else {
                 f64::INFINITY
             };
@@ -222,63 +222,63 @@ pub(crate) fn best_simulator(
 /// # Errors
 /// [`DiagnoseError`] where no such model fits the records.
 pub(crate) fn of_structure(
-    campaign: &Campaign,
+    dataset: &Dataset,
     structure: Structure,
     simulates: bool,
 ) -> Result<Chosen, DiagnoseError> {
     if !simulates {
-        return one_step(campaign, structure);
+        return one_step(dataset, structure);
     }
-    let first = attempt(campaign, structure)?.simulator.ok_or_else(unstable)?;
-    Ok(Simulator { campaign: campaign.clone(), structure, first }.chosen())
+    let first = attempt(dataset, structure)?.simulator.ok_or_else(unstable)?;
+    Ok(Simulator { dataset: dataset.clone(), structure, first }.chosen())
 }
 
 /// The structure identified one step ahead.
-fn one_step(campaign: &Campaign, structure: Structure) -> Result<Chosen, DiagnoseError> {
-    let campaign = structure.applied(campaign);
-    let fit = identify(&campaign, structure.order)?;
-    let told = Some(format!("{} was chosen from the fit records", structure.told()));
-    Ok(Chosen { campaign, fit, structure, told })
+fn one_step(dataset: &Dataset, structure: Structure) -> Result<Chosen, DiagnoseError> {
+    let dataset = structure.applied(dataset);
+    let fit = identify(&dataset, structure.order)?;
+    let reported = Some(format!("{} was chosen from the fit records", structure.reported()));
+    Ok(Chosen { dataset, fit, structure, reported })
 }
 
 impl Simulator {
     /// The structure with its borders' knots placed, compared as a simulator from here on.
     pub(crate) fn chosen(&self) -> Chosen {
-        let led = self.structure.applied(&self.campaign);
+        let led = self.structure.applied(&self.dataset);
         let share = independent_share(&innovations(&led.judged_by(SIMULATION), &self.first, |t| t.is_fit()));
-        let campaign = led.judged_by(Criterion::Simulation { share });
+        let dataset = led.judged_by(Criterion::Simulation { share });
         let mut fit = self.first.clone();
         fit.deviance *= share;
-        let fit = refine(&campaign, fit, &|_| Assembly::default());
-        let told = format!(
+        let fit = refine(&dataset, fit, &|_| AugmentedModel::default());
+        let reported = format!(
             "{} was chosen from the fit records; the equation error is far from white, so models are fitted and compared by \
              their free run",
-            self.structure.told()
+            self.structure.reported()
         );
-        Chosen { campaign, fit, structure: self.structure, told: Some(told) }
+        Chosen { dataset, fit, structure: self.structure, reported: Some(reported) }
     }
 
     /// Whether a fit one step ahead is all that the records ask for: what it misses in simulation is noise, or it is as
     /// good as the simulator's fit and its innovations are white.
-    pub(crate) fn is_needless_beside(&self, campaign: &Campaign, fit: &Fit) -> bool {
+    pub(crate) fn is_needless_beside(&self, dataset: &Dataset, fit: &Fit) -> bool {
         if !settles(&fit.linear.a) {
             return false;
         }
-        let error = simulation_error(campaign, fit);
-        let repeats = NoiseResponse::of(fit).repeat_variance(campaign, Track::is_fit);
+        let error = simulation_error(dataset, fit);
+        let repeats = NoiseResponse::of(fit).repeat_variance(dataset, ScaledRecord::is_fit);
         let noise = repeats.map_or(0.0, |(variance, _)| variance);
         let colour = 1.0 - white_share(fit);
         error < NOISE * noise || (colour < COLOURED && self.first.power > EFFICIENT * error)
     }
 }
 
-/// Share of the innovations' variance that their past does not foretell, each weighed as it was for the fit: what is hit by an
-/// outlier tells nothing about the colour of the rest.
+/// Share of the innovations' variance that their past does not predict, each weighed as it was for the fit: what is hit by an
+/// outlier shows nothing about the colour of the rest.
 fn white_share(fit: &Fit) -> f64 {
-    let (design, noise) = (&fit.design(), &fit.assembly.noise);
+    let (design, noise) = (&fit.design(), &fit.augmented.noise);
     let raw = design.innovations(&fit.linear, &design.whitener(noise, &fit.linear.a));
     let weights = weigh(design, noise, &fit.linear, &raw);
-    let weighed = weights.by_track(&raw);
+    let weighed = weights.by_scaled(&raw);
     unpredictable_variance(&weighed) / mean_square(&weighed).max(1e-300)
 }
 
@@ -290,9 +290,9 @@ fn unstable() -> DiagnoseError {
 }
 
 /// Every structure, simpler ones first.
-fn structures(campaign: &Campaign, settings: &Settings) -> Vec<Structure> {
+fn structures(dataset: &Dataset, settings: &Settings) -> Vec<Structure> {
     // Without a threshold a reversal is confirmed by the first move; in real time it is known no sooner.
-    let begins: &[Begins] = match campaign.rule.threshold > 0.0 && !settings.causal {
+    let begins: &[Begins] = match dataset.rule.threshold > 0.0 && !settings.causal {
         true => &[Begins::Confirmed, Begins::AtExtreme],
         false => &[Begins::Confirmed],
     };
@@ -313,8 +313,8 @@ fn simplest(tried: &[Tried], error: impl Fn(&Tried) -> f64) -> Option<&Tried> {
 }
 
 /// Fits one structure on the first grid, one step ahead and as a simulator.
-fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseError> {
-    let led = &structure.applied(campaign);
+fn attempt(dataset: &Dataset, structure: Structure) -> Result<Tried, DiagnoseError> {
+    let led = &structure.applied(dataset);
     let one_step = first_fit(led, structure.order)?;
     let simulates = led.judged_by(SIMULATION);
     let grid = first_grid(led);
@@ -323,8 +323,8 @@ fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseE
     while !settles(&start.a) {
         start.a.iter_mut().enumerate().for_each(|(i, a)| *a *= 0.99_f64.powi(i as i32 + 1));
     }
-    let ground = Ground { campaign: &simulates, grid: &grid, known: None };
-    let simulator = fit(ground, &|_| Assembly::default(), &[], &start, ROUNDS);
+    let context = FitContext { dataset: &simulates, grid: &grid, known: None };
+    let simulator = fit(context, &|_| AugmentedModel::default(), &[], &start, ROUNDS);
     // There are many structures: none is held.
     let nothing = Design::of_nothing(&simulates).into();
     let simulator = simulator.map(|fit| fit.set_aside(&nothing));
@@ -333,45 +333,45 @@ fn attempt(campaign: &Campaign, structure: Structure) -> Result<Tried, DiagnoseE
 }
 
 /// Mean square simulation error over the counted samples of the fit records.
-fn simulation_error(campaign: &Campaign, fit: &Fit) -> f64 {
+fn simulation_error(dataset: &Dataset, fit: &Fit) -> f64 {
     let mut sum = 0.0;
-    for (number, track) in campaign.tracks.iter().enumerate().filter(|(_, t)| t.is_fit()) {
-        let y = free_run(campaign, fit, number, track);
-        sum += y.iter().zip(&track.y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
+    for (number, scaled) in dataset.scaled_records.iter().enumerate().filter(|(_, t)| t.is_fit()) {
+        let y = free_run(dataset, fit, number, scaled);
+        sum += y.iter().zip(&scaled.y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
     }
-    sum / campaign.fit_samples().max(1) as f64
+    sum / dataset.fit_samples().max(1) as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{noise_free, small_campaign, small_model, white};
+    use crate::testing::{noise_free, small_dataset, small_model, white};
 
     /// The share of white innovations where the errors of the equation are coloured by `ar`, or hit here and there.
     fn share(ar: f64, is_hit: bool) -> f64 {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let truth = small_model(&grid);
-        let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &truth);
+        let mut dataset = noise_free(dataset, &grid, &AugmentedModel::default(), &truth);
         let (mut noise, mut error) = (white(), 0.0);
         let mut past = [0.0; 2];
-        for (t, y) in campaign.tracks[0].y.iter_mut().enumerate() {
+        for (t, y) in dataset.scaled_records[0].y.iter_mut().enumerate() {
             error = ar * error + 0.01 * noise();
             let hit = if is_hit && t % 37 < 2 { 1.0 } else { 0.0 };
             let now = error + hit - truth.a[0] * past[0] - truth.a[1] * past[1];
             past = [now, past[0]];
             *y += now;
         }
-        let mut assembly = Assembly::default();
-        assembly.noise.mixture = is_hit.then_some((0.05, 50.0));
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        white_share(&fit(ground, &|_| assembly.clone(), &[], &truth, 20).expect("a fit"))
+        let mut augmented = AugmentedModel::default();
+        augmented.noise.mixture = is_hit.then_some((0.05, 50.0));
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        white_share(&fit(context, &|_| augmented.clone(), &[], &truth, 20).expect("a fit"))
     }
 
     #[test]
     fn in_real_time_no_structure_looks_ahead() {
-        let (mut campaign, _) = small_campaign();
-        campaign.rule.threshold = 0.01;
-        let of = |causal| structures(&campaign, &Settings { causal, ..Settings::default() });
+        let (mut dataset, _) = small_dataset();
+        dataset.rule.threshold = 0.01;
+        let of = |causal| structures(&dataset, &Settings { causal, ..Settings::default() });
         let looks_ahead = |s: &Structure| s.lead > 1 || s.begins == Begins::AtExtreme;
         assert!(of(false).iter().any(looks_ahead));
         assert!(!of(true).is_empty() && !of(true).iter().any(looks_ahead));

@@ -221,7 +221,7 @@ mod tests {
         let known = |v: &[f64]| settled(v, play, ReversalRule::default());
         // Rising by less than the play, then by more: what stood below was taken along from the first move on.
         assert_eq!(known(&[0.5, 0.55, 0.65, 0.75, 0.8]), 3);
-        // Turning within the play tells nothing new.
+        // Turning within the play shows nothing new.
         assert_eq!(known(&[0.5, 0.55, 0.5, 0.45, 0.5]), 5);
         assert_eq!(settled(&[0.5, 0.55, 0.5], Play::default(), ReversalRule::default()), 0);
         assert_eq!(known(&[]), 0);

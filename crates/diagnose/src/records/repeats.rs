@@ -8,7 +8,7 @@
 //! Errors of different groups share nothing but what repeats, so that the product is unbiased whatever the colour of the
 //! noise, as long as it forgets within a group.
 
-use crate::records::campaign::Track;
+use crate::records::dataset::ScaledRecord;
 
 /// Groups of periods at most.
 const GROUPS: usize = 6;
@@ -22,9 +22,9 @@ pub(crate) struct Repeating {
 
 impl Repeating {
     /// Adds the simulation error of one record; records with fewer than four whole periods say nothing.
-    pub(crate) fn add(&mut self, track: &Track, error: &[f64]) {
-        let Some(period) = track.period else { return };
-        let start = (track.from + period).min(error.len());
+    pub(crate) fn add(&mut self, scaled: &ScaledRecord, error: &[f64]) {
+        let Some(period) = scaled.period else { return };
+        let start = (scaled.from + period).min(error.len());
         let periods = (error.len() - start) / period;
         let groups = (periods / 2).min(GROUPS);
         if groups < 2 {
@@ -70,8 +70,8 @@ mod tests {
 
     use super::*;
 
-    fn track(period: usize, length: usize) -> Track {
-        Track {
+    fn scaled(period: usize, length: usize) -> ScaledRecord {
+        ScaledRecord {
             name: "drive".into(),
             role: Role::Free,
             usage: Usage::Fit,
@@ -99,7 +99,7 @@ mod tests {
             .collect();
         let of = |error: &[f64]| {
             let mut sums = Repeating::default();
-            sums.add(&track(40, error.len()), error);
+            sums.add(&scaled(40, error.len()), error);
             sums.share().unwrap()
         };
         assert!(of(&noise).abs() < 0.05, "{}", of(&noise));
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn a_record_that_does_not_repeat_says_nothing() {
         let mut sums = Repeating::default();
-        sums.add(&track(40, 90), &[1.0; 90]);
+        sums.add(&scaled(40, 90), &[1.0; 90]);
         assert!(sums.share().is_none());
     }
 }

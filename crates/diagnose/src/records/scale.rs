@@ -89,8 +89,10 @@ fn centre(mut values: Vec<f64>) -> Option<(f64, f64)> {
     let count = values.len();
     let mut at = |k: usize| *values.select_nth_unstable_by(k.min(count - 1), f64::total_cmp).1;
     let median = at(count / 2);
-    let parts = std::iter::successors(Some(4), |parts| Some(2 * parts)).take_while(|&parts| parts <= count);
-    let widths = parts.map(|parts| at(count - 1 - count / parts) - at(count / parts));
+    let effect_terms = std::iter::successors(Some(4), |effect_terms| Some(2 * effect_terms))
+        .take_while(|&effect_terms| effect_terms <= count);
+    let widths =
+        effect_terms.map(|effect_terms| at(count - 1 - count / effect_terms) - at(count / effect_terms));
     widths.into_iter().find(|width| *width > 0.0).map(|width| (median, width))
 }
 

@@ -8,14 +8,14 @@
 //! z = (visits that saw one − Σ e)/√(Σ e·(1 − e))
 //! ```
 
-use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::design::{Design, DesignScaled};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
-use crate::records::campaign::{Campaign, Track};
+use crate::records::dataset::{Dataset, ScaledRecord};
 use crate::records::motion::Motion;
 
 /// Equal parts of the stroke on each border.
-const PARTS: usize = 16;
+const EFFECT_TERMS: usize = 16;
 /// Visits that a cell needs to be judged; the share of them that see an outlier, or how many times as many see one as by chance; and
 /// the distance from chance.
 const VISITS: usize = 6;
@@ -61,28 +61,28 @@ struct Seen {
 }
 
 /// Whether many of the outliers of a fitted mixture come back where the input does; never without a mixture.
-pub(crate) fn come_where_the_input_is(campaign: &Campaign, fit: &Fit) -> bool {
-    if fit.assembly.noise.mixture.is_none() {
+pub(crate) fn come_where_the_input_is(dataset: &Dataset, fit: &Fit) -> bool {
+    if fit.augmented.noise.mixture.is_none() {
         return false;
     }
     let design = fit.design();
     let Some(outliers) = outliers(&design, fit) else { return false };
     let seen = |cell: fn(&Motion, f64) -> usize| {
-        let of_track = |((known, track), outliers): ((&DesignTrack, &Track), &Vec<bool>)| {
+        let of_scaled = |((known, scaled), outliers): ((&DesignScaled, &ScaledRecord), &Vec<bool>)| {
             // What is counted first answers the input one sample before.
-            let before = track.from - 1..track.v.len() - 1;
-            let cells = before.map(|t| cell(&known.moves[t], track.v[t])).collect();
+            let before = scaled.from - 1..scaled.v.len() - 1;
+            let cells = before.map(|t| cell(&known.moves[t], scaled.v[t])).collect();
             Seen { cells, outliers: outliers.clone() }
         };
-        design.tracks.iter().zip(campaign.fit()).zip(&outliers).map(of_track).collect::<Vec<Seen>>()
+        design.scaled_records.iter().zip(dataset.fit()).zip(&outliers).map(of_scaled).collect::<Vec<Seen>>()
     };
     are_bound(&seen(at_place)) || are_bound(&seen(after_reversal)) || are_bound(&seen(travelled))
 }
 
 /// A part of the stroke on one of the borders.
 fn at_place(m: &Motion, v: f64) -> usize {
-    let part = ((v.clamp(0.0, 1.0) * PARTS as f64) as usize).min(PARTS - 1);
-    if m.branch > 0.0 { PARTS + part } else { part }
+    let effect_term = ((v.clamp(0.0, 1.0) * EFFECT_TERMS as f64) as usize).min(EFFECT_TERMS - 1);
+    if m.branch > 0.0 { EFFECT_TERMS + effect_term } else { effect_term }
 }
 
 /// One sample, two, four, … after a reversal.
@@ -97,7 +97,7 @@ fn travelled(m: &Motion, _: f64) -> usize {
 
 /// The counted samples that belong rather to the wide part of the mixture.
 fn outliers(design: &Design, fit: &Fit) -> Option<Vec<Vec<bool>>> {
-    let noise = &fit.assembly.noise;
+    let noise = &fit.augmented.noise;
     let (_, ratio) = noise.mixture?;
     let innovations = design.innovations(&fit.linear, &design.whitener(noise, &fit.linear.a));
     let scale = weigh(design, noise, &fit.linear, &innovations).scale?;

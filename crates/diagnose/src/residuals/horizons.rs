@@ -39,7 +39,8 @@ impl Reference {
         let settling = fit.linear.settling();
         let halfway = (settling as f64).sqrt().round() as usize;
         let errors = Errors::of(fit);
-        let longest = errors.design.tracks.iter().map(|t| t.x.len() - t.from).max().unwrap_or_default();
+        let longest =
+            errors.design.scaled_records.iter().map(|t| t.x.len() - t.from).max().unwrap_or_default();
         let between = [halfway, settling].into_iter().filter(|h| (2..longest).contains(h));
         let all = [Horizon::Step].into_iter().chain(between.map(Horizon::Samples)).chain([Horizon::FreeRun]);
         Self { horizons: all.map(|horizon| (horizon, errors.at(horizon))).collect(), memory: settling }
@@ -100,7 +101,7 @@ struct Errors<'a> {
 impl<'a> Errors<'a> {
     fn of(fit: &'a Fit) -> Self {
         let design = fit.design();
-        let lead = design.tracks.iter().map(|t| t.from.min(LEAD)).collect();
+        let lead = design.scaled_records.iter().map(|t| t.from.min(LEAD)).collect();
         Self { fit, equation: design.all_errors(&fit.linear), lead, design }
     }
 
@@ -111,11 +112,11 @@ impl<'a> Errors<'a> {
             Horizon::Samples(h) => self.begun_every(h.max(1)),
             Horizon::FreeRun => self.begun_every(usize::MAX),
         };
-        let assembly = &self.fit.assembly;
-        if !assembly.curve.is_straight() || assembly.saturation.is_some() {
-            let read = |x: f64| sensed(assembly, x);
-            for (errors, track) in errors.iter_mut().zip(&self.design.tracks) {
-                let measured = &track.x[track.from..];
+        let augmented = &self.fit.augmented;
+        if !augmented.curve.is_straight() || augmented.saturation.is_some() {
+            let read = |x: f64| sensed(augmented, x);
+            for (errors, scaled) in errors.iter_mut().zip(&self.design.scaled_records) {
+                let measured = &scaled.x[scaled.from..];
                 errors.iter_mut().zip(measured).for_each(|(e, x)| *e = read(*x) - read(x - *e));
             }
         }
@@ -155,32 +156,32 @@ impl<'a> Errors<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
-    use crate::model::assembly::Assembly;
+    use crate::likelihood::engine::{FitContext, fit};
+    use crate::model::augmented::AugmentedModel;
     use crate::model::linear::Linear;
-    use crate::records::campaign::Campaign;
-    use crate::testing::{noise_free, small_campaign, small_model, white};
+    use crate::records::dataset::Dataset;
+    use crate::testing::{noise_free, small_dataset, small_model, white};
 
-    /// A campaign whose equation errors have the autoregression `1 + d q⁻¹`, a fit of it, and the truth.
-    fn measured(d: f64) -> (Campaign, Fit) {
-        let (campaign, grid) = small_campaign();
+    /// A dataset whose equation errors have the autoregression `1 + d q⁻¹`, a fit of it, and the truth.
+    fn measured(d: f64) -> (Dataset, Fit) {
+        let (dataset, grid) = small_dataset();
         let truth = small_model(&grid);
-        let mut campaign = noise_free(campaign, &grid, &Assembly::default(), &truth);
+        let mut dataset = noise_free(dataset, &grid, &AugmentedModel::default(), &truth);
         let mut noise = white();
-        for track in &mut campaign.tracks {
+        for scaled in &mut dataset.scaled_records {
             let (mut error, mut past) = (0.0, [0.0; 2]);
-            for y in &mut track.y {
+            for y in &mut scaled.y {
                 error = 0.02 * noise() - d * error;
                 let now = error - truth.a[0] * past[0] - truth.a[1] * past[1];
                 past = [now, past[0]];
                 *y += now;
             }
         }
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        let mut assembly = Assembly::default();
-        assembly.noise.ar = vec![d];
-        let fit = fit(ground, &|_| assembly.clone(), &[], &truth, 20).expect("a fit");
-        (campaign, fit)
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        let mut augmented = AugmentedModel::default();
+        augmented.noise.ar = vec![d];
+        let fit = fit(context, &|_| augmented.clone(), &[], &truth, 20).expect("a fit");
+        (dataset, fit)
     }
 
     /// The oracle: every segment simulated from the measured outputs before it.
@@ -192,15 +193,15 @@ mod tests {
         for h in [1, 7, usize::MAX] {
             let found = errors.at(Horizon::Samples(h)).errors;
             let design = fit.design();
-            for (track, found) in design.tracks.iter().zip(found) {
-                let u = design.input(track, f);
-                let mut run = track.x.to_vec();
-                for t in track.from..track.x.len() {
-                    let begun = track.from + (t - track.from) / h * h;
-                    let past = |lag: usize| if t - lag < begun { track.x[t - lag] } else { run[t - lag] };
+            for (scaled, found) in design.scaled_records.iter().zip(found) {
+                let u = design.input(scaled, f);
+                let mut run = scaled.x.to_vec();
+                for t in scaled.from..scaled.x.len() {
+                    let begun = scaled.from + (t - scaled.from) / h * h;
+                    let past = |lag: usize| if t - lag < begun { scaled.x[t - lag] } else { run[t - lag] };
                     let a: f64 = a.iter().enumerate().map(|(i, a)| a * past(i + 1)).sum();
                     run[t] = b.iter().enumerate().map(|(j, b)| b * u[t - j - 1]).sum::<f64>() - a;
-                    assert!((track.x[t] - run[t] - found[t - track.from]).abs() < 1e-9, "{h} {t}");
+                    assert!((scaled.x[t] - run[t] - found[t - scaled.from]).abs() < 1e-9, "{h} {t}");
                 }
             }
         }
@@ -212,7 +213,7 @@ mod tests {
         let gains = |fit: &Fit| Reference::of(fit).gains(&good);
         // Knowing the colour: the other one is given it.
         let mut white = good.clone();
-        white.assembly.noise.ar.clear();
+        white.augmented.noise.ar.clear();
         for gain in gains(&white) {
             assert!(gain.share.abs() < 1e-9 && gain.certainty.abs() < 1e-9, "{gain:?}");
         }

@@ -1,7 +1,7 @@
 //! The size of the noise: does it depend on circumstances, or come and go?
 
 use crate::least_squares::normal::Normal;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::residuals::spectrum::{LAGS, autocorrelation, portmanteau};
 
 /// Squares of the counted innovations about their mean, cut at nine variances so that a few outliers do not decide.
@@ -22,7 +22,7 @@ impl Sizes {
         let mean = counted().map(|w| size(*w)).sum::<f64>() / count;
         let spread = counted().map(|w| (size(*w) - mean).powi(2)).sum::<f64>() / count;
         let about = |w: &f64| if *w == 0.0 { 0.0 } else { size(*w) - mean };
-        let about_mean = innovations.iter().map(|track| track.iter().map(about).collect()).collect();
+        let about_mean = innovations.iter().map(|scaled| scaled.iter().map(about).collect()).collect();
         Self { about_mean, count, spread }
     }
 
@@ -32,7 +32,7 @@ impl Sizes {
         portmanteau(&self.about_mean, LAGS, self.count)
     }
 
-    /// As many samples tell as much as one: `1 + 2·Σ r`.
+    /// As many samples show as much as one: `1 + 2·Σ r`.
     fn correlation_time(&self) -> f64 {
         let r = autocorrelation(&self.about_mean, LAGS);
         1.0 + 2.0 * r[1..].iter().map(|r| r.max(0.0)).sum::<f64>()
@@ -40,17 +40,17 @@ impl Sizes {
 }
 
 /// Chi-square of a regression of the innovations' size on circumstances.
-fn scatter(campaign: &Campaign, innovations: &[Vec<f64>], sizes: &Sizes) -> (f64, usize) {
+fn scatter(dataset: &Dataset, innovations: &[Vec<f64>], sizes: &Sizes) -> (f64, usize) {
     const COLUMNS: usize = 7;
     let mut normal = Normal::new(COLUMNS);
-    for ((track, w), size) in campaign.fit().zip(innovations).zip(&sizes.about_mean) {
+    for ((scaled, w), size) in dataset.fit().zip(innovations).zip(&sizes.about_mean) {
         for (k, _) in w.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            let t = track.from + k;
-            let step = (track.v[t - 1] - track.v[t - 2]).abs();
-            let y = track.y[t - 1];
+            let t = scaled.from + k;
+            let step = (scaled.v[t - 1] - scaled.v[t - 2]).abs();
+            let y = scaled.y[t - 1];
             let moved = f64::from(u8::from(step > 0.0));
-            let time = (track.clock + t) as f64 / campaign.total as f64;
-            let pulsed = f64::from(u8::from(track.is_pulsed()));
+            let time = (scaled.clock + t) as f64 / dataset.total as f64;
+            let pulsed = f64::from(u8::from(scaled.is_pulsed()));
             normal.add(&[1.0, y * y, y.abs(), moved, step, time, pulsed], size[k]);
         }
     }
@@ -63,24 +63,24 @@ fn scatter(campaign: &Campaign, innovations: &[Vec<f64>], sizes: &Sizes) -> (f64
 }
 
 /// Whether noise has the same size everywhere.
-pub(crate) struct Evenness {
+pub(crate) struct Homoscedasticity {
     /// Chi-square of its size against circumstances, and its degrees of freedom.
     pub(crate) scatter: (f64, usize),
     /// McLeod–Li statistic.
     pub(crate) bursts: f64,
 }
 
-impl Evenness {
+impl Homoscedasticity {
     /// Of noise that is to have one size.
-    pub(crate) fn of_all(campaign: &Campaign, innovations: &[Vec<f64>]) -> Self {
+    pub(crate) fn of_all(dataset: &Dataset, innovations: &[Vec<f64>]) -> Self {
         let sizes = Sizes::of(innovations);
-        Self { scatter: scatter(campaign, innovations, &sizes), bursts: sizes.mc_leod_li() }
+        Self { scatter: scatter(dataset, innovations, &sizes), bursts: sizes.mc_leod_li() }
     }
 
     /// Of noise with rare large errors: these may come in bursts, but not where the input does something.
-    pub(crate) fn of_rare(campaign: &Campaign, innovations: &[Vec<f64>]) -> Self {
+    pub(crate) fn of_rare(dataset: &Dataset, innovations: &[Vec<f64>]) -> Self {
         let sizes = Sizes::of(innovations);
-        let (gain, dof) = scatter(campaign, innovations, &sizes);
+        let (gain, dof) = scatter(dataset, innovations, &sizes);
         Self { scatter: (gain / sizes.correlation_time(), dof), bursts: 0.0 }
     }
 }
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_of_a_burst_tell_as_much_as_one() {
+    fn samples_of_a_burst_describe_as_much_as_one() {
         assert!(Sizes::of(&noise(1, false)).correlation_time() < 1.5);
         assert!(Sizes::of(&noise(1, true)).correlation_time() > 5.0);
     }

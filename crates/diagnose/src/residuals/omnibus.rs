@@ -6,9 +6,9 @@ use crate::likelihood::engine::Fit;
 use crate::likelihood::gains::Tested;
 use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::mixture;
-use crate::model::assembly::convolve;
-use crate::records::campaign::Campaign;
-use crate::residuals::noise_size::{Evenness, unweighted};
+use crate::model::augmented::convolve;
+use crate::records::dataset::Dataset;
+use crate::residuals::noise_size::{Homoscedasticity, unweighted};
 use crate::residuals::quantisation_grid::{is_material, quantisation_step, worth};
 use crate::residuals::spectrum::LAGS;
 use crate::residuals::spectrum::portmanteau;
@@ -84,7 +84,7 @@ impl Omnibus {
         self.unrounded * (regressors.max(period) + colour + size)
     }
 
-    /// Deviance that counts against the model as the whole explanation: what is left in general, tails too heavy to be chance and
+    /// Deviance that counts against the model as the whole candidate: what is left in general, tails too heavy to be chance and
     /// a quantisation grid that nothing in it makes.
     pub(crate) fn against(&self, samples: usize) -> f64 {
         let tails = if self.tails > TAILS * samples as f64 { self.tails } else { 0.0 };
@@ -109,30 +109,30 @@ impl Omnibus {
 }
 
 /// Runs the tests on the fit records.
-pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
-    let design = Design::like(Some(fit.near()), campaign, &fit.grid, &fit.assembly);
-    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
+pub(crate) fn omnibus(dataset: &Dataset, fit: &Fit) -> Option<Omnibus> {
+    let design = Design::like(Some(fit.near()), dataset, &fit.grid, &fit.augmented);
+    let whitener = design.whitener(&fit.augmented.noise, &fit.linear.a);
     let innovations = design.innovations(&fit.linear, &whitener);
-    let weights = crate::likelihood::weights::weigh(&design, &fit.assembly.noise, &fit.linear, &innovations);
+    let weights = crate::likelihood::weights::weigh(&design, &fit.augmented.noise, &fit.linear, &innovations);
     let share = design.criterion.share();
     let b = convolve(&fit.linear.b, &design.taps);
     let n = fit.linear.a.len();
     let mut names: Vec<Group> = Vec::new();
     let mut extra: Vec<Vec<Vec<f64>>> = Vec::new();
-    for (number, (track, part)) in campaign.fit().zip(&design.tracks).enumerate() {
-        let u = design.input(part, &fit.linear.f);
-        let raw = part.rows.times(&fit.linear.f);
-        let moves = &track.moves;
+    for (number, (scaled, effect_term)) in dataset.fit().zip(&design.scaled_records).enumerate() {
+        let u = design.input(effect_term, &fit.linear.f);
+        let raw = effect_term.rows.times(&fit.linear.f);
+        let moves = &scaled.moves;
         // A simulator is asked about what it simulates, not about the measured past.
-        let mut seen = part.x.to_vec();
+        let mut seen = effect_term.x.to_vec();
         if design.criterion.simulates() {
-            seen[part.from..].iter_mut().zip(&innovations[number]).for_each(|(x, w)| *x -= w);
+            seen[effect_term.from..].iter_mut().zip(&innovations[number]).for_each(|(x, w)| *x -= w);
         }
         let mut columns: Vec<(Group, Vec<f64>)> = Vec::new();
         // Columns beside u: they pass B.
-        let through = |g: Vec<f64>| whitener.column(&g, &b, part.from);
+        let through = |g: Vec<f64>| whitener.column(&g, &b, effect_term.from);
         // Columns of the equation.
-        let direct = |g: Vec<f64>| whitener.column(&g, &[-1.0], part.from);
+        let direct = |g: Vec<f64>| whitener.column(&g, &[-1.0], effect_term.from);
         let at = |x: &[f64], t: usize, lag: usize| x[t.saturating_sub(lag)];
         let range = 0..u.len();
         for lag in [n + 1, n + 2] {
@@ -166,7 +166,7 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
             };
             columns.push((Group::Reversal, through(moves.iter().map(fade).collect())));
         }
-        let clock = |t: usize| (track.clock + t) as f64 / campaign.total as f64 - 0.5;
+        let clock = |t: usize| (scaled.clock + t) as f64 / dataset.total as f64 - 0.5;
         let of_record = |t: usize| t as f64 / u.len() as f64 - 0.5;
         columns.push((Group::Time, direct(range.clone().map(clock).collect())));
         columns.push((Group::Time, direct(range.clone().map(of_record).collect())));
@@ -195,23 +195,23 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         let members: Vec<usize> = (0..names.len()).filter(|&j| names[j] == group).collect();
         groups.push((group, tested.gain(&members), members.len()));
     }
-    let scaled = weights.by_track(&innovations);
+    let scaled = weights.by_scaled(&innovations);
     // Samples without weight say nothing.
     let count = scaled.iter().flatten().filter(|w| **w != 0.0).count().max(1);
     // Errors of a simulation are coloured whatever the noise is.
     let white = f64::from(u8::from(!design.criterion.simulates()));
     let ljung_box = white * portmanteau(&scaled, LAGS, count as f64);
     let second = scaled.iter().flatten().map(|w| w * w).sum::<f64>() / count as f64 / share;
-    let size = match fit.assembly.noise.mixture {
-        None => Evenness::of_all(campaign, &scaled),
-        Some(_) => Evenness::of_rare(campaign, &unweighted(&scaled, &innovations)),
+    let size = match fit.augmented.noise.mixture {
+        None => Homoscedasticity::of_all(dataset, &scaled),
+        Some(_) => Homoscedasticity::of_rare(dataset, &unweighted(&scaled, &innovations)),
     };
     // Errors of a simulation are large where the model is wrong, which says nothing about noise.
     let scatter = (white * size.scatter.0, size.scatter.1);
     groups.push((Group::Scatter, scatter.0, scatter.1));
     let a_energy = 1.0 + fit.linear.a.iter().map(|a| a * a).sum::<f64>();
     let rounding =
-        fit.assembly.noise.quantisation.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
+        fit.augmented.noise.quantisation.map_or(0.0, |step| step * step / 12.0 * a_energy / fit.power);
     let unrounded = (1.0 - rounding / SUSPECT).clamp(0.0, 1.0);
     Some(Omnibus {
         groups,
@@ -220,15 +220,15 @@ pub(crate) fn omnibus(campaign: &Campaign, fit: &Fit) -> Option<Omnibus> {
         scatter,
         bursts: white * size.bursts,
         tails: beyond_rounding(tails(fit, &scaled) * white, unrounded, count),
-        rounding: unexplained_rounding(campaign, fit),
-        period: period_lack(campaign, &scaled, second),
+        rounding: unexplained_rounding(dataset, fit),
+        period: period_lack(dataset, &scaled, second),
         unrounded,
     })
 }
 
-fn unexplained_rounding(campaign: &Campaign, fit: &Fit) -> f64 {
-    let found = || quantisation_step(campaign).is_some_and(|step| is_material(step, fit));
-    if fit.assembly.noise.quantisation.is_none() && found() { worth(campaign.fit_samples()) } else { 0.0 }
+fn unexplained_rounding(dataset: &Dataset, fit: &Fit) -> f64 {
+    let found = || quantisation_step(dataset).is_some_and(|step| is_material(step, fit));
+    if fit.augmented.noise.quantisation.is_none() && found() { worth(dataset.fit_samples()) } else { 0.0 }
 }
 
 /// Heavy tails that rounding, which has no normal distribution, does not make.
@@ -238,23 +238,23 @@ fn beyond_rounding(tails: f64, unrounded: f64, count: usize) -> f64 {
 
 /// What heavy tails would gain: the heavier, the more a few large errors rule the variance.
 fn tails(fit: &Fit, innovations: &[Vec<f64>]) -> f64 {
-    if fit.assembly.noise.mixture.is_some() {
+    if fit.augmented.noise.mixture.is_some() {
         return 0.0;
     }
     let counted: Vec<f64> = innovations.iter().flatten().copied().filter(|w| *w != 0.0).collect();
     let n = counted.len().max(1) as f64;
     let normal = n * (counted.iter().map(|w| w * w).sum::<f64>() / n).ln();
     let mixed =
-        mixture((0.01, 8.0), fit.assembly.noise.least_variance(), &[counted]).deviance.unwrap_or(normal);
+        mixture((0.01, 8.0), fit.augmented.noise.least_variance(), &[counted]).deviance.unwrap_or(normal);
     (normal - mixed).max(0.0)
 }
 
 /// Chi-square of the period means of the innovations.
-fn period_lack(campaign: &Campaign, innovations: &[Vec<f64>], variance: f64) -> (f64, usize) {
+fn period_lack(dataset: &Dataset, innovations: &[Vec<f64>], variance: f64) -> (f64, usize) {
     let (mut sum, mut dof) = (0.0, 0);
-    for (track, w) in campaign.fit().zip(innovations) {
-        let Some(period) = track.period else { continue };
-        let start = period.saturating_sub(track.from);
+    for (scaled, w) in dataset.fit().zip(innovations) {
+        let Some(period) = scaled.period else { continue };
+        let start = period.saturating_sub(scaled.from);
         if w.len() < start + 8 * period {
             continue;
         }

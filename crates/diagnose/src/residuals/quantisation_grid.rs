@@ -1,7 +1,7 @@
 //! Values on a quantisation grid: a sensor that rounds shows it whatever else is the matter.
 
 use crate::likelihood::engine::Fit;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// Deviance a sample that a quantisation grid is worth. Chance leaves none, so it could be any number: large enough that no curve through the
 /// few values there are competes.
@@ -10,8 +10,8 @@ const WORTH: f64 = 0.6;
 const MATERIAL: f64 = 0.05;
 
 /// The step of the quantisation grid that all outputs of the fit records lie on.
-pub(crate) fn quantisation_step(campaign: &Campaign) -> Option<f64> {
-    let mut values: Vec<f64> = campaign.fit().flat_map(|t| t.y.iter().copied()).collect();
+pub(crate) fn quantisation_step(dataset: &Dataset) -> Option<f64> {
+    let mut values: Vec<f64> = dataset.fit().flat_map(|t| t.y.iter().copied()).collect();
     let count = values.len();
     values.sort_by(f64::total_cmp);
     values.dedup_by(|a, b| (*a - *b).abs() < 1e-9);

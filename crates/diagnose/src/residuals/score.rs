@@ -6,21 +6,25 @@ use std::ops::Range;
 use crate::diagnosis::ResidualPicture;
 use crate::least_squares::normal::Normal;
 use crate::least_squares::sums::energy;
-use crate::likelihood::design::{Design, DesignTrack, Whitener};
+use crate::likelihood::design::{Design, DesignScaled, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
-use crate::records::campaign::{Campaign, Track};
-use crate::simulation::beginnings::{with_beginnings, with_drift_paths};
+use crate::records::dataset::{Dataset, ScaledRecord};
+use crate::simulation::initial_conditions::{with_drift_paths, with_initial_conditions};
 
-/// Innovations of a fitted model on the chosen tracks.
-pub(crate) fn innovations(campaign: &Campaign, fit: &Fit, chosen: impl Fn(&Track) -> bool) -> Vec<Vec<f64>> {
-    let design = Design::new(campaign, &fit.grid, &fit.assembly, chosen);
-    design.innovations(&fit.linear, &design.whitener(&fit.assembly.noise, &fit.linear.a))
+/// Innovations of a fitted model on the chosen records.
+pub(crate) fn innovations(
+    dataset: &Dataset,
+    fit: &Fit,
+    chosen: impl Fn(&ScaledRecord) -> bool,
+) -> Vec<Vec<f64>> {
+    let design = Design::new(dataset, &fit.grid, &fit.augmented, chosen);
+    design.innovations(&fit.linear, &design.whitener(&fit.augmented.noise, &fit.linear.a))
 }
 
 /// Mean log predictive density a sample on the hold-out records, dimensionless output.
-pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
-    let scores = heldout_log_scores(campaign, fit);
+pub(crate) fn heldout_log_score(dataset: &Dataset, fit: &Fit) -> Option<f64> {
+    let scores = heldout_log_scores(dataset, fit);
     let counted = || scores.iter().flatten().filter(|x| !x.is_nan());
     (scores.iter().any(|record| !record.is_empty()))
         .then(|| counted().sum::<f64>() / (counted().count() as f64).max(1.0))
@@ -31,31 +35,33 @@ pub(crate) fn heldout_log_score(campaign: &Campaign, fit: &Fit) -> Option<f64> {
 /// What died away when a record began is no fault of the model, nor is the phase of a wave or the path of a zero that is free from
 /// record to record: these are taken out. A drift path or a wave of `k` coefficients follows the noise of `N` samples as well; what that gains,
 /// `k/N` a sample, is paid back (H. Akaike, "Information theory and an extension of the maximum likelihood principle", 1973).
-pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>> {
-    let (assembly, starts) = with_beginnings(campaign, &fit.assembly);
-    let (assembly, paths) = with_drift_paths(campaign, &assembly);
-    let design = Design::new(campaign, &fit.grid, &assembly, |t| !t.is_fit());
-    let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
-    let p = fit.linear.padded(fit.grid.len(), &assembly);
+pub(crate) fn heldout_log_scores(dataset: &Dataset, fit: &Fit) -> Vec<Vec<f64>> {
+    let (augmented, starts) = with_initial_conditions(dataset, &fit.augmented);
+    let (augmented, paths) = with_drift_paths(dataset, &augmented);
+    let design = Design::new(dataset, &fit.grid, &augmented, |t| !t.is_fit());
+    let whitener = design.whitener(&fit.augmented.noise, &fit.linear.a);
+    let p = fit.linear.padded(fit.grid.len(), &augmented);
     let w = without(design.innovations(&p, &whitener), &design, &whitener, starts.start..paths.end);
-    let free = |part: &DesignTrack| part.columns.numbers.iter().filter(|&j| paths.contains(j)).count();
+    let free = |effect_term: &DesignScaled| {
+        effect_term.columns.numbers.iter().filter(|&j| paths.contains(j)).count()
+    };
     let variance = fit.variance;
     let density = |x: f64, v: f64| (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
-    if let Some((share, ratio)) = fit.assembly.noise.mixture {
+    if let Some((share, ratio)) = fit.augmented.noise.mixture {
         let wide = variance * ratio * ratio;
         let mixed = |x: f64| (1.0 - share) * density(x, variance) + share * density(x, wide);
-        let of_track = |(part, w): (&DesignTrack, &Vec<f64>)| {
-            let cost = free(part) as f64 / w.len().max(1) as f64;
+        let of_scaled = |(effect_term, w): (&DesignScaled, &Vec<f64>)| {
+            let cost = free(effect_term) as f64 / w.len().max(1) as f64;
             w.iter().map(|x| mixed(*x).max(1e-300).ln() - cost).collect()
         };
-        return design.tracks.iter().zip(&w).map(of_track).collect();
+        return design.scaled_records.iter().zip(&w).map(of_scaled).collect();
     }
-    let weights = weigh(&design, &fit.assembly.noise, &fit.linear, &w);
-    let weighed = weights.by_track(&w);
-    let of_track = |(number, part): (usize, &DesignTrack)| {
+    let weights = weigh(&design, &fit.augmented.noise, &fit.linear, &w);
+    let weighed = weights.by_scaled(&w);
+    let of_scaled = |(number, effect_term): (usize, &DesignScaled)| {
         let w = &weighed[number];
         let counted = (0..w.len()).filter(|&k| weights.counts(number, k)).count();
-        let slope = (part.log_slope - free(part) as f64) / counted.max(1) as f64;
+        let slope = (effect_term.log_slope - free(effect_term) as f64) / counted.max(1) as f64;
         let score = |(k, x): (usize, &f64)| {
             let s = weights.scale.as_ref().map_or(1.0, |s| s[number][k]);
             let normal = -0.5 * (2.0 * PI * variance).ln() - 0.5 * x * x / variance;
@@ -63,7 +69,7 @@ pub(crate) fn heldout_log_scores(campaign: &Campaign, fit: &Fit) -> Vec<Vec<f64>
         };
         w.iter().enumerate().map(score).collect()
     };
-    design.tracks.iter().enumerate().map(of_track).collect()
+    design.scaled_records.iter().enumerate().map(of_scaled).collect()
 }
 
 /// Innovations without what columns of the equation whose coefficients are unknown take of them, by least squares.
@@ -90,7 +96,7 @@ fn without(
 }
 
 /// Autocorrelation and averaged spectrum of the innovations, physical units.
-pub(crate) fn picture(campaign: &Campaign, w: &[Vec<f64>]) -> ResidualPicture {
+pub(crate) fn picture(dataset: &Dataset, w: &[Vec<f64>]) -> ResidualPicture {
     const LAGS: usize = 40;
     const SEGMENT: usize = 256;
     let count: usize = w.iter().map(Vec::len).sum();
@@ -98,7 +104,7 @@ pub(crate) fn picture(campaign: &Campaign, w: &[Vec<f64>]) -> ResidualPicture {
     let mut segments = 0.0;
     for segment in w.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
         for (s, p) in spectrum.iter_mut().zip(crate::residuals::spectrum::power(segment, SEGMENT)) {
-            *s += p / SEGMENT as f64 * campaign.y_scale * campaign.y_scale;
+            *s += p / SEGMENT as f64 * dataset.y_scale * dataset.y_scale;
         }
         segments += 1.0;
     }
@@ -114,38 +120,38 @@ pub(crate) fn picture(campaign: &Campaign, w: &[Vec<f64>]) -> ResidualPicture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
-    use crate::model::assembly::{Assembly, EquationColumn};
+    use crate::likelihood::engine::{FitContext, fit};
+    use crate::model::augmented::{AugmentedModel, EquationColumn};
     use crate::model::linear::Linear;
-    use crate::testing::{noise_free, small_campaign, small_model, white};
+    use crate::testing::{noise_free, small_dataset, small_model, white};
     use switchback_model::rig::Usage;
 
     /// The oracle: the entropy of the equation errors, which no model predicts better.
     #[test]
     fn the_phase_of_a_wave_in_a_held_out_record_is_no_fault_of_the_model() {
         let sd = 0.01;
-        let lines = [false, true].map(|sine| EquationColumn::Line { frequency: 0.9, track: Some(0), sine });
-        let assembly = Assembly { equation_columns: lines.to_vec(), ..Assembly::default() };
+        let lines = [false, true].map(|sine| EquationColumn::Line { frequency: 0.9, scaled: Some(0), sine });
+        let augmented = AugmentedModel { equation_columns: lines.to_vec(), ..AugmentedModel::default() };
         let mut noise = white();
         let mut record = |phase: [f64; 2]| {
-            let (campaign, grid) = small_campaign();
+            let (dataset, grid) = small_dataset();
             let truth = Linear { d: phase.to_vec(), ..small_model(&grid) };
-            let mut track = noise_free(campaign, &grid, &assembly, &truth).tracks.remove(0);
+            let mut scaled = noise_free(dataset, &grid, &augmented, &truth).scaled_records.remove(0);
             let mut past = [0.0; 2];
-            for y in &mut track.y {
+            for y in &mut scaled.y {
                 let now = sd * noise() - truth.a[0] * past[0] - truth.a[1] * past[1];
                 past = [now, past[0]];
                 *y += now;
             }
-            track
+            scaled
         };
-        let (mut campaign, grid) = small_campaign();
-        campaign.tracks = vec![record([0.3, 0.1]), record([-0.2, 0.25])];
-        campaign.tracks[1].usage = Usage::Holdout;
+        let (mut dataset, grid) = small_dataset();
+        dataset.scaled_records = vec![record([0.3, 0.1]), record([-0.2, 0.25])];
+        dataset.scaled_records[1].usage = Usage::Holdout;
         let start = Linear { d: vec![0.0; 2], ..small_model(&grid) };
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        let found = fit(ground, &|_| assembly.clone(), &[], &start, 30).expect("a fit");
-        let score = heldout_log_score(&campaign, &found).expect("a held-out record");
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        let found = fit(context, &|_| augmented.clone(), &[], &start, 30).expect("a fit");
+        let score = heldout_log_score(&dataset, &found).expect("a held-out record");
         let best = -0.5 * (2.0 * PI * sd * sd).ln() - 0.5;
         assert!((score - best).abs() < 0.2, "{score} {best}");
     }

@@ -20,7 +20,7 @@ pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
     spectrum.iter().map(|line| line.norm_sqr()).collect()
 }
 
-/// The strongest lines over all tracks, radians per sample: peaks of the summed periodograms, each over its own local level.
+/// The strongest lines over all records, radians per sample: peaks of the summed periodograms, each over its own local level.
 pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64> {
     let longest = innovations.iter().map(Vec::len).max().unwrap_or(0);
     if longest < 64 {
@@ -52,31 +52,35 @@ pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64
     lines
 }
 
-/// The frequency near `omega` at which a line through all tracks, phase and amplitude free in each, takes the most of them: what is
+/// The frequency near `omega` at which a line through all records, phase and amplitude free in each, takes the most of them: what is
 /// strong leaves much even a hundredth of a bin beside it.
-pub(crate) fn sharpened(tracks: &[Vec<f64>], omega: f64) -> f64 {
+pub(crate) fn sharpened(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
     /// Share of the larger part in a golden section, and sections: to a thousandth of where it began.
     const GOLDEN: f64 = 0.618_033_988_749_895;
     const SECTIONS: usize = 15;
-    let longest = tracks.iter().map(Vec::len).max().unwrap_or(0).max(1);
-    let taken = |omega: f64| energy_of_line(tracks, omega);
+    let longest = scaled_records.iter().map(Vec::len).max().unwrap_or(0).max(1);
+    let taken = |omega: f64| energy_of_line(scaled_records, omega);
     let bin = PI / longest as f64;
     let (mut low, mut high) = (omega - bin, omega + bin);
     for _ in 0..SECTIONS {
-        let part = GOLDEN * (high - low);
-        if taken(high - part) < taken(low + part) { low = high - part } else { high = low + part }
+        let effect_term = GOLDEN * (high - low);
+        if taken(high - effect_term) < taken(low + effect_term) {
+            low = high - effect_term
+        } else {
+            high = low + effect_term
+        }
     }
     0.5 * (low + high)
 }
 
-/// Share of the energy of all tracks that a line takes.
-pub(crate) fn share_of_line(tracks: &[Vec<f64>], omega: f64) -> f64 {
-    energy_of_line(tracks, omega) / tracks.iter().map(|w| energy(w)).sum::<f64>().max(1e-300)
+/// Share of the energy of all records that a line takes.
+pub(crate) fn share_of_line(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
+    energy_of_line(scaled_records, omega) / scaled_records.iter().map(|w| energy(w)).sum::<f64>().max(1e-300)
 }
 
-/// Energy that a line takes, phase and amplitude free in each track.
-fn energy_of_line(tracks: &[Vec<f64>], omega: f64) -> f64 {
-    tracks.iter().map(|w| 2.0 * ordinate(w, omega) / w.len().max(1) as f64).sum()
+/// Energy that a line takes, phase and amplitude free in each record.
+fn energy_of_line(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
+    scaled_records.iter().map(|w| 2.0 * ordinate(w, omega) / w.len().max(1) as f64).sum()
 }
 
 /// Squared magnitude of the transform at one frequency (Goertzel, Am. Math. Monthly 65, 1958).
@@ -86,17 +90,19 @@ fn ordinate(signal: &[f64], omega: f64) -> f64 {
     now * now + before * before - turn * now * before
 }
 
-/// Autocorrelation at lags `0…most`, pooled over tracks.
-pub(crate) fn autocorrelation(tracks: &[Vec<f64>], most: usize) -> Vec<f64> {
-    let energy = tracks.iter().map(|w| energy(w)).sum::<f64>().max(1e-300);
+/// Autocorrelation at lags `0…most`, pooled over records.
+pub(crate) fn autocorrelation(scaled_records: &[Vec<f64>], most: usize) -> Vec<f64> {
+    let energy = scaled_records.iter().map(|w| energy(w)).sum::<f64>().max(1e-300);
     (0..=most)
-        .map(|lag| tracks.iter().map(|w| dot(w, w.get(lag..).unwrap_or_default())).sum::<f64>() / energy)
+        .map(|lag| {
+            scaled_records.iter().map(|w| dot(w, w.get(lag..).unwrap_or_default())).sum::<f64>() / energy
+        })
         .collect()
 }
 
 /// Independent errors per sample: one in `τ = k/ln 2` samples, `k` the lag at which the autocorrelation has fallen to a half.
 ///
-/// Of coloured errors `1 + 2Σρ²` samples tell as much about their variance as one white one (Bartlett), which is `τ` for
+/// Of coloured errors `1 + 2Σρ²` samples show as much about their variance as one white one (Bartlett), which is `τ` for
 /// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
 pub(crate) fn independent_share(errors: &[Vec<f64>]) -> f64 {
     let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
@@ -106,11 +112,11 @@ pub(crate) fn independent_share(errors: &[Vec<f64>]) -> f64 {
 }
 
 /// Portmanteau statistic of a white signal of `count` samples: `count·Σ r²` over the lags 1 to `most`.
-pub(crate) fn portmanteau(tracks: &[Vec<f64>], most: usize, count: f64) -> f64 {
-    autocorrelation(tracks, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
+pub(crate) fn portmanteau(scaled_records: &[Vec<f64>], most: usize, count: f64) -> f64 {
+    autocorrelation(scaled_records, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
 }
 
-/// Mean square over all tracks.
+/// Mean square over all records.
 pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
     signals.iter().flatten().map(|x| x * x).sum::<f64>() / count.max(1) as f64
@@ -119,7 +125,7 @@ pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
 /// Order of the autoregression behind [`unpredictable_variance`].
 const MEMORY: usize = 12;
 
-/// Variance of what the past of a signal does not foretell: innovations of an autoregression of order 12 through all tracks.
+/// Variance of what the past of a signal does not predict: innovations of an autoregression of order 12 through all records.
 pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
     let lagged = |lag: usize| -> f64 {
@@ -222,13 +228,13 @@ mod tests {
 
     #[test]
     fn a_line_is_sharpened_to_where_it_is() {
-        let track = |n: usize, phase: f64| (0..n).map(|t| (0.5741 * t as f64 + phase).sin()).collect();
-        let tracks: [Vec<f64>; 2] = [track(900, 0.3), track(400, 2.0)];
-        let found = strongest_lines(&tracks, 1)[0];
-        assert!((sharpened(&tracks, found) - 0.5741).abs() < 1e-5, "{found}");
-        assert!((share_of_line(&tracks, 0.5741) - 1.0).abs() < 0.01);
-        let p = power(&tracks[1][..256], 256);
-        let slow = ordinate(&tracks[1][..256], 2.0 * PI * 17.0 / 256.0);
+        let scaled = |n: usize, phase: f64| (0..n).map(|t| (0.5741 * t as f64 + phase).sin()).collect();
+        let scaled_records: [Vec<f64>; 2] = [scaled(900, 0.3), scaled(400, 2.0)];
+        let found = strongest_lines(&scaled_records, 1)[0];
+        assert!((sharpened(&scaled_records, found) - 0.5741).abs() < 1e-5, "{found}");
+        assert!((share_of_line(&scaled_records, 0.5741) - 1.0).abs() < 0.01);
+        let p = power(&scaled_records[1][..256], 256);
+        let slow = ordinate(&scaled_records[1][..256], 2.0 * PI * 17.0 / 256.0);
         assert!((p[17] - slow).abs() < 1e-9 * (1.0 + slow));
     }
 
@@ -246,7 +252,7 @@ mod tests {
 
     /// The oracle: the coefficients that a signal was made with.
     #[test]
-    fn a_moving_average_is_told_by_its_coefficients() {
+    fn a_moving_average_is_reported_by_its_coefficients() {
         let c = [0.9, 0.3, -0.4];
         let mut white = white();
         let w: Vec<f64> = (0..40_000).map(|_| white()).collect();

@@ -1,7 +1,7 @@
 //! What the noise of a model makes of the output.
 
 use crate::likelihood::engine::Fit;
-use crate::records::campaign::{Campaign, Track};
+use crate::records::dataset::{Dataset, ScaledRecord};
 
 /// Noise in the output under a model: the response of `C/(A·D)` to one innovation.
 pub(crate) struct NoiseResponse(Vec<f64>);
@@ -9,13 +9,13 @@ pub(crate) struct NoiseResponse(Vec<f64>);
 impl NoiseResponse {
     /// Samples of the response at most.
     const LONGEST: usize = 4000;
-    /// Correlation from which a lag no longer tells the variance.
+    /// Correlation from which a lag no longer shows the variance.
     const TOO_MUCH: f64 = 0.95;
 
     /// The response under a fitted noise law.
     pub(crate) fn of(fit: &Fit) -> Self {
-        let law = &fit.assembly.noise;
-        let poles = crate::model::assembly::times_monic(&fit.linear.a, &law.ar);
+        let law = &fit.augmented.noise;
+        let poles = crate::model::augmented::times_monic(&fit.linear.a, &law.ar);
         let zeros = if law.output_ratio > 0.0 {
             crate::likelihood::spectral::factor_of_sum(law.output_ratio, &fit.linear.a)
         } else {
@@ -55,16 +55,16 @@ impl NoiseResponse {
     /// periods is taken out by differencing neighbouring periods. Absent without periodic records.
     pub(crate) fn repeat_variance(
         &self,
-        campaign: &Campaign,
-        counted: impl Fn(&Track) -> bool,
+        dataset: &Dataset,
+        counted: impl Fn(&ScaledRecord) -> bool,
     ) -> Option<(f64, usize)> {
         let (mut sum, mut count) = (0.0, 0);
-        for track in campaign.tracks.iter().filter(|t| counted(t)) {
-            let Some(period) = track.period else { continue };
-            let start = (track.from + period).max(2 * period).min(track.y.len());
-            let squares = (start..track.y.len()).map(|t| (track.y[t] - track.y[t - period]).powi(2));
+        for scaled in dataset.scaled_records.iter().filter(|t| counted(t)) {
+            let Some(period) = scaled.period else { continue };
+            let start = (scaled.from + period).max(2 * period).min(scaled.y.len());
+            let squares = (start..scaled.y.len()).map(|t| (scaled.y[t] - scaled.y[t - period]).powi(2));
             sum += 0.5 * squares.sum::<f64>() / self.shown_by_differences(period);
-            count += track.y.len() - start;
+            count += scaled.y.len() - start;
         }
         (count > 200).then(|| (sum / count as f64, count))
     }

@@ -11,29 +11,29 @@
 use crate::least_squares::normal::Normal;
 use crate::likelihood::engine::Fit;
 use crate::likelihood::rows::equation_columns;
-use crate::records::campaign::Campaign;
-use crate::simulation::beginnings::with_drift_paths;
+use crate::records::dataset::Dataset;
+use crate::simulation::initial_conditions::with_drift_paths;
 
-/// The simulation errors of some records of a campaign, from their first counted samples, without what each has of its own; unchanged
+/// The simulation errors of some records of a dataset, from their first counted samples, without what each has of its own; unchanged
 /// where the model knows of nothing like that, and in fitted records.
 pub(crate) fn without_own_paths(
-    campaign: &Campaign,
+    dataset: &Dataset,
     fit: &Fit,
     numbers: &[usize],
     errors: Vec<Vec<f64>>,
 ) -> Vec<Vec<f64>> {
-    let (assembly, own) = with_drift_paths(campaign, &fit.assembly);
+    let (augmented, own) = with_drift_paths(dataset, &fit.augmented);
     if own.is_empty() {
         return errors;
     }
     let of_record = |(&number, errors): (&usize, Vec<f64>)| {
-        let track = &campaign.tracks[number];
-        let columns = equation_columns(campaign, (number, track), &assembly);
+        let scaled = &dataset.scaled_records[number];
+        let columns = equation_columns(dataset, (number, scaled), &augmented);
         let here = (0..columns.numbers.len()).filter(|&at| own.contains(&columns.numbers[at]));
         let psi: Vec<Vec<f64>> =
-            here.map(|at| (track.from..track.y.len()).map(|t| columns.row(t)[at]).collect()).collect();
+            here.map(|at| (scaled.from..scaled.y.len()).map(|t| columns.row(t)[at]).collect()).collect();
         let responses = fit.linear.behind_poles(&psi);
-        let independent = errors.len() as f64 * campaign.criterion.share();
+        let independent = errors.len() as f64 * dataset.criterion.share();
         cleared(&errors, &responses, independent).unwrap_or(errors)
     };
     numbers.iter().zip(errors).map(of_record).collect()

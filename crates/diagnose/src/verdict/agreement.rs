@@ -5,16 +5,16 @@
 //!
 //! ```text
 //! the fitted verdict       the likeliest of its effects
-//! simulators               where such were identified anew and the cause moves a simulation: none that harms no held-out record both fits better
+//! simulators               where such were identified anew and the cause moves a simulation: none that degrades no held-out record both fits better
 //!                          (BIC) and closes more of the gap on held-out records
 //! ```
 //!
-//! A twin of the cause does not contradict it. How often such a cause is the right one is counted when the verdict is fitted.
+//! A confounded effect of the cause does not contradict it. How often such a cause is the right one is counted when the verdict is fitted.
 
 use crate::effect::Effect;
 use crate::evidence::{Compared, Comparison, EffectEvidence};
 
-/// Whether no other reading puts another effect before a cause. `likeliest` is the first effect of the fitted verdict, `is_no_cause` tells
+/// Whether no other reading puts another effect before a cause. `likeliest` is the first effect of the fitted verdict, `is_no_cause` shows
 /// effects that are no candidates.
 pub(super) fn agrees(
     cause: Effect,
@@ -27,13 +27,13 @@ pub(super) fn agrees(
     likeliest.is_none_or(|other| !differ(cause, other)) && by_simulators()
 }
 
-/// Whether two effects are neither the same nor twins.
+/// Whether two effects are neither the same nor confounded effects.
 fn differ(cause: Effect, other: Effect) -> bool {
-    other != cause && !cause.twins().contains(&other)
+    other != cause && !cause.confounded_effects().contains(&other)
 }
 
 /// The best simulator identified anew with another effect that fits better and closes more of the gap on held-out records than those with the
-/// cause or a twin of it, if there is one.
+/// cause or a confounded effect of it, if there is one.
 fn simulator_before(
     cause: Effect,
     evidence: &[Compared],
@@ -41,12 +41,16 @@ fn simulator_before(
 ) -> Option<Effect> {
     let says = evidence.iter().find(|says| says.comparison == Comparison::Simulation)?;
     let reached = |says: &EffectEvidence| (says.delta_bic.max(0.0), says.closure.unwrap_or_default());
-    let of_cause = says.effects.iter().filter(|says| !says.harms && !differ(cause, says.effect)).map(reached);
+    let of_cause = says
+        .effects
+        .iter()
+        .filter(|says| !says.degrades_validation && !differ(cause, says.effect))
+        .map(reached);
     let (gain, closure) = of_cause.fold((0.0_f64, 0.0_f64), |best, of| (best.0.max(of.0), best.1.max(of.1)));
     // The best in penalised deviance comes first.
     let better = says.effects.iter().find(|other| {
         let (of_other, closes) = reached(other);
-        let counts = !other.harms && !is_no_cause(other.effect) && differ(cause, other.effect);
+        let counts = !other.degrades_validation && !is_no_cause(other.effect) && differ(cause, other.effect);
         counts && of_other > gain && closes > closure
     });
     better.map(|other| other.effect)
@@ -57,10 +61,13 @@ mod tests {
     use super::*;
     use crate::verdict::fitted::examples::{compared, says};
 
-    /// Simulators of which one harms a held-out record, in the order of their gains, with what they close.
+    /// Simulators of which one degrades a held-out record, in the order of their gains, with what they close.
     fn simulators(order: [(Effect, f64); 2]) -> Vec<Compared> {
-        let harming =
-            EffectEvidence { harms: true, closure: Some(0.99), ..says(Effect::SensorDrift, 900.0, 0.5, 5.0) };
+        let harming = EffectEvidence {
+            degrades_validation: true,
+            closure: Some(0.99),
+            ..says(Effect::SensorDrift, 900.0, 0.5, 5.0)
+        };
         let one = |(effect, closure), gain| EffectEvidence {
             closure: Some(closure),
             ..says(effect, gain, 0.5, 5.0)
@@ -69,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn all_readings_must_put_it_first_or_a_twin_of_it() {
+    fn all_readings_must_put_it_first_or_a_confounded_of_it() {
         let evidence = simulators([(Effect::Creep, 0.5), (Effect::SensorSaturation, 0.6)]);
         let agrees =
             |evidence: &[Compared], likeliest| agrees(Effect::Creep, evidence, Some(likeliest), |_| false);
@@ -86,7 +93,7 @@ mod tests {
         let agrees = |evidence: &[Compared], cause| agrees(cause, evidence, Some(cause), |_| false);
         let closes_less = simulators([(Effect::SensorSaturation, 0.1), (Effect::Creep, 0.5)]);
         assert!(agrees(&closes_less, Effect::Creep));
-        // A twin stands for it.
+        // A confounded effect stands for it.
         assert!(agrees(
             &simulators([(Effect::Creep, 0.5), (Effect::Resonance, 0.4)]),
             Effect::RateDependence

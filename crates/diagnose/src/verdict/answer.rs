@@ -14,9 +14,9 @@ pub enum Status {
     Refit,
     /// The effects found.
     Named,
-    /// One of several twins that no record here separates.
+    /// One of several confounded effects that no record here separates.
     Class,
-    /// Several explanations that the next experiment would separate.
+    /// Several candidates that the next experiment would separate.
     Ambiguous,
     /// A gap whose cause is none of the candidates.
     Unexplained,
@@ -47,7 +47,7 @@ pub struct Verdict {
     pub status: Status,
     /// The effects named (status `named`: all of them act; `class`: the likeliest member). Empty otherwise.
     pub effects: Vec<Effect>,
-    /// The twins or rivals left standing (status `class` or `ambiguous`), likeliest first.
+    /// The confounded effects or rivals left standing (status `class` or `ambiguous`), likeliest first.
     pub class: Vec<Effect>,
     /// The stage that the gap points at, also when unexplained.
     pub stage: Option<Stage>,
@@ -69,8 +69,8 @@ impl fmt::Display for Verdict {
     /// One line: `named: backlash (operator), probability 0.97`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.status.name())?;
-        let told = if self.status == Status::Named { &self.effects } else { &self.class };
-        let names: Vec<&str> = told.iter().map(|effect| effect.name()).collect();
+        let reported = if self.status == Status::Named { &self.effects } else { &self.class };
+        let names: Vec<&str> = reported.iter().map(|effect| effect.name()).collect();
         if let Some((last, others)) = names.split_last() {
             let joint = if self.status == Status::Named { "and" } else { "or" };
             let others =
@@ -137,8 +137,9 @@ mod tests {
             stage: None,
             ..verdict
         };
-        let told = "class: backlash, creep or input_delay, probability 0.97, not calibrated for such records";
-        assert_eq!(rivals.to_string(), told);
+        let reported =
+            "class: backlash, creep or input_delay, probability 0.97, not calibrated for such records";
+        assert_eq!(rivals.to_string(), reported);
         let none = Verdict { status: Status::None, class: Vec::new(), calibrated: true, ..rivals };
         assert_eq!(none.to_string(), "none, probability 0.97");
     }

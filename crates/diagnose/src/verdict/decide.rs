@@ -29,7 +29,7 @@ pub(crate) fn held_out_differs(odds: &Odds, ratio: f64) -> Verdict {
     Verdict { held_out_error_ratio: Some(ratio), ..unexplained }
 }
 
-/// The verdict where identifying the model anew closes as much of the gap as any cause; `verdict` is that which tells one.
+/// The verdict where identifying the model anew closes as much of the gap as any cause; `verdict` is that which shows one.
 pub(crate) fn parameters_are_off(verdict: &Verdict) -> Verdict {
     naming_nothing(Status::Refit, None, verdict.probability)
 }
@@ -83,9 +83,9 @@ pub(crate) fn verdict(
     }
     rivals.truncate(WIDEST);
     let class: Vec<Effect> = rivals.iter().map(|r| r.0).collect();
-    let twins = class.len() > 1
-        && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.twins().contains(e)));
-    let status = if twins { Status::Class } else { Status::Ambiguous };
+    let confounded_effects = class.len() > 1
+        && class.iter().skip(1).all(|e| class.iter().any(|o| o != e && o.confounded_effects().contains(e)));
+    let status = if confounded_effects { Status::Class } else { Status::Ambiguous };
     let stage = class.iter().all(|e| e.stage() == first.stage()).then(|| first.stage());
     let stage = stage.or(Some(first.stage()));
     Verdict { class, ..naming_nothing(status, stage, sum(&rivals)) }

@@ -1,4 +1,4 @@
-//! From explanations to calibrated probabilities, and from these to a verdict.
+//! From candidates to calibrated probabilities, and from these to a verdict.
 
 pub(crate) mod agreement;
 pub(crate) mod answer;

@@ -1,4 +1,4 @@
-//! Calibrated probabilities: of each explanation, of `none` (nothing is missing), and of `unexplained` (the cause is no candidate).
+//! Calibrated probabilities: of each candidate, of `none` (nothing is missing), and of `unexplained` (the cause is no candidate).
 
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::pairs::{Causes, Pair};
@@ -11,10 +11,10 @@ pub(crate) const UNEXPLAINED: f64 = 0.5 * calibration::ALL_FAIL;
 /// standard deviation.
 pub(crate) const IMMATERIAL: f64 = 100.0;
 
-/// Probabilities of the explanations, that nothing is missing, and that the cause is no candidate.
+/// Probabilities of the candidates, that nothing is missing, and that the cause is no candidate.
 #[derive(Debug, Clone)]
 pub(crate) struct Odds {
-    /// One per explanation, in the order given.
+    /// One per candidate, in the order given.
     pub(crate) effects: Vec<f64>,
     pub(crate) none: f64,
     pub(crate) unexplained: f64,
@@ -36,14 +36,14 @@ impl Odds {
     }
 
     /// Probability that something is missing and one of the candidates is it.
-    pub(crate) fn told(&self) -> f64 {
+    pub(crate) fn reported(&self) -> f64 {
         1.0 - self.none - self.unexplained
     }
 }
 
 /// Calibration constants, found on made rigs with known causes, law mismatch included, whose seeds no report uses.
 mod calibration {
-    /// Share of what the best explanation leaves that counts against the distance to its rivals: laws are never exact, so
+    /// Share of what the best candidate leaves that counts against the distance to its rivals: laws are never exact, so
     /// a rival is ruled out only by a distance large against what the best itself leaves unexplained.
     pub(super) const TEMPER: f64 = 0.12;
     /// Fraction of the gap left unexplained at which "none of these" is as likely as the best candidate, and its scale; and the
@@ -56,7 +56,7 @@ mod calibration {
     /// Fraction of the gap left, one step ahead and on the held-out records, from which the best, with a rival of another class
     /// behind it, stands in for something else.
     pub(super) const STANDS_IN: f64 = 0.05;
-    /// The same whatever is behind it, of an effect that leaves the held-out gap, too; of others their cards tell.
+    /// The same whatever is behind it, of an effect that leaves the held-out gap, too; of others their cards show.
     pub(super) const MOST_LEFT_WITH_THE_GAP: f64 = 0.1;
     /// Margin over rivals of other classes, as a share of the gain, up to which the best counts as one of many.
     pub(super) const MANY: f64 = 0.2;
@@ -72,15 +72,15 @@ mod calibration {
     /// Fraction left up to which the best counts as leaving nothing, and its scale.
     pub(super) const NOTHING: (f64, f64) = (0.05, 0.01);
     /// The same where the best is flexible enough to imitate others almost exactly.
-    pub(super) const NOTHING_BY_SUPPLE: (f64, f64) = (0.004, 0.0008);
+    pub(super) const NOTHING_BY_FLEXIBLE: (f64, f64) = (0.004, 0.0008);
     /// Deviance a sample that a second effect must gain.
     pub(super) const SECOND: f64 = 0.06;
     /// Share of what the second gains that both may leave.
     pub(super) const AFTER: f64 = 0.03;
     /// How often a pair that passes every test is the pair that was put in.
     pub(super) const TOGETHER: f64 = 0.89;
-    /// How often the cause is the twin of the pair's only cause, where the twin gains more alone. Of seven such made rigs it was in five.
-    pub(super) const TWIN: f64 = 0.6;
+    /// How often the cause is the confounded effect of the pair's only cause, where the confounded effect gains more alone. Of seven such made rigs it was in five.
+    pub(super) const CONFOUNDED: f64 = 0.6;
     /// How often nothing is missing where nothing is found: an effect may be too small to be seen.
     pub(super) const SILENCE: f64 = 0.89;
     /// How often the cause is none of the candidates where all of them fail: the best may still be a poor law of the cause.
@@ -94,13 +94,13 @@ fn logistic(x: f64) -> f64 {
 }
 
 /// How far the best counts as leaving nothing of the gap, from a fraction of which it leaves: 1 all the way.
-fn wholeness(best: Effect, fraction: f64) -> f64 {
+fn explained_weight(best: Effect, fraction: f64) -> f64 {
     let (nothing, scale) =
-        if best.is_supple() { calibration::NOTHING_BY_SUPPLE } else { calibration::NOTHING };
+        if best.is_flexible() { calibration::NOTHING_BY_FLEXIBLE } else { calibration::NOTHING };
     logistic((nothing - fraction) / scale)
 }
 
-/// Fraction of the gap that an effect leaves at most where it is the cause, whatever rivals are behind it; `misses` tells that it
+/// Fraction of the gap that an effect leaves at most where it is the cause, whatever rivals are behind it; `misses` shows that it
 /// does not close the gap on the held-out records.
 fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
     let moves_simulation = !effect.is_noise() && !effect.is_of_its_record();
@@ -108,9 +108,9 @@ fn most_left_by_a_cause(effect: Effect, misses: bool) -> f64 {
     if moves_simulation && misses { most.min(calibration::MOST_LEFT_WITH_THE_GAP) } else { most }
 }
 
-/// What the best explanation leaves.
+/// What the best candidate leaves.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leavings {
+pub(crate) struct Residuals {
     /// Deviance that causes in general would still gain.
     pub(crate) deviance: f64,
     /// Share of the gap on the held-out records, where there is one.
@@ -119,7 +119,7 @@ pub(crate) struct Leavings {
     pub(crate) refuted: bool,
 }
 
-/// Weighs single-effect explanations against each other, against none and against none of these.
+/// Weighs single-effect candidates against each other, against none and against none of these.
 ///
 /// ```text
 /// P(effect) ∝ (1 − ε)·[trust·exp(−Δ/(2·T)) + (1 − trust)·exp(−Δ/(2·0.1·gain))] + ε/count
@@ -127,7 +127,7 @@ pub(crate) struct Leavings {
 /// ```
 ///
 /// Each of the two exponentials is normalised on its own; `trust` falls and `ε` rises with the fraction that the best leaves.
-pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Leavings) -> Odds {
+pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Residuals) -> Odds {
     let weighing = Weighing::new(nominal_bic, effects, best_leaves);
     let none = calibration::SILENCE * weighing.none();
     let unexplained = (1.0 - none) * weighing.unexplained();
@@ -136,11 +136,11 @@ pub(crate) fn odds(nominal_bic: f64, effects: &[(Effect, f64)], best_leaves: Lea
     Odds { effects, none, unexplained }
 }
 
-/// Single-effect explanations with their penalised deviance, and what the best of them leaves.
+/// Single-effect candidates with their penalised deviance, and what the best of them leaves.
 struct Weighing<'a> {
     nominal_bic: f64,
     effects: &'a [(Effect, f64)],
-    leaves: Leavings,
+    leaves: Residuals,
     /// The best, its penalised deviance and what it gains over the nominal model.
     first: Option<Effect>,
     best: f64,
@@ -148,7 +148,7 @@ struct Weighing<'a> {
 }
 
 impl<'a> Weighing<'a> {
-    fn new(nominal_bic: f64, effects: &'a [(Effect, f64)], leaves: Leavings) -> Self {
+    fn new(nominal_bic: f64, effects: &'a [(Effect, f64)], leaves: Residuals) -> Self {
         let best = effects.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
         let first = effects.iter().min_by(|x, y| x.1.total_cmp(&y.1)).map(|e| e.0);
         Self { nominal_bic, effects, leaves, first, best, gain: nominal_bic - best }
@@ -164,9 +164,9 @@ impl<'a> Weighing<'a> {
         self.leaves.gap.is_some_and(|gap| 1.0 - gap > calibration::CLOSES)
     }
 
-    /// Whether an effect is the best or a twin of it.
+    /// Whether an effect is the best or a confounded effect of it.
     fn is_alike(&self, effect: Effect) -> bool {
-        self.first.is_some_and(|first| effect == first || first.twins().contains(&effect))
+        self.first.is_some_and(|first| effect == first || first.confounded_effects().contains(&effect))
     }
 
     /// Probability that nothing is missing: the gain is what the search finds in noise.
@@ -198,10 +198,10 @@ impl<'a> Weighing<'a> {
         let rivals = self.effects.iter().filter(|e| !self.is_alike(e.0));
         let runner_up = rivals.map(|e| e.1).fold(self.nominal_bic, f64::min);
         let margin = (runner_up - self.best) / self.gain.max(1.0);
-        margin < calibration::MANY && !self.closes() && self.first.is_some_and(|e| !e.is_supple())
+        margin < calibration::MANY && !self.closes() && self.first.is_some_and(|e| !e.is_flexible())
     }
 
-    /// How far what the best leaves tells that the cause is none of the candidates: 1 where it cannot be one.
+    /// How far what the best leaves shows that the cause is none of the candidates: 1 where it cannot be one.
     fn unlisted(&self) -> f64 {
         let (middle, scale) =
             if self.is_one_of_many() { calibration::LEFT_BY_MANY } else { calibration::LEFT };
@@ -224,7 +224,7 @@ impl<'a> Weighing<'a> {
     fn claims(&self) -> Vec<f64> {
         let sharp = self.weights(1.0 + calibration::TEMPER * self.leaves.deviance.max(0.0));
         let blunt = self.weights((0.1 * self.gain).max(1.0));
-        let whole = self.first.map_or(1.0, |effect| wholeness(effect, self.fraction()));
+        let whole = self.first.map_or(1.0, |effect| explained_weight(effect, self.fraction()));
         let trust = calibration::PARTLY + (calibration::WHOLE - calibration::PARTLY) * whole;
         let no_claim = calibration::NO_CLAIM * (1.0 - whole);
         let claim = |(sharp, blunt): (&f64, &f64)| {
@@ -257,22 +257,22 @@ pub(crate) fn holds_together(pair: &Pair, samples: usize) -> bool {
     pair.gain > calibration::SECOND * samples as f64 && pair.left < calibration::AFTER * total
 }
 
-/// Weighs what a pair names, `causes`; the singles are no rivals of a pair that holds one of them, but for a twin.
+/// Weighs what a pair names, `causes`; the singles are no rivals of a pair that holds one of them, but for a confounded effect.
 pub(crate) fn odds_together(
     nominal_bic: f64,
     pair: &Pair,
     causes: &Causes,
     singles: &[(Effect, f64)],
 ) -> Odds {
-    let members = pair.explanation.effects();
-    let leaves = Leavings { deviance: pair.left, gap: None, refuted: false };
-    let mut together = odds(nominal_bic, &[(members[0], pair.explanation.bic())], leaves);
+    let members = pair.hypothesis.effects();
+    let leaves = Residuals { deviance: pair.left, gap: None, refuted: false };
+    let mut together = odds(nominal_bic, &[(members[0], pair.hypothesis.bic())], leaves);
     let p = calibration::TOGETHER * together.effects[0];
     together.unexplained += together.effects[0] - p;
-    let by_twin = if causes.rival.is_some() { calibration::TWIN } else { 0.0 };
+    let by_confounded = if causes.rival.is_some() { calibration::CONFOUNDED } else { 0.0 };
     let claim = |effect: Effect| match () {
-        () if causes.effects.contains(&effect) => (1.0 - by_twin) * p,
-        () if causes.rival == Some(effect) => by_twin * p,
+        () if causes.effects.contains(&effect) => (1.0 - by_confounded) * p,
+        () if causes.rival == Some(effect) => by_confounded * p,
         () => 0.0,
     };
     together.effects = singles.iter().map(|(e, _)| claim(*e)).collect();
@@ -287,7 +287,7 @@ mod tests {
     const NOMINAL: f64 = 0.0;
 
     fn weighed(rivals: [(Effect, f64); 2], deviance: f64, gap: f64) -> Odds {
-        let odds = odds(NOMINAL, &rivals, Leavings { deviance, gap: Some(gap), refuted: false });
+        let odds = odds(NOMINAL, &rivals, Residuals { deviance, gap: Some(gap), refuted: false });
         let sum = odds.effects.iter().sum::<f64>() + odds.none + odds.unexplained;
         assert!((sum - 1.0).abs() < 1e-9, "probabilities sum to {sum}");
         odds
@@ -315,14 +315,14 @@ mod tests {
             assert!(weighed(rivals, left, 0.04).unexplained < UNEXPLAINED);
         }
         // A rival of its own class is no other cause.
-        let twins = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
-        assert!(weighed(twins, 400.0, 0.6).unexplained < UNEXPLAINED);
+        let confounded_effects = [(Effect::Backlash, -5000.0), (Effect::GradualTransition, -4500.0)];
+        assert!(weighed(confounded_effects, 400.0, 0.6).unexplained < UNEXPLAINED);
     }
 
     #[test]
     fn what_should_close_the_gap_and_does_not_is_no_cause() {
         let rivals = [(Effect::Backlash, -5000.0), (Effect::Creep, -1000.0)];
-        let leaves = Leavings { deviance: 0.0, gap: Some(0.9), refuted: true };
+        let leaves = Residuals { deviance: 0.0, gap: Some(0.9), refuted: true };
         let odds = odds(NOMINAL, &rivals, leaves);
         assert!((odds.unexplained - calibration::REFUTED).abs() < 1e-9, "{odds:?}");
     }
@@ -346,8 +346,8 @@ mod tests {
     #[test]
     fn what_leaves_more_than_a_cause_does_stands_in_for_something_else() {
         let leaving = |effect: Effect, deviance: f64, gap: f64| {
-            let twin = effect.twins()[0];
-            weighed([(effect, -9000.0), (twin, -2000.0)], deviance, gap).unexplained > UNEXPLAINED
+            let confounded = effect.confounded_effects()[0];
+            weighed([(effect, -9000.0), (confounded, -2000.0)], deviance, gap).unexplained > UNEXPLAINED
         };
         // A fifth, with and without the held-out gap.
         assert!(leaving(Effect::Backlash, 2250.0, 0.4));

@@ -1,14 +1,14 @@
-//! Weighing explanations that are compared as simulators: held-out records decide how much is explained.
+//! Weighing candidates that are compared as simulators: held-out records decide how much is explained.
 
 use crate::verdict::odds::Odds;
 
-/// Share of the held-out gap left at which "none of these" is as likely as the best explanation, and its scale.
+/// Share of the held-out gap left at which "none of these" is as likely as the best candidate, and its scale.
 const LEFT: (f64, f64) = (0.5, 0.05);
 
-/// The odds with "none of these" weighed by the closure of the best explanation on held-out records.
+/// The odds with "none of these" weighed by the closure of the best candidate on held-out records.
 ///
 /// The tests of what one-step predictions leave do not apply: errors of simulation are coloured, and the least error of
-/// a law is significant on a rig with little noise. What counts is whether the explanation accounts for most of the gap.
+/// a law is significant on a rig with little noise. What counts is whether the candidate accounts for most of the gap.
 pub(crate) fn weighed_by_closure(mut odds: Odds, closure: f64) -> Odds {
     let (middle, scale) = LEFT;
     let unlisted = 1.0 / (1.0 + (-(1.0 - closure - middle) / scale).clamp(-60.0, 60.0).exp());

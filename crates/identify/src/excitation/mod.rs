@@ -3,7 +3,7 @@
 //! Every record begins with one *loading* sample at the end of the interval opposite the satellite: `u` before the
 //! first move of `v` is unknown, and the move from there to the satellite puts the working point on a known border.
 
-mod campaign;
+mod dataset;
 mod direction;
 mod error;
 mod free;
@@ -12,8 +12,8 @@ mod pulse;
 mod reversals;
 mod step;
 
-pub use campaign::Campaign;
-pub use campaign::PlannedRecord;
+pub use dataset::Dataset;
+pub use dataset::PlannedRecord;
 pub use direction::Direction;
 pub use error::ExcitationError;
 pub use free::RandomLevels;

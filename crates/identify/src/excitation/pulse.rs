@@ -54,7 +54,7 @@ impl PulseExperiment {
     /// `order` is the order `n` of the linear part; the spacing is `max(n, 2)`.
     ///
     /// # Errors
-    /// [`ExcitationError`] if `points` or `order` is zero, or the levels are too many to be told apart in an `f64`.
+    /// [`ExcitationError`] if `points` or `order` is zero, or the levels are too many to be distinguished in an `f64`.
     pub fn evenly_spaced(
         interval: Interval,
         direction: Direction,
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn more_levels_than_an_interval_can_tell_apart_are_refused() {
+    fn more_levels_than_an_interval_can_distinguish_are_refused() {
         let narrow = Interval::new(1.0, 1.0 + 4.0 * f64::EPSILON).unwrap();
         let error = PulseExperiment::evenly_spaced(narrow, Descendant, 64, 1).unwrap_err();
         assert!(matches!(error, ExcitationError::NotOrdered { .. } | ExcitationError::AtSatellite { .. }));

@@ -47,7 +47,7 @@ impl ReversalRule {
 pub enum LookAhead {
     /// The branch is known as soon as its sample is.
     Never,
-    /// The sample after a reversal tells how the turning sample is shared.
+    /// The sample after a reversal shows how the turning sample is shared.
     OneSample,
     /// A reversal is dated back once `v` has moved by the threshold, which takes as long as it takes.
     UntilConfirmed,
@@ -161,7 +161,7 @@ impl Branches {
         &self.labels
     }
 
-    /// First sample whose branch the input tells; before it `u` depends on what the rig did earlier.
+    /// First sample whose branch the input shows; before it `u` depends on what the rig did earlier.
     pub fn first_known(&self) -> usize {
         self.first_known
     }

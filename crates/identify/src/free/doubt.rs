@@ -19,7 +19,7 @@ pub(super) struct Doubt<'a> {
     pub(super) information: &'a DMatrix<f64>,
     /// None if a parameter has no information.
     pub(super) covariance: Option<&'a Covariance>,
-    /// What numbers are told in.
+    /// What numbers are reported in.
     pub(super) units: OutputUnits,
 }
 
@@ -31,7 +31,7 @@ struct Known {
 }
 
 impl Known {
-    fn is_told_from_zero(self, limit: f64) -> bool {
+    fn is_distinguished_from_zero(self, limit: f64) -> bool {
         self.value.abs() > limit * self.se
     }
 }
@@ -99,7 +99,7 @@ impl Doubt<'_> {
         found
     }
 
-    /// What of `A` and `B` cannot be told from zero though the model rests on it.
+    /// What of `A` and `B` cannot be distinguished from zero though the model rests on it.
     fn coefficients(&self, covariance: &Covariance, found: &mut Vec<Warning>) {
         let all = quantities(self.theta, self.basis, self.units);
         let (a, rest) = all.split_at(self.theta.a.len());
@@ -108,22 +108,24 @@ impl Doubt<'_> {
         // A positive delay shifts the whole of B and leaves the names of its coefficients alone.
         let first_lag = 1 + self.structure.delay.min(0);
         let lead = strongest(&b[..ahead], covariance);
-        if let Some((i, known)) = lead.filter(|(_, known)| !known.is_told_from_zero(joint_limit(ahead))) {
+        if let Some((i, known)) =
+            lead.filter(|(_, known)| !known.is_distinguished_from_zero(joint_limit(ahead)))
+        {
             let lag = first_lag + i as isize;
-            found.push(Warning::LeadNotTold { lag, value: known.value, se: known.se });
+            found.push(Warning::LeadNotReported { lag, value: known.value, se: known.se });
         }
         let one = |terms: &[Quantity]| combined(terms, (0..terms.len()).map(|i| (i, 1.0)), covariance);
         let (a_one, b_one) = (one(a), one(b));
         let a_one = Known { value: 1.0 + a_one.value, ..a_one };
         for (polynomial, known) in [('A', a_one), ('B', b_one)] {
-            if !known.is_told_from_zero(joint_limit(1)) {
-                found.push(Warning::GainNotTold { polynomial, value: known.value, se: known.se });
+            if !known.is_distinguished_from_zero(joint_limit(1)) {
+                found.push(Warning::GainNotReported { polynomial, value: known.value, se: known.se });
             }
         }
     }
 }
 
-/// The coefficient most clearly told from zero.
+/// The coefficient most clearly distinguished from zero.
 fn strongest(terms: &[Quantity], covariance: &Covariance) -> Option<(usize, Known)> {
     let known = |q: &Quantity| Known { value: q.value, se: covariance.standard_error(&q.derivative) };
     let z = |k: &Known| k.value.abs() / k.se;

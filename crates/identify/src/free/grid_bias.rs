@@ -57,7 +57,7 @@ impl Uncertain {
 }
 
 impl GridBias {
-    /// Of a fit with the given covariance, of what it tells in some units; `information` is that of the same fit on its halved grid.
+    /// Of a fit with the given covariance, of what it shows in some units; `information` is that of the same fit on its halved grid.
     pub(super) fn of(
         theta: &Parameters,
         basis: &Basis,
@@ -111,7 +111,7 @@ impl GridBias {
         if self.change.is_some() && worst.is_finite() { worst } else { f64::INFINITY }
     }
 
-    /// The fit less its bias; as it is where the bends do not tell one.
+    /// The fit less its bias; as it is where the bends do not show one.
     pub(super) fn taken_off(&self, theta: &Parameters) -> Parameters {
         match &self.change {
             Some(change) => theta.moved((-change).as_slice()),

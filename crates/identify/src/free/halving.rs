@@ -16,7 +16,7 @@ pub(super) struct Places {
 const PLACES_A_COEFFICIENT: usize = 2;
 
 impl Places {
-    /// Of ranges of several inputs; a place that is visited again tells nothing new of a border's shape.
+    /// Of ranges of several inputs; a place that is visited again shows nothing new of a border's shape.
     pub(super) fn of(inputs: &[(&[f64], &Branches, Range<usize>)]) -> Self {
         let on = |wanted: Branch| {
             let visited = |(v, branches, range): &(&[f64], &Branches, Range<usize>)| {

@@ -62,11 +62,11 @@ pub struct Identified {
 ///
 /// 6. With `whiten`, step 5 once more on errors that an autoregressive model of the noise makes white, iterated with that model. Where the model of the system
 ///    is right this reaches the Cramér–Rao bound whatever the colour of the noise, and the two estimates differ by no more than the error of the
-///    first. Where they differ by more, the model is wrong somewhere, what is told depends on the filter, and the first is kept
+///    first. Where they differ by more, the model is wrong somewhere, what is reported depends on the filter, and the first is kept
 ///    (J. A. Hausman, Econometrica 46 (1978), doi 10.2307/1913827).
 ///
 /// Where noise is found on the input, the fit is repeated on simulated records to see by how much it moves the estimate ([`InputNoise`]); neither estimate nor intervals
-/// allow for it, a [`Warning::InputNoise`] tells.
+/// allow for it, a [`Warning::InputNoise`] shows.
 ///
 /// Standard errors: without `refine` the equation error is taken as white; with it, each is the larger of the one for
 /// white output errors and the one that the scatter of the gradient over batches of 128 samples gives, which allows for residuals of
@@ -78,7 +78,7 @@ pub fn identify(records: &[&Record], settings: &Settings) -> Result<Identified, 
     identify_watched(records, settings, &())
 }
 
-/// [`identify`], which tells how far it has come; the result does not depend on who hears.
+/// [`identify`], which shows how far it has come; the result does not depend on who hears.
 ///
 /// # Errors
 /// As [`identify`].
@@ -115,26 +115,27 @@ pub fn identify_watched(
     let (information, covariance) = (&errors.information, errors.covariance.as_ref());
     let doubt = Doubt { structure, basis, theta: &theta, information, covariance, units };
     let hollow = estimate.hollow_coefficients();
-    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum }).collect();
+    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotReported { coefficient, sum }).collect();
     let examined = examine(&data, featured, structure, &theta, &segments);
     let mut warnings = [doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
     let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance, units));
-    let mut told = Fitted { structure, basis: basis.clone(), theta: theta.clone(), whitening: Vec::new() };
+    let mut reported =
+        Fitted { structure, basis: basis.clone(), theta: theta.clone(), whitening: Vec::new() };
     let kind = if settings.refine { FitKind::Simulation } else { FitKind::Equation };
     if settings.undersmooth
         && basis.is_switched()
-        && let Some(finer) = final_estimate(&data, &told, (kind, settings.whiten), figures)
+        && let Some(finer) = final_estimate(&data, &reported, (kind, settings.whiten), figures)
     {
         // The noise is that of the model's free run.
         estimate = Estimate { noise_sd: estimate.noise_sd, ..finer.estimate };
         level_errors = Some(finer.level_errors);
         let GridFit { basis, theta, whitening, .. } = finer.fit;
-        told = Fitted { structure, basis, theta, whitening };
+        reported = Fitted { structure, basis, theta, whitening };
     }
     let input_noise = settings
         .input_noise
-        .then(|| InputNoise::of(&data, &told, kind, settings.timing, &estimate, units))
+        .then(|| InputNoise::of(&data, &reported, kind, settings.timing, &estimate, units))
         .flatten();
     warnings.extend(input_noise.and_then(|noise| noise.warning()));
     let covariance = covariance.map(|covariance| units.covariance(&theta, covariance.matrix()));

@@ -31,9 +31,9 @@ use switchback_noise::{StreamId, white_samples};
 /// 4. The shift is the mean change from the second fit to the third. Each noise is taken with both signs, so that what is linear in it, and averages
 ///    out, cancels at once.
 ///
-/// Told is the largest shift alone, in standard errors of the coefficient or border point that it moves. On made records of steady sweeps with noise of 0.1 to 1 % of the
+/// Reported is the largest shift alone, in standard errors of the coefficient or border point that it moves. On made records of steady sweeps with noise of 0.1 to 1 % of the
 /// range it was 0.8 to 1.5 times the true one in the median where the machine turns between samples, and 0.4 to 1.0 times where it turns at samples, whose lag of half a sample on
-/// average the noise hides (`crates/identify/tests/input_noise.rs` prints the table); single records scatter by a factor of two and more. Which parameter is moved, and which way, is not told: where the
+/// average the noise hides (`crates/identify/tests/input_noise.rs` prints the table); single records scatter by a factor of two and more. Which parameter is moved, and which way, is not reported: where the
 /// noise blurs turning points by more than a sample, the stand-in turns elsewhere than the machine did, and single shifts come out wrong.
 ///
 /// The input does not say whether the machine follows its fast part, which is no noise then. The figure means nothing in that case.
@@ -57,9 +57,9 @@ pub struct InputNoise {
 }
 
 /// Bias in standard errors that leaves a 95 % interval a coverage of 90 %.
-const TOLD: f64 = 0.652_358;
+const REPORTED: f64 = 0.652_358;
 
-/// Errors of a shift by which it must exceed what is told: seven degrees of freedom leave 1 % beyond on that side, of each parameter.
+/// Errors of a shift by which it must exceed what is reported: seven degrees of freedom leave 1 % beyond on that side, of each parameter.
 const BEYOND_CHANCE: f64 = 3.0;
 
 /// Pairs of noises of either sign.
@@ -93,7 +93,7 @@ struct Again<'a> {
 }
 
 impl InputNoise {
-    /// Of a fit that gave an estimate, told in some units; `None` where no noise is found on the input, or a fit has no
+    /// Of a fit that gave an estimate, reported in some units; `None` where no noise is found on the input, or a fit has no
     /// answer.
     pub(super) fn of(
         data: &Data,
@@ -123,32 +123,30 @@ impl InputNoise {
                 draws.push(0.5 * (up + down) - truth);
             }
         }
-        // The estimate is told at some of the knots of the fit.
-        let points = |told: &[BorderPoint], knots: &[f64], first: usize| -> Vec<(usize, f64)> {
+        // The estimate is reported at some of the knots of the fit.
+        let points = |reported: &[BorderPoint], knots: &[f64], first: usize| -> Vec<(usize, f64)> {
             let at = |p: &BorderPoint| Some((first + knots.iter().position(|&v| v == p.v)?, p.se));
-            told.iter().filter_map(at).collect()
+            reported.iter().filter_map(at).collect()
         };
         let basis = &fitted.basis;
         let coefficients = estimate.a.len() + estimate.b.len();
         let switched = if basis.is_switched() { basis.descending().len() } else { 0 };
-        let told = (0..).zip(estimate.a_se.iter().chain(&estimate.b_se).copied());
-        let told = told.chain(points(&estimate.descending, basis.descending(), coefficients)).chain(points(
-            &estimate.ascending,
-            basis.ascending(),
-            coefficients + switched,
-        ));
-        let shifts = told.map(|(i, se)| in_errors(&draws[i], se)).filter(|s| s.0.is_finite());
+        let reported = (0..).zip(estimate.a_se.iter().chain(&estimate.b_se).copied());
+        let reported = reported
+            .chain(points(&estimate.descending, basis.descending(), coefficients))
+            .chain(points(&estimate.ascending, basis.ascending(), coefficients + switched));
+        let shifts = reported.map(|(i, se)| in_errors(&draws[i], se)).filter(|s| s.0.is_finite());
         // The one that is surest to be large, rather than the one that chance makes so.
         let sure = |shift: &(f64, f64)| shift.0 - BEYOND_CHANCE * shift.1;
         let (largest_shift, largest_shift_se) = shifts.max_by(|x, y| sure(x).total_cmp(&sure(y)))?;
         Some(Self { sd, share: sd / data.interval.width(), largest_shift, largest_shift_se })
     }
 
-    /// What to tell; `None` where intervals lose no more coverage than chance allows for.
+    /// What to show; `None` where intervals lose no more coverage than chance allows for.
     pub(super) fn warning(&self) -> Option<Warning> {
         let Self { sd, share, largest_shift, largest_shift_se } = *self;
-        let is_told = largest_shift - BEYOND_CHANCE * largest_shift_se > TOLD;
-        is_told.then_some(Warning::InputNoise { sd, share, errors: largest_shift })
+        let is_reported = largest_shift - BEYOND_CHANCE * largest_shift_se > REPORTED;
+        is_reported.then_some(Warning::InputNoise { sd, share, errors: largest_shift })
     }
 }
 
@@ -248,12 +246,12 @@ fn segments<'s>(structure: Structure, outputs: &[&'s [f64]], seen: &'s Seen) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::TOLD;
+    use super::REPORTED;
     use statrs::distribution::{ContinuousCDF, Normal};
 
     #[test]
-    fn an_interval_moved_by_what_is_told_holds_the_truth_in_nine_of_ten_cases() {
+    fn an_interval_moved_by_what_is_reported_holds_the_truth_in_nine_of_ten_cases() {
         let (normal, half) = (Normal::standard(), 1.959_964);
-        assert!((normal.cdf(half - TOLD) - normal.cdf(-half - TOLD) - 0.9).abs() < 1e-6);
+        assert!((normal.cdf(half - REPORTED) - normal.cdf(-half - REPORTED) - 0.9).abs() < 1e-6);
     }
 }

@@ -16,7 +16,7 @@
 //! [`NestedRegressions`] for many outputs of one input).
 //!
 //! Weak points, each reported as a [`Warning`]: a jump inside a cell of the grid; knots that few samples visit; sensor noise
-//! on `v`, which fakes reversals, and moves estimates by a bias whose size [`InputNoise`] works out; a model that needs `v` ahead of time. What no warning can tell: a static
+//! on `v`, which fakes reversals, and moves estimates by a bias whose size [`InputNoise`] works out; a model that needs `v` ahead of time. What no warning can show: a static
 //! nonlinearity in series with `v` and a common offset look like other borders.
 
 mod basis;

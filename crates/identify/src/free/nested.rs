@@ -17,7 +17,7 @@ use crate::Estimate;
 /// that bend between the knots of any grid.
 ///
 /// The grid is refined until its bias is small against the noise, what is left of the bias joins the standard errors, and a
-/// point up to one cell beside a jump that was found gets an interval that spans both sides. The estimate is told at the knots of the
+/// point up to one cell beside a jump that was found gets an interval that spans both sides. The estimate is reported at the knots of the
 /// first grid.
 #[derive(Debug, Clone)]
 pub struct NestedRegressions {

@@ -1,4 +1,4 @@
-//! The noise of the output, told from what a free run leaves.
+//! The noise of the output, distinguished from what a free run leaves.
 
 /// Coefficients `d₁, d₂, …` of the filter `D(q⁻¹) = 1 + d₁q⁻¹ + …` that makes residuals white: an autoregression whose order minimises
 ///

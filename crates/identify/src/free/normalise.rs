@@ -150,7 +150,7 @@ pub(super) struct Figures {
 /// Below this share of `Σ|bᵢ|`, `B(1)` counts as zero and the level of `u` as unknown.
 const NO_GAIN: f64 = 1e-9;
 
-/// Whether `B(1)` tells the level of `u`.
+/// Whether `B(1)` shows the level of `u`.
 pub(super) fn has_gain(theta: &Parameters) -> bool {
     theta.b.iter().sum::<f64>().abs() > NO_GAIN * theta.b.iter().map(|b| b.abs()).sum::<f64>()
 }

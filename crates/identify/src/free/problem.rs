@@ -129,7 +129,7 @@ impl Basis {
         visits
     }
 
-    /// Refuses a knot that no sample tells anything about.
+    /// Refuses a knot that no sample shows anything about.
     pub(super) fn check_visits(&self, segments: &[Segment]) -> Result<(), FreeError> {
         let Some(knot) = self.visits(segments).iter().position(|&count| count == 0) else { return Ok(()) };
         let descending = self.descending();

@@ -9,9 +9,9 @@ use switchback_model::hysteresis::Interval;
 pub enum InputMap {
     /// `u` runs on two borders and switches at reversals: the `free` method.
     Borders,
-    /// `u` is one static curve of `v`: the `memoryless` yardstick, a Hammerstein fit without hysteresis.
+    /// `u` is one static curve of `v`: the `memoryless` baseline, a Hammerstein fit without hysteresis.
     Static,
-    /// `u = v` and a constant: the `linear-arx` yardstick.
+    /// `u = v` and a constant: the `linear-arx` baseline.
     Linear,
 }
 

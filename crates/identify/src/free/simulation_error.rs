@@ -14,7 +14,7 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Enough to tell which start is best.
+    /// Enough to show which start is best.
     pub(super) const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3 };
     /// Enough to rank structures.
     pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3 };
@@ -136,7 +136,7 @@ pub(super) fn linearise_whitened(
     sums
 }
 
-/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor is told the first sample.
+/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor is reported the first sample.
 /// The Jacobian follows the same recursion as `ŷ` itself:
 ///
 /// ```text

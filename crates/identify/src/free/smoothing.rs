@@ -1,4 +1,4 @@
-//! An input without the noise of its sensor, as far as the samples beside each one tell its motion.
+//! An input without the noise of its sensor, as far as the samples beside each one show its motion.
 
 use super::branch::Branches;
 use std::ops::Range;

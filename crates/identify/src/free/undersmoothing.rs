@@ -18,7 +18,7 @@
 //!    not found, and a point beside it may miss its truth. A corner counts as a bend, or as a jump where it stands out: intervals beside it
 //!    are too wide rather than too narrow, even where a knot lies on the corner.
 //!
-//! The estimate is told at the knots of the first grid.
+//! The estimate is reported at the knots of the first grid.
 
 use super::basis::Basis;
 use super::doubt::is_ill_conditioned;
@@ -55,16 +55,16 @@ impl GridFit {
 pub(super) struct Undersmoothed {
     pub(super) estimate: Estimate,
     pub(super) level_errors: LevelErrors,
-    /// The fit that it was told by.
+    /// The fit that it was reported by.
     pub(super) fit: GridFit,
-    /// The first grid, at whose knots it is told.
+    /// The first grid, at whose knots it is reported.
     coarsest: Basis,
 }
 
 /// Share of the standard error that the bias may reach: a plain 95 % interval then still holds the truth with 93.7 %.
 const SMALL: f64 = 1.0 / 3.0;
 
-/// The estimate from fits on ever finer grids, told at the knots of the first; `None` if that leaves a parameter open. `figures` are those of
+/// The estimate from fits on ever finer grids, reported at the knots of the first; `None` if that leaves a parameter open. `figures` are those of
 /// the first fit, and stay but for the noise.
 pub(super) fn undersmoothed(
     structure: Structure,
@@ -91,12 +91,12 @@ pub(super) fn undersmoothed(
         }
     }
     let ((fit, _), coarsest) = (best?, coarsest?);
-    let (estimate, level_errors) = told(&fit, structure, &coarsest, figures)?;
+    let (estimate, level_errors) = reported(&fit, structure, &coarsest, figures)?;
     Some(Undersmoothed { estimate, level_errors, fit, coarsest })
 }
 
-/// What a fit tells at the knots of a coarser grid; the noise is its own.
-fn told(
+/// What a fit shows at the knots of a coarser grid; the noise is its own.
+fn reported(
     fit: &GridFit,
     structure: Structure,
     coarsest: &Basis,
@@ -127,7 +127,7 @@ fn set_errors(estimate: &mut Estimate, bias: &GridBias, rises: &[f64]) {
 
 impl Undersmoothed {
     /// Whether an efficient estimate of the same system differs from this one by no more than this one's errors allow, all parameters at once: the
-    /// variance of the difference is this one's less the other's. Both are told of the centred output.
+    /// variance of the difference is this one's less the other's. Both are reported the centred output.
     pub(super) fn is_compatible_with(
         &self,
         efficient: &Self,
@@ -136,7 +136,7 @@ impl Undersmoothed {
     ) -> bool {
         let figures = Figures { units: OutputUnits::OWN, ..figures };
         let centred = |found: &Self| {
-            let (e, _) = told(&found.fit, structure, &found.coarsest, figures)?;
+            let (e, _) = reported(&found.fit, structure, &found.coarsest, figures)?;
             let coefficients: Vec<(f64, f64)> =
                 e.a.iter().zip(&e.a_se).chain(e.b.iter().zip(&e.b_se)).map(|(x, se)| (*x, *se)).collect();
             let points = e.descending.iter().chain(&e.ascending).map(|p| (p.f, p.se));

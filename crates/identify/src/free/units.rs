@@ -1,4 +1,4 @@
-//! Output units: identification works on a centred output of unit size, and its answer is told in the units of the records.
+//! Output units: identification works on a centred output of unit size, and its answer is reported in the units of the records.
 
 use super::problem::Parameters;
 use nalgebra::DMatrix;
@@ -13,7 +13,7 @@ use switchback_model::record::Record;
 /// A(q⁻¹) y(t)  = Σᵢ s·bᵢ u(t−d−i) + s·c + origin·A(1),   s = scale
 /// ```
 ///
-/// Normal equations square the output: an origin of 10⁵ spreads costs ten of the sixteen digits of what they tell of `A`. On the centred output the
+/// Normal equations square the output: an origin of 10⁵ spreads costs ten of the sixteen digits of what they report `A`. On the centred output the
 /// answer depends on neither origin nor scale, but for the rounding of the records themselves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct OutputUnits {

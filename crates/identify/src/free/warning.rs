@@ -1,4 +1,4 @@
-//! Weak points of an identification, told rather than hidden.
+//! Weak points of an identification, reported rather than hidden.
 
 use crate::statistics::normal_quantile_975;
 use crate::{BorderDistance, Coefficient, PlusMinus};
@@ -23,7 +23,7 @@ pub enum Warning {
         /// The largest shift, in standard errors of what is moved.
         errors: f64,
     },
-    /// So few reversals that the borders are hardly told from a trend.
+    /// So few reversals that the borders are hardly distinguished from a trend.
     FewReversals {
         /// Reversals in all records.
         count: usize,
@@ -67,17 +67,17 @@ pub enum Warning {
         /// How far they lie apart.
         distance: BorderDistance,
     },
-    /// No coefficient that looks ahead is told from zero.
-    LeadNotTold {
-        /// Lag of the one most clearly told, negative.
+    /// No coefficient that looks ahead is distinguished from zero.
+    LeadNotReported {
+        /// Lag of the one most clearly reported, negative.
         lag: isize,
         /// Its value, output units.
         value: f64,
         /// Its standard error.
         se: f64,
     },
-    /// `A(1)` or `B(1)` is not told from zero, so neither are the gain and the levels that follow from it.
-    GainNotTold {
+    /// `A(1)` or `B(1)` is not distinguished from zero, so neither are the gain and the levels that follow from it.
+    GainNotReported {
         /// `A` or `B`.
         polynomial: char,
         /// Its value at 1.
@@ -85,8 +85,8 @@ pub enum Warning {
         /// Its standard error.
         se: f64,
     },
-    /// A coefficient larger than the whole of its polynomial at 1 is not told from zero.
-    CarrierNotTold {
+    /// A coefficient larger than the whole of its polynomial at 1 is not distinguished from zero.
+    CarrierNotReported {
         /// The coefficient.
         coefficient: Coefficient,
         /// The polynomial at 1.
@@ -114,9 +114,9 @@ impl Warning {
             Self::LooksAhead { .. } => "looks_ahead",
             Self::IllConditioned { .. } => "ill_conditioned",
             Self::LoopVanished { .. } => "loop_vanished",
-            Self::LeadNotTold { .. } => "look_ahead_not_told",
-            Self::GainNotTold { .. } => "gain_not_told",
-            Self::CarrierNotTold { .. } => "coefficient_not_told",
+            Self::LeadNotReported { .. } => "look_ahead_not_told",
+            Self::GainNotReported { .. } => "gain_not_told",
+            Self::CarrierNotReported { .. } => "coefficient_not_told",
         }
     }
 
@@ -130,9 +130,9 @@ impl Warning {
             Self::RarelyVisited { samples, .. } | Self::LooksAhead { samples } => Some(samples as f64),
             Self::IllConditioned { condition } => Some(condition),
             Self::LoopVanished { distance } => Some(distance.z),
-            Self::LeadNotTold { value, se, .. }
-            | Self::GainNotTold { value, se, .. }
-            | Self::CarrierNotTold { coefficient: Coefficient { value, se, .. }, .. } => {
+            Self::LeadNotReported { value, se, .. }
+            | Self::GainNotReported { value, se, .. }
+            | Self::CarrierNotReported { coefficient: Coefficient { value, se, .. }, .. } => {
                 Some(value.abs() / se)
             }
             Self::SpanIllDefined | Self::NegativeGain | Self::NoStationaryGain => None,
@@ -197,28 +197,28 @@ impl fmt::Display for Warning {
                     PlusMinus::new(100.0 * clearest.difference, 100.0 * normal_quantile_975() * clearest.se);
                 write!(
                     out,
-                    "the loop vanished: over the whole stroke ({places} places) the borders do not differ beyond their errors; the clearest difference, at {:.4}, is ({percent}) % of u_M − u_m, {z:.1} standard errors where {limit:.1} would tell",
+                    "the loop vanished: over the whole stroke ({places} places) the borders do not differ beyond their errors; the clearest difference, at {:.4}, is ({percent}) % of u_M − u_m, {z:.1} standard errors where {limit:.1} would show",
                     clearest.v
                 )
             }
-            Self::LeadNotTold { lag, value, se } => write!(
+            Self::LeadNotReported { lag, value, se } => write!(
                 out,
-                "the look-ahead term b{lag} = {} is not told from zero: a model that needs no look ahead says as much",
+                "the look-ahead term b{lag} = {} is not distinguished from zero: a model that needs no look ahead says as much",
                 interval(*value, *se)
             ),
-            Self::GainNotTold { polynomial: 'A', value, se } => write!(
+            Self::GainNotReported { polynomial: 'A', value, se } => write!(
                 out,
-                "A(1) = {} is not told from zero: the model may as well integrate, so its gain and the outputs it holds, y_high and y_low, have no bounds",
+                "A(1) = {} is not distinguished from zero: the model may as well integrate, so its gain and the outputs it holds, y_high and y_low, have no bounds",
                 interval(*value, *se)
             ),
-            Self::GainNotTold { polynomial, value, se } => write!(
+            Self::GainNotReported { polynomial, value, se } => write!(
                 out,
-                "{polynomial}(1) = {} is not told from zero: its coefficients cancel, so neither the sign of the gain nor the common level of the borders is known",
+                "{polynomial}(1) = {} is not distinguished from zero: its coefficients cancel, so neither the sign of the gain nor the common level of the borders is known",
                 interval(*value, *se)
             ),
-            Self::CarrierNotTold { coefficient: Coefficient { letter, lag, value, se }, sum } => write!(
+            Self::CarrierNotReported { coefficient: Coefficient { letter, lag, value, se }, sum } => write!(
                 out,
-                "{letter}{lag} = {} is not told from zero, yet it is larger than {}(1) = {sum:.3e}, all that remains when the coefficients are added up: give a lower order or richer records",
+                "{letter}{lag} = {} is not distinguished from zero, yet it is larger than {}(1) = {sum:.3e}, all that remains when the coefficients are added up: give a lower order or richer records",
                 interval(*value, *se),
                 letter.to_ascii_uppercase()
             ),

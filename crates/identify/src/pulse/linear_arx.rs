@@ -1,4 +1,4 @@
-//! The yardstick without hysteresis or curve: a linear ARX model.
+//! The baseline without hysteresis or curve: a linear ARX model.
 
 use super::arrow::Columns;
 use super::data::PulseData;

@@ -1,4 +1,4 @@
-//! The yardstick with a curve but no memory: a Hammerstein model with one static nonlinearity.
+//! The baseline with a curve but no memory: a Hammerstein model with one static nonlinearity.
 
 use super::arrow::{Columns, LocalColumn};
 use super::data::PulseData;

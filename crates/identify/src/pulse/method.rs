@@ -217,7 +217,7 @@ impl Limit {
         self.fit.parameters().map(|x| x.se * scale).collect()
     }
 
-    /// [`Limit::of`] [`PulseMethod::Instrumental`] on these experiments, had it been told the law of the output's noise, `sigma·C/D w` with `w` unit
+    /// [`Limit::of`] [`PulseMethod::Instrumental`] on these experiments, had it been reported the law of the output's noise, `sigma·C/D w` with `w` unit
     /// white; `ar` holds `d₁…` and `ma` holds `c₁…`.
     ///
     /// Its [theory](Limit::theory_se) is the Cramér–Rao bound of Gaussian noise whose colour is known, or unknown but nothing to do with the

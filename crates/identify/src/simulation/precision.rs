@@ -20,14 +20,14 @@ const ENDLESS: f64 = 1e12;
 /// normalisation `u_M − u_m = 1`.
 ///
 /// ```
-/// use switchback_identify::excitation::Campaign;
+/// use switchback_identify::excitation::Dataset;
 /// use switchback_model::hysteresis::{Interval, LeafSpring, SwitchedHysteresis};
 /// use switchback_model::linear::LinearSystem;
 /// use switchback_identify::simulation::PlannedPrecision;
 /// let interval = Interval::new(-1.0, 1.0)?;
 /// let spring = SwitchedHysteresis::new(interval, Box::new(LeafSpring::constant(0.3, 0.2)?))?;
 /// let system = LinearSystem::new(vec![-1.2, 0.5], vec![0.4, 0.2])?;
-/// let plan = Campaign::new(interval, 2, 4, 50)?;
+/// let plan = Dataset::new(interval, 2, 4, 50)?;
 /// let precision = PlannedPrecision::efficient(&system, &spring, plan.pulses(), 0.1)?;
 /// // Four times the samples halve every error.
 /// let (short, long) = (precision.at(1e3).worst(), precision.at(4e3).worst());

@@ -3,7 +3,7 @@
 use super::Measured;
 use super::quantile::normal_quantile_975;
 
-/// What one replicate tells of one parameter.
+/// What one replicate reports one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplicateError {
     /// `θ̂ − θ`.

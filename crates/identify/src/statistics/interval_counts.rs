@@ -7,7 +7,7 @@ use switchback_noise::lanes::{LANES, Lane};
 /// Upper ends of the classes of `|θ̂ − θ|`, in half widths of the 95 % interval that the replicate reports. What lies beyond the last is
 /// a class of its own.
 ///
-/// The truth is in the interval up to 1. Classes are narrow where a sound estimate has most of its replicates, and reach far enough to tell
+/// The truth is in the interval up to 1. Classes are narrow where a sound estimate has most of its replicates, and reach far enough to show
 /// intervals that are somewhat too narrow from those that miss the truth altogether.
 pub const CLASS_ENDS: [f64; 9] = [0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0];
 

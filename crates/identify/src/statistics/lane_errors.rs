@@ -4,7 +4,7 @@ use super::error_sums::{ErrorSums, TERMS};
 use super::quantile::normal_quantile_975;
 use switchback_noise::lanes::{LANES, Lane, Work, keep_apart, widest};
 
-/// What eight replicates tell of every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
+/// What eight replicates report every parameter of a cell: [`ReplicateError`](super::ReplicateError) in lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneErrors<'a> {
     /// The replicates themselves.

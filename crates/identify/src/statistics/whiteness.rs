@@ -1,4 +1,4 @@
-//! Whether a residual is noise: what its own past foretells of it.
+//! Whether a residual is noise: what its own past predicts of it.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -20,8 +20,8 @@ pub struct Whiteness {
     pub ljung_box: f64,
     /// Probability of a `Q` this large in white noise.
     pub p_value: f64,
-    /// `R²`, the share of the variance that the past foretells; not below 0.
-    pub foretold: f64,
+    /// `R²`, the share of the variance that the past predicts; not below 0.
+    pub forecast: f64,
     /// Lags behind both figures.
     pub lags: usize,
 }
@@ -35,7 +35,7 @@ impl Whiteness {
     /// use switchback_identify::statistics::Whiteness;
     /// // A ramp's next value is known from its last ones.
     /// let ramp: Vec<f64> = (0..400).map(|t| f64::from(t) - 200.0).collect();
-    /// assert!(Whiteness::of(&[&ramp]).unwrap().foretold > 0.95);
+    /// assert!(Whiteness::of(&[&ramp]).unwrap().predicted > 0.95);
     /// ```
     pub fn of(residuals: &[&[f64]]) -> Option<Self> {
         let count: usize = residuals.iter().map(|r| r.len()).sum();
@@ -54,14 +54,14 @@ impl Whiteness {
         let part = |k: usize| (covariance[k] / covariance[0]).powi(2) / (n - k as f64);
         let ljung_box = n * (n + 2.0) * (1..=LAGS).map(part).sum::<f64>();
         let chi_squared = ChiSquared::new(LAGS as f64).ok()?;
-        let left = unforetold(&covariance) / covariance[0];
-        let foretold = 1.0 - left * n / (n - LAGS as f64);
-        Some(Self { ljung_box, p_value: chi_squared.sf(ljung_box), foretold: foretold.max(0.0), lags: LAGS })
+        let left = innovation_share(&covariance) / covariance[0];
+        let forecast = 1.0 - left * n / (n - LAGS as f64);
+        Some(Self { ljung_box, p_value: chi_squared.sf(ljung_box), forecast: forecast.max(0.0), lags: LAGS })
     }
 }
 
 /// Sum of squares that the autoregression of full order leaves of one with these lagged products (Levinson's recursion).
-fn unforetold(covariance: &[f64]) -> f64 {
+fn innovation_share(covariance: &[f64]) -> f64 {
     let mut left = covariance[0];
     let mut a: Vec<f64> = Vec::with_capacity(covariance.len());
     for k in 1..covariance.len() {
@@ -71,7 +71,7 @@ fn unforetold(covariance: &[f64]) -> f64 {
         a.iter_mut().zip(earlier.iter().rev()).for_each(|(a, mirrored)| *a -= reflection * mirrored);
         a.push(reflection);
         left *= 1.0 - reflection * reflection;
-        // A residual without noise of its own is foretold to the last digit.
+        // A residual without noise of its own is predicted to the last digit.
         if left <= f64::EPSILON * covariance[0] {
             return 0.0;
         }
@@ -91,7 +91,7 @@ mod tests {
         (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()
     }
 
-    /// `x(t) = pole·x(t−1) + w(t)`: the past foretells `pole²` of the variance.
+    /// `x(t) = pole·x(t−1) + w(t)`: the past predicts `pole²` of the variance.
     fn coloured(seed: u64, count: usize, pole: f64) -> Vec<f64> {
         let mut x = white(seed, count);
         for t in 1..count {
@@ -101,21 +101,21 @@ mod tests {
     }
 
     #[test]
-    fn white_noise_is_rejected_as_often_as_the_level_says_and_nothing_is_foretold() {
+    fn white_noise_is_rejected_as_often_as_the_level_says_and_nothing_is_forecast() {
         let tests: Vec<Whiteness> =
             (0..400).map(|seed| Whiteness::of(&[&white(seed, 1000)]).unwrap()).collect();
         let rejected = tests.iter().filter(|w| w.p_value < 0.05).count();
         // 20 expected, standard deviation 4.4.
         assert!((4..=36).contains(&rejected), "{rejected} of 400");
-        let foretold = tests.iter().map(|w| w.foretold).sum::<f64>() / 400.0;
-        assert!(foretold < 0.01, "{foretold}");
+        let forecast = tests.iter().map(|w| w.forecast).sum::<f64>() / 400.0;
+        assert!(forecast < 0.01, "{forecast}");
     }
 
     #[test]
-    fn an_autoregression_is_foretold_by_the_square_of_its_pole() {
+    fn an_autoregression_is_forecast_by_the_square_of_its_pole() {
         let [one, other] = [coloured(1, 20_000, 0.6), coloured(2, 20_000, 0.6)];
         let found = Whiteness::of(&[&one, &other]).unwrap();
-        assert!((found.foretold - 0.36).abs() < 0.02, "{found:?}");
+        assert!((found.forecast - 0.36).abs() < 0.02, "{found:?}");
         assert!(found.p_value < 1e-9);
     }
 
@@ -128,7 +128,7 @@ mod tests {
         let right = DVector::from_column_slice(&products[1..]);
         let solved = matrix.cholesky().unwrap().solve(&right);
         let left = products[0] - solved.dot(&right);
-        assert!((unforetold(&products) / left - 1.0).abs() < 1e-9);
+        assert!((innovation_share(&products) / left - 1.0).abs() < 1e-9);
     }
 
     #[test]

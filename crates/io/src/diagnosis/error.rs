@@ -18,9 +18,10 @@ pub struct DiagnosisError {
 
 impl DiagnosisError {
     pub(super) fn new(rig: &str, error: &DiagnoseError) -> Self {
-        let told = error.to_string();
+        let reported = error.to_string();
         // These errors name the remedy after the last semicolon.
-        let (problem, remedy) = told.rsplit_once("; ").unwrap_or((&told, "check the records of the rig"));
+        let (problem, remedy) =
+            reported.rsplit_once("; ").unwrap_or((&reported, "check the records of the rig"));
         let remedy = match error {
             DiagnoseError::TooShort { order: 1, .. } => "record longer",
             DiagnoseError::TooShort { .. } => {

@@ -75,7 +75,7 @@ const STAGES: [Stage; 5] =
 pub struct Checked {
     /// Whether it holds.
     pub holds: bool,
-    /// What is told of it.
+    /// What is reported it.
     pub says: String,
 }
 
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_typo_is_told_with_the_words_that_are_allowed() {
+    fn a_typo_is_reported_with_the_words_that_are_allowed() {
         for (text, word) in [
             ("gab < 2 %", "gap.before"),
             ("gap < two", "is no number"),
@@ -217,8 +217,8 @@ mod tests {
             ("verdict.stage foo", "operator"),
             ("", "gap < 2 %"),
         ] {
-            let told = Expectation::parse(text).expect_err(text);
-            assert!(told.contains(word), "{text}: {told}");
+            let reported = Expectation::parse(text).expect_err(text);
+            assert!(reported.contains(word), "{text}: {reported}");
         }
     }
 }

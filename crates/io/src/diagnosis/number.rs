@@ -85,12 +85,12 @@ pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     if half <= 0.0 {
         return digits(value, 3);
     }
-    // An estimate of zero is one as well: how close to it the parameter lies is what its interval tells.
+    // An estimate of zero is one as well: how close to it the parameter lies is what its interval shows.
     let value = if value.abs() < ROUNDING * half { 0.0 } else { value };
     if half > UNDETERMINED * value.abs() && value != 0.0 {
         return format!("{}, undetermined", digits(value, 3));
     }
-    // One digit of the error decides how many of the value are worth telling; two where it begins with a one.
+    // One digit of the error decides how many of the value are worth reporting; two where it begins with a one.
     let first = half / 10f64.powf(half.log10().floor());
     let decimals = (f64::from(u8::from(first < 2.0)) - half.log10().floor()).clamp(0.0, 9.0) as usize;
     let fixed = |x: f64, decimals: usize| format!("{x:.decimals$}").replace('-', "−");
@@ -98,12 +98,12 @@ pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
         return format!("{} ± {}", fixed(value, decimals), fixed(half, decimals));
     }
     let all = |decimals: usize| [value, low, high].map(|x| fixed(x, decimals));
-    // An end close to the estimate needs a digit more to be told from it.
-    let [told, least, most] = match all(decimals) {
-        [told, least, most] if told == least || told == most => all(decimals + 1),
+    // An end close to the estimate needs a digit more to be distinguished from it.
+    let [reported, least, most] = match all(decimals) {
+        [reported, least, most] if reported == least || reported == most => all(decimals + 1),
         apart => apart,
     };
-    format!("{told} [{least}, {most}]")
+    format!("{reported} [{least}, {most}]")
 }
 
 #[cfg(test)]
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_that_grows_beyond_measure_is_told_as_such() {
+    fn a_gap_that_grows_beyond_measure_is_reported_as_such() {
         assert_eq!(closed_percent(-2.7e12), "< −999");
         assert_eq!(closed_percent(-112.3), "−112");
         assert_eq!(closed_percent(97.7), "98");

@@ -9,7 +9,7 @@ const VAGUE: f64 = 10.0;
 
 /// A fitted parameter as its user would state it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub struct Reported {
     /// Its name, logarithms undone.
     pub name: String,
     /// The estimate.
@@ -23,7 +23,7 @@ pub struct Told {
 /// Turns shares of the stroke into input units, samples' logarithms into seconds, angles into frequencies.
 ///
 /// Logarithmic parameters have intervals that are symmetric before they are undone.
-pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
+pub fn reported(parameter: &FittedParameter, units: &Units) -> Reported {
     // A logarithm known no better than to a few units is not known.
     let logarithm = parameter.unit.starts_with("ln ");
     let [low, high] = match parameter.ci90 {
@@ -57,7 +57,7 @@ pub fn told(parameter: &FittedParameter, units: &Units) -> Told {
         "per standard deviation of y" => scaled(1.0, "per sd of y".to_owned()),
         other => scaled(1.0, other.to_owned()),
     };
-    Told { name, value, ci90: [low, high], unit }
+    Reported { name, value, ci90: [low, high], unit }
 }
 
 #[cfg(test)]
@@ -73,25 +73,25 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_told_in_input_units() {
-        let play = told(&fitted("play", "strokes", 0.1), &units());
+    fn lengths_are_reported_in_input_units() {
+        let play = reported(&fitted("play", "strokes", 0.1), &units());
         assert_eq!((play.name.as_str(), play.value, play.unit.as_str()), ("play", 2.0, "V"));
         assert!((play.ci90[1] - play.value - 0.2).abs() < 1e-12);
     }
 
     #[test]
     fn logarithms_are_undone() {
-        let tau = told(&fitted("log_tau", "ln samples", 100f64.ln()), &units());
+        let tau = reported(&fitted("log_tau", "ln samples", 100f64.ln()), &units());
         assert_eq!((tau.name.as_str(), tau.unit.as_str()), ("time_constant", "s"));
         assert!((tau.value - 1.0).abs() < 1e-12);
         assert!((tau.value / tau.ci90[0] - tau.ci90[1] / tau.value).abs() < 1e-9);
-        let moving = told(&fitted("log_ratio_moving", "ln variance ratio", 0.0), &units());
+        let moving = reported(&fitted("log_ratio_moving", "ln variance ratio", 0.0), &units());
         assert_eq!((moving.name.as_str(), moving.value), ("noise_ratio_moving", 1.0));
     }
 
     #[test]
     fn angles_become_frequencies() {
-        let omega = told(&fitted("omega", "radians per sample", TAU / 10.0), &units());
+        let omega = reported(&fitted("omega", "radians per sample", TAU / 10.0), &units());
         assert!((omega.value - 10.0).abs() < 1e-12 && omega.unit == "Hz");
     }
 }

@@ -4,7 +4,7 @@ use crate::identification::unit;
 use switchback_diagnose::CellUnit;
 use switchback_model::rig::Rig;
 
-/// Units and scales of a rig, to tell dimensionless figures in the user's own.
+/// Units and scales of a rig, to show dimensionless figures in the user's own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Units {
     /// Unit of the input, `input units` where its label names none.
@@ -43,7 +43,7 @@ impl Units {
             CellUnit::Output => self.output.clone(),
             CellUnit::Samples => "samples".to_owned(),
             CellUnit::Hertz => "Hz".to_owned(),
-            CellUnit::ShareOfCampaign => "share of the campaign".to_owned(),
+            CellUnit::ShareOfDataset => "share of the dataset".to_owned(),
         }
     }
 }

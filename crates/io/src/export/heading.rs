@@ -5,7 +5,7 @@ use crate::identification::unit;
 use crate::model::{Added, Header, ModelFile};
 use switchback_model::step::Heading;
 
-/// What the reader of an exported model is told; `name` is what it is called there.
+/// What the reader of an exported model is reported; `name` is what it is called there.
 pub fn heading(file: &ModelFile, name: &str) -> Heading {
     let Header { part, rig, input, output, sample_time, identified_on, .. } = &file.header;
     let version = env!("CARGO_PKG_VERSION");
@@ -13,7 +13,7 @@ pub fn heading(file: &ModelFile, name: &str) -> Heading {
     says.extend(file.header.effects.iter().map(effect));
     says.push(identified(&file.header));
     says.push("A run begins at rest at its first input.".to_owned());
-    says.extend(file.elsewhere().into_iter().map(|told| sentence(&told)));
+    says.extend(file.elsewhere().into_iter().map(|reported| sentence(&reported)));
     Heading {
         name: name.to_owned(),
         says,

@@ -76,9 +76,9 @@ fn port(variable: Node<'_, '_>) -> Option<Port> {
 fn delay(root: Node<'_, '_>) -> usize {
     let is_own = root.attribute("generationTool").is_some_and(|tool| tool.starts_with("Switchback"));
     let variables = child(root, "ModelVariables").into_iter().flat_map(|all| all.children());
-    let told = variables.filter(|one| is_own && one.attribute("name") == Some("output_delay"));
+    let reported = variables.filter(|one| is_own && one.attribute("name") == Some("output_delay"));
     let start = |one: Node<'_, '_>| child(one, "Integer")?.attribute("start")?.parse().ok();
-    told.filter_map(start).next().unwrap_or(0)
+    reported.filter_map(start).next().unwrap_or(0)
 }
 
 /// The library for this platform.

@@ -16,10 +16,10 @@ use switchback_fmu::fmi2::{
 /// From one sign of life to the next.
 const HEARTBEAT: Duration = Duration::from_millis(200);
 
-/// Runs a job and tells of it in a file beside it; what goes wrong is told there, too.
+/// Runs a job and reports it in a file beside it; what goes wrong is reported there, too.
 ///
 /// # Errors
-/// If the job cannot be read, or nothing can be told.
+/// If the job cannot be read, or nothing can be reported.
 pub fn host(job: &Path) -> miette::Result<()> {
     let fail = |error: &dyn std::fmt::Display| miette::miette!("{}: {error}", job.display());
     let text = std::fs::read_to_string(job).map_err(|error| fail(&error))?;
@@ -27,7 +27,7 @@ pub fn host(job: &Path) -> miette::Result<()> {
     let lines = File::create(job.with_extension("lines")).map_err(|error| fail(&error))?;
     let mut teller = Teller { lines, last: Instant::now() };
     if let Err(why) = run(&given, &mut teller) {
-        teller.tell(&Line::Failed(why)).map_err(|error| fail(&error))?;
+        teller.describe(&Line::Failed(why)).map_err(|error| fail(&error))?;
     }
     Ok(())
 }
@@ -39,7 +39,7 @@ struct Teller {
 }
 
 impl Teller {
-    fn tell(&mut self, line: &Line) -> std::io::Result<()> {
+    fn describe(&mut self, line: &Line) -> std::io::Result<()> {
         self.last = Instant::now();
         let text = serde_json::to_string(line).expect("numbers and words are JSON");
         self.lines.write_all((text + "\n").as_bytes())
@@ -47,7 +47,7 @@ impl Teller {
 
     fn stands(&mut self, record: usize, sample: usize) -> Result<(), String> {
         if sample == 0 || self.last.elapsed() > HEARTBEAT {
-            self.tell(&Line::At(record, sample)).map_err(|error| error.to_string())?;
+            self.describe(&Line::At(record, sample)).map_err(|error| error.to_string())?;
         }
         Ok(())
     }
@@ -64,10 +64,10 @@ fn run(job: &Job, teller: &mut Teller) -> Result<(), String> {
         teller.stands(record, 0)?;
         let y = unit.over(job, v, |sample| teller.stands(record, sample))?;
         if let Some(sample) = y.iter().position(|y| !y.is_finite()) {
-            teller.tell(&Line::At(record, sample)).map_err(|error| error.to_string())?;
+            teller.describe(&Line::At(record, sample)).map_err(|error| error.to_string())?;
             return Err(format!("its output is {}, which is no finite number", y[sample]));
         }
-        teller.tell(&Line::Ran(record, y)).map_err(|error| error.to_string())?;
+        teller.describe(&Line::Ran(record, y)).map_err(|error| error.to_string())?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! What the process of an FMU is told, and tells.
+//! What the process of an FMU is reported, and shows.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub(super) struct Job {
     pub(super) inputs: Vec<Vec<f64>>,
 }
 
-/// A line of what it tells, in a file that grows.
+/// A line of what it shows, in a file that grows.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Line {

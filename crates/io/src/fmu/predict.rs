@@ -64,7 +64,7 @@ pub fn predictions(mut rig: Rig, simulator: &Simulator<'_>) -> Result<Rig, FmuEr
 /// The process of an FMU.
 struct Process<'a> {
     simulator: &'a Simulator<'a>,
-    /// The job; what the process tells and says is beside it.
+    /// The job; what the process shows and says is beside it.
     place: PathBuf,
     names: &'a [String],
 }
@@ -113,13 +113,13 @@ impl Process<'_> {
     }
 
     fn wait(&self, mut child: Child) -> std::io::Result<End> {
-        let told = self.place.with_extension("lines");
+        let reported = self.place.with_extension("lines");
         let (mut size, mut since) = (0, Instant::now());
         loop {
             if let Some(status) = child.try_wait()? {
                 return Ok(End::Itself(status));
             }
-            let now = fs::metadata(&told).map_or(0, |told| told.len());
+            let now = fs::metadata(&reported).map_or(0, |reported| reported.len());
             if now != size {
                 (size, since) = (now, Instant::now());
             }

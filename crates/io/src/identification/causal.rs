@@ -19,7 +19,7 @@ pub(crate) fn obstacles(model: &Model, unit: &str) -> Vec<String> {
             LookAhead::Never => {}
             LookAhead::OneSample if model.structure().delay >= 0 => {}
             LookAhead::OneSample => {
-                reasons.push("the sample after a reversal tells when between samples it falls".to_owned());
+                reasons.push("the sample after a reversal shows when between samples it falls".to_owned());
             }
             LookAhead::UntilConfirmed => reasons.push(format!(
                 "it dates a reversal back once the input has moved by {}",
@@ -31,7 +31,7 @@ pub(crate) fn obstacles(model: &Model, unit: &str) -> Vec<String> {
 }
 
 impl CausalAlternative {
-    /// Tells the price.
+    /// Shows the price.
     pub(super) fn flag(&self, obstacles: &[String]) -> Flag {
         let why = format!("this model could not run in real time ({})", obstacles.join("; "));
         match &self.held_out {
@@ -54,7 +54,7 @@ impl CausalAlternative {
                 kind: "not_causal",
                 figure: None,
                 text: format!(
-                    "{why}; `--causal` gives the best that could, at a price that only a held-out record would tell"
+                    "{why}; `--causal` gives the best that could, at a price that only a held-out record would show"
                 ),
             },
         }

@@ -1,12 +1,12 @@
 //! An identification and another one on the held-out records.
 
+use super::baseline::Baseline;
 use super::errors_of_run::RunErrors;
 use super::result::Identification;
-use super::yardstick::Yardstick;
 use switchback_identify::statistics::MeanInterval;
 use switchback_model::rig::{Rig, Usage};
 
-impl Yardstick {
+impl Baseline {
     /// Compares over the held-out records; `None` if nothing held out was simulated by both.
     pub(super) fn of(rig: &Rig, own: &Identification, other: &Identification) -> Option<Self> {
         let own_runs = RunErrors::of(rig, own, Usage::Holdout);

@@ -13,7 +13,7 @@ pub fn identify(rig: &Rig, request: impl Into<Request>) -> Result<Identification
     identify_watched(rig, request.into(), &())
 }
 
-/// [`identify`], which tells how far it has come.
+/// [`identify`], which shows how far it has come.
 ///
 /// # Errors
 /// As [`identify`].

@@ -36,7 +36,7 @@ pub enum IdentificationError {
         remedy: String,
     },
     /// The result simulates every record worse than a constant would.
-    #[error("{rig}: what the method {method} found is of no use: {told}")]
+    #[error("{rig}: what the method {method} found is of no use: {reported}")]
     #[diagnostic(help(
         "check that the columns hold the input and the output of one machine, look for drift between the records, or set another `order` in a rig file"
     ))]
@@ -46,7 +46,7 @@ pub enum IdentificationError {
         /// The method used.
         method: Method,
         /// What the free runs came to.
-        told: String,
+        reported: String,
     },
 }
 

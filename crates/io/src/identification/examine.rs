@@ -1,7 +1,7 @@
 //! An identification, examined: beside simpler models, beside one for real time, and by its residuals.
 
 use super::{
-    CausalAlternative, Examination, Flag, Identification, IdentificationError, Method, Request, Yardstick,
+    Baseline, CausalAlternative, Examination, Flag, Identification, IdentificationError, Method, Request,
     identify_watched, residuals,
 };
 use crate::progress::Stages;
@@ -29,12 +29,12 @@ pub fn examined_watched(
     let mut examination =
         Examination { innovations: residuals::innovations(rig, &found), ..Examination::default() };
     for (request, other) in others {
-        let compared = Yardstick::of(rig, &found, &other);
+        let compared = Baseline::of(rig, &found, &other);
         if request.method == found.method {
             examination.causal =
                 Some(CausalAlternative { identification: Box::new(other), held_out: compared });
         } else {
-            examination.yardsticks.extend(compared);
+            examination.baselines.extend(compared);
         }
     }
     found.flags = flags(rig, &found, &examination, useless);
@@ -58,8 +58,8 @@ pub(super) fn refuse_useless(
     if simulated == 0 || useless.len() < simulated {
         return Ok(());
     }
-    let told = useless.iter().map(|flag| flag.text.as_str()).collect::<Vec<_>>().join("; ");
-    Err(IdentificationError::Useless { rig: rig.name.clone(), method: found.method, told })
+    let reported = useless.iter().map(|flag| flag.text.as_str()).collect::<Vec<_>>().join("; ");
+    Err(IdentificationError::Useless { rig: rig.name.clone(), method: found.method, reported })
 }
 
 /// The identifications to compare with, those that the records allow.
@@ -99,17 +99,17 @@ fn flags(rig: &Rig, found: &Identification, examination: &Examination, useless: 
         figure: None,
         text: "no record is held out, so the fit is only a fit to what was fitted".to_owned(),
     });
-    let yardstick = preferable(examination).and_then(|yardstick| yardstick.flag(found.method));
+    let baseline = preferable(examination).and_then(|baseline| baseline.flag(found.method));
     let colour = examination.innovations.as_ref().and_then(residuals::colour);
     let causal = examination.causal.as_ref().map(|causal| causal.flag(&found.obstacles));
     let (notes, doubts): (Vec<Flag>, Vec<Flag>) = found.flags.iter().cloned().partition(Flag::is_a_note);
-    let before = useless.into_iter().chain(no_holdout).chain(yardstick);
+    let before = useless.into_iter().chain(no_holdout).chain(baseline);
     before.chain(doubts).chain(colour).chain(causal).chain(notes).collect()
 }
 
-/// The yardstick that comes nearest to the identification, or surpasses it most.
-fn preferable(examination: &Examination) -> Option<&Yardstick> {
-    examination.yardsticks.iter().max_by(|x, y| x.fit_percent.total_cmp(&y.fit_percent))
+/// The baseline that comes nearest to the identification, or surpasses it most.
+fn preferable(examination: &Examination) -> Option<&Baseline> {
+    examination.baselines.iter().max_by(|x, y| x.fit_percent.total_cmp(&y.fit_percent))
 }
 
 /// Whether nothing is held out, so that no fit figure proves anything.

@@ -1,4 +1,4 @@
-//! Methods for any record of a rig, and the yardsticks.
+//! Methods for any record of a rig, and the baselines.
 
 use super::{Examination, Flag, Found, FreeRun, Identification, IdentificationError, Request, causal, unit};
 use crate::model::Curves;
@@ -22,7 +22,7 @@ pub(super) fn identify(
             rig: rig.name.clone(),
             method,
             remedy: remedy(&error, rig),
-            // What follows is told in the terms of the files.
+            // What follows is reported in the terms of the files.
             reason: error.to_string().split("; ").next().unwrap_or_default().to_owned(),
         })?;
     let model = Found::Curves(Curves::of(&identified));

@@ -1,6 +1,6 @@
 //! The identification as one JSON object.
 
-use super::{CausalAlternative, Flag, Identification, Yardstick};
+use super::{Baseline, CausalAlternative, Flag, Identification};
 use crate::output::stamped;
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
@@ -79,7 +79,8 @@ pub struct EstimateFile {
     /// The best model that could, where this one could not.
     pub causal_alternative: Option<Causal>,
     /// Simpler models on the held-out records.
-    pub yardsticks: Vec<Beside>,
+    #[serde(rename = "yardsticks")]
+    pub baselines: Vec<Beside>,
     /// How far the borders lie apart.
     pub r#loop: Option<Loop>,
     /// What noise on the input does to the estimate.
@@ -166,7 +167,8 @@ pub struct Causal {
 pub struct Loop {
     /// Share of the stroke over which the borders differ beyond their errors.
     #[serde(deserialize_with = "crate::input::nullable::number")]
-    pub told_apart: f64,
+    #[serde(rename = "told_apart")]
+    pub distinguished: f64,
     /// Where they differ most clearly.
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub clearest_v: f64,
@@ -188,9 +190,10 @@ pub struct Loop {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Innovations {
-    /// Share of the variance of the innovations that their past foretells.
+    /// Share of the variance of the innovations that their past predicts.
     #[serde(deserialize_with = "crate::input::nullable::number")]
-    pub foretold: f64,
+    #[serde(rename = "foretold")]
+    pub forecast: f64,
     /// Ljung–Box statistic.
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub ljung_box: f64,
@@ -201,22 +204,22 @@ pub struct Innovations {
     pub lags: usize,
 }
 
-impl From<&Yardstick> for Beside {
-    fn from(yardstick: &Yardstick) -> Self {
+impl From<&Baseline> for Beside {
+    fn from(baseline: &Baseline) -> Self {
         Self {
-            method: yardstick.method.name().to_owned(),
-            fit_percent: yardstick.fit_percent,
-            own_fit_percent: yardstick.own_fit_percent,
-            excess: yardstick.excess.map(|e| [e.mean, e.low, e.high]),
+            method: baseline.method.name().to_owned(),
+            fit_percent: baseline.fit_percent,
+            own_fit_percent: baseline.own_fit_percent,
+            excess: baseline.excess.map(|e| [e.mean, e.low, e.high]),
         }
     }
 }
 
 impl From<BorderDistance> for Loop {
     fn from(distance: BorderDistance) -> Self {
-        let BorderDistance { clearest, z, limit, told_apart, .. } = distance;
+        let BorderDistance { clearest, z, limit, distinguished, .. } = distance;
         Self {
-            told_apart,
+            distinguished,
             clearest_v: clearest.v,
             difference: clearest.difference,
             se: clearest.se,
@@ -335,11 +338,11 @@ impl EstimateFile {
             records,
             causal: identification.obstacles.is_empty(),
             causal_alternative: examination.causal.as_ref().map(causal),
-            yardsticks: examination.yardsticks.iter().map(Beside::from).collect(),
+            baselines: examination.baselines.iter().map(Beside::from).collect(),
             r#loop: identification.distance.map(Loop::from),
             input_noise: identification.input_noise.map(Moved::from),
             innovations: examination.innovations.map(|w| Innovations {
-                foretold: w.foretold,
+                forecast: w.forecast,
                 ljung_box: w.ljung_box,
                 p_value: w.p_value,
                 lags: w.lags,

@@ -1,5 +1,6 @@
 //! Identification of a rig: which method, what it found, how well that simulates every record.
 
+mod baseline;
 mod causal;
 mod comparison;
 mod dispatch;
@@ -19,8 +20,8 @@ mod result;
 mod simulate;
 mod table;
 mod unit;
-mod yardstick;
 
+pub use baseline::Baseline;
 pub(crate) use causal::obstacles;
 pub use dispatch::identify;
 pub(crate) use dispatch::identify_watched;
@@ -42,7 +43,6 @@ pub use switchback_identify::Method;
 pub use switchback_identify::free::fit_percent;
 pub use table::table;
 pub use unit::unit;
-pub use yardstick::Yardstick;
 
 #[cfg(test)]
 mod tests;

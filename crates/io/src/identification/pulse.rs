@@ -117,7 +117,7 @@ pub(super) fn identify(rig: &Rig, designed: Designed) -> Result<Identification, 
 fn doubts(estimate: &Estimate, distance: Option<BorderDistance>) -> Vec<Warning> {
     let vanished = distance.filter(BorderDistance::has_vanished);
     let hollow = estimate.hollow_coefficients();
-    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotTold { coefficient, sum });
+    let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotReported { coefficient, sum });
     vanished.map(|distance| Warning::LoopVanished { distance }).into_iter().chain(hollow).collect()
 }
 

@@ -10,7 +10,7 @@ pub struct Request {
     /// Whether the model must be able to run in real time: `y(t)` from `v` up to `t` alone.
     ///
     /// A direct term may stay, since `v(t)` is at hand when `y(t)` is wanted. No coefficient weighs a later sample, and a reversal takes effect at the
-    /// sample that confirms it rather than at the extremum before, which only later samples tell.
+    /// sample that confirms it rather than at the extremum before, which only later samples show.
     pub causal: bool,
 }
 

@@ -27,19 +27,19 @@ pub(super) fn innovations(rig: &Rig, identification: &Identification) -> Option<
         of(residuals.iter().map(Vec::as_slice).collect()),
         of(runs.iter().map(|run| &run.errors[..]).collect()),
     ];
-    candidates.into_iter().flatten().min_by(|x, y| x.foretold.total_cmp(&y.foretold))
+    candidates.into_iter().flatten().min_by(|x, y| x.forecast.total_cmp(&y.forecast))
 }
 
-/// Points at `gap` where the innovations' own past foretells a large share of them.
+/// Points at `gap` where the innovations' own past predicts a large share of them.
 pub(super) fn colour(whiteness: &Whiteness) -> Option<Flag> {
-    let Whiteness { foretold, ljung_box, lags, p_value } = *whiteness;
-    (foretold > LARGE && p_value < 0.001).then(|| {
+    let Whiteness { forecast, ljung_box, lags, p_value } = *whiteness;
+    (forecast > LARGE && p_value < 0.001).then(|| {
         Flag::new(
             "coloured_innovations",
-            foretold,
+            forecast,
             format!(
-                "the innovations are far from white: their past foretells {:.0} % of their variance (Ljung–Box {ljung_box:.0} over {lags} lags), so something is left that the model does not explain; `switchback gap` looks for its cause",
-                100.0 * foretold
+                "the innovations are far from white: their past predicts {:.0} % of their variance (Ljung–Box {ljung_box:.0} over {lags} lags), so something is left that the model does not explain; `switchback gap` looks for its cause",
+                100.0 * forecast
             ),
         )
     })

@@ -1,9 +1,9 @@
 //! What a method made of a rig, and what other models and the residuals say of it.
 
+use super::baseline::Baseline;
 use super::flag::Flag;
 use super::found::Found;
 use super::free_run::FreeRun;
-use super::yardstick::Yardstick;
 use switchback_identify::free::InputNoise;
 use switchback_identify::statistics::Whiteness;
 use switchback_identify::{BorderDistance, Estimate, LevelErrors, Method};
@@ -40,7 +40,7 @@ impl Identification {
         !(self.estimate.descending.is_empty() && self.estimate.ascending.is_empty())
     }
 
-    /// Whether both borders are the same curve, as in the yardsticks that know no hysteresis.
+    /// Whether both borders are the same curve, as in the baselines that know no hysteresis.
     pub fn has_one_curve(&self) -> bool {
         self.estimate.descending == self.estimate.ascending
     }
@@ -50,7 +50,7 @@ impl Identification {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Examination {
     /// Simpler models on the held-out records.
-    pub yardsticks: Vec<Yardstick>,
+    pub baselines: Vec<Baseline>,
     /// The best model that could run in real time, where this one could not and something is held out to compare them.
     pub causal: Option<CausalAlternative>,
     /// How white the innovations are over the fit records.
@@ -63,5 +63,5 @@ pub struct CausalAlternative {
     /// The model, as `--causal` gives it.
     pub identification: Box<Identification>,
     /// How both simulate the held-out records; `None` if nothing is held out.
-    pub held_out: Option<Yardstick>,
+    pub held_out: Option<Baseline>,
 }

@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn an_input_that_never_moves_tells_nothing() {
+    fn an_input_that_never_moves_shows_nothing() {
         let estimate = estimate(&[-1.0, 0.0], &[0.0, 1.0]);
         let system = EstimatedSystem::new(&estimate, spring().interval()).unwrap();
         assert_eq!(system.run(&Record::new(vec![0.5; 20], vec![1.0; 20]).unwrap()), None);

@@ -132,7 +132,7 @@ fn borders(rig: &Rig, identification: &Identification) -> String {
     let apart = identification.distance.map_or(String::new(), |distance| {
         format!(
             "the borders differ beyond their errors over {:.0} % of the stroke\n",
-            100.0 * distance.told_apart
+            100.0 * distance.distinguished
         )
     });
     format!("{table}in units of u_M − u_m; times the gain these are stationary outputs\n{apart}")

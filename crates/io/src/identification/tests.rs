@@ -1,7 +1,7 @@
-//! Every reservation of the runner: a rig made so that it must be told, and one where it must not.
+//! Every reservation of the runner: a rig made so that it must be reported, and one where it must not.
 
 use super::examine::refuse_useless;
-use super::{Examination, Flag, FreeRun, Identification, IdentificationError, Method, Request, Yardstick};
+use super::{Baseline, Examination, Flag, FreeRun, Identification, IdentificationError, Method, Request};
 use super::{examined, identify, json, residuals, table};
 use switchback_identify::Estimate;
 use switchback_model::Record;
@@ -89,38 +89,38 @@ fn a_simpler_model_is_preferred_where_it_simulates_better_and_only_there() {
     let flag = |own: &[f64], other: &[f64]| {
         let own = missing_by(&rig, Method::Free, own);
         let other = missing_by(&rig, Method::Memoryless, other);
-        Yardstick::of(&rig, &own, &other).expect("a held-out record").flag(Method::Free)
+        Baseline::of(&rig, &own, &other).expect("a held-out record").flag(Method::Free)
     };
     let (small, large) = (scaled(&noise(1, SAMPLES), 0.2), scaled(&noise(2, SAMPLES), 0.3));
-    let told = flag(&large, &small).expect("worse");
-    assert_eq!(told.kind, "worse_than_yardstick");
+    let reported = flag(&large, &small).expect("worse");
+    assert_eq!(reported.kind, "worse_than_yardstick");
     assert!(
-        told.text.contains("prefer `--method memoryless`") && told.figure.expect("points") < -3.0,
+        reported.text.contains("prefer `--method memoryless`") && reported.figure.expect("points") < -3.0,
         "{}",
-        told.text
+        reported.text
     );
     assert_eq!(flag(&small, &large), None);
     // The same size of error: one of the two is a little ahead, by chance.
     let as_large = scaled(&noise(3, SAMPLES), 0.2);
-    let told =
+    let reported =
         [flag(&small, &as_large), flag(&as_large, &small)].into_iter().flatten().collect::<Vec<Flag>>();
-    assert_eq!(told.len(), 1);
-    assert_eq!(told[0].kind, "no_better_than_yardstick");
+    assert_eq!(reported.len(), 1);
+    assert_eq!(reported[0].kind, "no_better_than_yardstick");
 }
 
 #[test]
 fn innovations_are_coloured_only_if_neither_kind_of_noise_explains_them() {
     let rig = wave(Usage::Fit);
-    let told = |errors: &[f64]| {
+    let reported = |errors: &[f64]| {
         let found = missing_by(&rig, Method::Free, errors);
         residuals::innovations(&rig, &found).as_ref().and_then(residuals::colour)
     };
     let white = noise(4, SAMPLES);
-    assert_eq!(told(&white), None);
+    assert_eq!(reported(&white), None);
     let through_a = filter(&[-0.9], &[], &vec![0.0; SAMPLES], &white, 0.0, 0.0);
-    assert_eq!(told(&through_a), None);
+    assert_eq!(reported(&through_a), None);
     let slow: Vec<f64> = (0..SAMPLES).map(|t| 5.0 * (0.2 * t as f64).sin() + white[t]).collect();
-    let flag = told(&slow).expect("a wave is foretold");
+    let flag = reported(&slow).expect("a wave is predicted");
     assert_eq!(flag.kind, "coloured_innovations");
     assert!(flag.figure.expect("a share") > 0.26 && flag.text.contains("switchback gap"), "{flag:?}");
 }
@@ -128,16 +128,16 @@ fn innovations_are_coloured_only_if_neither_kind_of_noise_explains_them() {
 #[test]
 fn a_free_run_further_off_than_the_mean_is_useless_and_a_result_of_such_runs_is_refused() {
     let rig = wave(Usage::Holdout);
-    let told = |errors: &[f64]| {
+    let reported = |errors: &[f64]| {
         let found = missing_by(&rig, Method::Free, errors);
         let useless = residuals::worse_than_the_mean(&rig, &found);
         (refuse_useless(&rig, &found, &useless), useless)
     };
-    let (outcome, flags) = told(&scaled(rig.records[0].record.y(), 2.0));
+    let (outcome, flags) = reported(&scaled(rig.records[0].record.y(), 2.0));
     assert_eq!(flags[0].kind, "free_run_useless");
     assert!((flags[0].figure.expect("a fit") + 100.0).abs() < 1.0);
     assert!(matches!(outcome, Err(IdentificationError::Useless { .. })));
-    let (outcome, flags) = told(&scaled(&noise(5, SAMPLES), 0.5));
+    let (outcome, flags) = reported(&scaled(&noise(5, SAMPLES), 0.5));
     assert!(outcome.is_ok() && flags.is_empty());
 }
 
@@ -194,7 +194,7 @@ fn kinds(found: &Identification) -> Vec<&str> {
 }
 
 #[test]
-fn a_designed_experiment_tells_a_loop_from_one_curve() {
+fn a_designed_experiment_shows_a_loop_from_one_curve() {
     let found = |play| identify(&designed(0.5, play, 60), Method::Efficient).expect("identified");
     assert_eq!(kinds(&found(0.0)), ["loop_vanished"]);
     assert_eq!(kinds(&found(0.2)), [""; 0]);
@@ -219,16 +219,16 @@ fn free(ahead: usize) -> Rig {
 }
 
 #[test]
-fn a_model_that_looks_ahead_is_told_with_the_price_of_real_time() {
+fn a_model_that_looks_ahead_is_reported_with_the_price_of_real_time() {
     let request = |causal| Request { method: Method::Free, causal };
     let best = examined(&free(2), request(false)).expect("identified");
     let price = best.flags.iter().find(|flag| flag.kind == "not_causal").expect("told");
     assert!(price.figure.expect("points") > 1.0 && price.text.contains("a price of"), "{}", price.text);
     let causal = examined(&free(2), request(true)).expect("identified");
     assert!(causal.obstacles.is_empty() && !kinds(&causal).contains(&"not_causal"));
-    // What was told is what `--causal` gives.
-    let told = best.examination.causal.as_ref().expect("an alternative");
-    assert_eq!(told.identification.estimate, causal.estimate);
+    // What was reported is what `--causal` gives.
+    let reported = best.examination.causal.as_ref().expect("an alternative");
+    assert_eq!(reported.identification.estimate, causal.estimate);
     let at_samples = examined(&free(0), request(false)).expect("identified");
     assert!(!kinds(&at_samples).contains(&"not_causal"), "{:?}", at_samples.obstacles);
 }
@@ -259,5 +259,5 @@ fn without_a_hold_out_the_fit_is_said_to_prove_nothing() {
     rig.records.pop();
     let found = examined(&rig, Method::Free.into()).expect("identified");
     assert_eq!(kinds(&found)[0], "no_holdout");
-    assert!(found.examination.yardsticks.is_empty());
+    assert!(found.examination.baselines.is_empty());
 }

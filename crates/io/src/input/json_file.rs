@@ -38,12 +38,12 @@ pub fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, JsonErro
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let keys = error.path().to_string();
-        let told = match bare(error.inner()) {
+        let reported = match bare(error.inner()) {
             // The reader of names calls any other value so.
             theirs if theirs == "expected value" => "one of the names known here was expected".to_owned(),
-            theirs => Terms::Json.told(&theirs),
+            theirs => Terms::Json.reported(&theirs),
         };
-        let message = if keys == "." { told } else { format!("`{keys}`: {told}") };
+        let message = if keys == "." { reported } else { format!("`{keys}`: {reported}") };
         fail(error.inner(), message, true)
     })
 }
@@ -53,10 +53,10 @@ pub fn kind(text: &str) -> Option<&'static str> {
     kinds::of_json(&serde_json::from_str(text).ok()?)
 }
 
-/// The message without the place, which is told before it.
+/// The message without the place, which is reported before it.
 fn bare(error: &serde_json::Error) -> String {
-    let told = error.to_string();
-    told.rsplit_once(" at line ").map_or(told.as_str(), |(message, _)| message).to_owned()
+    let reported = error.to_string();
+    reported.rsplit_once(" at line ").map_or(reported.as_str(), |(message, _)| message).to_owned()
 }
 
 fn syntax(message: &str) -> String {
@@ -73,14 +73,14 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_named_by_its_keys() {
-        let told = |text: &str| {
+        let reported = |text: &str| {
             parse::<BTreeMap<String, Vec<u32>>>(Path::new("a.json"), text).expect_err("no such value")
         };
-        let error = told("{\n\"a\": [1, -2]}");
+        let error = reported("{\n\"a\": [1, -2]}");
         assert_eq!(error.message, "`a[1]`: expected a whole number, 0 or more, found `-2`");
         assert_eq!((error.place.as_str(), error.is_json), ("a.json:2:11", true));
-        assert_eq!(told("[]").message, "expected an object, found a list");
-        assert_eq!(told("").message, "the file is empty");
-        assert!(told("{\"a\": ").message.starts_with("this is no JSON: the text ends"));
+        assert_eq!(reported("[]").message, "expected an object, found a list");
+        assert_eq!(reported("").message, "the file is empty");
+        assert!(reported("{\"a\": ").message.starts_with("this is no JSON: the text ends"));
     }
 }

@@ -1,4 +1,4 @@
-//! Which of the files of this program one is, to tell those who gave another.
+//! Which of the files of this program one is, to show those who gave another.
 
 use super::table::Table;
 use super::text_pieces::read_decoded;
@@ -64,7 +64,7 @@ pub(super) fn of_json(value: &Value) -> Option<&'static str> {
     ];
     match value.get("schema")? {
         Value::String(schema) => {
-            written.into_iter().find(|(start, _)| schema.starts_with(start)).map(|(_, told)| told)
+            written.into_iter().find(|(start, _)| schema.starts_with(start)).map(|(_, reported)| reported)
         }
         Value::Number(_) => value.get("cells").map(|_| "the results of a study"),
         _ => None,

@@ -106,8 +106,8 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
         Ok(bytes) => Ok(bytes.to_vec()),
         Err(Fault::Silent) => Err(FileError::Silent { path, seconds: BOUNDS.silence.as_secs() }),
         Err(Fault::Endless) => Err(FileError::Endless { path, gibibytes: BOUNDS.bytes >> 30 }),
-        Err(Fault::Unreadable(kind, told)) => {
-            Err(FileError::Unreadable { path, source: io::Error::new(*kind, told.clone()) })
+        Err(Fault::Unreadable(kind, reported)) => {
+            Err(FileError::Unreadable { path, source: io::Error::new(*kind, reported.clone()) })
         }
     }
 }
@@ -186,9 +186,9 @@ mod tests {
 
     #[test]
     fn streams_get_names_that_say_something() {
-        let told = |path: &str| stem(Path::new(path)).unwrap();
-        assert_eq!((told("-").as_str(), told("/dev/stdin").as_str()), ("stdin", "stdin"));
-        assert_eq!((told("./-").as_str(), told("bench/a.csv").as_str()), ("-", "a"));
+        let reported = |path: &str| stem(Path::new(path)).unwrap();
+        assert_eq!((reported("-").as_str(), reported("/dev/stdin").as_str()), ("stdin", "stdin"));
+        assert_eq!((reported("./-").as_str(), reported("bench/a.csv").as_str()), ("-", "a"));
         assert_eq!(
             (file_name(Path::new("-")).as_str(), file_name(Path::new("b/a.toml")).as_str()),
             ("-", "a.toml")

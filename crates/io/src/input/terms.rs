@@ -23,7 +23,7 @@ impl Terms {
     }
 
     /// A reader's message in the words of somebody who writes such files.
-    pub(super) fn told(self, message: &str) -> String {
+    pub(super) fn reported(self, message: &str) -> String {
         let message = message.trim_end();
         let kinds = ["invalid type: ", "invalid value: ", "invalid length "];
         let contrast = kinds.into_iter().find_map(|kind| {
@@ -31,8 +31,8 @@ impl Terms {
             let found = if kind.contains("length") { entries(found) } else { self.found(found) };
             Some(format!("expected {}, found {found}", self.wanted(wanted)))
         });
-        if let Some(told) = contrast {
-            return told;
+        if let Some(reported) = contrast {
+            return reported;
         }
         let key = self.key();
         if let Some(name) = message.strip_prefix("missing field ") {
@@ -80,7 +80,7 @@ impl Terms {
 
     /// What was wanted, by the name of a type of Rust or as serde describes it.
     fn wanted(self, theirs: &str) -> String {
-        let told = match theirs {
+        let reported = match theirs {
             "f64" | "f32" => "a number",
             "usize" | "u8" | "u16" | "u32" | "u64" | "u128" | "nonzero u64" => "a whole number, 0 or more",
             "isize" | "i8" | "i16" | "i32" | "i64" | "i128" => "a whole number",
@@ -94,7 +94,7 @@ impl Terms {
             other if other.starts_with("struct ") => self.object(),
             other => return self.counted(other).unwrap_or_else(|| other.to_owned()),
         };
-        told.to_owned()
+        reported.to_owned()
     }
 
     /// `a tuple of size 3`, `an array of length 3`, `tuple variant X with 3 elements` and the like.
@@ -137,8 +137,11 @@ mod tests {
             ("unknown field `x`, there are no fields", "unknown field `x`, no field is known here"),
             ("missing field `a`", "there is no field `a`"),
         ] {
-            assert_eq!(Terms::Json.told(theirs), ours);
+            assert_eq!(Terms::Json.reported(theirs), ours);
         }
-        assert_eq!(Terms::Toml.told("invalid type: map, expected f64"), "expected a number, found a table");
+        assert_eq!(
+            Terms::Toml.reported("invalid type: map, expected f64"),
+            "expected a number, found a table"
+        );
     }
 }

@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_are_dropped_and_encodings_told() {
+    fn marks_are_dropped_and_encodings_reported() {
         let utf16: Vec<u8> = "\u{feff}t,µ".encode_utf16().flat_map(u16::to_le_bytes).collect();
         assert_eq!(whole(&utf16), ("t,µ".to_owned(), Some("UTF-16LE")));
         let marked = [b"\xef\xbb\xbf".as_slice(), "t,µ".as_bytes()].concat();

@@ -74,8 +74,8 @@ impl TomlFile {
         })
     }
 
-    /// The same, going on after what is wrong: a line that does not fit is told, taken out, and the rest read again, so that all such lines
-    /// are told at once. The value lacks what stood in them; it is none where the file is no TOML.
+    /// The same, going on after what is wrong: a line that does not fit is reported, taken out, and the rest read again, so that all such lines
+    /// are reported at once. The value lacks what stood in them; it is none where the file is no TOML.
     pub(crate) fn parse_all<T: DeserializeOwned>(&self) -> (Option<T>, Vec<TomlError>) {
         let mut rest = self.text.clone();
         let mut problems = Vec::new();
@@ -102,7 +102,7 @@ impl TomlFile {
 
     /// What the TOML reader's error means to the file's writer, and what to do about it.
     pub fn explain(&self, error: &toml::de::Error) -> (String, String) {
-        (Terms::Toml.told(error.message()), self.remedy(error.message()))
+        (Terms::Toml.reported(error.message()), self.remedy(error.message()))
     }
 
     /// An error at a place of this file. `message` says what is wrong there, `remedy` what to do about it.

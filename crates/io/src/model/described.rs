@@ -61,7 +61,7 @@ impl Described {
         }
     }
 
-    /// `a`, and `b` for a `u` that runs from `u_m` to `u_m + 1`, as an estimate tells it.
+    /// `a`, and `b` for a `u` that runs from `u_m` to `u_m + 1`, as an estimate shows it.
     fn linear(&self) -> (Vec<f64>, Vec<f64>) {
         let ends = self.descending.first().zip(self.ascending.last().or(self.descending.last()));
         let span = ends.map_or(1.0, |(low, high)| high.1 - low.1);
@@ -74,9 +74,9 @@ impl System {
     /// A figure of the linear part, `of(a, b)` with `b` for a `u` from `u_m` to `u_m + 1`, and the standard error of each of its values by
     /// linear propagation; no errors where the parameters' covariance is not known.
     pub fn of_linear(&self, of: impl Fn(&[f64], &[f64]) -> Vec<f64>) -> (Vec<f64>, Option<Vec<f64>>) {
-        let told = |described: Described| {
+        let reported = |described: Described| {
             let (a, b) = match self {
-                // Points are told in that normalisation already.
+                // Points are reported in that normalisation already.
                 Self::Points(_) => (described.a, described.b),
                 _ => described.linear(),
             };
@@ -87,8 +87,8 @@ impl System {
             Self::Curves(curves) => curves.covariance(),
             Self::Points(points) => points.covariance(),
         };
-        let variances = rows.map(|rows| propagated(rows, |step| told(Described::moved(self, step))));
+        let variances = rows.map(|rows| propagated(rows, |step| reported(Described::moved(self, step))));
         let errors = variances.map(|v| v.into_iter().map(|v| v.max(0.0).sqrt()).collect());
-        (told(Described::of(self)), errors)
+        (reported(Described::of(self)), errors)
     }
 }

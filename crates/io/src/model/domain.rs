@@ -200,11 +200,19 @@ mod tests {
     }
 
     #[test]
-    fn every_way_out_is_told_with_its_figures() {
-        let told = domain().warnings(&[0.0, 1.0, 2.5, 2.4, 2.6, 2.4], 0.1, "mm");
-        assert_eq!(told.len(), 3, "{told:?}");
-        assert!(told[0].contains("0 to 2.6 mm, against -2 to 2 mm (4 of 6 samples, 66.7 %)"), "{}", told[0]);
-        assert!(told[1].contains("up to 15 mm/s, against 5 mm/s (2 of 6"), "{}", told[1]);
-        assert!(told[2].contains("2 of 2 moves") && told[2].contains("0.1 to 0.2 mm"), "{}", told[2]);
+    fn every_way_out_is_reported_with_its_figures() {
+        let reported = domain().warnings(&[0.0, 1.0, 2.5, 2.4, 2.6, 2.4], 0.1, "mm");
+        assert_eq!(reported.len(), 3, "{reported:?}");
+        assert!(
+            reported[0].contains("0 to 2.6 mm, against -2 to 2 mm (4 of 6 samples, 66.7 %)"),
+            "{}",
+            reported[0]
+        );
+        assert!(reported[1].contains("up to 15 mm/s, against 5 mm/s (2 of 6"), "{}", reported[1]);
+        assert!(
+            reported[2].contains("2 of 2 moves") && reported[2].contains("0.1 to 0.2 mm"),
+            "{}",
+            reported[2]
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::file::{Added, Header, ModelFile, Parameter};
 use super::system::System;
 use super::{Domain, PortableModel};
-use crate::diagnosis::{Report, Units, told};
+use crate::diagnosis::{Report, Units, reported};
 use crate::identification::{Found, Identification};
 use switchback_diagnose::{Effect, FittedParameter};
 use switchback_model::rig::Rig;
@@ -49,9 +49,14 @@ fn of_gap(
 }
 
 fn parameter(fitted: &FittedParameter, units: &Units) -> Parameter {
-    let told = told(fitted, units);
+    let reported = reported(fitted, units);
     let known = |x: f64| x.is_finite().then_some(x);
-    Parameter { name: told.name, value: known(told.value), ci90: told.ci90.map(known), unit: told.unit }
+    Parameter {
+        name: reported.name,
+        value: known(reported.value),
+        ci90: reported.ci90.map(known),
+        unit: reported.unit,
+    }
 }
 
 fn header(rig: &Rig, part: &str, method: Option<String>, identified_on: Domain) -> Header {

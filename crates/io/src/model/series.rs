@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_such_file_is_told_with_its_line() {
+    fn what_is_no_such_file_is_reported_with_its_line() {
         let text = series().text();
         let refused = |text: &str| Series::parse(Path::new("s.csv"), text).expect_err("it is none").place;
         assert_eq!(refused("record,use,t,v,y,nominal,augmented\n"), "s.csv:1");

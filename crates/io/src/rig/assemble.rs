@@ -2,12 +2,12 @@
 
 use super::cut::{self, Part};
 use super::divided::Divided;
+use super::input_form::InputForm;
 use super::measured::{Measured, Request};
 use super::plan::{ColumnNames, Plan, PlannedRecord};
 use super::problem::RigProblem;
+use super::reported::{self, Reported};
 use super::samples_needed::samples_needed;
-use super::told::{self, Told};
-use super::voice::Voice;
 use crate::input::{Column, DataError, DataProblem, Table, stream};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -20,8 +20,8 @@ use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 pub struct Loaded {
     /// The rig.
     pub rig: Rig,
-    /// What was inferred, to be told.
-    pub told: Told,
+    /// What was inferred, to be reported.
+    pub reported: Reported,
     /// The plan with all that was inferred written into it: it gives the same rig again.
     pub plan: Plan,
 }
@@ -56,7 +56,8 @@ fn assemble_measured(plan: &Plan, measured: Vec<Measured>) -> Result<Loaded, Vec
     check_agreement(plan, &measured)?;
     let needed = samples_needed(plan.order);
     let divided = each(plan.records.iter().zip(measured), |(record, measured)| {
-        let parts = divide(record, &measured, (needed, &plan.voice)).map_err(|error| vec![error.into()])?;
+        let parts =
+            divide(record, &measured, (needed, &plan.input_form)).map_err(|error| vec![error.into()])?;
         Ok(Divided { measured, parts })
     })?;
     let names = record_names(plan);
@@ -77,7 +78,7 @@ fn assemble_measured(plan: &Plan, measured: Vec<Measured>) -> Result<Loaded, Vec
         records: records.into_iter().flatten().collect(),
     };
     check_motion(plan, &rig, first)?;
-    Ok(Loaded { told: told::tell(plan, &divided), plan: resolved(plan, &rig, &divided), rig })
+    Ok(Loaded { reported: reported::describe(plan, &divided), plan: resolved(plan, &rig, &divided), rig })
 }
 
 /// Does the same with each, and gives all results or all problems.
@@ -104,7 +105,7 @@ fn read_all(plan: &Plan) -> Result<Vec<Measured>, Vec<Located>> {
 }
 
 fn request<'a>(plan: &'a Plan, names: &'a ColumnNames) -> Request<'a> {
-    Request { names, sampling: plan.sampling, voice: &plan.voice, needs_output: true }
+    Request { names, sampling: plan.sampling, input_form: &plan.input_form, needs_output: true }
 }
 
 /// What is wrong with the records of a plan that is wrong itself, as far as that does not follow from its own faults.
@@ -142,7 +143,7 @@ fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located
                 here: other.sample_time,
                 there: first.sample_time,
                 other: first.table.path.clone(),
-                remedy: plan.voice.sample_times_differ(first.sample_time),
+                remedy: plan.input_form.sample_times_differ(first.sample_time),
             });
         }
         let pairs = [(Some(other.input()), Some(first.input())), (other.output(), first.output())];
@@ -171,14 +172,14 @@ fn check_agreement(plan: &Plan, measured: &[Measured]) -> Result<(), Vec<Located
 fn divide(
     record: &PlannedRecord,
     measured: &Measured,
-    (needed, voice): (usize, &Voice),
+    (needed, input_form): (usize, &InputForm),
 ) -> Result<Vec<Part>, DataError> {
     if record.role != Role::Free
         && let Some(interruption) = measured.first_interruption().or_else(|| measured.table.cut_off.clone())
     {
         return Err(interruption);
     }
-    cut::divide(&measured.pieces, (record.usage, record.held_out), (needed, voice))
+    cut::divide(&measured.pieces, (record.usage, record.held_out), (needed, input_form))
         .map_err(|problem| DataError { path: measured.table.path.clone(), place: None, problem })
 }
 
@@ -244,7 +245,7 @@ fn resolved(plan: &Plan, rig: &Rig, divided: &[Divided]) -> Plan {
         sampling: super::plan::Sampling { sample_time: Some(rig.sample_time), ..plan.sampling },
         input_label: Some(rig.input_label.clone()),
         output_label: Some(rig.output_label.clone()),
-        voice: Voice::Manifest,
+        input_form: InputForm::Manifest,
         ..plan.clone()
     }
 }
@@ -273,9 +274,9 @@ fn named(measured: &Measured) -> ColumnNames {
 /// these are alike, with a number after it. Names become parts of file names, so they hold no separators nor control characters.
 ///
 /// A record in memory has no file: it keeps its name, as far as that can be part of one.
-fn record_names(Plan { records, voice, .. }: &Plan) -> Vec<String> {
+fn record_names(Plan { records, input_form, .. }: &Plan) -> Vec<String> {
     let parts = |record: &PlannedRecord| -> Vec<String> {
-        if *voice == Voice::Arguments {
+        if *input_form == InputForm::Arguments {
             let is_kept = |c: char| !c.is_control() && c != '/' && c != '\\';
             return vec![record.named.chars().map(|c| if is_kept(c) { c } else { '_' }).collect()];
         }

@@ -40,7 +40,7 @@ pub(super) fn sample_time(file: &TomlFile, time: &Spanned<f64>) -> Result<(), To
     Err(file.error(
         time.span(),
         format!("`sample_time = {sample_time}` is no time between samples"),
-        "give a positive number of seconds, or leave it out where a time column tells it",
+        "give a positive number of seconds, or leave it out where a time column shows it",
     ))
 }
 
@@ -84,7 +84,11 @@ pub(super) fn uses(
     }
 }
 
-pub(super) fn twins(file: &TomlFile, records: &[PlannedRecord], spans: &[Range<usize>]) -> Vec<TomlError> {
+pub(super) fn confounded_effects(
+    file: &TomlFile,
+    records: &[PlannedRecord],
+    spans: &[Range<usize>],
+) -> Vec<TomlError> {
     let mut seen = HashSet::new();
     let mut problems = Vec::new();
     for (record, span) in records.iter().zip(spans) {

@@ -1,6 +1,6 @@
 //! What the numbers of a time column mean.
 
-use super::voice::Voice;
+use super::input_form::InputForm;
 use crate::input::{Column, DataProblem, Kind, unit};
 
 /// From a time column's numbers to seconds.
@@ -27,7 +27,7 @@ impl Clock {
     ///
     /// # Errors
     /// A unit that is no time's.
-    pub(super) fn of(column: &Column, raw: &[f64], voice: &Voice) -> Result<Self, DataProblem> {
+    pub(super) fn of(column: &Column, raw: &[f64], input_form: &InputForm) -> Result<Self, DataProblem> {
         let first = raw.first().copied().unwrap_or(0.0);
         let clock = |unit| Self { unit, origin: 0.0, column: column.label(), epoch: None, is_assumed: false };
         match &column.unit {
@@ -36,7 +36,7 @@ impl Clock {
                 reason: format!("`{unit}`, the unit of `{}`, is no time", column.label()),
                 remedy: format!(
                     "write s, ms, us, min or h, or name another time column; {} goes without one",
-                    voice.without_time()
+                    input_form.without_time()
                 ),
             }),
             None => Ok(match EPOCHS.into_iter().find(|(least, ..)| first.abs() >= *least) {
@@ -52,7 +52,7 @@ impl Clock {
     }
 
     /// What was assumed and may be wrong.
-    pub(super) fn notes(&self, raw: &[f64], sample_time: f64, voice: &Voice) -> Vec<String> {
+    pub(super) fn notes(&self, raw: &[f64], sample_time: f64, input_form: &InputForm) -> Vec<String> {
         let column = &self.column;
         let is_whole = || raw.iter().all(|stamp| stamp.fract() == 0.0);
         if let Some(unit) = self.epoch {
@@ -61,7 +61,7 @@ impl Clock {
         if self.is_assumed && sample_time >= 1.0 && is_whole() {
             return vec![format!(
                 "`{column}` is taken as seconds; write the unit into the header, as in `{column} [ms]`, or give {}",
-                voice.without_time()
+                input_form.without_time()
             )];
         }
         Vec::new()

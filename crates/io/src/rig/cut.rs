@@ -1,6 +1,6 @@
 //! What of a file is fitted and what is held out.
 
-use super::voice::Voice;
+use super::input_form::InputForm;
 use crate::input::DataProblem;
 use std::ops::Range;
 use switchback_model::rig::Usage;
@@ -21,7 +21,7 @@ pub(super) struct Part {
 pub(super) fn divide(
     pieces: &[Range<usize>],
     (usage, held_out): (Usage, Option<f64>),
-    (needed, voice): (usize, &Voice),
+    (needed, input_form): (usize, &InputForm),
 ) -> Result<Vec<Part>, DataProblem> {
     let rows: usize = pieces.iter().map(Range::len).sum();
     let long: Vec<Range<usize>> = pieces.iter().filter(|piece| piece.len() >= needed).cloned().collect();
@@ -31,7 +31,7 @@ pub(super) fn divide(
     }
     // Where most is lost, the sampling is uneven rather than interrupted.
     if 2 * left < rows {
-        return Err(DataProblem::Shattered { rows, left, needed, remedy: voice.shattered() });
+        return Err(DataProblem::Shattered { rows, left, needed, remedy: input_form.shattered() });
     }
     let Some(share) = held_out else {
         return Ok(long.into_iter().map(|range| Part { range, usage }).collect());
@@ -56,7 +56,7 @@ pub(super) fn divide(
     if has(Usage::Fit) && has(Usage::Holdout) {
         Ok(parts)
     } else {
-        let remedy = voice.cut_too_short();
+        let remedy = input_form.cut_too_short();
         Err(DataProblem::CutTooShort { fitted: kept, held_out: left - kept, needed, remedy })
     }
 }
@@ -86,7 +86,7 @@ mod tests {
     use Usage::{Fit, Holdout};
 
     fn divided(pieces: &[Range<usize>], held_out: Option<f64>) -> Vec<(Range<usize>, Usage)> {
-        let parts = divide(pieces, (Fit, held_out), (10, &Voice::Manifest)).unwrap();
+        let parts = divide(pieces, (Fit, held_out), (10, &InputForm::Manifest)).unwrap();
         parts.into_iter().map(|part| (part.range, part.usage)).collect()
     }
 
@@ -110,12 +110,18 @@ mod tests {
     fn too_little_is_refused() {
         let share = (Fit, Some(1.0 / 3.0));
         assert!(matches!(
-            divide(&[0..12], share, (10, &Voice::Manifest)),
+            divide(&[0..12], share, (10, &InputForm::Manifest)),
             Err(DataProblem::CutTooShort { .. })
         ));
-        assert!(matches!(divide(&[0..5], share, (10, &Voice::Manifest)), Err(DataProblem::TooShort { .. })));
+        assert!(matches!(
+            divide(&[0..5], share, (10, &InputForm::Manifest)),
+            Err(DataProblem::TooShort { .. })
+        ));
         let shreds: Vec<Range<usize>> = (0..20).map(|k| 7 * k..7 * k + 6).collect();
-        assert!(matches!(divide(&shreds, share, (10, &Voice::Manifest)), Err(DataProblem::Shattered { .. })));
+        assert!(matches!(
+            divide(&shreds, share, (10, &InputForm::Manifest)),
+            Err(DataProblem::Shattered { .. })
+        ));
     }
 
     #[test]

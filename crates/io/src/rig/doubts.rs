@@ -3,7 +3,7 @@
 use super::divided::Divided;
 use super::measured::Measured;
 use super::plan::{Plan, PlannedRecord};
-use super::standing;
+use super::run_state;
 use crate::input::Place;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Usage;
@@ -17,25 +17,25 @@ pub(super) fn warnings(plan: &Plan, divided: &[Divided]) -> Vec<String> {
         records().filter_map(move |(record, measured)| far_outside(record, measured, interval))
     });
     let all: Vec<(&PlannedRecord, &Measured)> = records().collect();
-    let still = records().flat_map(|(record, measured)| standing::warnings(record, measured));
+    let still = records().flat_map(|(record, measured)| run_state::warnings(record, measured));
     copies(&all).into_iter().chain(still).chain(outside).chain(one_way(&fitted)).collect()
 }
 
 /// Samples under two names, by a link or a copy, of which one is fitted and the other held out.
 fn copies(records: &[(&PlannedRecord, &Measured)]) -> Vec<String> {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     for (k, (record, measured)) in records.iter().enumerate() {
         let is_copy = |(other, theirs): &&(&PlannedRecord, &Measured)| {
             other.usage != record.usage && theirs.v == measured.v && theirs.y == measured.y
         };
         if let Some((other, _)) = records[..k].iter().find(is_copy) {
-            told.push(format!(
+            reported.push(format!(
                 "{} holds the same samples as {}: a hold-out that is also fitted proves nothing, give another record",
                 record.named, other.named
             ));
         }
     }
-    told
+    reported
 }
 
 /// The input leaves the declared interval by more than that is wide, which no tolerance explains.

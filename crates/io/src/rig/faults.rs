@@ -4,7 +4,7 @@ use crate::input::{Column, DataProblem, Kind};
 
 /// What is wrong in a column, by row. `no_times` is the remedy where it is the time column and holds text.
 pub(super) fn of(column: &Column, no_times: Option<String>) -> Vec<(usize, DataProblem)> {
-    let told = |cell: &str| match (column.kind, &no_times) {
+    let reported = |cell: &str| match (column.kind, &no_times) {
         (Kind::Stamp, _) => DataProblem::NotAStamp { column: column.label(), cell: cell.to_owned() },
         (Kind::Text, Some(remedy)) => {
             DataProblem::NotATime { column: column.label(), cell: cell.to_owned(), remedy: remedy.clone() }
@@ -12,7 +12,7 @@ pub(super) fn of(column: &Column, no_times: Option<String>) -> Vec<(usize, DataP
         _ => fault(column, cell),
     };
     let mut problems: Vec<(usize, DataProblem)> =
-        column.faults.iter().map(|fault| (fault.row, told(&fault.cell))).collect();
+        column.faults.iter().map(|fault| (fault.row, reported(&fault.cell))).collect();
     let count = column.fault_count - column.faults.len();
     if let (Some((row, last)), true) = (problems.last(), count > 0) {
         let remedy = last.remedy();

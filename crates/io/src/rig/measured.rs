@@ -1,6 +1,7 @@
 //! One file of a plan: its columns as evenly sampled pieces.
 
 use super::clock::Clock;
+use super::input_form::InputForm;
 use super::plan::{ColumnNames, NO_TIME, Sampling};
 use super::problem::RigProblem;
 use super::resample::{self, Resampled};
@@ -8,7 +9,6 @@ use super::samples_needed::samples_needed;
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
 use super::taken::Series;
-use super::voice::Voice;
 use super::{faults, guess};
 use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
 use std::ops::Range;
@@ -52,7 +52,7 @@ pub(super) enum ClockSource {
 pub(super) struct Request<'a> {
     pub(super) names: &'a ColumnNames,
     pub(super) sampling: Sampling,
-    pub(super) voice: &'a Voice,
+    pub(super) input_form: &'a InputForm,
     pub(super) needs_output: bool,
 }
 
@@ -74,7 +74,7 @@ impl Measured {
     pub(super) fn of(table: Table, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
         let at = |place, problem| RigProblem::Data(DataError { path: table.path.clone(), place, problem });
         let mut problems: Vec<RigProblem> = table.faults.iter().cloned().map(RigProblem::Data).collect();
-        let selection = match Selection::of(&table, request.names, request.voice, request.needs_output) {
+        let selection = match Selection::of(&table, request.names, request.input_form, request.needs_output) {
             Ok(selection) => selection,
             Err(found) => {
                 problems.extend(found.into_iter().map(|problem| at(None, problem)));
@@ -140,7 +140,7 @@ struct Signals<'a> {
     request: Request<'a>,
 }
 
-/// Even samples, before they are told apart from the table they come from.
+/// Even samples, before they are distinguished from the table they come from.
 struct Even {
     sample_time: f64,
     start: f64,
@@ -205,7 +205,7 @@ impl Signals<'_> {
 
     fn column_faults(&self, column: &Column) -> Vec<(usize, DataProblem)> {
         let is_time = self.selection.time.is_some_and(|time| std::ptr::eq(self.column(time), column));
-        faults::of(column, is_time.then(|| self.request.voice.no_times()))
+        faults::of(column, is_time.then(|| self.request.input_form.no_times()))
     }
 
     fn complete_rows(&self) -> Vec<usize> {
@@ -245,20 +245,20 @@ impl Signals<'_> {
     }
 
     fn clocked(&self, series: Series, column: &Column) -> Result<Even, Fault> {
-        let voice = self.request.voice;
+        let input_form = self.request.input_form;
         let raw: Vec<f64> = series.rows.iter().map(|&row| column.values[row]).collect();
-        let clock = Clock::of(column, &raw, voice).map_err(|problem| (None, problem))?;
+        let clock = Clock::of(column, &raw, input_form).map_err(|problem| (None, problem))?;
         let t: Vec<f64> = raw.iter().map(|stamp| clock.seconds(*stamp)).collect();
         let resolution: Vec<f64> = raw.iter().map(|stamp| resolution(*stamp, clock.unit)).collect();
         let label = column.label();
         let rows = series.rows.clone();
         let written = |k: usize| column.written(rows[k]);
-        let stamps = Stamps { column: &label, t: &t, resolution: &resolution, written: &written, voice };
+        let stamps = Stamps { column: &label, t: &t, resolution: &resolution, written: &written, input_form };
         let declared = self.request.sampling.sample_time;
         let start = if column.kind == Kind::Stamp { 0.0 } else { t.first().copied().unwrap_or(0.0) };
         if self.request.sampling.resample {
             let even = self.resampled(series, &stamps, declared)?;
-            let notes = clock.notes(&raw, even.sample_time, voice);
+            let notes = clock.notes(&raw, even.sample_time, input_form);
             return Ok(Even { start, notes, ..even });
         }
         let timing = stamps.judge(declared)?;
@@ -269,13 +269,13 @@ impl Signals<'_> {
             Some(_) => ClockSource::GivenAndTime,
             None => ClockSource::Time { jitter: timing.jitter },
         };
-        let told = |&k: &usize| match series.rows[k] - series.rows[k - 1] {
+        let reported = |&k: &usize| match series.rows[k] - series.rows[k - 1] {
             1 => stamps.gap(k, timing.sample_time),
             _ => self.empty_cell(series.rows[k - 1] + 1),
         };
-        let interruptions = timing.dropouts.iter().map(told).collect();
+        let interruptions = timing.dropouts.iter().map(reported).collect();
         let pieces = pieces(&timing.dropouts, series.rows.len());
-        let notes = clock.notes(&raw, timing.sample_time, voice);
+        let notes = clock.notes(&raw, timing.sample_time, input_form);
         Ok(Even { sample_time: timing.sample_time, start, source, series, pieces, interruptions, notes })
     }
 
@@ -283,13 +283,13 @@ impl Signals<'_> {
         stamps.check_order()?;
         let too_short = DataProblem::TooShort { found: series.v.len(), needed: samples_needed(None) };
         let step = declared.or_else(|| stamps.mean_step()).ok_or((None, too_short))?;
-        let (even, pieces, told) = resample::resample(&series, stamps.t, step);
+        let (even, pieces, reported) = resample::resample(&series, stamps.t, step);
         let interruptions =
             pieces.iter().skip(1).map(|piece| self.empty_cell(even.rows[piece.start])).collect();
         Ok(Even {
             sample_time: step,
             start: 0.0,
-            source: ClockSource::Resampled(told),
+            source: ClockSource::Resampled(reported),
             series: even,
             pieces,
             interruptions,
@@ -298,12 +298,12 @@ impl Signals<'_> {
     }
 
     fn no_sample_time(&self) -> DataProblem {
-        let Request { names, voice, .. } = self.request;
+        let Request { names, input_form, .. } = self.request;
         let is_left_out = names.time.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(NO_TIME));
         let unread = || self.table.columns.iter().find_map(guess::unread_time);
         if let (false, Some((column, cell))) = (is_left_out, unread()) {
             let reason = format!("the times of `{column}`, as `{cell}`, cannot be read");
-            return DataProblem::NoSampleTime { reason, remedy: voice.no_times() };
+            return DataProblem::NoSampleTime { reason, remedy: input_form.no_times() };
         }
         let reason = match self.selection.index {
             _ if is_left_out => "the time column is left out, as asked for".to_owned(),
@@ -313,13 +313,13 @@ impl Signals<'_> {
             ),
             None => format!("there is no time column among {}", self.table.listing()),
         };
-        DataProblem::NoSampleTime { reason, remedy: voice.sample_time_wanted() }
+        DataProblem::NoSampleTime { reason, remedy: input_form.sample_time_wanted() }
     }
 
     fn empty_cell(&self, row: usize) -> DataProblem {
         let empty = self.parts().find(|part| part.values[row.min(part.values.len() - 1)].is_nan());
         let column = empty.map_or_else(|| self.column(self.selection.input).label(), Column::label);
-        DataProblem::EmptyCell { column, remedy: self.request.voice.whole() }
+        DataProblem::EmptyCell { column, remedy: self.request.input_form.whole() }
     }
 }
 

@@ -1,8 +1,8 @@
-//! Rigs: a campaign's files of measurements, described by a `rig.toml` or by the command line, read and written.
+//! Rigs: a dataset's files of measurements, described by a `rig.toml` or by the command line, read and written.
 //!
 //! ```toml
 //! name = "seal"
-//! sample_time = 0.01           # s; may be left out where a time column tells it
+//! sample_time = 0.01           # s; may be left out where a time column shows it
 //! order = 2                    # optional, else chosen from the data
 //! interval = [-1.0, 1.0]       # optional, h_m and h_M, else the range of the records
 //! input = "stroke [mm]"        # optional label and unit, else those of the column
@@ -27,21 +27,21 @@ mod doubts;
 mod faults;
 mod frame;
 mod guess;
+mod input_form;
 mod manifest;
 mod measured;
 mod plan;
 mod problem;
 mod read;
+mod reported;
 mod resample;
+mod run_state;
 mod samples_needed;
 mod sampling;
 mod select;
 mod series;
 mod spikes;
-mod standing;
 mod taken;
-mod told;
-mod voice;
 mod wire;
 mod write;
 
@@ -49,6 +49,8 @@ pub use crate::input::Cells;
 pub use assemble::Loaded;
 pub use frame::Frame;
 pub use frame::load_frames;
+pub use input_form::InputForm;
+pub use input_form::in_shell;
 pub use manifest::manifest;
 pub use plan::ColumnNames;
 pub use plan::HELD_OUT;
@@ -61,10 +63,8 @@ pub use problem::RigProblem;
 pub use read::load;
 pub use read::load_plan;
 pub use read::read;
+pub use reported::Reported;
 pub use series::InputSeries;
 pub use series::read_input;
-pub use told::Told;
-pub use voice::Voice;
-pub use voice::in_shell;
 pub use write::RIG_FILE;
 pub use write::artefacts;

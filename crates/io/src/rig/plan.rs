@@ -1,6 +1,6 @@
 //! What to make a rig of, whoever said it: a rig file or the command line.
 
-use super::voice::Voice;
+use super::input_form::InputForm;
 use std::path::PathBuf;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::{Role, Usage};
@@ -39,7 +39,7 @@ impl ColumnNames {
 /// How rows become samples.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sampling {
-    /// Seconds between samples, where the user gave it; else the time column tells it.
+    /// Seconds between samples, where the user gave it; else the time column shows it.
     pub sample_time: Option<f64>,
     /// Interpolate linearly to even steps.
     pub resample: bool,
@@ -64,8 +64,8 @@ pub struct Plan {
     pub output_label: Option<String>,
     /// One a file.
     pub records: Vec<PlannedRecord>,
-    /// Who said it, so that remedies are told in the same terms.
-    pub voice: Voice,
+    /// Who said it, so that remedies are reported in the same terms.
+    pub input_form: InputForm,
 }
 
 /// One file of a plan.

@@ -1,4 +1,4 @@
-//! What can be wrong with a rig, all of it told at once.
+//! What can be wrong with a rig, all of it reported at once.
 
 use crate::input::{DataError, FileError, TableError, TomlError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
@@ -54,13 +54,13 @@ pub struct RigError {
 #[error("{problem}")]
 struct Listed {
     problem: RigProblem,
-    /// Whether one before has the same remedy, which is then told there only.
-    is_told: bool,
+    /// Whether one before has the same remedy, which is then reported there only.
+    is_reported: bool,
 }
 
 impl Diagnostic for Listed {
     fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
-        if self.is_told { None } else { self.problem.help() }
+        if self.is_reported { None } else { self.problem.help() }
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -77,10 +77,10 @@ impl RigError {
     /// Without a problem.
     pub fn new(problems: Vec<RigProblem>) -> Self {
         assert!(!problems.is_empty(), "an error says what is wrong");
-        let mut told = HashSet::new();
+        let mut reported = HashSet::new();
         let listed = problems.into_iter().map(|problem| {
             let remedy = problem.help().map(|remedy| remedy.to_string());
-            Listed { is_told: remedy.is_some_and(|remedy| !told.insert(remedy)), problem }
+            Listed { is_reported: remedy.is_some_and(|remedy| !reported.insert(remedy)), problem }
         });
         Self { problems: listed.collect() }
     }

@@ -2,9 +2,9 @@
 
 use super::assemble::{Loaded, Located, assemble, probe};
 use super::check;
+use super::input_form::{InputForm, in_shell};
 use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
 use super::problem::{RigError, RigProblem};
-use super::voice::{Voice, in_shell};
 use super::wire::{WireColumns, WireRecord, WireRig};
 use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest, stream};
 use std::ops::Range;
@@ -61,7 +61,7 @@ pub fn load_plan(plan: &Plan) -> Result<Loaded, RigError> {
         .map_err(|problems| RigError::new(problems.into_iter().map(|located| located.problem).collect()))
 }
 
-/// What belongs to a record of the rig file is told there.
+/// What belongs to a record of the rig file is reported there.
 fn placed_in(file: &TomlFile, plan: &Plan, spans: &[Range<usize>], located: Located) -> RigProblem {
     let Some(record) = located.record else { return located.problem };
     let span = spans[record].clone();
@@ -126,7 +126,7 @@ fn draft(file: &TomlFile) -> Draft {
             noted(Err(file.error(
                 0..0,
                 "missing key `sample_time`",
-                "add `sample_time = SECONDS`; it may be left out only where a time column tells it",
+                "add `sample_time = SECONDS`; it may be left out only where a time column shows it",
             )));
         }
     }
@@ -142,7 +142,7 @@ fn draft(file: &TomlFile) -> Draft {
         }
     }
     noted(check::uses(file, &records, &spans));
-    check::twins(file, &records, &spans).into_iter().for_each(|error| noted(Err(error)));
+    check::confounded_effects(file, &records, &spans).into_iter().for_each(|error| noted(Err(error)));
     let plan = Plan {
         name: wire.name.map(Spanned::into_inner).unwrap_or_default(),
         columns: names(&wire.columns),
@@ -155,7 +155,7 @@ fn draft(file: &TomlFile) -> Draft {
         input_label: wire.input.map(one_line),
         output_label: wire.output.map(one_line),
         records,
-        voice: Voice::Manifest,
+        input_form: InputForm::Manifest,
     };
     Draft { plan, spans, problems }
 }
@@ -180,7 +180,7 @@ impl Keys {
     }
 }
 
-/// A file of the wrong kind is told as such, rather than by its first unknown key.
+/// A file of the wrong kind is reported as such, rather than by its first unknown key.
 fn refuse_other_kinds(file: &TomlFile) -> Result<(), TomlError> {
     let path = file.path().display().to_string();
     let shown = in_shell(&path);
@@ -227,17 +227,17 @@ fn record_faults(file: &TomlFile, record: &Spanned<WireRecord>, keys: &Keys) -> 
         }
     }
     if let Some(share) = &wire.holdout {
-        let told = |message: String, remedy: &str| file.error(share.span(), message, remedy);
+        let reported = |message: String, remedy: &str| file.error(share.span(), message, remedy);
         if !(*share.get_ref() > 0.0 && *share.get_ref() < 1.0) {
             let message = format!("`holdout = {}` is no share of a record", share.get_ref());
-            problems.push(told(
+            problems.push(reported(
                 message,
                 "give a number between 0 and 1: that share of the record, at its end, is held out",
             ));
         } else if wire.usage.map(Usage::from) == Some(Usage::Holdout) {
             let message =
                 "`holdout` says which share of a fit record is held out, but all of this one is".to_owned();
-            problems.push(told(message, "leave `holdout` out, or write `use = \"fit\"`"));
+            problems.push(reported(message, "leave `holdout` out, or write `use = \"fit\"`"));
         }
     }
     problems

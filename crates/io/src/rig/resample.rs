@@ -71,7 +71,7 @@ mod tests {
         let t = [0.0, 0.9, 2.2, 3.0, 20.0, 21.0, 21.5];
         let v: Vec<f64> = t.iter().map(|t| 2.0 * t + 1.0).collect();
         let series = Series { v, y: None, predicted: None, rows: (0..t.len()).collect() };
-        let (even, pieces, told) = resample(&series, &t, 1.0);
+        let (even, pieces, reported) = resample(&series, &t, 1.0);
         let expected = [1.0, 3.0, 5.0, 7.0, 41.0, 43.0];
         assert_eq!(pieces, [0..4, 4..6]);
         assert!(
@@ -79,6 +79,6 @@ mod tests {
             "{:?}",
             even.v
         );
-        assert!((told.longest - 1.3).abs() < 1e-12);
+        assert!((reported.longest - 1.3).abs() < 1e-12);
     }
 }

@@ -1,9 +1,9 @@
 //! Are the time stamps those of even sampling, and of which sample time?
 
-use super::voice::Voice;
+use super::input_form::InputForm;
 use crate::input::{DataProblem, Step};
 
-/// What the stamps of a record tell.
+/// What the stamps of a record show.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Timing {
     /// Seconds between samples.
@@ -14,10 +14,10 @@ pub(super) struct Timing {
     pub(super) dropouts: Vec<usize>,
 }
 
-/// Share of the sample time that a step may be off where the stamps themselves tell it.
+/// Share of the sample time that a step may be off where the stamps themselves show it.
 const JITTER: f64 = 0.01;
 
-/// Stamps on each side of a long step that tell whether samples are missing there. Where each is off by up to 0.4 sample times, the medians
+/// Stamps on each side of a long step that show whether samples are missing there. Where each is off by up to 0.4 sample times, the medians
 /// of eight differ by 0.18 sample times in standard deviation, and by 1 more where a sample is missing.
 const BESIDE: usize = 8;
 
@@ -33,7 +33,7 @@ pub(super) struct Stamps<'a> {
     /// Each stamp as it stands in the file.
     pub(super) written: &'a dyn Fn(usize) -> String,
     /// Who asks.
-    pub(super) voice: &'a Voice,
+    pub(super) input_form: &'a InputForm,
 }
 
 /// Where in a record something is wrong (none: everywhere), and what.
@@ -84,7 +84,7 @@ impl Stamps<'_> {
     pub(super) fn check_order(&self) -> Result<(), Fault> {
         match self.steps().find(|(_, step)| *step <= 0.0) {
             Some((k, _)) => {
-                let step = self.step_to(k, f64::NAN, self.voice.not_increasing());
+                let step = self.step_to(k, f64::NAN, self.input_form.not_increasing());
                 Err((Some(k), DataProblem::NotIncreasing(step)))
             }
             None => Ok(()),
@@ -102,7 +102,7 @@ impl Stamps<'_> {
         })
     }
 
-    /// The sample time that the stamps tell: the mean of the steps that are not over gaps, that is the time they span over their number.
+    /// The sample time that the stamps show: the mean of the steps that are not over gaps, that is the time they span over their number.
     ///
     /// Each stamp may be off by its rounding (300 Hz written to a millisecond steps by 3 or 4 ms), so the median step is one of a few
     /// multiples of the last digit, and wrong by up to half of it. In the mean the errors of the stamps in between cancel; what remains is
@@ -152,7 +152,7 @@ impl Stamps<'_> {
 
     /// The step into the `k`-th gap, a gap of a designed experiment.
     pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
-        DataProblem::Gap(self.step_to(k, sample_time, self.voice.whole()))
+        DataProblem::Gap(self.step_to(k, sample_time, self.input_form.whole()))
     }
 
     fn steps(&self) -> impl Iterator<Item = (usize, f64)> {
@@ -160,7 +160,7 @@ impl Stamps<'_> {
     }
 
     /// What rounding may add to the step that ends at `k`. Writers drop zeros at the end of a number, and some keep a fixed number of
-    /// digits, so the finest stamp nearby tells how finely they write there.
+    /// digits, so the finest stamp nearby shows how finely they write there.
     fn rounding(&self, k: usize) -> f64 {
         let near = &self.resolution[k.saturating_sub(8)..(k + 8).min(self.resolution.len())];
         // Twice half a last digit, and what the differences of large numbers lose.
@@ -188,12 +188,12 @@ impl Stamps<'_> {
             column: self.column.to_owned(),
             mean_step: rounded(mean_step),
             sample_time: rounded(sample_time),
-            remedy: self.voice.other_sample_time(rounded(mean_step)),
+            remedy: self.input_form.other_sample_time(rounded(mean_step)),
         }
     }
 
     fn uneven(&self, k: usize, sample_time: f64) -> DataProblem {
-        DataProblem::Uneven(self.step_to(k, sample_time, self.voice.uneven()))
+        DataProblem::Uneven(self.step_to(k, sample_time, self.input_form.uneven()))
     }
 }
 
@@ -243,8 +243,14 @@ mod tests {
     fn judged(t: &[f64], declared: Option<f64>) -> Result<Timing, Fault> {
         let resolution: Vec<f64> = t.iter().map(|t| resolution(*t, 1.0)).collect();
         let written = |k: usize| t[k].to_string();
-        Stamps { column: "t", t, resolution: &resolution, written: &written, voice: &Voice::Manifest }
-            .judge(declared)
+        Stamps {
+            column: "t",
+            t,
+            resolution: &resolution,
+            written: &written,
+            input_form: &InputForm::Manifest,
+        }
+        .judge(declared)
     }
 
     #[test]
@@ -314,8 +320,13 @@ mod tests {
                 let resolution = vec![1e-9; t.len()];
                 let written = |k: usize| t[k].to_string();
                 let (t, resolution) = (&t[..], &resolution[..]);
-                let stamps =
-                    Stamps { column: "t", t, resolution, written: &written, voice: &Voice::Manifest };
+                let stamps = Stamps {
+                    column: "t",
+                    t,
+                    resolution,
+                    written: &written,
+                    input_form: &InputForm::Manifest,
+                };
                 let found = stamps.mean_step().unwrap();
                 assert!((found / 0.01 - 1.0).abs() < allowed, "{gaps} gaps: {found}");
             }

@@ -1,8 +1,8 @@
 //! Which columns of a table are time, input and output.
 
 use super::guess::{self, Part};
+use super::input_form::InputForm;
 use super::plan::{ColumnNames, NO_TIME};
-use super::voice::Voice;
 use crate::input::{Column, DataProblem, Kind, Table, closest};
 
 /// The columns taken, as positions in the table.
@@ -34,7 +34,7 @@ impl Selection {
     pub(super) fn of(
         table: &Table,
         names: &ColumnNames,
-        voice: &Voice,
+        input_form: &InputForm,
         needs_output: bool,
     ) -> Result<Self, Vec<DataProblem>> {
         let mut problems = Vec::new();
@@ -67,7 +67,7 @@ impl Selection {
                 && !(has_no_time && is_clock(&table.columns[*k]))
         };
         let signals: Vec<usize> = (0..table.columns.len()).filter(is_signal).collect();
-        let offer = Offer { table, signals: &signals, voice };
+        let offer = Offer { table, signals: &signals, input_form };
         let (input, output) = offer.settle(input, output, needs_output).map_err(|problem| vec![problem])?;
         let output = output.filter(|_| !has_no_output);
         let rival = |k: &usize| {
@@ -171,7 +171,7 @@ fn is_clock(column: &Column) -> bool {
 struct Offer<'a> {
     table: &'a Table,
     signals: &'a [usize],
-    voice: &'a Voice,
+    input_form: &'a InputForm,
 }
 
 impl Offer<'_> {
@@ -201,7 +201,7 @@ impl Offer<'_> {
             input = self.called(Part::Motion).or_else(|| only(rest(None)));
         }
         match (input, output) {
-            // Two columns of one name are told apart by number only.
+            // Two columns of one name are distinguished by number only.
             (Some(input), Some(output)) if is_guessed && self.share_a_name(input, output) => {
                 Err(self.doubt(None, None))
             }
@@ -235,7 +235,7 @@ impl Offer<'_> {
         let remedy = if self.signals.len() < 2 {
             "a record needs an input and an output, one number each in every row, beside the time".to_owned()
         } else {
-            self.voice.naming(&wanted)
+            self.input_form.naming(&wanted)
         };
         DataProblem::Doubtful { role: role.to_owned(), known: self.table.listing(), remedy }
     }

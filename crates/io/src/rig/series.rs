@@ -1,9 +1,9 @@
 //! One file as an input to be played: `v`, perhaps with a measured `y` beside it.
 
+use super::input_form::InputForm;
 use super::measured::{Measured, Request};
 use super::plan::{ColumnNames, Sampling};
 use super::problem::RigError;
-use super::voice::Voice;
 use std::path::Path;
 
 /// An evenly sampled input, and what was measured beside it.
@@ -11,7 +11,7 @@ use std::path::Path;
 pub struct InputSeries {
     /// Seconds between samples, positive.
     pub sample_time: f64,
-    /// Seconds of the first sample, where a time column tells it; else 0.
+    /// Seconds of the first sample, where a time column shows it; else 0.
     pub start: f64,
     /// The input, at least one sample, finite.
     pub v: Vec<f64>,
@@ -43,8 +43,8 @@ pub fn read_input(
     sampling: Sampling,
     command: &str,
 ) -> Result<InputSeries, RigError> {
-    let voice = Voice::Simulation(command.to_owned());
-    let request = Request { names, sampling, voice: &voice, needs_output: false };
+    let input_form = InputForm::Simulation(command.to_owned());
+    let request = Request { names, sampling, input_form: &input_form, needs_output: false };
     let measured = Measured::read(path, request).map_err(RigError::new)?;
     if let Some(interruption) = measured.first_interruption() {
         return Err(interruption.into());

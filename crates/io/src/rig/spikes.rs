@@ -13,8 +13,8 @@ const SENTINELS: [f64; 9] = [999.0, 9999.0, 99_999.0, 999_999.0, 1e20, 1e30, 1e3
 /// One sentence a column that has such values.
 pub(super) fn warnings(measured: &Measured) -> Vec<String> {
     let signals = [(Some(measured.input()), Some(&measured.v)), (measured.output(), measured.y.as_ref())];
-    let told = signals.into_iter().filter_map(|(column, values)| warning(measured, column?, values?));
-    told.collect()
+    let reported = signals.into_iter().filter_map(|(column, values)| warning(measured, column?, values?));
+    reported.collect()
 }
 
 fn warning(measured: &Measured, column: &Column, values: &[f64]) -> Option<String> {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use switchback_model::rig::{Role, Usage};
 use toml::Spanned;
 
-/// Every key may be missing here, so that all missing ones can be told at once.
+/// Every key may be missing here, so that all missing ones can be reported at once.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WireRig {

@@ -1,8 +1,8 @@
 //! One rig after its key was opened: what was put in, what was said, and how both compare.
 
+use super::confounded_effects::same_class;
 use super::design::{Kind, Ticket};
 use super::place::{PlaceCheck, check};
-use super::twins::same_class;
 use crate::examination::{ClosureCheck, Evidence, Reply};
 use crate::generate::{MadeRig, Nature};
 use serde::{Deserialize, Serialize};
@@ -94,7 +94,7 @@ impl Case {
         self.reply.status == "named" && named == truth
     }
 
-    /// Whether one effect or one class is given and the single effect put in is that or a twin of it.
+    /// Whether one effect or one class is given and the single effect put in is that or a confounded effect of it.
     pub(crate) fn class_right(&self) -> bool {
         let [truth] = self.truth.as_slice() else { return false };
         match self.reply.status {
@@ -111,8 +111,8 @@ impl Case {
         matches!(self.reply.status, "named" | "class" | "ambiguous")
     }
 
-    /// Whether a twin of the effect put in is given, alone or first among the rivals: nothing else in the library is as near.
-    pub(crate) fn names_a_twin(&self) -> bool {
+    /// Whether a confounded effect of the effect put in is given, alone or first among the rivals: nothing else in the library is as near.
+    pub(crate) fn names_a_confounded(&self) -> bool {
         let given = self.reply.effects.first().or(self.reply.class.first());
         let [truth] = self.truth.as_slice() else { return false };
         self.reply.effects.len() < 2 && given.is_some_and(|given| same_class(given, truth))
@@ -134,7 +134,7 @@ impl Case {
         }
     }
 
-    /// Whether the likeliest explanation is the true one.
+    /// Whether the likeliest candidate is the true one.
     pub(crate) fn top_is_true(&self) -> bool {
         match self.reply.top.0 {
             "none" => self.kind == Kind::None,

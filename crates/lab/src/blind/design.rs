@@ -1,9 +1,9 @@
 //! Which rigs the study makes.
 
+use super::confounded_effects::same_class;
 use super::scenario::Study;
-use super::twins::same_class;
 use crate::examination::scramble;
-use crate::generate::{FOREIGN, Family, Ingredient, MakeError, MakeRig, laws_of};
+use crate::generate::{FOREIGN, Family, MakeError, MakeRig, RequestedFault, laws_of};
 use serde::{Deserialize, Serialize};
 
 /// What a rig is for.
@@ -51,17 +51,17 @@ pub struct Ticket {
 ///
 /// Single effects run over every effect of the study × size × system × seed; every other seed takes the plain law, the rest go
 /// round the effect's other laws. Outsiders are foreign and withheld in turn, at sizes of at least 1. Pairs are drawn
-/// among effects that are no twins, at sizes of at least 1.
+/// among effects that are no confounded effects, at sizes of at least 1.
 ///
 /// # Errors
 /// [`MakeError`] if a size of the study is no size.
 pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
     let mut tickets = Vec::new();
-    let mut add = |kind, system, withheld, ingredients: Vec<Ingredient>| {
+    let mut add = |kind, system, withheld, requested_faults: Vec<RequestedFault>| {
         let id = tickets.len();
         let family = Family { order: Some(1 + system % 3), shape: None };
         let plain = MakeRig::new(scramble(study.seed, id as u64)).family(family).plan(study.plan);
-        let recipe = ingredients.into_iter().fold(plain, MakeRig::with);
+        let recipe = requested_faults.into_iter().fold(plain, MakeRig::with);
         tickets.push(Ticket { id, kind, system, withheld, recipe });
     };
     for &effect in &study.effects {
@@ -70,7 +70,7 @@ pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
             for system in 0..study.systems {
                 for seed in 0..study.seeds {
                     let law = if seed % 2 == 0 || others == 0 { 0 } else { 1 + (seed / 2) % others };
-                    add(Kind::Single, system, None, vec![Ingredient::with_law(effect, law, size)?]);
+                    add(Kind::Single, system, None, vec![RequestedFault::with_law(effect, law, size)?]);
                 }
             }
         }
@@ -84,12 +84,12 @@ pub fn design(study: &Study) -> Result<Vec<Ticket>, MakeError> {
         let withheld = (i % 2 == 1).then(|| study.effects.get((i / 2) % study.effects.len().max(1)).copied());
         let withheld = withheld.flatten();
         let effect = withheld.unwrap_or(FOREIGN[(i / 2) % FOREIGN.len()]);
-        add(Kind::Outside, (i / 3) % study.systems, withheld, vec![Ingredient::plain(effect, size)?]);
+        add(Kind::Outside, (i / 3) % study.systems, withheld, vec![RequestedFault::plain(effect, size)?]);
     }
     for i in 0..study.pairs {
         let (one, other) = pair(&study.effects, scramble(study.seed ^ 0x5041_4952, i as u64));
         let size = large[i % large.len()];
-        let both = vec![Ingredient::plain(one, size)?, Ingredient::plain(other, size)?];
+        let both = vec![RequestedFault::plain(one, size)?, RequestedFault::plain(other, size)?];
         add(Kind::Pair, (i / 3) % study.systems, None, both);
     }
     Ok(sliced(tickets, study))
@@ -102,7 +102,7 @@ fn sliced(mut tickets: Vec<Ticket>, study: &Study) -> Vec<Ticket> {
     tickets
 }
 
-/// Two of these effects that are no twins: there must be such.
+/// Two of these effects that are no confounded effects: there must be such.
 fn pair(effects: &[&'static str], mut state: u64) -> (&'static str, &'static str) {
     loop {
         state = scramble(state, 1);

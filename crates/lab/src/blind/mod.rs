@@ -9,6 +9,7 @@
 //! first diagnosis. Nothing depends on the number of threads.
 
 mod case;
+mod confounded_effects;
 mod design;
 mod examination;
 mod examine;
@@ -18,9 +19,9 @@ mod report;
 mod scenario;
 mod score;
 mod seal;
-mod twins;
 
 pub use case::Case;
+pub(crate) use confounded_effects::same_class;
 pub use design::Kind;
 pub use design::Ticket;
 pub use design::design;
@@ -47,4 +48,3 @@ pub use score::score;
 pub use seal::Sealed;
 pub use seal::WrittenKeys;
 pub use seal::seal;
-pub(crate) use twins::same_class;

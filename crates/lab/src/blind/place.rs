@@ -43,7 +43,7 @@ struct Circumstance<'a> {
     surviving: f64,
 }
 
-/// Compares each axis that can be told from the records; spectra are not.
+/// Compares each axis that can be distinguished from the records; spectra are not.
 pub(super) fn check(cells: &[Cell], rig: &Rig, truth: &[Truth]) -> Vec<PlaceCheck> {
     let samples = circumstances(rig, truth);
     let all = mean_square(samples.iter());
@@ -157,7 +157,7 @@ fn circumstances<'a>(rig: &'a Rig, truth: &[Truth]) -> Vec<Circumstance<'a>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::{Ingredient, MakeRig};
+    use crate::generate::{MakeRig, RequestedFault};
     use switchback_diagnose::{CellInterval, CellUnit};
 
     fn cell(axis: &'static str, cell: &str, q_value: f64) -> Cell {
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn backlash_acts_soon_after_reversals() {
-        let made = MakeRig::new(4).with(Ingredient::plain("backlash", 4.0).unwrap()).make().unwrap();
+        let made = MakeRig::new(4).with(RequestedFault::plain("backlash", 4.0).unwrap()).make().unwrap();
         let width = made.rig.interval.unwrap().width();
         let samples = circumstances(&made.rig, &made.truth);
         let free = || samples.iter().filter(|s| s.record == "sweep");
@@ -203,11 +203,11 @@ mod tests {
 
     #[test]
     fn flags_are_counted_against_the_truth() {
-        let made = MakeRig::new(4).with(Ingredient::plain("outliers", 4.0).unwrap()).make().unwrap();
+        let made = MakeRig::new(4).with(RequestedFault::plain("outliers", 4.0).unwrap()).make().unwrap();
         let records: Vec<Cell> = made.rig.records.iter().map(|r| cell("record", &r.name, 0.0)).collect();
         let all = check(&records, &made.rig, &made.truth);
         assert_eq!((all[0].hits + all[0].false_flags, all[0].misses), (7, 0));
-        let whole = Cell { q_value: 1.0, ..between("time", [0.0, 1.0], CellUnit::ShareOfCampaign) };
+        let whole = Cell { q_value: 1.0, ..between("time", [0.0, 1.0], CellUnit::ShareOfDataset) };
         let none = check(&[whole], &made.rig, &made.truth);
         assert_eq!((none[0].hits, none[0].misses), (0, 1));
     }

@@ -26,7 +26,7 @@ pub fn artefacts(study: &Study, key_sha256: &str, cases: &[Case], scores: &Score
     artefacts
 }
 
-/// The answers alone: what a part of an examination tells before the others are judged.
+/// The answers alone: what a part of an examination shows before the others are judged.
 pub(super) fn answers(cases: &[Case]) -> String {
     tables::answers(cases)
 }

@@ -17,7 +17,7 @@
 //! exact = 0.9
 //! ```
 
-use super::twins::same_class;
+use super::confounded_effects::same_class;
 use crate::examination::{ScenarioError, effects_listed, refuse_large_design, study_of};
 use crate::generate::Plan;
 use serde::Deserialize;

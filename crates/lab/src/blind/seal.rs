@@ -165,12 +165,12 @@ mod tests {
     use super::*;
     use crate::blind::Kind;
     use crate::examination::key_file;
-    use crate::generate::{Ingredient, MakeRig, Plan};
+    use crate::generate::{MakeRig, Plan, RequestedFault};
 
     #[test]
     fn a_key_is_taken_over_only_where_it_gives_the_same_rig() {
         let plan = Plan { step: 120, periods: 8, sweep: 400, drive: 200, repeat_periods: 3 };
-        let backlash = Ingredient::plain("backlash", 1.0).expect("an effect");
+        let backlash = RequestedFault::plain("backlash", 1.0).expect("an effect");
         let recipe = MakeRig::new(7).plan(plan).with(backlash);
         let ticket = Ticket { id: 3, kind: Kind::Single, system: 0, withheld: None, recipe };
         let sealed = seal(vec![ticket.clone()], &WrittenKeys::default(), &|| ()).expect("a rig");

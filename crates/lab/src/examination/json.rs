@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct MeasureFile {
     /// What the scenario wants of it.
     pub expected: Option<Bound>,
-    /// Whether it is told in percent.
+    /// Whether it is reported in percent.
     #[serde(default = "in_percent")]
     pub in_percent: bool,
     /// Its 95 % interval, where it is a share.

@@ -68,17 +68,17 @@ pub struct Measure {
     pub target: Option<Bound>,
     /// What the scenario expects.
     pub expected: Option<Bound>,
-    /// What was reached; none where no rig tells.
+    /// What was reached; none where no rig shows.
     pub reached: Option<f64>,
     /// Its 95 % interval, where it is a share of rigs.
     pub interval: Option<[f64; 2]>,
-    /// Rigs that tell, or cells for *where*.
+    /// Rigs that show, or cells for *where*.
     pub rigs: usize,
-    /// Whether it is a share, told in percent.
+    /// Whether it is a share, reported in percent.
     pub in_percent: bool,
 }
 
-/// What was reached, its interval, and how many rigs tell.
+/// What was reached, its interval, and how many rigs show.
 pub(crate) type Reached = (Option<f64>, Option<[f64; 2]>, usize);
 
 /// A measure of an examination whose expectations are `E`: its key, what is measured, where its bound stands among expectations, and what was
@@ -105,12 +105,12 @@ pub(crate) fn bounded<E, const N: usize>(
 }
 
 impl Measure {
-    /// Whether the target is met, where a rig tells.
+    /// Whether the target is met, where a rig shows.
     pub(crate) fn meets_target(&self) -> Option<bool> {
         Some(self.target?.holds(self.reached?))
     }
 
-    /// Whether the scenario's expectation is broken. A figure that no rig tells breaks it, too.
+    /// Whether the scenario's expectation is broken. A figure that no rig shows breaks it, too.
     pub(crate) fn is_unexpected(&self) -> bool {
         self.expected.is_some_and(|bound| !self.reached.is_some_and(|x| bound.holds(x)))
     }
@@ -120,7 +120,7 @@ impl Measure {
         if self.in_percent { format!("{:.1} %", 100.0 * x) } else { format!("{x:.3}") }
     }
 
-    fn told(&self, bound: Bound) -> String {
+    fn reported(&self, bound: Bound) -> String {
         match bound {
             Bound::AtLeast(x) => format!("≥ {}", self.figure(x)),
             Bound::AtMost(x) => format!("≤ {}", self.figure(x)),
@@ -130,14 +130,14 @@ impl Measure {
 
     fn unexpected(&self) -> String {
         match self.expected.filter(|_| self.is_unexpected()) {
-            Some(bound) => format!("  UNEXPECTED: the scenario wants {}", self.told(bound)),
+            Some(bound) => format!("  UNEXPECTED: the scenario wants {}", self.reported(bound)),
             None => String::new(),
         }
     }
 }
 
 /// The table of measures, as printed: measure, what must be reached, what was and its 95 % interval, how many
-/// rigs tell.
+/// rigs show.
 pub(crate) fn measures_table(measures: &[Measure]) -> String {
     let mut text = format!(
         "{:51} {:>11} {:>9} {:>15} {:>6}\n",
@@ -146,14 +146,14 @@ pub(crate) fn measures_table(measures: &[Measure]) -> String {
     for measure in measures {
         let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| measure.figure(x));
         let mark = match (measure.reached, measure.meets_target()) {
-            (None, _) => "  not told",
+            (None, _) => "  not reported",
             (_, Some(false)) => "  short",
             _ => "",
         };
         let interval = measure
             .interval
             .map_or_else(String::new, |[low, high]| format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high));
-        let target = measure.target.map_or_else(String::new, |bound| measure.told(bound));
+        let target = measure.target.map_or_else(String::new, |bound| measure.reported(bound));
         let (what, rigs, broken) = (measure.text, measure.rigs, measure.unexpected());
         let _ = writeln!(text, "{what:51} {target:>11} {reached:>9} {interval:>15} {rigs:>6}{mark}{broken}");
     }

@@ -5,7 +5,7 @@
 //! scenario → design → seal (make, hash the keys) → judge (diagnose, open, compare) → report
 //! ```
 //!
-//! [`Examination`] is what one of them must tell; the command line runs any of them.
+//! [`Examination`] is what one of them must show; the command line runs any of them.
 
 mod calibration;
 mod json;

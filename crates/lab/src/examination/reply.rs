@@ -16,7 +16,7 @@ pub struct Reply {
     pub stage: Option<&'static str>,
     /// Probability that the verdict holds.
     pub probability: f64,
-    /// The likeliest explanation (an effect, `none` or `unexplained`) and its probability.
+    /// The likeliest candidate (an effect, `none` or `unexplained`) and its probability.
     pub top: (&'static str, f64),
 }
 
@@ -38,10 +38,10 @@ impl Reply {
 
     /// What a diagnosis said.
     pub(crate) fn of(d: &Diagnosis) -> Self {
-        Self::told(&d.verdict, Self::top(d))
+        Self::reported(&d.verdict, Self::top(d))
     }
 
-    /// What rules said, where a fitted verdict is told instead.
+    /// What rules said, where a fitted verdict is reported instead.
     pub(crate) fn by_rules(d: &Diagnosis) -> Option<Self> {
         let opinion = d.second_opinion.as_ref()?;
         let rules = &opinion.by_rules;
@@ -50,7 +50,7 @@ impl Reply {
             None if rules.status == Status::Unexplained => (Status::Unexplained.name(), rules.probability),
             None => (Status::None.name(), rules.probability),
         };
-        Some(Self::told(rules, top))
+        Some(Self::reported(rules, top))
     }
 
     fn top(d: &Diagnosis) -> (&'static str, f64) {
@@ -59,8 +59,8 @@ impl Reply {
         effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
     }
 
-    /// A verdict, with the likeliest explanation.
-    pub(crate) fn told(verdict: &Verdict, top: (&'static str, f64)) -> Self {
+    /// A verdict, with the likeliest candidate.
+    pub(crate) fn reported(verdict: &Verdict, top: (&'static str, f64)) -> Self {
         let named = if verdict.status == Status::Named { verdict.effects.as_slice() } else { &[] };
         Self {
             status: verdict.status.name(),

@@ -68,7 +68,7 @@ pub(crate) enum BaseError {
 const BASES: u64 = 0x4649_454C_4442_4153;
 
 impl Bases {
-    /// Reads the measured ones and makes the others; a folder that is not there is told on stderr.
+    /// Reads the measured ones and makes the others; a folder that is not there is reported on stderr.
     ///
     /// # Errors
     /// A rig that cannot be read, or no base at all.
@@ -99,13 +99,13 @@ impl Bases {
     }
 
     /// The bases that faults are put into, by their position.
-    pub(crate) fn grounds(&self) -> std::ops::Range<usize> {
+    pub(crate) fn contexts(&self) -> std::ops::Range<usize> {
         0..self.all.len() - self.spare
     }
 
     /// The made ones that stay without fault.
     pub(crate) fn spares(&self) -> std::ops::Range<usize> {
-        self.grounds().end..self.all.len()
+        self.contexts().end..self.all.len()
     }
 
     /// The measured ones.

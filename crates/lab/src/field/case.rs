@@ -28,7 +28,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// Whether the records can tell it at all.
+    /// Whether the records can show it at all.
     pub(crate) fn is_observable(&self) -> bool {
         self.size >= OBSERVABLE
     }

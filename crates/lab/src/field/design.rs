@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Kind {
     /// A base with a fault of the library.
-    Planted,
+    #[serde(rename = "Planted")]
+    Injected,
     /// A base with a fault that no library knows.
     Outside,
     /// A base as it is.
@@ -24,7 +25,7 @@ impl Kind {
     /// The name in tables.
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Planted => "planted",
+            Self::Injected => "planted",
             Self::Outside => "outside",
             Self::Bare => "bare",
             Self::Resampled => "resampled",
@@ -62,21 +63,21 @@ pub fn design(study: &Study, bases: &Bases) -> Vec<Ticket> {
         tickets.push(Ticket { id, kind, base, fault, seed });
     };
     let measured = bases.measured();
-    for base in bases.grounds() {
+    for base in bases.contexts() {
         for &effect in &study.effects {
             for &size in &study.sizes {
                 for seed in 0..study.seeds {
                     let by_maker = !measured.contains(&base) && (base + seed) % 2 == 1;
-                    add(Kind::Planted, base, Some((effect, size, by_maker)));
+                    add(Kind::Injected, base, Some((effect, size, by_maker)));
                 }
             }
         }
     }
     let large: Vec<f64> = study.sizes.iter().copied().filter(|s| *s >= LARGE).collect();
-    let grounds = bases.grounds().len();
+    let contexts = bases.contexts().len();
     for k in 0..study.outside {
         let (effect, size) = (FOREIGN[k % FOREIGN.len()], large[k % large.len()]);
-        add(Kind::Outside, k % grounds, Some((effect, size, false)));
+        add(Kind::Outside, k % contexts, Some((effect, size, false)));
     }
     for base in measured.clone().chain(bases.spares()) {
         add(Kind::Bare, base, None);

@@ -3,7 +3,7 @@
 use super::bases::{Base, Bases};
 use super::case::Case;
 use super::design::{Kind, Ticket, design};
-use super::fault::{by_maker, left, mean_square, nominal, planted, told};
+use super::fault::{by_maker, injected, left, mean_square, nominal, reported};
 use super::made;
 use super::resample::{resampled, runs_of};
 use super::scenario::Study;
@@ -12,7 +12,7 @@ use super::seal::{Key, PutIn, Sealed, WrittenKeys};
 use super::wanted::Wanted;
 use super::{report, score};
 use crate::examination::{Done, Examination, KEY_FILE, Report};
-use crate::generate::{Nature, PlantingGround, laws_of};
+use crate::generate::{InjectionContext, Nature, laws_of};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 use switchback_diagnose::{DiagnoseError, Diagnosis, Model, Settings, diagnose};
@@ -39,7 +39,7 @@ pub type Examiner = fn(&Rig, Model, &Settings) -> Result<Diagnosis, DiagnoseErro
 #[derive(Debug)]
 struct Known<'a> {
     nominal: Result<Identified, String>,
-    ground: Result<PlantingGround<'a>, String>,
+    context: Result<InjectionContext<'a>, String>,
 }
 
 /// A rig as it is diagnosed, the same machine before, and the model of that.
@@ -70,14 +70,14 @@ impl<'a> Field<'a> {
             let rig = &self.bases.all[base].rig;
             if self.bases.spares().contains(&base) {
                 let reason = "it stays without fault".to_owned();
-                return Known { nominal: nominal(rig), ground: Err(reason) };
+                return Known { nominal: nominal(rig), context: Err(reason) };
             }
-            let ground = PlantingGround::new(rig).map_err(|error| error.to_string());
-            let nominal = match &ground {
-                Ok(ground) => Ok(ground.identified().clone()),
+            let context = InjectionContext::new(rig).map_err(|error| error.to_string());
+            let nominal = match &context {
+                Ok(context) => Ok(context.identified().clone()),
                 Err(_) => nominal(rig),
             };
-            Known { nominal, ground }
+            Known { nominal, context }
         })
     }
 
@@ -100,9 +100,9 @@ impl<'a> Field<'a> {
         let put_in = match self.base(ticket).made.filter(|_| fault.by_maker) {
             Some(seed) => by_maker(seed, fault)?,
             None => {
-                let ground = self.known(ticket.base).ground.as_ref().map_err(Clone::clone)?;
-                let ingredient = fault.ingredient().map_err(told)?;
-                planted(ground.plant(&ingredient, ticket.seed).map_err(told)?.fault)
+                let context = self.known(ticket.base).context.as_ref().map_err(Clone::clone)?;
+                let requested_fault = fault.requested_fault().map_err(reported)?;
+                injected(context.plant(&requested_fault, ticket.seed).map_err(reported)?.fault)
             }
         };
         let is_finite = [put_in.magnitude, put_in.size, put_in.raw].iter().all(|x| x.is_finite());
@@ -119,19 +119,20 @@ impl<'a> Field<'a> {
             && let Some(noise_sd) = put_in.noise_sd
         {
             let found = (noise_sd, put_in.magnitude, put_in.size);
-            let found = made::again(seed, fault, found).map_err(told)?.ok_or("a fault without magnitude")?;
+            let found =
+                made::again(seed, fault, found).map_err(reported)?.ok_or("a fault without magnitude")?;
             return Ok(Opened { nominal: nominal(&found.before), rig: found.rig, before: found.before });
         }
         let known = self.known(ticket.base);
         let rig = match (&ticket.fault, &key.fault, ticket.kind) {
             (Some(fault), Some(put_in), _) => {
-                let ground = known.ground.as_ref().map_err(Clone::clone)?;
-                let ingredient = fault.ingredient().map_err(told)?;
-                ground.again(&ingredient, put_in.magnitude, ticket.seed).map_err(told)?
+                let context = known.context.as_ref().map_err(Clone::clone)?;
+                let requested_fault = fault.requested_fault().map_err(reported)?;
+                context.again(&requested_fault, put_in.magnitude, ticket.seed).map_err(reported)?
             }
             (.., Kind::Resampled) => {
                 let nominal = known.nominal.as_ref().map_err(Clone::clone)?;
-                resampled(&base.rig, runs_of(&nominal.model), ticket.seed).map_err(told)?
+                resampled(&base.rig, runs_of(&nominal.model), ticket.seed).map_err(reported)?
             }
             _ => base.rig.clone(),
         };

@@ -3,7 +3,7 @@
 use super::made;
 use super::seal::{How, PutIn};
 use super::wanted::Wanted;
-use crate::generate::PlantedFault;
+use crate::generate::InjectedFault;
 use switchback_identify::free::{FreeError, Identified, InputMap, Model, Settings, identify};
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Usage};
@@ -22,7 +22,7 @@ pub(super) fn nominal(rig: &Rig) -> Result<Identified, String> {
 
 /// A fault that the maker simulates in the machine itself.
 pub(super) fn by_maker(seed: u64, fault: &Wanted) -> Result<PutIn, String> {
-    let found = made::with_fault(seed, fault).map_err(told)?;
+    let found = made::with_fault(seed, fault).map_err(reported)?;
     let model = nominal(&found.before)?.model;
     let differences = left(&model, &found.rig).zip(left(&model, &found.before)).map(|(now, then)| now - then);
     let raw = (mean_square(differences) / mean_square(left(&model, &found.before))).sqrt();
@@ -40,11 +40,11 @@ pub(super) fn by_maker(seed: u64, fault: &Wanted) -> Result<PutIn, String> {
     })
 }
 
-pub(super) fn planted(fault: PlantedFault) -> PutIn {
+pub(super) fn injected(fault: InjectedFault) -> PutIn {
     PutIn {
         effect: fault.effect.to_owned(),
         law: fault.law.to_owned(),
-        how: if fault.planting.is_exact() { How::Exact } else { How::Carried },
+        how: if fault.injection.is_exact() { How::Exact } else { How::Carried },
         magnitude: fault.magnitude,
         unit: fault.unit.to_owned(),
         wanted: fault.wanted,
@@ -54,7 +54,7 @@ pub(super) fn planted(fault: PlantedFault) -> PutIn {
     }
 }
 
-pub(super) fn told(error: impl std::fmt::Display) -> String {
+pub(super) fn reported(error: impl std::fmt::Display) -> String {
     error.to_string()
 }
 

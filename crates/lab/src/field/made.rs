@@ -27,7 +27,7 @@ pub(super) struct Found {
 
 /// The machine of a base with a fault, whose magnitude is searched for.
 pub(super) fn with_fault(seed: u64, fault: &Wanted) -> Result<Found, MakeError> {
-    let recipe = recipe(seed).with(fault.ingredient()?);
+    let recipe = recipe(seed).with(fault.requested_fault()?);
     let made = recipe.make()?;
     found(recipe, made)
 }
@@ -38,7 +38,7 @@ pub(super) fn again(
     fault: &Wanted,
     (noise_sd, magnitude, size): (f64, f64, f64),
 ) -> Result<Option<Found>, MakeError> {
-    let recipe = recipe(seed).with(fault.ingredient()?);
+    let recipe = recipe(seed).with(fault.requested_fault()?);
     let made = recipe.made_with(noise_sd, &[(magnitude, size)])?;
     made.map(|made| found(recipe, made)).transpose()
 }

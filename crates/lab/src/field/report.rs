@@ -10,7 +10,7 @@ use super::score::Scores;
 use crate::examination::{Measure, Report, case_lines};
 use switchback_io::output::Artefacts;
 
-/// The table of answers: what a part of an examination tells before the others are judged.
+/// The table of answers: what a part of an examination shows before the others are judged.
 pub(super) use tables::answers;
 
 /// The report but for the key.

@@ -52,13 +52,13 @@ fn redrawn(measured: &[f64], (simulated, start): (Vec<f64>, usize), seed: u64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::{MakeRig, PlantingGround};
+    use crate::generate::{InjectionContext, MakeRig};
 
     #[test]
     fn residuals_are_the_same_in_another_order() {
         let rig = MakeRig::new(7).make().expect("a rig").rig;
-        let ground = PlantingGround::new(&rig).expect("a model");
-        let model = &ground.identified().model;
+        let context = InjectionContext::new(&rig).expect("a model");
+        let model = &context.identified().model;
         let anew = resampled(&rig, runs_of(model), 3).expect("records");
         for (record, before) in anew.records.iter().zip(&rig.records) {
             let run = model.free_run(&before.record);

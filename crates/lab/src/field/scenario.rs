@@ -78,7 +78,8 @@ pub struct Expect {
     /// Largest share of foreign faults for which a cause is named.
     pub outside_named: Option<f64>,
     /// Largest share of effects named alone that harm a held-out record beyond its error.
-    pub harms: Option<f64>,
+    #[serde(rename = "harms")]
+    pub degrades_validation: Option<f64>,
     /// Largest calibration error over what perfect calibration would show on as many rigs.
     pub calibration: Option<f64>,
     /// Least and largest coverage of the 90 % closure intervals.
@@ -158,8 +159,8 @@ fn refuse_large(file: &TomlFile, wire: &WireStudy, effects: usize) -> Result<(),
         let of = |count: &Spanned<usize>| *count.get_ref() as u64;
         // A measured base at least, where there may be some.
         let bases = of(made) + u64::from(wire.rigs.is_some());
-        let planted = [of(seeds), bases, wire.sizes.get_ref().len() as u64, effects as u64];
-        planted.into_iter().fold(1, u64::saturating_mul).saturating_add(of(none) + of(outside))
+        let injected = [of(seeds), bases, wire.sizes.get_ref().len() as u64, effects as u64];
+        injected.into_iter().fold(1, u64::saturating_mul).saturating_add(of(none) + of(outside))
     })
 }
 

@@ -96,7 +96,7 @@ impl examination::Sealed for Sealed {
     }
 }
 
-/// The keys in a key file that the same program wrote, by the number of the rig: what they tell need not be searched for again.
+/// The keys in a key file that the same program wrote, by the number of the rig: what they show need not be searched for again.
 #[derive(Debug, Default)]
 pub(super) struct WrittenKeys(HashMap<usize, Key>);
 

@@ -1,6 +1,6 @@
 //! The fault that a rig is to have.
 
-use crate::generate::{Ingredient, MakeError};
+use crate::generate::{MakeError, RequestedFault};
 
 /// A fault that is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ impl Wanted {
     ///
     /// # Errors
     /// [`MakeError`] for an effect or law that does not exist.
-    pub(crate) fn ingredient(&self) -> Result<Ingredient, MakeError> {
-        Ingredient::with_law(self.effect, self.law, self.size)
+    pub(crate) fn requested_fault(&self) -> Result<RequestedFault, MakeError> {
+        RequestedFault::with_law(self.effect, self.law, self.size)
     }
 }

@@ -26,9 +26,9 @@ pub struct TrueEffect {
     /// Size that was asked for.
     pub wanted: f64,
     /// Size that it has by itself. In the laboratory what survives the best nominal re-fit, in noise sd; in the field what survives
-    /// identification anew, over what the model of the machine without the effect leaves on held-out records ([`PlantedFault::size`]).
+    /// identification anew, over what the model of the machine without the effect leaves on held-out records ([`InjectedFault::size`]).
     ///
-    /// [`PlantedFault::size`]: crate::generate::PlantedFault::size
+    /// [`InjectedFault::size`]: crate::generate::InjectedFault::size
     pub size: f64,
 }
 

@@ -1,6 +1,6 @@
 //! What a law of an effect is: hooks along the block diagram.
 
-use crate::generate::campaign::Passage;
+use crate::generate::dataset::Passage;
 use crate::generate::plant::Plant;
 use rand_chacha::ChaCha8Rng;
 use std::fmt::Debug;
@@ -47,7 +47,7 @@ pub enum Nature {
 
 /// How a law comes into records that were measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Planting {
+pub enum Injection {
     /// [`Law::sensor`] acts on the measured output: exact.
     Reading,
     /// A gain that changes slowly against the dynamics scales the output as it scales `u`: [`Law::dynamics`] acts on the measured output.
@@ -58,7 +58,7 @@ pub enum Planting {
     Carried,
 }
 
-impl Planting {
+impl Injection {
     /// Whether no model takes part.
     pub fn is_exact(self) -> bool {
         self != Self::Carried
@@ -77,14 +77,14 @@ impl Planting {
 
 /// How much of an effect, and which of its shapes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dose {
+pub struct Amount {
     /// Magnitude, in the law's [`Law::unit`]; zero means that the effect is absent.
     pub magnitude: f64,
     /// Four numbers, uniform on `[0, 1)`, that a law maps to whatever else it needs (a frequency, an onset, a mix).
     pub shape: [f64; 4],
 }
 
-impl Dose {
+impl Amount {
     /// Maps the `i`-th shape number linearly to `[low, high)`.
     pub fn between(&self, i: usize, low: f64, high: f64) -> f64 {
         low + (high - low) * self.shape[i]
@@ -96,23 +96,23 @@ impl Dose {
     }
 }
 
-/// What a hook may look at while it acts on one passage of the campaign.
+/// What a hook may look at while it acts on one passage of the dataset.
 #[derive(Debug)]
 pub struct Scene<'a> {
     /// The nominal system.
     pub plant: &'a Plant,
-    /// The record under way, with its lead-in.
+    /// The record running, with its lead-in.
     pub passage: &'a Passage,
     /// How much of the effect.
-    pub dose: Dose,
+    pub amount: Amount,
     /// The effect's own randomness in this passage; the same for every magnitude.
     pub rng: ChaCha8Rng,
 }
 
 impl Scene<'_> {
-    /// Magnitude of the dose.
+    /// Magnitude of the magnitude.
     pub fn x(&self) -> f64 {
-        self.dose.magnitude
+        self.amount.magnitude
     }
 }
 
@@ -159,20 +159,20 @@ pub trait Law: Debug + Send + Sync {
     /// Variance of the one-step prediction error of a model that knows the effect, over that of the white equation error.
     ///
     /// 1 unless the effect itself raises what nobody could predict.
-    fn oracle_variance(&self, _plant: &Plant, _dose: &Dose) -> f64 {
+    fn oracle_variance(&self, _plant: &Plant, _amount: &Amount) -> f64 {
         1.0
     }
 
     /// How it comes into measured records.
-    fn planting(&self) -> Planting {
+    fn injection(&self) -> Injection {
         match self.stage() {
-            Stage::Sensor => Planting::Reading,
-            Stage::Input | Stage::Operator | Stage::Dynamics | Stage::Disturbance => Planting::Carried,
+            Stage::Sensor => Injection::Reading,
+            Stage::Input | Stage::Operator | Stage::Dynamics | Stage::Disturbance => Injection::Carried,
         }
     }
 
     /// What the record of the input shows, given the input that acts, so that the machine seems to have the effect
-    /// ([`Planting::Recording`]).
+    /// ([`Injection::Recording`]).
     fn recording(&self, _scene: &mut Scene<'_>, _v: &mut [f64]) {}
 
     /// Input stage: from the commanded input to the one that arrives.

@@ -1,16 +1,16 @@
 //! Making a rig.
 
-use crate::generate::campaign::{Plan, campaign};
+use crate::generate::dataset::{Plan, dataset};
 use crate::generate::field;
-use crate::generate::ingredient::Ingredient;
+use crate::generate::generator::{Description, Generator};
 use crate::generate::key::{Key, TrueEffect};
 use crate::generate::made_rig::MadeRig;
 use crate::generate::make_error::MakeError;
 use crate::generate::plant::{Family, Plant};
+use crate::generate::requested_fault::RequestedFault;
 use crate::generate::setting::Setting;
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
-use crate::generate::workshop::{Description, Workshop};
 
 /// A recipe: everything else about the rig is drawn from the seed.
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ pub struct MakeRig {
     family: Family,
     plan: Plan,
     setting: Setting,
-    ingredients: Vec<Ingredient>,
+    requested_faults: Vec<RequestedFault>,
     /// Effects that the machine does not have by itself.
     spared: Vec<&'static str>,
 }
@@ -32,7 +32,7 @@ impl MakeRig {
             family: Family { order: None, shape: None },
             plan: Plan::default(),
             setting: Setting::default(),
-            ingredients: Vec::new(),
+            requested_faults: Vec::new(),
             spared: Vec::new(),
         }
     }
@@ -51,7 +51,7 @@ impl MakeRig {
         self
     }
 
-    /// Another plan of the laboratory's records; campaigns in the field have none.
+    /// Another plan of the laboratory's records; datasets in the field have none.
     #[must_use]
     pub fn plan(mut self, plan: Plan) -> Self {
         self.plan = plan;
@@ -60,16 +60,16 @@ impl MakeRig {
 
     /// Adds an effect. A machine of the field that has it by itself loses that: what is put in is all of it.
     #[must_use]
-    pub fn with(mut self, ingredient: Ingredient) -> Self {
-        self.spared.push(ingredient.law.effect());
-        self.ingredients.push(ingredient);
+    pub fn with(mut self, requested_fault: RequestedFault) -> Self {
+        self.spared.push(requested_fault.law.effect());
+        self.requested_faults.push(requested_fault);
         self
     }
 
     /// The same machine, inputs and noise without the effects that were added: what the rig was before.
     #[must_use]
     pub(crate) fn base(&self) -> Self {
-        Self { ingredients: Vec::new(), ..self.clone() }
+        Self { requested_faults: Vec::new(), ..self.clone() }
     }
 
     /// Draws the system and the inputs, sizes each effect by itself, and takes the records.
@@ -77,17 +77,17 @@ impl MakeRig {
     /// # Errors
     /// [`MakeError::Record`] if the output is not finite, [`MakeError::NoSize`] if an effect in the field has no size.
     pub fn make(&self) -> Result<MadeRig, MakeError> {
-        let mut workshop = self.workshop();
+        let mut generator = self.generator();
         if self.setting == Setting::Field {
-            let (active, effects) = field::sized(&workshop, &self.ingredients)?;
-            return workshop.assemble(&active, effects, field::size_of_all);
+            let (active, effects) = field::sized(&generator, &self.requested_faults)?;
+            return generator.assemble(&active, effects, field::size_of_all);
         }
         let (mut active, mut effects): (Vec<_>, Vec<_>) =
-            self.ingredients.iter().enumerate().map(|(slot, i)| workshop.sized(slot, i)).unzip();
+            self.requested_faults.iter().enumerate().map(|(slot, i)| generator.sized(slot, i)).unzip();
         if let ([one], [entry]) = (active.as_mut_slice(), effects.as_mut_slice()) {
-            workshop.tune_noise(one, entry);
+            generator.tune_noise(one, entry);
         }
-        workshop.assemble(&active, effects, field::size_of_all)
+        generator.assemble(&active, effects, field::size_of_all)
     }
 
     /// The same rig once more from its key, without searching for the magnitudes: equal to the bit, and much faster.
@@ -96,10 +96,10 @@ impl MakeRig {
     /// [`MakeError::ForeignKey`] if the key belongs to another recipe, [`MakeError::Record`] as in [`MakeRig::make`].
     pub fn again(&self, key: &Key) -> Result<MadeRig, MakeError> {
         let same_effect =
-            |(i, e): (&Ingredient, &TrueEffect)| i.law.effect() == e.effect && i.law.name() == e.law;
+            |(i, e): (&RequestedFault, &TrueEffect)| i.law.effect() == e.effect && i.law.name() == e.law;
         let foreign = || MakeError::ForeignKey { recipe: self.seed, key: key.seed };
-        let same_count = self.ingredients.len() == key.effects.len();
-        let same_effects = same_count && self.ingredients.iter().zip(&key.effects).all(same_effect);
+        let same_count = self.requested_faults.len() == key.effects.len();
+        let same_effects = same_count && self.requested_faults.iter().zip(&key.effects).all(same_effect);
         if (self.seed, self.setting) != (key.seed, key.setting) || !same_effects {
             return Err(foreign());
         }
@@ -120,30 +120,30 @@ impl MakeRig {
         noise_sd: f64,
         found: &[(f64, f64)],
     ) -> Result<Option<MadeRig>, MakeError> {
-        if found.len() != self.ingredients.len() {
+        if found.len() != self.requested_faults.len() {
             return Ok(None);
         }
         let entries =
-            self.ingredients.iter().zip(found).map(|(i, (magnitude, size))| i.found(*magnitude, *size));
+            self.requested_faults.iter().zip(found).map(|(i, (magnitude, size))| i.found(*magnitude, *size));
         self.with_found(noise_sd, entries.collect()).map(Some)
     }
 
     fn with_found(&self, noise_sd: f64, effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
-        let mut workshop = self.workshop();
-        workshop.plant.noise_sd = noise_sd;
-        let sized = self.ingredients.iter().zip(&effects).enumerate();
+        let mut generator = self.generator();
+        generator.plant.noise_sd = noise_sd;
+        let sized = self.requested_faults.iter().zip(&effects).enumerate();
         let active: Vec<Active> =
-            sized.map(|(slot, (i, e))| workshop.active(slot, i.law, e.magnitude)).collect();
-        workshop.assemble(&active, effects, field::size_of_all)
+            sized.map(|(slot, (i, e))| generator.active(slot, i.law, e.magnitude)).collect();
+        generator.assemble(&active, effects, field::size_of_all)
     }
 
-    /// The system and the campaign of the recipe.
-    pub(crate) fn workshop(&self) -> Workshop {
+    /// The system and the dataset of the recipe.
+    pub(crate) fn generator(&self) -> Generator {
         if self.setting == Setting::Field {
-            return field::workshop(self.seed, self.family, &self.spared);
+            return field::generator(self.seed, self.family, &self.spared);
         }
         let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
-        let passages = campaign(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
+        let passages = dataset(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
         let description = Description {
             setting: Setting::Laboratory,
             order: Some(plant.order()),
@@ -152,6 +152,6 @@ impl MakeRig {
             output: "y".to_owned(),
             base: Vec::new(),
         };
-        Workshop::new(self.seed, (plant, Vec::new()), passages, description)
+        Generator::new(self.seed, (plant, Vec::new()), passages, description)
     }
 }

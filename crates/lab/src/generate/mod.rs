@@ -1,7 +1,7 @@
 //! Rigs made with a chosen effect, so that a diagnosis of the sim-to-real gap can be tried on a withheld truth.
 //!
 //! A made rig is a random nominal system (order, poles, borders, interval, units and noise all drawn from one
-//! seed), a campaign of records as a user would take them, and at most a few *effects* that the nominal model lacks.
+//! seed), a dataset of records as a user would take them, and at most a few *effects* that the nominal model lacks.
 //! An effect has one or more *laws*: the first is the plain textbook one, the others are what physics offers
 //! besides (Bouc–Wen, Dahl, Maxwell slip, Preisach, LuGre, other envelopes, other noises). Some effects are in
 //! no library of causes at all; they serve to try whether a diagnosis can say "none of these".
@@ -21,47 +21,47 @@
 //! # Ok::<(), switchback_lab::generate::MakeError>(())
 //! ```
 
-mod campaign;
+mod dataset;
 mod effects;
 mod field;
-mod ingredient;
+mod generator;
+mod injection;
 mod key;
 mod law;
 mod made_rig;
 mod make;
 mod make_error;
 mod plant;
-mod planting;
 mod refit;
+mod requested_fault;
 mod setting;
 mod simulate;
 mod size;
 mod stream;
-mod workshop;
 
-pub use campaign::Passage;
-pub use campaign::Plan;
+pub use dataset::Passage;
+pub use dataset::Plan;
 pub use effects::EFFECTS;
 pub use effects::FOREIGN;
 pub use effects::laws_of;
-pub use ingredient::Ingredient;
+pub use injection::InjectedFault;
+pub use injection::InjectedRig;
+pub use injection::InjectionContext;
+pub use injection::InjectionError;
+pub use injection::OBSERVABLE;
+pub use injection::Precision;
 pub use key::Key;
 pub use key::TrueEffect;
 pub(crate) use key::Truth;
 pub(crate) use law::INTERVAL_WIDTHS;
 pub use law::Nature;
 #[cfg(test)]
-pub(crate) use law::{Planting, Stage};
+pub(crate) use law::{Injection, Stage};
 pub use made_rig::MadeRig;
 pub use make::MakeRig;
 pub use make_error::MakeError;
 pub use plant::Family;
 pub use plant::Plant;
 pub use plant::Shape;
-pub use planting::OBSERVABLE;
-pub use planting::PlantedFault;
-pub use planting::PlantedRig;
-pub use planting::PlantingError;
-pub use planting::PlantingGround;
-pub use planting::Precision;
+pub use requested_fault::RequestedFault;
 pub use setting::Setting;

@@ -31,7 +31,7 @@ pub struct Plant {
     pub levels: Vec<f64>,
     /// Standard deviation of the white equation error, output units.
     pub noise_sd: f64,
-    /// Most that the noise-free output leaves [`Plant::y_centre`] during the campaign, output units.
+    /// Most that the noise-free output leaves [`Plant::y_centre`] during the dataset, output units.
     pub reach: f64,
     /// Seconds between samples.
     pub sample_time: f64,

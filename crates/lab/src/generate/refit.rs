@@ -1,11 +1,11 @@
 //! The best nominal model of a rig: what it leaves is the surviving gap.
 
-use crate::generate::campaign::Passage;
+use crate::generate::dataset::Passage;
 use crate::generate::plant::Plant;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use switchback_model::rig::Usage;
 
-/// The nominal structure as a linear regression, laid out once for a campaign and solved for any outputs.
+/// The nominal structure as a linear regression, laid out once for a dataset and solved for any outputs.
 ///
 /// ```text
 /// y(t) = −Σᵢ aᵢ y(t−i) + Σᵢ Σ_k μ_ik φ_k(t−i) + ξ(t),   i = 1…n
@@ -36,7 +36,7 @@ pub(crate) struct Leftover {
 }
 
 impl Refit {
-    /// Lays out the regression for the commanded inputs of a campaign.
+    /// Lays out the regression for the commanded inputs of a dataset.
     pub(crate) fn new(plant: &Plant, passages: &[Passage]) -> Self {
         let order = plant.order();
         let knots = 1 + (plant.levels.len() - 1) * if plant.curved { FINER } else { 1 };

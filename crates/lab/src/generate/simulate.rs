@@ -1,7 +1,7 @@
 //! One passage through the block diagram.
 
-use crate::generate::campaign::Passage;
-use crate::generate::law::{Dose, Law, Nature, Scene};
+use crate::generate::dataset::Passage;
+use crate::generate::law::{Amount, Law, Nature, Scene};
 use crate::generate::plant::Plant;
 use crate::generate::stream::{Purpose, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -12,7 +12,7 @@ pub(crate) struct Active {
     /// Its law.
     pub law: &'static dyn Law,
     /// How much of it.
-    pub dose: Dose,
+    pub amount: Amount,
     /// Its position among the rig's effects: names its random stream.
     pub slot: usize,
 }
@@ -48,7 +48,7 @@ pub(crate) fn simulate(
         .filter(|e| noise == Noise::Recorded || e.law.nature() == Nature::Systematic)
         .map(|e| {
             let rng = stream(seed, Purpose::Effect { effect: e.slot, record: passage.index });
-            (e.law, Scene { plant, passage, dose: e.dose, rng })
+            (e.law, Scene { plant, passage, amount: e.amount, rng })
         })
         .collect();
     let mut v = passage.v.clone();
@@ -103,7 +103,7 @@ fn difference_equation(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::campaign::{Plan, campaign};
+    use crate::generate::dataset::{Plan, dataset};
     use crate::generate::effects::{EFFECTS, FOREIGN, laws_of};
     use crate::generate::plant::Family;
     use proptest::prelude::*;
@@ -116,11 +116,11 @@ mod tests {
             let shape = shape.map(|x| (x.abs().fract() + 0.5).fract());
             let plant = Plant::draw(Family { order: None, shape: None }, &mut stream(seed, Purpose::Plant));
             let plan = Plan { step: 40, periods: 2, sweep: 150, drive: 60, repeat_periods: 1 };
-            let passages = campaign(&plan, &plant, &mut stream(seed, Purpose::Drive));
+            let passages = dataset(&plan, &plant, &mut stream(seed, Purpose::Drive));
             for passage in &passages {
                 let nominal = simulate(&plant, &[], passage, seed, Noise::Recorded);
                 for law in EFFECTS.iter().chain(&FOREIGN).flat_map(|e| laws_of(e)) {
-                    let active = Active { law: *law, dose: Dose { magnitude: 0.0, shape }, slot: 0 };
+                    let active = Active { law: *law, amount: Amount { magnitude: 0.0, shape }, slot: 0 };
                     let with = simulate(&plant, &[active], passage, seed, Noise::Recorded);
                     prop_assert_eq!(&with.y, &nominal.y, "{} {}", law.effect(), law.name());
                 }

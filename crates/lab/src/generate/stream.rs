@@ -20,7 +20,7 @@ pub(crate) enum Purpose {
     Effect {
         /// Position of the effect in the rig.
         effect: usize,
-        /// Position of the record in the campaign.
+        /// Position of the record in the dataset.
         record: usize,
     },
 }

@@ -21,7 +21,7 @@ impl Answer {
         match reply.status {
             "named" if said.contains(&effect) => Self::Named,
             "class" | "ambiguous" if said.contains(&effect) && said.len() <= WIDEST_CLASS => Self::InClass,
-            _ => Self::Other(told(reply)),
+            _ => Self::Other(reported(reply)),
         }
     }
 
@@ -31,7 +31,7 @@ impl Answer {
     }
 }
 
-fn told(reply: &Reply) -> String {
+fn reported(reply: &Reply) -> String {
     match reply.status {
         "none" => "nothing".to_owned(),
         "refit" => "other parameters".to_owned(),
@@ -65,10 +65,10 @@ mod tests {
         assert_eq!(wide, Answer::Other("one of 4 effects".to_owned()));
         assert_eq!(of("named", &["backlash"]), Answer::Other("backlash".to_owned()));
         assert_eq!(of("class", &["backlash", "stribeck"]), Answer::Other("backlash or stribeck".to_owned()));
-        for (status, told) in
+        for (status, reported) in
             [("none", "nothing"), ("unexplained", "none of these"), ("failed", "no diagnosis")]
         {
-            assert_eq!(of(status, &[]), Answer::Other(told.to_owned()));
+            assert_eq!(of(status, &[]), Answer::Other(reported.to_owned()));
         }
         assert!(Answer::Named.is_found() && Answer::InClass.is_found() && !wide.is_found());
     }

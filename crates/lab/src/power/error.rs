@@ -1,6 +1,6 @@
 //! Why no power could be measured.
 
-use crate::generate::PlantingError;
+use crate::generate::InjectionError;
 use miette::Diagnostic;
 use switchback_io::diagnosis::{DiagnosisError, SubjectError};
 use thiserror::Error;
@@ -22,13 +22,13 @@ pub enum PowerError {
     #[error("{data}: {error}")]
     #[diagnostic(help(
         "faults are put into records of a machine with a loop, at least one to fit, longer than a few time constants, and better one held out; \
-         `switchback identify` shows what the records tell"
+         `switchback identify` shows what the records show"
     ))]
-    Ground {
+    Context {
         /// The data.
         data: String,
         /// What is wrong.
-        error: PlantingError,
+        error: InjectionError,
     },
     /// Records drawn anew cannot be used.
     #[error("{data}: records with residuals drawn anew cannot be used: {reason}")]

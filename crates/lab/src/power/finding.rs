@@ -3,7 +3,7 @@
 use super::staircase::is_certain;
 use super::{Answer, Conclusion, Draw, LARGEST, Search};
 use crate::examination::Reply;
-use crate::generate::PlantedFault;
+use crate::generate::InjectedFault;
 use std::collections::BTreeMap;
 
 /// What is known of one effect.
@@ -21,7 +21,7 @@ pub struct Finding {
     pub found_next: f64,
     /// What share is found there at most, with a probability of 0.95.
     pub found_at_most: f64,
-    /// Diagnoses of records without any fault that tell it.
+    /// Diagnoses of records without any fault that show it.
     pub without_fault: usize,
 }
 
@@ -32,10 +32,10 @@ pub enum Outcome {
     From(f64),
     /// Up to this size they are not.
     NotUpTo(f64),
-    /// The draws do not tell.
+    /// The draws do not show.
     Undecided,
     /// None was put in, for this reason.
-    NotPlanted(String),
+    NotInjected(String),
 }
 
 /// How often an effect was answered as what.
@@ -72,7 +72,7 @@ impl Finding {
     }
 
     /// Every fault that was put in, with what was said.
-    pub fn diagnosed(&self) -> impl Iterator<Item = (&PlantedFault, &Answer)> {
+    pub fn diagnosed(&self) -> impl Iterator<Item = (&InjectedFault, &Answer)> {
         diagnosed(&self.draws)
     }
 
@@ -89,7 +89,7 @@ impl Finding {
             Draw::Diagnosed { .. } => None,
         });
         match (self.conclusion.size, last_refusal) {
-            (_, Some(reason)) if reached == 0.0 => Outcome::NotPlanted(reason),
+            (_, Some(reason)) if reached == 0.0 => Outcome::NotInjected(reason),
             (Some(size), _) if size <= reached => Outcome::From(size),
             _ if is_certain(self.beyond_reached) => Outcome::NotUpTo(LARGEST.min(reached)),
             _ => Outcome::Undecided,
@@ -114,21 +114,21 @@ impl Finding {
     pub(crate) fn instead(&self) -> Option<(&str, usize)> {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         for (_, answer) in self.diagnosed() {
-            if let Answer::Other(told) = answer {
-                *counts.entry(told).or_default() += 1;
+            if let Answer::Other(reported) = answer {
+                *counts.entry(reported).or_default() += 1;
             }
         }
         counts.into_iter().rev().max_by_key(|(_, count)| *count)
     }
 
     /// The fault whose size is closest to one, as a ratio.
-    pub(crate) fn closest_to(&self, size: f64) -> Option<&PlantedFault> {
-        let off = |fault: &PlantedFault| (fault.size / size).ln().abs();
+    pub(crate) fn closest_to(&self, size: f64) -> Option<&InjectedFault> {
+        let off = |fault: &InjectedFault| (fault.size / size).ln().abs();
         self.diagnosed().map(|(fault, _)| fault).min_by(|x, y| off(x).total_cmp(&off(y)))
     }
 }
 
-fn diagnosed(draws: &[Draw]) -> impl Iterator<Item = (&PlantedFault, &Answer)> {
+fn diagnosed(draws: &[Draw]) -> impl Iterator<Item = (&InjectedFault, &Answer)> {
     draws.iter().filter_map(|draw| match draw {
         Draw::Diagnosed { fault, answer } => Some((fault, answer)),
         Draw::Refused(_) => None,

@@ -15,9 +15,9 @@
 //! depend on records, options and seed alone.
 
 mod answer;
+mod context;
 mod error;
 mod finding;
-mod ground;
 mod json;
 mod plan;
 mod psychometric;
@@ -28,13 +28,13 @@ mod table;
 mod words;
 
 pub(crate) use answer::Answer;
+pub use context::Context;
+pub use context::Draw;
 pub use error::PowerError;
 #[cfg(test)]
 pub(crate) use finding::Answers;
 pub use finding::Finding;
 pub use finding::Outcome;
-pub use ground::Draw;
-pub use ground::Ground;
 pub use json::json;
 pub use plan::Plan;
 pub(crate) use psychometric::Psychometric;

@@ -1,6 +1,6 @@
 //! The draws of one effect, one after the other.
 
-use super::{Draw, Ground, Plan, Staircase};
+use super::{Context, Draw, Plan, Staircase};
 use crate::examination::scramble;
 use crate::generate::Precision;
 
@@ -20,16 +20,16 @@ pub(crate) struct Search {
 const REFUSED: usize = 3;
 
 impl Search {
-    /// No draw yet; `guess` is how often the effect is told where it is not.
+    /// No draw yet; `guess` is how often the effect is reported where it is not.
     pub(crate) fn new(effect: &'static str, guess: f64, plan: &Plan) -> Self {
         Self { effect, draws: Vec::new(), staircase: Staircase::new(guess), seed: plan.seed_of(effect) }
     }
 
     /// One draw more.
-    pub(crate) fn step(&mut self, ground: &Ground<'_>) {
+    pub(crate) fn step(&mut self, context: &Context<'_>) {
         let seed = scramble(self.seed, self.draws.len() as u64);
         // The staircase takes the size that is reached, whatever was asked for.
-        let draw = ground.draw(Precision::COARSE, (self.effect, self.staircase.next_size()), seed);
+        let draw = context.draw(Precision::COARSE, (self.effect, self.staircase.next_size()), seed);
         self.take(draw);
     }
 

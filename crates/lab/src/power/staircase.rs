@@ -12,7 +12,7 @@
 //! method of Watson and Pelli (QUEST, Perception & Psychophysics 33:113, 1983), with the entropy of Kontsevich and Tyler (Vision Research 39:2729,
 //! 1999), of what is of interest alone as in Prins (Journal of Vision 13(7):3, 2013).
 //!
-//! **What is told.** The size stated is the smallest at which the next fault is found with a probability of 0.9,
+//! **What is reported.** The size stated is the smallest at which the next fault is found with a probability of 0.9,
 //!
 //! ```text
 //! s = min { s : E[ψ(s; θ) | data] ≥ 0.9 }
@@ -20,7 +20,7 @@
 //!
 //! rather than an estimate of `s₉₀`: it is so by construction that, over effects that the prior is fair for, nine in ten fresh faults of the
 //! size stated are found, however few draws there were; few draws make it larger. Beside it stands the 90 % credible interval of `s₉₀`. Where no
-//! size up to the largest is found that often, `s₉₀` lies beyond it with a probability of 0.95, or the draws were too few to tell.
+//! size up to the largest is found that often, `s₉₀` lies beyond it with a probability of 0.95, or the draws were too few to show.
 //!
 //! **Prior.** `α` log-uniform from ¼, half the least size tried, to 8, the largest; `β` log-uniform from 2 to 10: from one in ten to nine in ten it
 //! takes a factor of 9, or of 1.6, in size. `λ` with weight ½ uniform on [0, 0.1], an effect that is found once it is large enough, and with weight ½
@@ -86,7 +86,7 @@ impl Conclusion {
         is_certain(self.beyond)
     }
 
-    /// Whether more draws would tell little more.
+    /// Whether more draws would show little more.
     pub(crate) fn is_settled(&self) -> bool {
         self.is_beyond() || self.size.is_some() && self.interval[1] <= NARROW * self.interval[0].max(SIZES[0])
     }

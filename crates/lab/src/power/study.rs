@@ -1,6 +1,6 @@
 //! The rounds of all effects.
 
-use super::{Finding, Ground, Plan, PowerError, Search};
+use super::{Context, Finding, Plan, PowerError, Search};
 use crate::examination::Reply;
 use rayon::prelude::*;
 use switchback_study::consistency::Progress;
@@ -16,7 +16,7 @@ pub struct Power {
     pub findings: Vec<Finding>,
 }
 
-/// A cause may be told in at most 3 % of records without any (the field examination's bound), most often one of three; this counts as much as one
+/// A cause may be reported in at most 3 % of records without any (the field examination's bound), most often one of three; this counts as much as one
 /// draw.
 const GUESS: f64 = 0.01;
 
@@ -25,32 +25,32 @@ const GUESS: f64 = 0.01;
 /// # Errors
 /// [`PowerError`] where records without a fault give no diagnosis.
 pub fn measure(
-    ground: &Ground<'_>,
+    context: &Context<'_>,
     plan: &Plan,
     progress: &impl Progress,
     started: impl FnOnce(),
 ) -> Result<Power, PowerError> {
     progress.planned(plan.diagnoses() as u64);
-    let bare = without_fault(ground, plan, progress, started)?;
+    let bare = without_fault(context, plan, progress, started)?;
     let guess = |effect: &&'static str| {
-        let told = bare.iter().filter(|reply| reply.said().contains(effect)).count();
-        // Below the share that is sought; an effect that is told so often is told as such.
-        ((told as f64 + GUESS) / (bare.len() as f64 + 1.0)).min(0.8)
+        let reported = bare.iter().filter(|reply| reply.said().contains(effect)).count();
+        // Below the share that is sought; an effect that is reported so often is reported as such.
+        ((reported as f64 + GUESS) / (bare.len() as f64 + 1.0)).min(0.8)
     };
     let searches = plan.effects.iter().map(|effect| Search::new(effect, guess(effect), plan)).collect();
-    let searches = rounds(ground, plan, searches, progress);
+    let searches = rounds(context, plan, searches, progress);
     let findings = searches.iter().map(|search| Finding::of(search, &bare)).collect();
     Ok(Power { plan: plan.clone(), bare, findings })
 }
 
 fn without_fault(
-    ground: &Ground<'_>,
+    context: &Context<'_>,
     plan: &Plan,
     progress: &impl Progress,
     started: impl FnOnce(),
 ) -> Result<Vec<Reply>, PowerError> {
     let one = |number: usize| {
-        let reply = ground.bare(plan.seed_of_bare(number));
+        let reply = context.bare(plan.seed_of_bare(number));
         progress.advanced(1);
         reply
     };
@@ -63,7 +63,7 @@ fn without_fault(
 /// A draw for every effect that needs one, until none does or the budget is spent. Which effects have draws in a round depends on what is
 /// known after the one before, never on who was faster.
 fn rounds(
-    ground: &Ground<'_>,
+    context: &Context<'_>,
     plan: &Plan,
     mut searches: Vec<Search>,
     progress: &impl Progress,
@@ -77,7 +77,7 @@ fn rounds(
         }
         left -= round.len();
         round.into_par_iter().with_max_len(1).for_each(|search| {
-            search.step(ground);
+            search.step(context);
             progress.advanced(1);
         });
     }

@@ -18,13 +18,13 @@ fn rows(finding: &Finding) -> impl Iterator<Item = Vec<String>> {
         row.extend(match draw {
             Draw::Diagnosed { fault, answer } => vec![
                 fault.law.to_owned(),
-                fault.planting.name().to_owned(),
+                fault.injection.name().to_owned(),
                 fault.size.to_string(),
                 fault.raw.to_string(),
                 fault.magnitude.to_string(),
                 fault.unit.to_owned(),
                 answer.is_found().to_string(),
-                answer.told().to_owned(),
+                answer.reported().to_owned(),
             ],
             Draw::Refused(reason) => [vec![String::new(); 7], vec![reason.clone()]].concat(),
         });
@@ -34,11 +34,11 @@ fn rows(finding: &Finding) -> impl Iterator<Item = Vec<String>> {
 
 impl Answer {
     /// The answer in a word or a few.
-    pub(crate) fn told(&self) -> &str {
+    pub(crate) fn reported(&self) -> &str {
         match self {
             Self::Named => "named",
             Self::InClass => "class",
-            Self::Other(told) => told,
+            Self::Other(reported) => reported,
         }
     }
 }

@@ -2,19 +2,19 @@
 
 use super::*;
 use crate::examination::Reply;
-use crate::generate::{EFFECTS, Nature, PlantedFault, Planting, Stage};
+use crate::generate::{EFFECTS, InjectedFault, Injection, Nature, Stage};
 
 fn plan(draws: usize) -> Plan {
     Plan { effects: vec!["creep", "backlash"], draws, seed: 7 }
 }
 
-fn fault(size: f64) -> PlantedFault {
-    PlantedFault {
+fn fault(size: f64) -> InjectedFault {
+    InjectedFault {
         effect: "creep",
         law: "logarithmic",
         stage: Stage::Operator,
         nature: Nature::Systematic,
-        planting: Planting::Carried,
+        injection: Injection::Carried,
         magnitude: 0.01 * size,
         unit: crate::generate::INTERVAL_WIDTHS,
         quantity: None,
@@ -29,8 +29,8 @@ fn drawn(size: f64, answer: Answer) -> Draw {
     Draw::Diagnosed { fault: fault(size), answer }
 }
 
-fn missed(size: f64, told: &str) -> Draw {
-    drawn(size, Answer::Other(told.to_owned()))
+fn missed(size: f64, reported: &str) -> Draw {
+    drawn(size, Answer::Other(reported.to_owned()))
 }
 
 fn refused() -> Draw {
@@ -77,7 +77,7 @@ fn what_is_refused_three_times_running_is_given_up() {
     let all = searched(vec![refused(), refused(), refused()]);
     assert!(all.is_done(&plan(6)));
     let outcome = Finding::of(&all, &[]).outcome();
-    assert_eq!(outcome, Outcome::NotPlanted("the loop is too narrow".to_owned()));
+    assert_eq!(outcome, Outcome::NotInjected("the loop is too narrow".to_owned()));
     let between = searched(vec![refused(), refused(), drawn(2.0, Answer::InClass), refused()]);
     assert!(!between.is_done(&plan(6)));
     // One draw each on average, and four at most.

@@ -1,7 +1,7 @@
 //! The power of a rig's records as a page for a person.
 
-use super::{Finding, Ground, LARGEST, Outcome, Power, SIZES};
-use crate::generate::PlantedFault;
+use super::{Context, Finding, LARGEST, Outcome, Power, SIZES};
+use crate::generate::InjectedFault;
 use std::fmt::Write;
 use switchback_io::diagnosis::{Units, digits};
 use switchback_io::output::{columns, wrapped};
@@ -11,19 +11,19 @@ const CLASSES: [(&str, f64, f64); 4] =
     [("below 1", 0.0, 1.0), ("1 to 2", 1.0, 2.0), ("2 to 4", 2.0, 4.0), ("4 and more", 4.0, f64::INFINITY)];
 
 /// A line an effect, a sentence on each, and what sizes mean.
-pub fn words(power: &Power, ground: &Ground<'_>) -> String {
-    let units = Units::of(ground.rig());
-    let mut page = format!("{}\n\n", ground.rig().name);
+pub fn words(power: &Power, context: &Context<'_>) -> String {
+    let units = Units::of(context.rig());
+    let mut page = format!("{}\n\n", context.rig().name);
     page.push_str(&table(power));
     page.push_str(&wrapped(
-        "found of put in, by size; `no fault`: told where there is none. Found: named, or in a class of at most three effects.",
+        "found of put in, by size; `no fault`: reported where there is none. Found: named, or in a class of at most three effects.",
         "",
     ));
     page.push('\n');
     for finding in &power.findings {
         page.push_str(&wrapped(&format!("{}: {}", finding.effect, sentence(finding, &units)), "  "));
     }
-    let _ = write!(page, "\n{}", wrapped(&meaning(power, ground, &units), ""));
+    let _ = write!(page, "\n{}", wrapped(&meaning(power, context, &units), ""));
     page
 }
 
@@ -36,7 +36,7 @@ fn table(power: &Power) -> String {
         let outcome = finding.outcome();
         let [low, high] = finding.conclusion.interval;
         let interval = match outcome {
-            Outcome::NotPlanted(_) => "–".to_owned(),
+            Outcome::NotInjected(_) => "–".to_owned(),
             _ if low > LARGEST => end(low),
             _ => format!("[{}, {}]", end(low), end(high)),
         };
@@ -44,9 +44,9 @@ fn table(power: &Power) -> String {
             let answers = finding.answers(low, high);
             if answers.of == 0 { "–".to_owned() } else { format!("{}/{}", answers.found(), answers.of) }
         });
-        let told = format!("{}/{}", finding.without_fault, power.bare.len());
+        let reported = format!("{}/{}", finding.without_fault, power.bare.len());
         let first = [finding.effect.to_owned(), in_brief(&outcome), interval];
-        rows.push(row(first.into_iter().chain(shares).chain([told])));
+        rows.push(row(first.into_iter().chain(shares).chain([reported])));
     }
     columns(&rows)
 }
@@ -61,7 +61,7 @@ fn in_brief(outcome: &Outcome) -> String {
         Outcome::From(size) => digits(*size, 2),
         Outcome::NotUpTo(size) => format!("not up to {}", digits(*size, 2)),
         Outcome::Undecided => "undecided".to_owned(),
-        Outcome::NotPlanted(_) => "not planted".to_owned(),
+        Outcome::NotInjected(_) => "not planted".to_owned(),
     }
 }
 
@@ -88,11 +88,11 @@ fn sentence(finding: &Finding, units: &Units) -> String {
             100.0 * finding.found_at_most
         )),
         Outcome::Undecided => parts.push(format!(
-            "too few draws to tell (`--draws` takes more); at {}, the largest size reached, about {:.0} % are found",
+            "too few draws to show (`--draws` takes more); at {}, the largest size reached, about {:.0} % are found",
             digits(finding.reached(), 2),
             100.0 * finding.found_next
         )),
-        Outcome::NotPlanted(reason) => return format!("cannot be planted: {reason}"),
+        Outcome::NotInjected(reason) => return format!("cannot be planted: {reason}"),
     }
     parts.push(format!("named in {}, in a class in {} of {}", all.named, all.in_class, all.of));
     if let Some((answer, count)) = finding.instead() {
@@ -102,25 +102,25 @@ fn sentence(finding: &Finding, units: &Units) -> String {
         ));
     }
     if finding.without_fault > 0 {
-        parts.push("told where there is no fault, too, so that finding it proves little".to_owned());
+        parts.push("reported where there is no fault, too, so that finding it proves little".to_owned());
     }
     parts.join("; ")
 }
 
 /// What a size and a silence mean.
-fn meaning(power: &Power, ground: &Ground<'_>, units: &Units) -> String {
+fn meaning(power: &Power, context: &Context<'_>, units: &Units) -> String {
     let residual = power.findings.iter().flat_map(Finding::diagnosed).map(|(fault, _)| fault.residual).next();
     let one = residual.map_or_else(String::new, |r| format!(" (here {} {} rms)", digits(r, 2), units.output));
     format!(
         "Size 1 is a fault that leaves as much on held-out records, after the model is identified anew, as the {} misses there without it{one}. \
-         An effect with a size in the column `found from` that `switchback gap` does not tell of these records is, nine times in ten, smaller \
+         An effect with a size in the column `found from` that `switchback gap` does not report these records is, nine times in ten, smaller \
          than that here; of every other effect its silence says little.",
-        ground.source().model()
+        context.source().model()
     )
 }
 
 /// A magnitude in the units of the records: lengths along the input in the input's unit, samples in seconds.
-pub(super) fn of_magnitude(units: &Units, fault: &PlantedFault) -> (f64, String) {
+pub(super) fn of_magnitude(units: &Units, fault: &InjectedFault) -> (f64, String) {
     match fault.unit {
         crate::generate::INTERVAL_WIDTHS => (fault.magnitude * units.stroke, units.input.clone()),
         "samples" => (fault.magnitude * units.sample_time, "s".to_owned()),
@@ -129,7 +129,7 @@ pub(super) fn of_magnitude(units: &Units, fault: &PlantedFault) -> (f64, String)
 }
 
 /// The same in words; none where the magnitude counts the noise and so has no meaning in the field.
-fn in_words(units: &Units, fault: &PlantedFault) -> Option<String> {
+fn in_words(units: &Units, fault: &InjectedFault) -> Option<String> {
     let (magnitude, unit) = of_magnitude(units, fault);
     let quantity = fault.quantity.map_or_else(String::new, |quantity| format!("{quantity} "));
     let words = format!(

@@ -3,7 +3,7 @@
 //! The fast engine superposes the sums of one noise record for every cell and solves normal equations; the slow one simulates every cell sample by
 //! sample and solves dense least squares by QR. They share the noise and nothing else, so that they agree to rounding. The limit of the difference
 //! of two mean estimates is a millionth of the standard deviation of one estimate: rounding is far below, and whatever is below changes no
-//! figure that a study tells. Counts of covering intervals must be the same, for an interval's end is as near as that to the truth in one of a
+//! figure that a study shows. Counts of covering intervals must be the same, for an interval's end is as near as that to the truth in one of a
 //! million replicates.
 
 use super::figure::Figure;

@@ -17,7 +17,7 @@
 
 use super::figure::Figure;
 use miette::IntoDiagnostic;
-use switchback_identify::excitation::Campaign;
+use switchback_identify::excitation::Dataset;
 use switchback_identify::{BorderPoint, Estimate};
 use switchback_io::identification::{Method, identify};
 use switchback_model::Record;
@@ -88,10 +88,10 @@ fn compare(method: Method, found: &Estimate) -> Vec<Figure> {
     figures
 }
 
-/// The records of a whole campaign on a machine with that denominator.
+/// The records of a whole dataset on a machine with that denominator.
 fn rig(a: [f64; 2]) -> miette::Result<Rig> {
     let interval = Interval::new(-REACH, REACH).into_diagnostic()?;
-    let records = Campaign::new(interval, 2, 4, 30).into_diagnostic()?.records().into_iter().map(|planned| {
+    let records = Dataset::new(interval, 2, 4, 30).into_diagnostic()?.records().into_iter().map(|planned| {
         let record = Record::new(planned.v.clone(), simulate(a, &planned.v)).into_diagnostic()?;
         let (role, usage) = (planned.role, planned.usage);
         Ok(RigRecord { name: planned.name.to_owned(), role, usage, record, predicted: None })

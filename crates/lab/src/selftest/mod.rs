@@ -10,7 +10,7 @@
 //! | `known_answers` | Do the estimators find what is known? |
 //! | `coverage` | Do 95 % intervals hold the truth in 95 % of the replicates? |
 //! | `monte_carlo_errors` | Are the Monte-Carlo errors of a study what repeating the study shows? |
-//! | `planted` | Does a diagnosis find what was put in, and nothing where nothing was? |
+//! | `injected` | Does a diagnosis find what was put in, and nothing where nothing was? |
 //!
 //! To add one, add its file and its line in [`CHECKS`].
 
@@ -18,10 +18,10 @@ mod chance;
 mod coverage;
 mod engines;
 mod figure;
+mod injected;
 mod known_answers;
 mod monte_carlo_errors;
 mod noise;
-mod planted;
 mod small_study;
 mod words;
 
@@ -63,13 +63,13 @@ pub const CHECKS: [Check; 6] = [
     },
     Check {
         name: "Monte-Carlo errors",
-        wrong: "the errors told beside a study's measures are not what repeating the study shows; run more replicates than they ask for",
+        wrong: "the errors reported beside a study's measures are not what repeating the study shows; run more replicates than they ask for",
         figures: monte_carlo_errors::figures,
     },
     Check {
         name: "planted effect",
         wrong: "a diagnosis does not find what was put into a made rig, or finds what was not; do not trust the causes it names",
-        figures: planted::figures,
+        figures: injected::figures,
     },
 ];
 
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nearest_to_its_limit_is_told() {
+    fn what_is_nearest_to_its_limit_is_reported() {
         let figures = |_| Ok(vec![Figure::at_most("a", 0.1, 1.0), Figure::at_most("b", 2.0, 1.0)]);
         let finding = Check { name: "two", wrong: "", figures }.run(1);
         assert_eq!(finding.nearest().map(|figure| figure.what.as_str()), Some("b"));

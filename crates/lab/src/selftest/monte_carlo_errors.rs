@@ -1,6 +1,6 @@
 //! Are the Monte-Carlo errors of a study what repeating the study shows?
 //!
-//! The same study of `R` replicates is run `K` times, each with noise of its own. Of each measure `x` with the error `e` that it is told with, the
+//! The same study of `R` replicates is run `K` times, each with noise of its own. Of each measure `x` with the error `e` that it is reported with, the
 //! variance of its `K` values is held against the mean of `e²`:
 //!
 //! ```text
@@ -24,7 +24,7 @@ use switchback_study::scenario::Engine;
 
 /// `R`: few, so that errors that are right for many replicates only would show.
 const REPLICATES: usize = 50;
-/// `K`: the variance of a measure is known to `√(2/K)`, six per cent, so that an error told by a third too small or too large shows.
+/// `K`: the variance of a measure is known to `√(2/K)`, six per cent, so that an error reported by a third too small or too large shows.
 const STUDIES: u64 = 600;
 
 /// A measure, how to read it off a parameter, and what is known of its error.
@@ -72,12 +72,12 @@ impl Measure {
         let of = |read: fn(Measured) -> f64| values.iter().map(move |m| m.map_or(f64::NAN, read));
         let mean = of(|m| m.value()).sum::<f64>() / k;
         let variance = of(|m| m.value()).map(|x| (x - mean).powi(2)).sum::<f64>() / (k - 1.0);
-        let told = of(|m| m.mcse()).map(|e| e * e).sum::<f64>() / k;
+        let reported = of(|m| m.mcse()).map(|e| e * e).sum::<f64>() / k;
         let (low, high) = tail.variance_ratio(2.0 * k / self.spread);
-        // Told as standard deviations: so errors are thought of.
+        // Reported as standard deviations: so errors are thought of.
         let [expected, low, high] = [self.ratio, self.ratio * low, self.ratio * high].map(f64::sqrt);
         let what = format!("{what}: spread over error");
-        Figure::within(what, (variance / told).sqrt(), expected, (low, high))
+        Figure::within(what, (variance / reported).sqrt(), expected, (low, high))
     }
 }
 
@@ -104,7 +104,7 @@ fn measures() -> [Measure; 6] {
     ]
 }
 
-/// `ρ` and `D` of a positive measure `x` that is told with the error `x/√(2ν)`, from its moments.
+/// `ρ` and `D` of a positive measure `x` that is reported with the error `x/√(2ν)`, from its moments.
 fn of_power([m1, m2, m3, m4]: [f64; 4], nu: f64) -> (f64, f64) {
     let variance = m2 - m1 * m1;
     // (x−m₁)²/variance − x²/m₂ = αx² + βx + γ, of mean zero.
@@ -143,7 +143,7 @@ mod tests {
     }
 
     /// The studies with the errors of one measure changed.
-    fn told(change: impl Fn(&mut Parameter)) -> Vec<Figure> {
+    fn reported(change: impl Fn(&mut Parameter)) -> Vec<Figure> {
         let mut studies = studies().to_vec();
         studies.iter_mut().flat_map(|s| &mut s.cells).flat_map(|c| &mut c.parameters).for_each(change);
         judge(&studies)
@@ -155,36 +155,36 @@ mod tests {
 
     #[test]
     fn the_formulas_hold() {
-        all_hold(&told(|_| ()));
+        all_hold(&reported(|_| ()));
     }
 
     #[test]
     fn an_error_without_the_two_shows() {
         let root_two = |m: Measured| m.mcse() * 2.0_f64.sqrt();
-        some_fail(&told(|p| with_error(&mut p.sd, root_two)), "efficient: sd of a1: spread over error");
+        some_fail(&reported(|p| with_error(&mut p.sd, root_two)), "efficient: sd of a1: spread over error");
     }
 
     #[test]
     fn the_error_of_a_single_replicate_shows() {
         let of_one = |m: Measured| m.mcse() * (REPLICATES as f64).sqrt();
-        some_fail(&told(|p| with_error(&mut p.bias, of_one)), "efficient: bias of b2: spread over error");
+        some_fail(&reported(|p| with_error(&mut p.bias, of_one)), "efficient: bias of b2: spread over error");
     }
 
     #[test]
     fn the_error_of_a_nominal_coverage_of_one_half_shows() {
         let of_half = |_| 0.5 / (REPLICATES as f64).sqrt();
         some_fail(
-            &told(|p| with_error(&mut p.coverage, of_half)),
+            &reported(|p| with_error(&mut p.coverage, of_half)),
             "efficient: coverage of a1: spread over error",
         );
     }
 
     #[test]
-    fn a_squared_error_that_is_told_as_if_it_were_normal_shows() {
+    fn a_squared_error_that_is_reported_as_if_it_were_normal_shows() {
         // The variance of e² taken as (E[e²])², half of what it is.
         let normal = |m: Measured| m.value() / (REPLICATES as f64).sqrt();
         some_fail(
-            &told(|p| with_error(&mut p.mse, normal)),
+            &reported(|p| with_error(&mut p.mse, normal)),
             "efficient: mean squared error of a1: spread over error",
         );
     }

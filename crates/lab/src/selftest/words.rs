@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn failures_say_what_is_wrong_in_plain_words() {
-        let told = table(&findings(), 3);
+        let reported = table(&findings(), 3);
         for words in [
             "engines         1                 apart  1.000e-9  at most 1.000e-6      ok",
             "noise FAILED: the noise of studies is wrong.",
@@ -102,9 +102,9 @@ mod tests {
             "coverage FAILED: intervals are wrong.\n  it could not be run: no estimate",
             "Seed 3.",
         ] {
-            assert!(told.contains(words), "{words} is not in\n{told}");
+            assert!(reported.contains(words), "{words} is not in\n{reported}");
         }
-        assert!(!told.contains("engines FAILED"));
+        assert!(!reported.contains("engines FAILED"));
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub(super) fn examples(cases: &[Case]) -> Vec<(Place, Example)> {
     cases.iter().enumerate().flat_map(of_case).collect()
 }
 
-/// The example of an answer; none where rules tell two causes, or nothing was diagnosed.
+/// The example of an answer; none where rules show two causes, or nothing was diagnosed.
 fn example(case: &Case, answer: &Answered) -> Option<Example> {
     let by_rules = answer.rules();
     if answer.evidence.compared.is_empty() || by_rules.effects.len() > 1 {
@@ -34,14 +34,17 @@ fn example(case: &Case, answer: &Answered) -> Option<Example> {
         law,
         evidence: answer.evidence.compared.clone(),
         excluded: vec![NO_CAUSE],
-        rules: (told(by_rules)?, Effect::from_name(by_rules.top.0).map(|effect| (effect, by_rules.top.1))),
+        rules: (
+            reported(by_rules)?,
+            Effect::from_name(by_rules.top.0).map(|effect| (effect, by_rules.top.1)),
+        ),
         by_rules: given_by(by_rules, &holds),
         holds,
     })
 }
 
-/// The verdict that a reply tells; none where there was none.
-fn told(reply: &Reply) -> Option<Verdict> {
+/// The verdict that a reply shows; none where there was none.
+fn reported(reply: &Reply) -> Option<Verdict> {
     let status = Status::ALL.into_iter().find(|status| status.name() == reply.status)?;
     let known = |names: &[&str]| names.iter().filter_map(|name| Effect::from_name(name)).collect();
     Some(Verdict {
@@ -63,7 +66,7 @@ fn holds(case: &Case) -> Holds {
     let mut holds =
         Holds { effects: own.filter_map(|name| Effect::from_name(name)).collect(), ..Holds::default() };
     match (case.kind, &case.fault) {
-        (Kind::Planted, Some(fault)) => {
+        (Kind::Injected, Some(fault)) => {
             holds.effects.extend(Effect::from_name(fault.effect));
             holds.none = !fault.is_observable();
         }

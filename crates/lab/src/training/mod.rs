@@ -22,8 +22,8 @@ pub struct Calibrated {
     pub by_rules: Vec<Measure>,
     /// The same by the verdict alone, each rig predicted from others.
     pub out_of_fold: Vec<Measure>,
-    /// The same as the program tells it: where all readings agree, what rules name.
-    pub told: Vec<Measure>,
+    /// The same as the program shows it: where all readings agree, what rules name.
+    pub reported: Vec<Measure>,
 }
 
 /// Fits the verdict to judged rigs. `studies` and `command` say where they come from.
@@ -41,32 +41,33 @@ pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrate
     let name_at = Settings::default().name_at;
     let mut by_fit = by_rules.clone();
     for ((case, answer), (example, p)) in &predicted {
-        by_fit[*case].answers[*answer].reply = Reply::told(&p.verdict(example, name_at), p.top());
+        by_fit[*case].answers[*answer].reply = Reply::reported(&p.verdict(example, name_at), p.top());
     }
-    let told = |agreed: Agreed| {
-        let mut told = by_rules.clone();
+    let reported = |agreed: Agreed| {
+        let mut reported = by_rules.clone();
         for ((case, answer), (example, p)) in &predicted {
-            told[*case].answers[*answer].reply = Reply::told(&p.told(example, agreed, name_at), p.top());
+            reported[*case].answers[*answer].reply =
+                Reply::reported(&p.reported(example, agreed, name_at), p.top());
         }
-        told
+        reported
     };
-    // What a measured base shows by itself is what is told of it, if agreement is worth what it may be at most.
+    // What a measured base shows by itself is what is reported it, if agreement is worth what it may be at most.
     let most = Agreed { right: examples.len(), of: examples.len() };
     let likely = |(_, (example, p)): &&(Place, (&Example, &OutOfFold))| {
         p.agreed_on(example).is_some_and(AgreedOn::counts)
     };
     let places = predicted.iter().filter(likely).map(|(place, _)| *place).collect();
-    verdict.agreed = agreed(&told(most), &places);
+    verdict.agreed = agreed(&reported(most), &places);
     let measures = |cases: &[Case]| score(cases, &Expect::default()).measures;
     Ok(Calibrated {
         by_rules: measures(&by_rules),
         out_of_fold: measures(&by_fit),
-        told: measures(&told(verdict.agreed)),
+        reported: measures(&reported(verdict.agreed)),
         verdict,
     })
 }
 
-/// How often the cause told is right, of the answers at some places, those that can be judged.
+/// How often the cause reported is right, of the answers at some places, those that can be judged.
 fn agreed(cases: &[Case], places: &HashSet<Place>) -> Agreed {
     let verdicts = BaseVerdicts::of(cases);
     let all = cases.iter().enumerate().flat_map(|(k, case)| (0..case.answers.len()).map(move |j| (k, j)));
@@ -85,7 +86,7 @@ impl Calibrated {
         let from = &self.verdict.provenance;
         format!(
             "{} diagnoses; log-loss {:.3} nats a diagnosis, each predicted from rigs with other bases and laws; by rules {:.3}, by shares alone {:.3}\n\n\
-             by rules\n{}\nby the fitted verdict alone, out of fold\n{}\nas the program tells it, out of fold (of {} likely causes on which all readings agree {} are right)\n{}",
+             by rules\n{}\nby the fitted verdict alone, out of fold\n{}\nas the program shows it, out of fold (of {} likely causes on which all readings agree {} are right)\n{}",
             from.examples,
             from.log_loss,
             from.log_loss_of_rules,
@@ -94,7 +95,7 @@ impl Calibrated {
             measures_table(&self.out_of_fold),
             self.verdict.agreed.of,
             self.verdict.agreed.right,
-            measures_table(&self.told),
+            measures_table(&self.reported),
         )
     }
 }

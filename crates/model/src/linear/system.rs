@@ -12,7 +12,7 @@ pub struct LinearSystem {
     b: Vec<f64>,
 }
 
-/// Below this the Sylvester matrix is singular to working precision for all a data set could tell.
+/// Below this the Sylvester matrix is singular to working precision for all a data set could show.
 const COPRIME_TOLERANCE: f64 = 1e-10;
 
 /// Why two coefficient lists are no identifiable system.

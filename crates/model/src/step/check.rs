@@ -37,7 +37,7 @@ pub(crate) fn whole(program: &Program) -> Result<(), Fault> {
     }
     let checker = |callable| Checker { program, callable };
     checker(0).variable(program.output)?;
-    program.told.map_or(Ok(()), |told| checker(0).variable(told))?;
+    program.reported.map_or(Ok(()), |reported| checker(0).variable(reported))?;
     for (callable, card) in program.procedures.iter().enumerate() {
         let checker = checker(callable);
         card.parameters.iter().try_for_each(|parameter| checker.variable(*parameter))?;

@@ -13,7 +13,7 @@ pub struct Model {
     pub output: Scale,
     /// What acts lies between the last two positions, this share of a sample back.
     pub late: f64,
-    /// How the direction of the input is told.
+    /// How the direction of the input is reported.
     pub direction: Direction,
     /// What the working point runs on.
     pub borders: Borders,
@@ -45,17 +45,17 @@ impl Scale {
     }
 }
 
-/// How the direction of the input is told, and where a run begins.
+/// How the direction of the input is reported, and where a run begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Direction {
     /// A run begins on the border of its first move: known once the input has moved by more than the threshold.
     FirstMove {
         /// A move back by no more is no reversal.
         threshold: f64,
-        /// A reversal falls between samples: the turning sample is shared between the borders, as the sample after it tells.
+        /// A reversal falls between samples: the turning sample is shared between the borders, as the sample after it shows.
         between_samples: bool,
     },
-    /// A run begins where the place of its first input tells.
+    /// A run begins where the place of its first input shows.
     Place {
         /// A move back by no more is no reversal.
         threshold: f64,

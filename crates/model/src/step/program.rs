@@ -78,8 +78,8 @@ pub struct Program {
     pub procedures: Vec<ProcedureCard>,
     /// Holds the output after a step.
     pub output: Variable,
-    /// 0 until the input has told its direction, then ±1, the first one. None where a run begins at a border by the place of the input.
-    pub told: Option<Variable>,
+    /// 0 until the input has reported its direction, then ±1, the first one. None where a run begins at a border by the place of the input.
+    pub reported: Option<Variable>,
     /// Whether the output of a sample depends on the input of the same sample.
     pub direct: bool,
 }

@@ -92,7 +92,7 @@ def design(
     name: Optional[str] = None,
     out: Optional[PathLike] = None,
 ) -> Design:
-    """Plans the experiments that identify a system, or tells how long to measure.
+    """Plans the experiments that identify a system, or shows how long to measure.
 
     Nothing is written; :meth:`Design.save` writes the records and their ``rig.toml``.
 
@@ -276,8 +276,8 @@ class Power(Result):
         return Table(EffectPower.of(effect) for effect in self._data["power"]["effects"])
 
     def __repr__(self) -> str:
-        told = (f"{one.effect} {one.outcome}" + (f" {one.size:.2g}" if one.size else "") for one in self.effects)
-        return f"Power({', '.join(told)})"
+        reported = (f"{one.effect} {one.outcome}" + (f" {one.size:.2g}" if one.size else "") for one in self.effects)
+        return f"Power({', '.join(reported)})"
 
 
 def power(
@@ -293,7 +293,7 @@ def power(
     threads: Optional[int] = None,
     progress: Optional[bool] = None,
 ) -> Power:
-    """Puts known faults of every effect into the records, diagnoses each, and tells from which size on nine in ten are found.
+    """Puts known faults of every effect into the records, diagnoses each, and shows from which size on nine in ten are found.
 
     Takes minutes; fewer ``effects`` and ``draws`` take less.
 

@@ -77,13 +77,13 @@ class Parameter(Row):
     unit: str
 
     def __str__(self) -> str:
-        told = "–" if self.value is None else f"{self.value:.4g}"
-        return f"{self.name} {told} {self.unit}".rstrip()
+        reported = "–" if self.value is None else f"{self.value:.4g}"
+        return f"{self.name} {reported} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
 class Candidate(Row):
-    """An explanation of the gap."""
+    """A candidate of the gap."""
 
     effect: str
     stage: str
@@ -163,7 +163,7 @@ class Diagnosis(Result):
 
     @property
     def next_experiment(self) -> Optional[dict[str, Any]]:
-        """What to measure to tell the explanations apart; none where that is not needed."""
+        """What to measure to show the explanations apart; none where that is not needed."""
         experiment: Optional[dict[str, Any]] = self._data["next_experiment"]
         return experiment
 
@@ -241,7 +241,7 @@ def diagnose(
     without
         Effects that the rig is known not to have.
     ask
-        Effects to tell as a cause where else they belong to the model: ``coloured_noise``.
+        Effects to show as a cause where else they belong to the model: ``coloured_noise``.
     causal
         Only nominal models that could run in real time, so that they can be exported.
     prior

@@ -240,7 +240,7 @@ class Model:
             The input, input units, shape ``(samples,)``, at the model's sample time; or a file that holds it.
         y
             Measured outputs, output units, shape ``(samples,)``, NaN where none was: the first of them are the initial state, and the fit is
-            told. Without them the run begins at rest, as if the input had always been at its first value.
+            reported. Without them the run begins at rest, as if the input had always been at its first value.
         input, output, time, resample
             Columns of the file, as in :meth:`Rig.read`; ``output="none"`` to begin at rest.
 

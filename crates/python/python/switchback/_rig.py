@@ -1,4 +1,4 @@
-"""Rigs: the records of one measuring campaign."""
+"""Rigs: the records of one measuring dataset."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Record:
 
 
 class Rig:
-    """The records of one measuring campaign and what is known about them.
+    """The records of one measuring dataset and what is known about them.
 
     Made by :meth:`read` from files or by :meth:`from_frame` from what is in memory. It does not change; it can be pickled,
     copied, and used from several threads.
@@ -80,7 +80,7 @@ class Rig:
             Columns by name, the unit may be left out, or by number from 1; else guessed from the header. ``time="none"`` for rows
             that are even whatever the time column says.
         sample_time, rate
-            Seconds between samples, or samples a second; else told by the time column.
+            Seconds between samples, or samples a second; else reported by the time column.
         holdout
             What models are judged on: a share of every record, at its end, or a file; else the last third of a single file, or the
             last of several.
@@ -135,14 +135,14 @@ class Rig:
             Columns by label, the unit may be left out, or by number from 1; else guessed from the labels. Times are seconds, in the
             unit of their label, or ``datetime64``; ``time="none"`` for rows that are even whatever such a column says.
         record
-            The column that tells which record a row belongs to; without it, all rows are one record.
+            The column that shows which record a row belongs to; without it, all rows are one record.
         y_sim
-            The column with another simulator's prediction of the output; a column of that name is found without being told.
+            The column with another simulator's prediction of the output; a column of that name is found without being reported.
         sample_time
-            Seconds between samples; else told by the time column.
+            Seconds between samples; else reported by the time column.
         holdout
             What models are judged on: a share of every record, at its end, or the names of records; else the last third of a single
-            record, or the last of several, or nothing where ``roles`` tell of designed experiments.
+            record, or the last of several, or nothing where ``roles`` report designed experiments.
         resample
             Interpolate uneven rows linearly to even ones.
         order
@@ -227,9 +227,9 @@ class Rig:
         ]
 
     @property
-    def told(self) -> str:
+    def reported(self) -> str:
         """What was inferred rather than said: columns, sample time, what is held out, and what looks odd."""
-        return self._records.told
+        return self._records.reported
 
     def to_toml(self) -> str:
         """The rig file that gives this rig again, where it was read from files."""
@@ -277,7 +277,7 @@ class Rig:
         return f"Rig({self.name!r}, {number(self.sample_time)} s, {self.input} → {self.output}: {records})"
 
     def _repr_html_(self) -> str:
-        return f"<pre>{escape(repr(self))}\n{escape(self.told)}</pre>"
+        return f"<pre>{escape(repr(self))}\n{escape(self.reported)}</pre>"
 
     def __getstate__(self) -> dict[str, Any]:
         return {"_records": self._records}
@@ -316,7 +316,7 @@ def _pieces(columns: Mapping[str, Any], record: str, taken: list[Column]) -> lis
     """The rows of each record, records in the order in which they begin."""
     values = np.asarray(columns[record])
     if any(value is None or value != value for value in values.tolist()):
-        raise SwitchbackError(f"the column `{record}` does not tell for every row which record it belongs to; fill it in")
+        raise SwitchbackError(f"the column `{record}` does not show for every row which record it belongs to; fill it in")
     keys = [str(value) for value in values.tolist()]
     names = list(dict.fromkeys(keys))
     if not names:

@@ -39,7 +39,7 @@ class Row:
 
 @dataclasses.dataclass(frozen=True)
 class Estimate:
-    """A number with its interval, of the probability that is told where it stands."""
+    """A number with its interval, of the probability that is reported where it stands."""
 
     estimate: Optional[float]
     low: Optional[float]
@@ -56,10 +56,10 @@ class Estimate:
         return float("nan") if self.estimate is None else float(self.estimate)
 
     def __str__(self) -> str:
-        def told(x: Optional[float]) -> str:
+        def reported(x: Optional[float]) -> str:
             return "–" if x is None else f"{x:.4g}"
 
-        return f"{told(self.estimate)} [{told(self.low)}, {told(self.high)}]"
+        return f"{reported(self.estimate)} [{reported(self.low)}, {reported(self.high)}]"
 
 
 class Table(Sequence[T], Generic[T]):

@@ -24,17 +24,17 @@ pub(crate) fn plant(
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
     Call::run(py, &heard, move |_| {
         let asked: cmd::plant::Asked = options(words)?;
-        let carrier = match (model, asked.model()) {
+        let host_model = match (model, asked.model()) {
             (Some((path, text)), _) => Some((model::of_text(&path, &text)?, path)),
             (None, Some(path)) => Some((model::read(path)?, path.to_owned())),
             (None, None) => None,
         };
-        let carrier = carrier.as_ref().map(|(file, path)| (file, path.as_path()));
-        let planted = cmd::plant::planted(&rig, &asked, (&about.place, carrier))?;
-        let words = cmd::plant::told(&planted.fault, &Units::of(&planted.rig).output);
-        let (json, files) = (cmd::plant::page(&planted.fault), rig::artefacts(&planted.rig));
-        let name = planted.rig.name.clone();
+        let host_model = host_model.as_ref().map(|(file, path)| (file, path.as_path()));
+        let injected = cmd::plant::injected(&rig, &asked, (&about.place, host_model))?;
+        let words = cmd::plant::reported(&injected.fault, &Units::of(&injected.rig).output);
+        let (json, files) = (cmd::plant::page(&injected.fault), rig::artefacts(&injected.rig));
+        let name = injected.rig.name.clone();
         let answer = Answer::new(Stored::new(json, words, files).reading(about.inputs));
-        Ok((answer, Records::made(planted.rig, &name)))
+        Ok((answer, Records::made(injected.rig, &name)))
     })
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use switchback::cmd::gap;
 use switchback::cmd::power::{PowerArgs, artefacts, plan};
 use switchback_io::diagnosis::GivenModel;
-use switchback_lab::power::{Ground, json, measure, words};
+use switchback_lab::power::{Context, json, measure, words};
 
 /// Which effects these records would have shown. `asked` are words of a diagnosis, `more` are those of `--power`.
 #[pyfunction]
@@ -34,12 +34,12 @@ pub(crate) fn power(
             (None, path) => path.map(GivenModel::read).transpose()?,
         };
         let place = about.place.display().to_string();
-        // What is found is told with the ground that it was found on, which borrows the rig.
+        // What is found is reported with the ground that it was found on, which borrows the rig.
         let measured = threads.install(|| {
-            let ground = Ground::new(&rig, model, asked.settings(), &place)?;
-            let power = measure(&ground, &plan, &Stoppable(call), || {})?;
-            let (json, words) = (json(&power, &ground), words(&power, &ground));
-            Ok::<_, Refusal>(Stored::new(json, words, artefacts(&power, &ground)).reading(about.inputs))
+            let context = Context::new(&rig, model, asked.settings(), &place)?;
+            let power = measure(&context, &plan, &Stoppable(call), || {})?;
+            let (json, words) = (json(&power, &context), words(&power, &context));
+            Ok::<_, Refusal>(Stored::new(json, words, artefacts(&power, &context)).reading(about.inputs))
         });
         Ok(Answer::new(measured??))
     })

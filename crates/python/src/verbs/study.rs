@@ -75,10 +75,10 @@ fn studied(
     yes.permit(least_seconds(scenario), threads, Quiet { quiet: true })?;
     let results = threads.install(|| {
         let study = Study::plan(scenario).map_err(|error| miette!("{error}"))?;
-        let mut standing = study.begin();
-        Progress::planned(&*call, study.forecast().max(standing.target()) as u64);
-        match study.run(&mut standing, &*call, &mut Stoppable(Arc::clone(&call))) {
-            Ended::Finished => Ok(study.results(&standing, engine.command(file))),
+        let mut run_state = study.begin();
+        Progress::planned(&*call, study.forecast().max(run_state.target()) as u64);
+        match study.run(&mut run_state, &*call, &mut Stoppable(Arc::clone(&call))) {
+            Ended::Finished => Ok(study.results(&run_state, engine.command(file))),
             // Whoever stopped it does not wait for what it amounts to.
             Ended::Stopped => Err(miette!("stopped")),
         }

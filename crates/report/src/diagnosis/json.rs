@@ -6,7 +6,7 @@ use switchback_diagnose::fitted::{self, Shares};
 use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Horizon, HorizonGain, Together,
 };
-use switchback_io::diagnosis::{Report, Units, told};
+use switchback_io::diagnosis::{Report, Units, reported};
 use switchback_io::output::stamped;
 
 /// Name and version of the layout.
@@ -32,12 +32,12 @@ pub(crate) struct GapFile {
     /// The map of the gap, a cell an entry.
     pub r#where: Vec<Place>,
     /// The effects that were considered, best first.
-    pub candidates: Vec<Explanation>,
+    pub candidates: Vec<Hypothesis>,
     /// The best pair of effects, whether or not it is named.
     pub together: Option<Pair>,
     /// Samples that were fitted.
     pub samples: usize,
-    /// Deviance that causes in general would still gain beside the best explanation.
+    /// Deviance that causes in general would still gain beside the best candidate.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     pub left: f64,
     /// The record that would separate the rivals best.
@@ -235,7 +235,7 @@ pub(crate) struct Place {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Explanation {
+pub(crate) struct Hypothesis {
     /// The effect.
     pub effect: String,
     /// The part of the machine.
@@ -343,13 +343,13 @@ pub(crate) struct Next {
 /// so many `samples` ahead (null: the whole record), and the same in standard errors (`certainty`). `closure` is null where there is no gap to close, and where `unstable` says that the candidate has no free run.
 /// A cell of `where` runs from `low` to `high` in `unit`: all three null where the axis has kinds, an end null where it is open. `share` is its
 /// share of the energy beyond the noise, `exposure` its share of the samples (of the frequency range, on that axis), `enrichment` the one over
-/// the other; `q_value` tells whether there is energy beyond the noise, `enrichment_q_value` whether it is denser than elsewhere.
+/// the other; `q_value` shows whether there is energy beyond the noise, `enrichment_q_value` whether it is denser than elsewhere.
 /// `probability_none` is that nothing is missing, the nominal model being right as it is; `probability_unexplained` that something is missing
 /// which is none of the candidates; with the candidates' probabilities both sum to one. `together` is the best pair of effects: `parameters` those of each, fitted beside the other,
 /// `gain` in penalised deviance over the best single one, `shares` the Shapley shares of its members in what both gain and `interaction` what they gain only together;
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
-/// the augmented model that is no cause of its own; `calibrated` tells whether the probability was calibrated for such records; `refit`
-/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` tells it;
+/// the augmented model that is no cause of its own; `calibrated` shows whether the probability was calibrated for such records; `refit`
+/// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` shows it;
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
 /// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
 /// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
@@ -366,7 +366,7 @@ pub fn json(report: &Report) -> String {
         in_words: sentences::verdict(report),
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
-        candidates: diagnosis.candidates.iter().map(|c| explanation(c, &units)).collect(),
+        candidates: diagnosis.candidates.iter().map(|c| hypothesis(c, &units)).collect(),
         together: diagnosis.together.as_ref().map(|together| pair(together, &units)),
         samples: diagnosis.samples,
         left: diagnosis.left,
@@ -386,7 +386,7 @@ pub fn json(report: &Report) -> String {
     stamped(SCHEMA, &page)
 }
 
-fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
+fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {
     let contribution = |c: &fitted::Contribution| Contribution {
         feature: c.feature.to_owned(),
         value: c.value,
@@ -397,15 +397,15 @@ fn second_opinion(told: &fitted::SecondOpinion) -> SecondOpinion {
         probability: *probability,
         contributions: contributions.iter().map(contribution).collect(),
     };
-    let Shares { effect, none, none_of_these } = told.shares;
+    let Shares { effect, none, none_of_these } = reported.shares;
     SecondOpinion {
-        examples: told.examples,
+        examples: reported.examples,
         prior: Prior { effect, none, unexplained: none_of_these },
-        verdict: verdict(&told.verdict),
-        by_rules: verdict(&told.by_rules),
-        effects: told.effects.iter().map(weighed).collect(),
-        probability_none: told.none,
-        probability_unexplained: told.none_of_these,
+        verdict: verdict(&reported.verdict),
+        by_rules: verdict(&reported.by_rules),
+        effects: reported.effects.iter().map(weighed).collect(),
+        probability_none: reported.none,
+        probability_unexplained: reported.none_of_these,
     }
 }
 
@@ -468,8 +468,8 @@ fn place(cell: &Cell, units: &Units) -> Place {
     }
 }
 
-fn explanation(candidate: &Candidate, units: &Units) -> Explanation {
-    Explanation {
+fn hypothesis(candidate: &Candidate, units: &Units) -> Hypothesis {
+    Hypothesis {
         effect: candidate.effect.name().to_owned(),
         stage: candidate.stage.name().to_owned(),
         probability: candidate.probability,
@@ -494,8 +494,8 @@ fn gain(gain: &HorizonGain) -> Gain {
 
 fn parameters(fitted: &[FittedParameter], units: &Units) -> Vec<Parameter> {
     let one = |parameter: &FittedParameter| {
-        let told = told(parameter, units);
-        Parameter { name: told.name, value: told.value, ci90: told.ci90, unit: told.unit }
+        let reported = reported(parameter, units);
+        Parameter { name: reported.name, value: reported.value, ci90: reported.ci90, unit: reported.unit }
     };
     fitted.iter().map(one).collect()
 }

@@ -4,10 +4,10 @@ use switchback_diagnose::Cell;
 use switchback_io::diagnosis::{Report, Units};
 use switchback_io::diagnosis::{edge, whole_percent};
 
-/// Cells with a q-value below this are told of and coloured: at most this share of them is expected to be chance.
+/// Cells with a q-value below this are reported and coloured: at most this share of them is expected to be chance.
 pub(crate) const SIGNIFICANT: f64 = 0.05;
 
-/// Share of the energy that a place must hold to be told of: most of it.
+/// Share of the energy that a place must hold to be reported: most of it.
 const MOST: f64 = 0.5;
 
 /// How many times the average a sample of a place must carry: half as much again. With most of the energy a place is then two thirds of
@@ -39,7 +39,7 @@ impl<'a> Place<'a> {
     }
 
     /// Whether it is worth naming, and chance made none of it.
-    fn is_told(&self) -> bool {
+    fn is_reported(&self) -> bool {
         let found = |cell: &Cell| cell.q_value < SIGNIFICANT && cell.enrichment_q_value < SIGNIFICANT;
         self.share >= MOST && self.enrichment() >= ENRICHED && self.cells.iter().all(found)
     }
@@ -65,13 +65,14 @@ fn sentence(subject: &str, cells: &[Cell], units: &Units) -> Option<String> {
         let order = |place: &Place<'_>| (is_indirect(place.axis), -place.enrichment());
         order(x).partial_cmp(&order(y)).unwrap_or(std::cmp::Ordering::Equal)
     });
-    let told = branch.iter().chain(others.first()).enumerate();
-    let told: Vec<String> = told.map(|(number, place)| with_figures(place, units, number == 0)).collect();
-    Some(match told.is_empty() {
+    let reported = branch.iter().chain(others.first()).enumerate();
+    let reported: Vec<String> =
+        reported.map(|(number, place)| with_figures(place, units, number == 0)).collect();
+    Some(match reported.is_empty() {
         true => {
             format!("{subject} lies everywhere: no axis of the map shows most of it in few of the samples.")
         }
-        false => format!("{subject} lies {}.", told.join(", ")),
+        false => format!("{subject} lies {}.", reported.join(", ")),
     })
 }
 
@@ -80,12 +81,12 @@ fn is_indirect(axis: &str) -> bool {
     matches!(axis, "record" | "time")
 }
 
-/// Of the stretches of one axis that are told of, the one whose samples carry most. Kinds have no neighbours.
+/// Of the stretches of one axis that are reported, the one whose samples carry most. Kinds have no neighbours.
 fn densest(cells: &[Cell]) -> Option<Place<'_>> {
     let longest = if cells.iter().all(|cell| cell.interval.is_some()) { cells.len() } else { 1 };
     let stretches = (1..=longest).flat_map(|length| cells.windows(length));
-    let told = stretches.filter(|cells| adjoin(cells)).map(Place::of).filter(Place::is_told);
-    told.max_by(|x, y| x.enrichment().total_cmp(&y.enrichment()))
+    let reported = stretches.filter(|cells| adjoin(cells)).map(Place::of).filter(Place::is_reported);
+    reported.max_by(|x, y| x.enrichment().total_cmp(&y.enrichment()))
 }
 
 /// Whether each cell begins where the last one ends: cells without samples are not in the map.
@@ -101,10 +102,10 @@ fn with_figures(place: &Place<'_>, units: &Units, is_first: bool) -> String {
         true => format!("{share} % of its energy in {exposure} % of the {whole}"),
         false => format!("{share} % in {exposure} % of the {whole}"),
     };
-    format!("{} ({figures})", told(place, units))
+    format!("{} ({figures})", reported(place, units))
 }
 
-fn told(place: &Place<'_>, units: &Units) -> String {
+fn reported(place: &Place<'_>, units: &Units) -> String {
     let ends = |cell: &Cell| cell.interval.map(|interval| (interval, units.of_cell(interval.unit)));
     let (Some((first, unit)), Some((last, _))) = (ends(&place.cells[0]), place.cells.last().and_then(ends))
     else {
@@ -123,7 +124,7 @@ fn told(place: &Place<'_>, units: &Units) -> String {
         "loop_size" => format!("in loops of {}", between(ends, &unit)),
         "speed" => format!("at speeds of {}", between(ends, &unit)),
         "frequency" => format!("at frequencies of {}", between(ends, &unit)),
-        "time" => format!("at {} of the campaign's time", between(ends.map(|x| 100.0 * x), "%")),
+        "time" => format!("at {} of the dataset's time", between(ends.map(|x| 100.0 * x), "%")),
         axis => format!("at {} {}", axis.replace('_', " "), between(ends, "")),
     }
 }
@@ -183,7 +184,7 @@ mod tests {
         Cell { interval, ..kind("travel_since_reversal", "", share, exposure) }
     }
 
-    fn told(cells: &[Cell]) -> String {
+    fn reported(cells: &[Cell]) -> String {
         sentence("The gap", cells, &units()).expect("significant cells")
     }
 
@@ -203,59 +204,59 @@ mod tests {
     }
 
     #[test]
-    fn a_place_is_told_by_share_and_exposure() {
+    fn a_place_is_reported_by_share_and_exposure() {
         let expected =
             "The gap lies within 0.04 V of each reversal (58 % of its energy in 5 % of the samples).";
-        assert_eq!(told(&play()), expected);
+        assert_eq!(reported(&play()), expected);
     }
 
     #[test]
-    fn neighbouring_cells_are_told_as_one_stretch() {
+    fn neighbouring_cells_are_reported_as_one_stretch() {
         let mut cells = play();
         (cells[0].share, cells[1].share) = (0.42, 0.4);
         let expected =
             "The gap lies within 0.1 V of each reversal (82 % of its energy in 10 % of the samples).";
-        assert_eq!(told(&cells), expected);
+        assert_eq!(reported(&cells), expected);
         // Not where a cell between them has no samples.
         cells[1].interval = Some(CellInterval { low: 0.05, high: 0.1, unit: CellUnit::Input });
-        assert!(told(&cells).starts_with("The gap lies everywhere"), "{}", told(&cells));
+        assert!(reported(&cells).starts_with("The gap lies everywhere"), "{}", reported(&cells));
     }
 
     #[test]
     fn where_nearly_all_samples_are_is_no_place() {
         let speeds = &play()[3..];
-        assert!(told(speeds).starts_with("The gap lies everywhere"), "{}", told(speeds));
+        assert!(reported(speeds).starts_with("The gap lies everywhere"), "{}", reported(speeds));
     }
 
     #[test]
     fn energy_that_chance_may_have_put_there_is_in_no_place() {
         let mut cells = play();
         cells[0].enrichment_q_value = 0.3;
-        assert!(told(&cells).starts_with("The gap lies everywhere"), "{}", told(&cells));
+        assert!(reported(&cells).starts_with("The gap lies everywhere"), "{}", reported(&cells));
         cells.iter_mut().for_each(|cell| cell.q_value = 0.3);
         assert!(sentence("The gap", &cells, &units()).is_none());
     }
 
     #[test]
-    fn a_branch_is_told_beside_the_best_of_the_other_axes() {
+    fn a_branch_is_reported_beside_the_best_of_the_other_axes() {
         let mut cells =
             vec![kind("branch", "descending", 0.95, 0.48), kind("branch", "ascending", 0.05, 0.52)];
         cells.extend(play());
         let expected = "The gap lies on the descending border (95 % of its energy in 48 % of the samples), within 0.04 V of each reversal \
                         (58 % in 5 % of the samples).";
-        assert_eq!(told(&cells), expected);
+        assert_eq!(reported(&cells), expected);
     }
 
     #[test]
     fn records_are_named_where_nothing_says_it_better() {
         let records = [kind("record", "drive", 0.9, 0.1), kind("record", "sweep", 0.1, 0.9)];
         assert!(
-            told(&records).contains("in the record drive (90 % of its energy in 10 %"),
+            reported(&records).contains("in the record drive (90 % of its energy in 10 %"),
             "{}",
-            told(&records)
+            reported(&records)
         );
         let both = [&records[..], &play()].concat();
-        assert!(!told(&both).contains("drive"), "{}", told(&both));
+        assert!(!reported(&both).contains("drive"), "{}", reported(&both));
     }
 
     #[test]

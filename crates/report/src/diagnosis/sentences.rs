@@ -2,16 +2,16 @@
 
 use super::place;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
-use switchback_io::diagnosis::{Report, Source, Units, told};
+use switchback_io::diagnosis::{Report, Source, Units, reported};
 use switchback_io::diagnosis::{digits, whole_percent, with_interval};
 
 /// Least gain of the prediction, nats per sample, that is worth a sentence.
 const WORTH_TELLING: f64 = 1e-4;
 
-/// Parameters of one effect at most that are told one by one.
+/// Parameters of one effect at most that are reported one by one.
 const READABLE: usize = 8;
 
-/// Multiples of the output's variance from which a gap is told in these.
+/// Multiples of the output's variance from which a gap is reported in these.
 const MANY: f64 = 10.0;
 
 /// The sentences of the verdict, in the order in which they are read.
@@ -19,10 +19,10 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
     let diagnosis = &report.diagnosis;
     let mut sentences = vec![size(report)];
-    let tells = !matches!(diagnosis.verdict.status, Status::None);
+    let shows = !matches!(diagnosis.verdict.status, Status::None);
     // Of records taken under other conditions no model of the fit records says anything.
-    let augments = tells && diagnosis.verdict.held_out_error_ratio.is_none();
-    if tells {
+    let augments = shows && diagnosis.verdict.held_out_error_ratio.is_none();
+    if shows {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     sentences.push(cause(diagnosis, &units));
@@ -212,9 +212,9 @@ fn refit(diagnosis: &Diagnosis) -> String {
 /// A word on probabilities that were calibrated on other records than these.
 fn uncalibrated(report: &Report) -> Option<String> {
     let verdict = &report.diagnosis.verdict;
-    let tells_one = match verdict.status {
+    let shows_one = match verdict.status {
         Status::Refit => false,
-        // Then no probability is told.
+        // Then no probability is reported.
         Status::None => report.diagnosis.probability_none >= 0.5,
         _ => true,
     };
@@ -224,7 +224,7 @@ fn uncalibrated(report: &Report) -> Option<String> {
         (.., None) => "no record is held out",
         _ => "models are compared by their free run",
     };
-    (tells_one && !verdict.calibrated).then(|| {
+    (shows_one && !verdict.calibrated).then(|| {
         format!("This probability ranks and is no frequency: it was not calibrated for records like these ({reason}).")
     })
 }
@@ -242,8 +242,8 @@ fn described(effect: Effect, diagnosis: &Diagnosis, units: &Units) -> String {
 /// The parameters of an effect beside the other one of a pair that the verdict names: alone it takes some of what is the other's.
 fn fitted_together(effect: Effect, diagnosis: &Diagnosis) -> Option<&[FittedParameter]> {
     let Verdict { effects, corrected_by, .. } = &diagnosis.verdict;
-    let told = |e: &Effect| effects.contains(e) || *corrected_by == Some(*e);
-    let pair = diagnosis.together.as_ref().filter(|pair| pair.effects.iter().all(told))?;
+    let reported = |e: &Effect| effects.contains(e) || *corrected_by == Some(*e);
+    let pair = diagnosis.together.as_ref().filter(|pair| pair.effects.iter().all(reported))?;
     let fitted = pair.effects.iter().zip(&pair.parameters).find(|(member, _)| **member == effect);
     fitted.map(|(_, parameters)| &parameters[..])
 }
@@ -255,12 +255,12 @@ pub(super) fn parameters(fitted: &[FittedParameter], units: &Units) -> String {
         return format!("{} parameters, in the JSON", fitted.len());
     }
     let each = fitted.iter().map(|parameter| {
-        let told = told(parameter, units);
+        let reported = reported(parameter, units);
         let figure = match parameter.unit {
-            "count" => format!("{:.0}", told.value),
-            _ => with_interval(told.value, told.ci90),
+            "count" => format!("{:.0}", reported.value),
+            _ => with_interval(reported.value, reported.ci90),
         };
-        let text = format!("{} {figure} {}", told.name.replace('_', " "), told.unit);
+        let text = format!("{} {figure} {}", reported.name.replace('_', " "), reported.unit);
         text.trim_end().to_owned()
     });
     each.collect::<Vec<_>>().join(", ")
@@ -277,8 +277,8 @@ fn rivals(class: &[Effect], diagnosis: &Diagnosis, units: &Units) -> String {
 /// The likeliest rival of what was named, be it another effect, none of these, or nothing at all.
 fn next_best(diagnosis: &Diagnosis) -> String {
     let verdict = &diagnosis.verdict;
-    let told = |effect: &Effect| verdict.effects.contains(effect) || verdict.class.contains(effect);
-    let others = diagnosis.candidates.iter().filter(|c| !told(&c.effect));
+    let reported = |effect: &Effect| verdict.effects.contains(effect) || verdict.class.contains(effect);
+    let others = diagnosis.candidates.iter().filter(|c| !reported(&c.effect));
     let effects = others.map(|c| (c.effect.name(), c.probability));
     let rest =
         [("none of these", diagnosis.probability_unexplained), ("nothing", diagnosis.probability_none)];
@@ -323,7 +323,7 @@ fn closure(report: &Report) -> Vec<String> {
         (Status::Named, 2..) => "Adding them",
         (Status::Named, _) if diagnosis.verdict.corrected_by.is_some() => "Adding both",
         (Status::Named, _) => "Adding it",
-        _ => "Adding the best explanation",
+        _ => "Adding the best candidate",
     };
     let as_well = if gap.identified_anew.is_some() { " as well" } else { "" };
     let mut sentences = Vec::new();

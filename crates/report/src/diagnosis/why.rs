@@ -1,4 +1,4 @@
-//! Why the first explanation comes first: what each saves, by how far ahead it predicts.
+//! Why the first candidate comes first: what each saves, by how far ahead it predicts.
 
 use super::sentences::probability;
 use super::words::LISTED;
@@ -16,14 +16,14 @@ const COMPARED: usize = 3;
 /// What adds less to a logarithm of the odds is not shown.
 const LEAST: f64 = 0.05;
 
-/// A table of the gains and, where there is a first explanation, what tells it from the next.
+/// A table of the gains and, where there is a first candidate, what shows it from the next.
 pub fn why(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let listed = &diagnosis.candidates[..diagnosis.candidates.len().min(LISTED)];
     let Some(first) = listed.first() else {
-        return "\nwhy: no effect was left as an explanation\n".to_owned();
+        return "\nwhy: no effect was left as an candidate\n".to_owned();
     };
-    let head = "why: share of the nominal model's mean square error on the fit records that each explanation saves, predicting so far ahead; \
+    let head = "why: share of the nominal model's mean square error on the fit records that each candidate saves, predicting so far ahead; \
                 in brackets the same in its standard errors, which come from the errors themselves";
     let sentences = [verdict(diagnosis).to_owned(), lead(first, listed.get(1)), reach(first)].concat();
     let second = diagnosis.second_opinion.as_ref().map_or_else(String::new, second);
@@ -62,7 +62,7 @@ fn second(opinion: &SecondOpinion) -> String {
     format!("\n{}{}{}", wrapped(&head, ""), columns(&rows), wrapped(&by_rules(opinion), ""))
 }
 
-/// What rules would tell.
+/// What rules would show.
 fn by_rules(opinion: &SecondOpinion) -> String {
     let said = match &opinion.by_rules.effects[..] {
         [] => opinion.by_rules.status.name().to_owned(),
@@ -119,7 +119,7 @@ fn verdict(diagnosis: &Diagnosis) -> &'static str {
     }
 }
 
-/// What tells the first from the next: the horizon at which it is farthest ahead.
+/// What shows the first from the next: the horizon at which it is farthest ahead.
 fn lead(first: &Candidate, second: Option<&Candidate>) -> String {
     let Some(second) = second else {
         return format!("No other effect explains anything beside {}. ", first.effect);
@@ -130,7 +130,7 @@ fn lead(first: &Candidate, second: Option<&Candidate>) -> String {
     let Some((one, other)) = ahead.max_by(|x, y| (x.0.share - x.1.share).total_cmp(&(y.0.share - y.1.share)))
     else {
         return format!(
-            "{} saves no more than {} at any horizon: what tells them apart is in the penalty for parameters and on held-out records. ",
+            "{} saves no more than {} at any horizon: what shows them apart is in the penalty for parameters and on held-out records. ",
             first.effect, second.effect
         );
     };
@@ -198,22 +198,23 @@ mod tests {
     }
 
     #[test]
-    fn the_horizon_of_the_largest_lead_is_told() {
+    fn the_horizon_of_the_largest_lead_is_reported() {
         let first = candidate(Effect::Backlash, [0.02, 0.6, 0.9]);
-        let told = lead(&first, Some(&candidate(Effect::Creep, [0.05, 0.1, 0.7])));
+        let reported = lead(&first, Some(&candidate(Effect::Creep, [0.05, 0.1, 0.7])));
         assert_eq!(
-            told,
+            reported,
             "Predicting 30 samples ahead, backlash saves 60 % of the mean square error; the next, creep, saves 10 %. "
         );
-        let told = lead(&first, Some(&candidate(Effect::Creep, [0.05, 0.7, 0.95])));
-        assert!(told.starts_with("backlash saves no more than creep at any horizon"), "{told}");
-        let told = lead(&candidate(Effect::Backlash, [-0.1; 3]), Some(&candidate(Effect::Creep, [-0.2; 3])));
-        assert!(told.starts_with("backlash saves no more than creep"), "{told}");
+        let reported = lead(&first, Some(&candidate(Effect::Creep, [0.05, 0.7, 0.95])));
+        assert!(reported.starts_with("backlash saves no more than creep at any horizon"), "{reported}");
+        let reported =
+            lead(&candidate(Effect::Backlash, [-0.1; 3]), Some(&candidate(Effect::Creep, [-0.2; 3])));
+        assert!(reported.starts_with("backlash saves no more than creep"), "{reported}");
         assert_eq!(lead(&first, None), "No other effect explains anything beside backlash. ");
     }
 
     #[test]
-    fn how_far_a_gain_reaches_is_told() {
+    fn how_far_a_gain_reaches_is_reported() {
         let reach = |shares| reach(&candidate(Effect::Outliers, shares));
         assert_eq!(reach([0.02, 0.6, 0.9]), "outliers moves the simulation of whole records.");
         assert_eq!(

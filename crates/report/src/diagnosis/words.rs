@@ -17,7 +17,7 @@ pub(super) const LISTED: usize = 6;
 const NONE_OF_THESE: &str = "none of these";
 const NOTHING: &str = "nothing";
 
-/// The verdict in sentences, the hold-out records, the best explanations, what could not be judged, and what to do next.
+/// The verdict in sentences, the hold-out records, the best candidates, what could not be judged, and what to do next.
 /// `out` is where the report's folder was written, if it was.
 pub fn words(report: &Report, out: Option<&Path>) -> String {
     let file = match out {
@@ -44,7 +44,7 @@ fn page(report: &Report, file: &str) -> String {
     page.push('\n');
     page.push_str(&records(report));
     page.push('\n');
-    page.push_str(&explanations(report, &units));
+    page.push_str(&hypotheses(report, &units));
     if !report.diagnosis.limitations.is_empty() {
         page.push_str("\nto be read with care:\n");
         for limitation in &report.diagnosis.limitations {
@@ -73,7 +73,7 @@ fn records(report: &Report) -> String {
     columns(&rows)
 }
 
-fn explanations(report: &Report, units: &Units) -> String {
+fn hypotheses(report: &Report, units: &Units) -> String {
     let diagnosis = &report.diagnosis;
     let head = ["explanation", "probability", "BIC drop", "nats/sample", "closure %"];
     let mut rows = vec![head.map(str::to_owned)];
@@ -91,15 +91,18 @@ fn explanations(report: &Report, units: &Units) -> String {
     let rest =
         format!("`{NONE_OF_THESE}`: a cause that is no candidate; `{NOTHING}`: the model is right as it is.");
     let table = format!("{}{}", columns(&rows), wrapped(&rest, ""));
-    let told: Vec<String> = listed()
+    let reported: Vec<String> = listed()
         .map(|candidate| (candidate.effect, parameters(&candidate.parameters, units)))
         .filter(|(_, text)| !text.is_empty())
         .map(|(effect, text)| wrapped(&format!("  {effect}: {text}"), "    "))
         .collect();
-    if told.is_empty() {
+    if reported.is_empty() {
         table
     } else {
-        format!("{table}\nparameters of each explanation by itself, with 90 % intervals:\n{}", told.concat())
+        format!(
+            "{table}\nparameters of each candidate by itself, with 90 % intervals:\n{}",
+            reported.concat()
+        )
     }
 }
 
@@ -143,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_candidate_without_a_free_run_has_no_closure() {
-        let told = |closure: Option<f64>, unstable: bool| {
+        let reported = |closure: Option<f64>, unstable: bool| {
             let candidate = Candidate {
                 effect: Effect::Creep,
                 stage: Effect::Creep.stage(),
@@ -158,10 +161,10 @@ mod tests {
             };
             row(&candidate)
         };
-        assert_eq!(told(Some(0.977), false), ["creep", "0.10", "35", "0.10", "98"]);
-        assert_eq!(told(None, true)[4], "unstable");
-        assert_eq!(told(None, false)[4], "–");
-        assert_eq!(told(Some(-2.7e10), false)[4], "< −999");
+        assert_eq!(reported(Some(0.977), false), ["creep", "0.10", "35", "0.10", "98"]);
+        assert_eq!(reported(None, true)[4], "unstable");
+        assert_eq!(reported(None, false)[4], "–");
+        assert_eq!(reported(Some(-2.7e10), false)[4], "< −999");
     }
 
     #[test]

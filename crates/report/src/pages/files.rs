@@ -32,7 +32,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    fn told(self) -> &'static str {
+    fn reported(self) -> &'static str {
         match self {
             Self::Study => "the results of a study",
             Self::Examination => "the results of an examination",
@@ -117,8 +117,8 @@ impl Files {
             [] => Err(PageError::NoReport { folder: self.folder.clone() }),
             [kind] => Ok(kind),
             _ => {
-                let told: Vec<&str> = kinds.iter().map(|kind| kind.told()).collect();
-                Err(PageError::Mixture { folder: self.folder.clone(), kinds: told.join(" and ") })
+                let reported: Vec<&str> = kinds.iter().map(|kind| kind.reported()).collect();
+                Err(PageError::Mixture { folder: self.folder.clone(), kinds: reported.join(" and ") })
             }
         }
     }

@@ -16,7 +16,7 @@ impl Cell {
         Self { text: text.into(), number: None, is_number: false }
     }
 
-    /// A number as it is told; `None` comes last however the table is sorted.
+    /// A number as it is reported; `None` comes last however the table is sorted.
     pub(super) fn number(text: impl Into<String>, number: Option<f64>) -> Self {
         Self { text: signed(&text.into()), number: number.filter(|x| x.is_finite()), is_number: true }
     }

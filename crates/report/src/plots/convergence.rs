@@ -38,7 +38,7 @@ impl Measure {
     }
 }
 
-/// More numbers of points `m` than this are not told apart beside several noise levels, and beside one or two.
+/// More numbers of points `m` than this are not distinguished beside several noise levels, and beside one or two.
 const MOST_POINTS: (usize, usize) = (3, 4);
 /// Height of a diagram, and how far apart marks of different `m` stand, pixels.
 const HEIGHT: f64 = 400.0;
@@ -133,18 +133,22 @@ impl Design {
         match self.measure {
             Measure::Bias => {
                 let hollow = Sample::Mark(Shape::Disc, Pen::data(INK), false);
-                entries.push(Entry::new(hollow, "hollow: not told from zero"));
+                entries.push(Entry::new(hollow, "hollow: not distinguished from zero"));
                 entries.push(Entry::new(Sample::Arrow(Towards::Down, INK), "the bar includes zero"));
                 if has(|p| p.theory_bias.is_some()) {
                     let broad = Sample::Line(Pen::broad(tint(INK, PALE)));
                     entries.push(Entry::new(broad, "theory"));
                 } else {
                     let slope = Sample::Dashes(Pen::data(GREY), Dash::Dots);
-                    entries.push(Entry::new(slope, "law 1/N through the first point told from zero"));
+                    entries
+                        .push(Entry::new(slope, "law 1/N through the first point distinguished from zero"));
                 }
                 if has(|p| p.bias_controlled.is_some()) {
                     let floor = Sample::Dashes(Pen::data(tint(INK, PALE)), Dash::Dashes);
-                    entries.push(Entry::new(floor, "least bias told from zero without control variate"));
+                    entries.push(Entry::new(
+                        floor,
+                        "least bias distinguished from zero without control variate",
+                    ));
                 }
             }
             Measure::Sd => {
@@ -224,15 +228,15 @@ impl<'r> Curve<'r> {
 
     fn draw_bias(&self, panel: &Panel<'_>) {
         let marks = self.pooled(Parameter::best_bias);
-        let told = |n: f64| self.at(n).all(|cell| self.is_told_from_zero(cell));
+        let reported = |n: f64| self.at(n).all(|cell| self.is_distinguished_from_zero(cell));
         let law = !self.has(|p| p.theory_bias.is_some());
-        if let Some((n0, first)) = marks.iter().find(|(n, _)| law && told(*n)) {
+        if let Some((n0, first)) = marks.iter().find(|(n, _)| law && reported(*n)) {
             let last = marks.last().map_or(*n0, |(n, _)| *n);
             let law = [(*n0, first.middle), (last, first.middle * n0 / last)];
             panel.dashes(&law, Dash::Dots, Pen::data(tint(self.colour, 0.7)));
         }
         for (n, bias) in marks {
-            panel.mark(n, bias.middle, bias.positive_ends(), Mark { filled: told(n), ..self.mark() });
+            panel.mark(n, bias.middle, bias.positive_ends(), Mark { filled: reported(n), ..self.mark() });
         }
     }
 
@@ -269,7 +273,7 @@ impl<'r> Curve<'r> {
     }
 
     /// Whether a pooled bias exceeds twice what it would show if the true one were zero.
-    fn is_told_from_zero(&self, cell: &Cell) -> bool {
+    fn is_distinguished_from_zero(&self, cell: &Cell) -> bool {
         let floor =
             root_mean_square_exact(cell, self.group, |p| p.best_bias().map(|b| b.mcse())).unwrap_or(0.0);
         root_mean_square(cell, self.group, Parameter::best_bias).is_some_and(|b| b.value() >= ERRORS * floor)

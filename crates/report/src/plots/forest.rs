@@ -18,7 +18,7 @@ const MOST: usize = 14;
 /// Height of one side's line, and what a row has beside its lines, pixels.
 const LINE: f64 = 9.0;
 const BETWEEN: f64 = 8.0;
-/// A bias of more than this share of the standard deviation is told from no bias without a scale.
+/// A bias of more than this share of the standard deviation is distinguished from no bias without a scale.
 const SMALL_BIAS: f64 = 0.1;
 
 /// The columns.
@@ -48,13 +48,13 @@ impl Column {
 
 /// A figure with its interval on shared noise, and that of independent runs.
 #[derive(Debug, Clone, Copy)]
-struct Told {
+struct Reported {
     value: f64,
     paired: (f64, f64),
     unpaired: (f64, f64),
 }
 
-impl Told {
+impl Reported {
     fn ratio(p: Paired) -> Self {
         Self { value: p.value(), paired: p.interval(ERRORS), unpaired: p.unpaired_interval(ERRORS) }
     }
@@ -168,21 +168,21 @@ impl<'r> Forest<'r> {
             for (k, ((side, comparisons), colour)) in self.chosen.iter().zip(OKABE_ITO).enumerate() {
                 let aside = LINE * (k as f64 - middle);
                 for (row, name) in self.rows.iter().enumerate() {
-                    let told = comparisons.iter().find_map(|c| {
+                    let reported = comparisons.iter().find_map(|c| {
                         let parameter = c.parameters.iter().find(|p| p.name == *name)?;
-                        self.told(column, c, parameter)
+                        self.reported(column, c, parameter)
                     });
                     let mark = Mark { aside, ..Mark::disc(Pen::data(colour), SMALL_RADIUS) };
-                    draw_told(&panel, row, told, mark);
+                    draw_reported(&panel, row, reported, mark);
                 }
                 let all = pairs.overall.iter().find(|o| o.subject.to_string() == *side);
-                let told = all.and_then(|o| match column {
-                    Column::Variance => Some(Told::ratio(o.variance_ratio)),
-                    Column::SquaredError => Some(Told::ratio(o.mse_ratio)),
+                let reported = all.and_then(|o| match column {
+                    Column::Variance => Some(Reported::ratio(o.variance_ratio)),
+                    Column::SquaredError => Some(Reported::ratio(o.mse_ratio)),
                     Column::Bias => None,
                 });
                 let diamond = Mark { shape: Shape::Diamond, aside, ..Mark::disc(Pen::data(colour), RADIUS) };
-                draw_told(&panel, rows, told, diamond);
+                draw_reported(&panel, rows, reported, diamond);
             }
         }
         let (left, top) = frames.corner(0, 0);
@@ -194,15 +194,20 @@ impl<'r> Forest<'r> {
     }
 
     /// What a parameter's comparison says in a column.
-    fn told(&self, column: Column, comparison: &Comparison, parameter: &PairedParameter) -> Option<Told> {
+    fn reported(
+        &self,
+        column: Column,
+        comparison: &Comparison,
+        parameter: &PairedParameter,
+    ) -> Option<Reported> {
         match column {
-            Column::Variance => Some(Told::ratio(parameter.variance_ratio)),
-            Column::SquaredError => Some(Told::ratio(parameter.mse_ratio)),
+            Column::Variance => Some(Reported::ratio(parameter.variance_ratio)),
+            Column::SquaredError => Some(Reported::ratio(parameter.mse_ratio)),
             Column::Bias => {
                 let is_reference = |c: &&Cell| comparison.over.holds(c) && c.samples == comparison.samples;
                 let cell = self.results.cells.iter().find(is_reference)?;
                 let sd = cell.find(&parameter.name)?.best_sd()?.value();
-                (sd > 0.0).then(|| Told::difference(parameter.bias_difference, sd))
+                (sd > 0.0).then(|| Reported::difference(parameter.bias_difference, sd))
             }
         }
     }
@@ -210,12 +215,12 @@ impl<'r> Forest<'r> {
     /// Ratios all have a place; of biases those that are small have, the others are beyond.
     fn axis(&self, column: Column, pairs: &Pairs<'_>) -> Axis {
         let comparisons = self.chosen.iter().flat_map(|(_, comparisons)| comparisons);
-        let told: Vec<Told> = comparisons
-            .flat_map(|c| c.parameters.iter().filter_map(|p| self.told(column, c, p)).collect::<Vec<_>>())
+        let reported: Vec<Reported> = comparisons
+            .flat_map(|c| c.parameters.iter().filter_map(|p| self.reported(column, c, p)).collect::<Vec<_>>())
             .collect();
         match column {
             Column::Bias => {
-                let small = told.iter().filter(|t| t.value.abs() < SMALL_BIAS);
+                let small = reported.iter().filter(|t| t.value.abs() < SMALL_BIAS);
                 let reach = small.flat_map(|t| [t.unpaired.0.abs(), t.unpaired.1.abs()]).fold(0.0, f64::max);
                 let reach = if reach > 0.0 { reach } else { SMALL_BIAS };
                 Axis::linear([-reach, reach])
@@ -225,17 +230,17 @@ impl<'r> Forest<'r> {
                     Column::Variance => o.variance_ratio.value(),
                     _ => o.mse_ratio.value(),
                 });
-                let ends = told.iter().flat_map(|t| [t.unpaired.0, t.unpaired.1]);
+                let ends = reported.iter().flat_map(|t| [t.unpaired.0, t.unpaired.1]);
                 Axis::logarithmic(ends.chain(overall).chain([1.0]))
             }
         }
     }
 }
 
-fn draw_told(panel: &Panel<'_>, row: usize, told: Option<Told>, mark: Mark) {
-    let Some(told) = told else { return };
+fn draw_reported(panel: &Panel<'_>, row: usize, reported: Option<Reported>, mark: Mark) {
+    let Some(reported) = reported else { return };
     let y = row as f64 + 0.5;
     let behind = Mark { pen: Pen::broad(tint(mark.pen.colour, PALE)), radius: 0.0, ..mark };
-    panel.level_mark(told.unpaired, told.value, y, behind);
-    panel.level_mark(told.paired, told.value, y, mark);
+    panel.level_mark(reported.unpaired, reported.value, y, behind);
+    panel.level_mark(reported.paired, reported.value, y, mark);
 }

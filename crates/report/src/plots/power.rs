@@ -56,7 +56,7 @@ fn name(canvas: &Canvas, frames: &Frames, (index, axis): (usize, Axis), finding:
     let middle = top + ROW * (index as f64 + 0.5);
     canvas.text(finding.effect, (left - 10.0, middle), TextLook::label().end());
     let [low, high] = finding.conclusion.interval;
-    let is_planted = !matches!(finding.outcome(), Outcome::NotPlanted(_));
+    let is_planted = !matches!(finding.outcome(), Outcome::NotInjected(_));
     // One that begins beyond the sizes asked for has no place here.
     if is_planted && low.is_finite() {
         let place = |size: f64| left + width * axis.place(axis.clamp(size)).unwrap_or(0.0);
@@ -69,7 +69,7 @@ fn name(canvas: &Canvas, frames: &Frames, (index, axis): (usize, Axis), finding:
 fn row(canvas: &Canvas, panel: &Panel<'_>, (index, axis): (usize, Axis), finding: &Finding) {
     let middle = index as f64 + 0.5;
     let outcome = finding.outcome();
-    if let Outcome::NotPlanted(_) = outcome {
+    if let Outcome::NotInjected(_) = outcome {
         panel.text("cannot be planted", (axis.low(), middle), (8.0, 0.0), TextLook::number().colour(GREY));
         return;
     }

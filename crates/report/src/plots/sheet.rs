@@ -1,4 +1,4 @@
-//! A page: title, explanation, legend, and a grid of diagrams below.
+//! A page: title, candidate, legend, and a grid of diagrams below.
 
 use super::axis::Axis;
 use super::canvas::{Canvas, Point, draw};

@@ -1,4 +1,4 @@
-//! One mark for several cells that differ in what a figure does not tell apart.
+//! One mark for several cells that differ in what a figure does not distinguish.
 
 use super::axis::Axis;
 use switchback_study::results::{Measured, Paired};

@@ -123,12 +123,12 @@ fn align(lines: &[Vec<String>]) -> String {
 
 /// One line an expectation, the broken ones last so that they are read.
 fn expectations(results: &Results) -> String {
-    let told = |held: bool| {
+    let reported = |held: bool| {
         results.expectations.iter().filter(move |e| e.held == held).map(move |e| {
             format!("{} {}: {}\n", if held { "as expected: " } else { "NOT expected:" }, e.what, e.detail)
         })
     };
-    told(true).chain(told(false)).collect()
+    reported(true).chain(reported(false)).collect()
 }
 
 /// How many replicates the cells took to be as precise as asked, and how many are not.

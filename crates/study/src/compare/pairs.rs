@@ -139,14 +139,14 @@ const KNOWN: [(&str, Known); 5] = [
 /// What is known of a parameter without any noise and is not the same.
 fn changed(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<String> {
     let differs = |(what, get): (&str, Known)| {
-        let told = |x: Option<f64>| x.map_or_else(|| "none".to_owned(), |x| x.to_string());
+        let reported = |x: Option<f64>| x.map_or_else(|| "none".to_owned(), |x| x.to_string());
         let (one, other) = (get(baseline), get(new));
         let is_same = match (one, other) {
             (Some(one), Some(other)) => is_rounding(one, other),
             (one, other) => one == other,
         };
         let (place, name) = (name(cell), &baseline.name);
-        (!is_same).then(|| format!("{place}: {what} of {name}, {} → {}", told(one), told(other)))
+        (!is_same).then(|| format!("{place}: {what} of {name}, {} → {}", reported(one), reported(other)))
     };
     KNOWN.into_iter().filter_map(differs).collect()
 }

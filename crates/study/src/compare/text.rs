@@ -17,7 +17,7 @@ pub fn summary(comparison: &Comparison, baseline: &Results, new: &Results) -> St
         comparison.differences.iter().map(|d| d.z.abs()).fold(0.0, f64::max),
         comparison.threshold
     ));
-    listed(&mut lines, "beyond chance", &beyond.iter().map(|d| told(d)).collect::<Vec<_>>());
+    listed(&mut lines, "beyond chance", &beyond.iter().map(|d| reported(d)).collect::<Vec<_>>());
     listed(&mut lines, "only in the baseline", &comparison.only_baseline);
     listed(&mut lines, "only in the new results", &comparison.only_new);
     listed(&mut lines, "figures that no noise changes differ", &comparison.known);
@@ -29,7 +29,7 @@ fn origin(results: &Results) -> String {
     format!("{}, seed {}, Switchback {}", results.name, results.seed, results.version)
 }
 
-fn told(d: &Difference) -> String {
+fn reported(d: &Difference) -> String {
     let (place, b, n) = (&d.place, d.baseline, d.new);
     format!(
         "z = {:+.1}  {} of {}: {:.4e} ± {:.1e} → {:.4e} ± {:.1e}  ({}, N = {})",
@@ -81,19 +81,19 @@ mod tests {
     #[test]
     fn the_summary_says_whether_the_two_agree() {
         let baseline = synthetic::results();
-        let told = summary(&compare(&baseline, &baseline), &baseline, &baseline);
-        assert!(told.ends_with("The two are identical.\n"), "{told}");
+        let reported = summary(&compare(&baseline, &baseline), &baseline, &baseline);
+        assert!(reported.ends_with("The two are identical.\n"), "{reported}");
 
         let mut new = baseline.clone();
         let bias = &mut new.cells[0].parameters[0].bias;
         *bias = bias.and_then(|m| Measured::new(m.value() + 30.0 * m.mcse(), m.mcse()));
-        let told = summary(&compare(&baseline, &new), &baseline, &new);
-        assert!(told.contains("1 beyond chance:\n  z = +21.2  bias of a1"), "{told}");
-        assert!(told.ends_with("The two differ beyond chance.\n"), "{told}");
+        let reported = summary(&compare(&baseline, &new), &baseline, &new);
+        assert!(reported.contains("1 beyond chance:\n  z = +21.2  bias of a1"), "{reported}");
+        assert!(reported.ends_with("The two differ beyond chance.\n"), "{reported}");
 
         new.cells[0].parameters[0].truth += 5.0;
-        let told = summary(&compare(&baseline, &new), &baseline, &new);
-        assert!(told.contains("1 figures that no noise changes differ:\n"), "{told}");
-        assert!(told.ends_with("what no noise changes differs.\n"), "{told}");
+        let reported = summary(&compare(&baseline, &new), &baseline, &new);
+        assert!(reported.contains("1 figures that no noise changes differ:\n"), "{reported}");
+        assert!(reported.ends_with("what no noise changes differs.\n"), "{reported}");
     }
 }

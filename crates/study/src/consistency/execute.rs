@@ -9,22 +9,22 @@ use rayon::prelude::*;
 use std::mem;
 use std::ops::{ControlFlow, Range};
 
-/// Told how the work goes on; called from several threads.
+/// Reported how the work goes on; called from several threads.
 pub trait Progress: Sync {
     /// So many replicates of the study are to be run, as far as is known now: where a precision is asked for, a forecast from the errors
     /// so far.
     fn planned(&self, replicates: u64);
     /// So many more are done.
     fn advanced(&self, replicates: u64);
-    /// So many of all cells are not precise enough yet; told only where a precision is asked for.
+    /// So many of all cells are not precise enough yet; reported only where a precision is asked for.
     fn imprecise(&self, _cells: usize, _of: usize) {}
 }
 
-/// Told of every batch that is done.
+/// Reported of every batch that is done.
 pub(super) trait Overseer {
     /// So many replicates are added to the tally.
     fn added(&mut self, replicates: usize, tally: &Tally) -> ControlFlow<()>;
-    /// Whether the batch under way is given up.
+    /// Whether the batch running is given up.
     fn is_stopped(&self) -> bool;
 }
 

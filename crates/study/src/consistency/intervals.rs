@@ -4,7 +4,7 @@ use crate::results::{Cell, Expectation, Group, Parameter};
 use crate::scenario::{Coverage, Width};
 
 /// Parameters whose coverage is averaged.
-const FAMILIES: [(&str, &[Group]); 3] =
+const CELL_GROUPS: [(&str, &[Group]); 3] =
     [("a", &[Group::A]), ("b", &[Group::B]), ("borders", &[Group::Descending, Group::Ascending])];
 
 /// Whether the coverage lies within its bounds at every `N`, averaged over the parameters of a family.
@@ -26,7 +26,7 @@ pub(super) fn coverage(prefix: &str, bounds: Coverage, cells: &[&Cell]) -> Expec
             held &= (bounds.mean.0..=bounds.mean.1).contains(&mean);
             format!("{name} {:.1}", 100.0 * mean)
         };
-        means.push(format!("N = {samples}: {}", FAMILIES.map(of).join(", ")));
+        means.push(format!("N = {samples}: {}", CELL_GROUPS.map(of).join(", ")));
     }
     let lowest = least.map_or_else(String::new, |(share, name, cell)| {
         held &= share >= bounds.least;

@@ -1,11 +1,11 @@
 //! A few groups of eight replicates at a time through the cells of a family.
 
-use super::bench::Bench;
-use super::family_plan::FamilyPlan;
+use super::cell_design::{CellDesign, MethodCase};
+use super::cell_group_plan::CellGroupPlan;
 use super::memory::{Few, LANES_AT_ONCE, Side};
 use super::noise::LaneNoise;
 use super::sections::{CellSums, section};
-use super::setting::{Contender, Setting};
+use super::setup::Setup;
 use std::array;
 use switchback_identify::pulse::lanes::{LANES, Lane, LaneStep};
 use switchback_identify::simulation::{LaneCross, LaneGroupedNoise};
@@ -13,14 +13,14 @@ use switchback_identify::statistics::LaneErrors;
 
 /// One method at one noise level.
 pub(super) struct Cell<'a> {
-    pub(super) contender: &'a Contender,
+    pub(super) method_case: &'a MethodCase,
     pub(super) sums: &'a mut CellSums,
 }
 
 /// Where a family stands.
 pub(super) struct Place<'a> {
-    pub(super) plan: &'a FamilyPlan,
-    pub(super) bench: &'a Bench,
+    pub(super) plan: &'a CellGroupPlan,
+    pub(super) setup: &'a Setup,
     /// Index of its period.
     pub(super) period: usize,
 }
@@ -46,7 +46,7 @@ impl Place<'_> {
     /// The data of a few groups at a noise level, `sigma` times the unit noise: with its sign changed where that is negative.
     pub(super) fn superpose(
         &self,
-        (setting, sigma): (&Setting, f64),
+        (cell_design, sigma): (&CellDesign, f64),
         (noise, crosses): (&[LaneNoise], &[[LaneCross; 2]]),
         side: &mut Side,
     ) {
@@ -55,7 +55,7 @@ impl Place<'_> {
                 let Some(pulses) = self.pulses(noise, k) else { continue };
                 self.plan.superpositions[k].at((pulses, cross), sigma, &mut side.statistics[i][k]);
                 let unit = noise.steps[k].get(self.plan.checkpoint).copied().unwrap_or(Lane::ZERO);
-                let mean = unit * sigma + Lane::splat(setting.bench.satellite_output(k));
+                let mean = unit * sigma + Lane::splat(cell_design.setup.satellite_output(k));
                 side.steps[i][k] = LaneStep { mean, samples: self.plan.samples as f64 };
             }
         }
@@ -64,13 +64,13 @@ impl Place<'_> {
     /// Adds one method's errors to the sums of a cell.
     pub(super) fn estimate(&self, cell: &mut Cell<'_>, noise: &[LaneNoise], few: &mut Few) {
         let Few { own, mirrored } = few;
-        let Cell { contender, sums } = cell;
-        let expansion = &contender.expansions[self.plan.checkpoint];
-        own.estimate(contender, &expansion.control, noise.len());
-        if contender.is_paired() {
-            mirrored.estimate(contender, &expansion.control, noise.len());
+        let Cell { method_case, sums } = cell;
+        let expansion = &method_case.expansions[self.plan.checkpoint];
+        own.estimate(method_case, &expansion.control, noise.len());
+        if method_case.is_paired() {
+            mirrored.estimate(method_case, &expansion.control, noise.len());
         }
-        let (own, mirrored) = (&*own, contender.is_paired().then_some(&*mirrored));
+        let (own, mirrored) = (&*own, method_case.is_paired().then_some(&*mirrored));
         let first_variances = expansion.variances.as_deref();
         let errors: [LaneErrors<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneErrors {
             own: own.estimates(i),
@@ -85,18 +85,20 @@ impl Place<'_> {
         if noise.len() == LANES_AT_ONCE && noise.iter().enumerate().all(is_plain) {
             // Every other eight belongs to the same sections.
             let [a, b, c, d] = errors;
-            sums.add_all(noise[0].first, &contender.truth, &[a, c]);
-            sums.add_all(noise[1].first, &contender.truth, &[b, d]);
+            sums.add_all(noise[0].first, &method_case.truth, &[a, c]);
+            sums.add_all(noise[1].first, &method_case.truth, &[b, d]);
             return;
         }
         for (i, noise) in noise.iter().enumerate() {
             let solved = array::from_fn(|l| noise.chosen[l] && is_sound(i, l));
-            sums.add(noise.first, &contender.truth, errors[i], &solved);
+            sums.add(noise.first, &method_case.truth, errors[i], &solved);
             for l in (0..LANES).filter(|&l| noise.chosen[l] && !is_sound(i, l)) {
                 let replicate = noise.first + l as u32;
                 let outcome = |side: &Side| {
-                    let (data, steps) = side.alone(self.bench, i, l);
-                    contender.kind.with_input(&data, steps, |m| contender.outcome(self.plan.checkpoint, &m))
+                    let (data, steps) = side.alone(self.setup, i, l);
+                    method_case
+                        .kind
+                        .with_input(&data, steps, |m| method_case.outcome(self.plan.checkpoint, &m))
                 };
                 let mut alone = sums.section(section(replicate as usize));
                 match outcome(own) {

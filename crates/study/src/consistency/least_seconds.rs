@@ -1,7 +1,7 @@
 //! How long a study takes, before it is run.
 
 use super::cost::of_a_replicate;
-use super::standing::Rule;
+use super::run_state::Rule;
 use crate::scenario::Scenario;
 
 /// Seconds of one thread that a study takes at least. Cells that share their noise cost the pulse methods next to nothing beside it; what a

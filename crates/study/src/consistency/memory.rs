@@ -1,7 +1,7 @@
 //! Working memory that one family of cells leaves to the next.
 
-use super::bench::Bench;
-use super::setting::Contender;
+use super::cell_design::MethodCase;
+use super::setup::Setup;
 use std::array;
 use switchback_identify::pulse::lanes::{
     LaneControl, LaneFit, LaneSample, LaneStatistics, LaneStep, LaneTerms,
@@ -50,16 +50,16 @@ impl Few {
 
 impl Side {
     /// Estimates and the leading terms of their errors, from the first `groups` groups.
-    pub(super) fn estimate(&mut self, contender: &Contender, control: &LaneControl, groups: usize) {
+    pub(super) fn estimate(&mut self, method_case: &MethodCase, control: &LaneControl, groups: usize) {
         let Self { statistics, steps, fits, terms } = self;
-        let experiments = contender.kind.experiments();
+        let experiments = method_case.kind.experiments();
         let (first, last) = (experiments[0], experiments[experiments.len() - 1]);
         let parts = statistics.each_ref().map(|both| both.each_ref());
         let samples: [LaneSample<'_>; LANES_AT_ONCE] = array::from_fn(|i| LaneSample {
             parts: &parts[i][first..=last],
-            step: contender.kind.needs_step().then_some(steps[i][first]),
+            step: method_case.kind.needs_step().then_some(steps[i][first]),
         });
-        contender.lanes.fit(&samples[..groups], fits);
+        method_case.lanes.fit(&samples[..groups], fits);
         control.terms(&samples[..groups], terms);
     }
 
@@ -74,8 +74,8 @@ impl Side {
     }
 
     /// The records of one replicate by themselves.
-    pub(super) fn alone(&self, bench: &Bench, i: usize, lane: usize) -> ([PulseData; 2], [StepMean; 2]) {
+    pub(super) fn alone(&self, setup: &Setup, i: usize, lane: usize) -> ([PulseData; 2], [StepMean; 2]) {
         let steps = self.steps[i].map(|s| StepMean { mean: s.mean.0[lane], samples: s.samples });
-        (bench.replicate(&self.statistics[i], lane), steps)
+        (setup.replicate(&self.statistics[i], lane), steps)
     }
 }

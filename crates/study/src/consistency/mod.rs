@@ -2,21 +2,21 @@
 //!
 //! One pass over the noise of a replicate serves every cell of the pulse methods (`noise_group`), another every cell of `free`, which needs no
 //! designed experiment (`free`): the cells of a sweep share it by superposition. Replicates of the pulse methods go eight at once
-//! (`family`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`; what runs, in which
+//! (`cell_group`, `lane_batch`); while all families take in the noise of some replicates, that of the next is drawn (`execute`; what runs, in which
 //! pieces, is a `workload`). The oracle of
 //! all this is an engine of its own, which simulates every cell (`direct`). What the sums say of a cell (`views`) is tabulated, judged over N
 //! (`judge`) and compared between cells on the same noise (`paired`). Results depend on the scenario and its seed only.
 
 mod batches;
-mod bench;
 mod cell;
+mod cell_design;
+mod cell_group;
+mod cell_group_plan;
 mod cost;
 mod direct;
 mod error;
 mod execute;
 mod expectations;
-mod family;
-mod family_plan;
 mod free;
 mod intervals;
 mod judge;
@@ -28,10 +28,10 @@ mod noise_group;
 mod paired;
 mod pulse_kind;
 mod replay;
+mod run_state;
 mod sections;
-mod setting;
+mod setup;
 mod single;
-mod standing;
 mod tabulate;
 mod tally;
 mod views;
@@ -45,7 +45,7 @@ use direct::DirectGroup;
 use execute::Work;
 use free::FreeNoiseGroup;
 use noise_group::NoiseGroup;
-use standing::Rule;
+use run_state::Rule;
 use std::ops::{ControlFlow, Range};
 use switchback_io::output::sha256;
 use switchback_io::platform::platform;
@@ -58,14 +58,14 @@ pub use replay::ReplayedCell;
 pub use replay::ReplayedExperiment;
 pub use replay::records;
 pub use replay::replay;
+pub use run_state::Keeper;
+pub(crate) use run_state::Origin;
+pub use run_state::RunState;
+pub use run_state::Snapshot;
+pub(crate) use run_state::Unusable;
 pub use single::Estimated;
 pub use single::Single;
 pub use single::SingleRecord;
-pub use standing::Keeper;
-pub(crate) use standing::Origin;
-pub use standing::Snapshot;
-pub use standing::Standing;
-pub(crate) use standing::Unusable;
 
 /// A scenario with everything laid out that its replicates share.
 #[derive(Debug)]
@@ -83,7 +83,7 @@ pub struct Study<'s> {
 pub enum Ended {
     /// They have.
     Finished,
-    /// The [`Keeper`] wished the study to stop: what was run of the batch under way is lost.
+    /// The [`Keeper`] wished the study to stop: what was run of the batch running is lost.
     Stopped,
 }
 
@@ -100,8 +100,8 @@ impl<'s> Study<'s> {
     }
 
     /// Before the first replicate.
-    pub fn begin(&self) -> Standing {
-        Standing::new(self.rule, &self.specs)
+    pub fn begin(&self) -> RunState {
+        RunState::new(self.rule, &self.specs)
     }
 
     /// What the replicates are of: the scenario, but for their number where no precision is asked for; sources by their hash, on this platform.
@@ -118,40 +118,40 @@ impl<'s> Study<'s> {
         }
     }
 
-    /// How many replicates are run in all, as far as is known when the first round is under way.
+    /// How many replicates are run in all, as far as is known when the first round is running.
     pub fn forecast(&self) -> usize {
         self.rule.forecast()
     }
 
-    /// Goes on to the next round; false where there is enough. All replicates of the round under way have been run.
-    pub fn next_round(&self, standing: &mut Standing, progress: &dyn Progress) -> bool {
-        match standing.look(self.rule, progress) {
-            Some(next) => standing.round = next,
+    /// Goes on to the next round; false where there is enough. All replicates of the round running have been run.
+    pub fn next_round(&self, run_state: &mut RunState, progress: &dyn Progress) -> bool {
+        match run_state.look(self.rule, progress) {
+            Some(next) => run_state.round = next,
             None => return false,
         }
         true
     }
 
     /// Runs replicates until the scenario has enough of them.
-    pub fn run(&self, standing: &mut Standing, progress: &dyn Progress, keeper: &mut dyn Keeper) -> Ended {
+    pub fn run(&self, run_state: &mut RunState, progress: &dyn Progress, keeper: &mut dyn Keeper) -> Ended {
         loop {
-            if self.run_part(standing, None, (progress, &mut *keeper)) == Ended::Stopped {
+            if self.run_part(run_state, None, (progress, &mut *keeper)) == Ended::Stopped {
                 return Ended::Stopped;
             }
-            if !self.next_round(standing, progress) {
+            if !self.next_round(run_state, progress) {
                 return Ended::Finished;
             }
         }
     }
 
-    /// Runs what is left of the round under way, or of one of equal parts of it.
+    /// Runs what is left of the round running, or of one of equal parts of it.
     pub fn run_part(
         &self,
-        standing: &mut Standing,
+        run_state: &mut RunState,
         shard: Option<Shard>,
         watch: (&dyn Progress, &mut dyn Keeper),
     ) -> Ended {
-        match self.with_work(|work| standing.finish_round(work, shard, watch)) {
+        match self.with_work(|work| run_state.finish_round(work, shard, watch)) {
             ControlFlow::Continue(()) => Ended::Finished,
             ControlFlow::Break(()) => Ended::Stopped,
         }
@@ -172,10 +172,10 @@ impl<'s> Study<'s> {
     }
 
     /// What the replicates so far amount to. `command` is what the results name as the command that makes them again.
-    pub fn results(&self, standing: &Standing, command: String) -> Results {
+    pub fn results(&self, run_state: &RunState, command: String) -> Results {
         let Self { scenario, specs, .. } = self;
-        let totals = standing.tally.totals();
-        let precise = standing.precise(self.rule);
+        let totals = run_state.tally.totals();
+        let precise = run_state.precise(self.rule);
         let theories = self.theories();
         let cells = tabulate::cells(specs, &theories, &totals, precise.as_deref());
         let views = views::of_cells(&theories, &totals);
@@ -183,8 +183,8 @@ impl<'s> Study<'s> {
         let paired = (scenario.coupling() == Coupling::Shared)
             .then(|| paired::pairing(specs, &views, &self.cells_of_worlds()));
         let expectations = expectations::check(scenario, &summaries, &cells);
-        let of = standing.target();
-        let partial = standing.missing().map(|_| Partial { replicates: standing.replicates(), of });
+        let of = run_state.target();
+        let partial = run_state.missing().map(|_| Partial { replicates: run_state.replicates(), of });
         Results {
             schema: SCHEMA,
             study: "consistency".to_owned(),
@@ -234,10 +234,10 @@ impl<'s> Study<'s> {
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
     let study = Study::plan(scenario)?;
-    let mut standing = study.begin();
+    let mut run_state = study.begin();
     progress.planned(study.rule.forecast() as u64);
-    match study.run(&mut standing, progress, &mut ()) {
-        Ended::Finished => Ok(study.results(&standing, command)),
+    match study.run(&mut run_state, progress, &mut ()) {
+        Ended::Finished => Ok(study.results(&run_state, command)),
         Ended::Stopped => unreachable!("nobody stops it"),
     }
 }

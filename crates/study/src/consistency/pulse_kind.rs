@@ -30,7 +30,7 @@ impl PulseKind {
         }
     }
 
-    /// The experiments it looks at, as indices into [`DIRECTIONS`](super::bench::DIRECTIONS).
+    /// The experiments it looks at, as indices into [`DIRECTIONS`](super::setup::DIRECTIONS).
     pub(super) fn experiments(self) -> &'static [usize] {
         match self {
             Self::PaperDescendant => &[0],

@@ -1,11 +1,11 @@
 //! One replicate again: its estimates in every cell, and the records they are made from, sample by sample.
 
-use super::bench::DIRECTIONS;
+use super::cell_design::{CellDesign, MethodCase};
 use super::direct::{OpenNoise, OpenRecord};
 use super::error::StudyError;
 use super::noise::{ReplicateNoise, draw};
 use super::noise_group::{self, NoiseGroup};
-use super::setting::{Contender, Setting};
+use super::setup::DIRECTIONS;
 use crate::results::Series;
 use crate::scenario::Scenario;
 use switchback_identify::excitation::Direction;
@@ -68,13 +68,13 @@ pub fn replay(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedCell>, 
     let mut cells = Vec::new();
     for group in &groups {
         let noise = draw(&group.noise, scenario.seed(), replicate..replicate + 1);
-        for setting in &group.settings {
+        for cell_design in &group.cell_designs {
             for (checkpoint, &samples) in group.noise.pulses.checkpoints.iter().enumerate() {
-                let sample = Sample::new(group, setting, checkpoint, &noise[0]);
-                cells.extend(setting.methods.iter().map(|contender| ReplayedCell {
-                    series: setting.series(scenario, contender.method),
+                let sample = Sample::new(group, cell_design, checkpoint, &noise[0]);
+                cells.extend(cell_design.methods.iter().map(|method_case| ReplayedCell {
+                    series: cell_design.series(scenario, method_case.method),
                     samples,
-                    estimates: sample.estimates(contender),
+                    estimates: sample.estimates(method_case),
                 }));
             }
         }
@@ -89,17 +89,17 @@ struct Sample {
 }
 
 impl Sample {
-    fn new(group: &NoiseGroup, setting: &Setting, checkpoint: usize, noise: &ReplicateNoise) -> Self {
+    fn new(group: &NoiseGroup, cell_design: &CellDesign, checkpoint: usize, noise: &ReplicateNoise) -> Self {
         let samples = group.noise.pulses.checkpoints[checkpoint] as f64;
         Self {
-            data: setting.bench.data(setting.sigma, noise.pulses(checkpoint, setting.period)),
-            steps: setting.bench.steps(setting.sigma, noise.step_means(checkpoint), samples),
+            data: cell_design.setup.data(cell_design.sigma, noise.pulses(checkpoint, cell_design.period)),
+            steps: cell_design.setup.steps(cell_design.sigma, noise.step_means(checkpoint), samples),
         }
     }
 
     /// The values of a method's parameters.
-    fn estimates(&self, contender: &Contender) -> Result<Vec<f64>, PulseFitError> {
-        let fit = contender.kind.with_input(&self.data, self.steps, |method| method.fit())?;
+    fn estimates(&self, method_case: &MethodCase) -> Result<Vec<f64>, PulseFitError> {
+        let fit = method_case.kind.with_input(&self.data, self.steps, |method| method.fit())?;
         Ok(fit.parameters().map(|p| p.value).collect())
     }
 }
@@ -112,21 +112,26 @@ pub fn records(scenario: &Scenario, replicate: u32) -> Result<Vec<ReplayedRecord
     let groups = noise_group::plan(scenario)?;
     let of_group = |group: &NoiseGroup| {
         let noise = OpenNoise::draw(group, scenario.seed(), replicate);
-        group.settings.iter().map(|s| open(scenario, group, s, &noise)).collect::<Vec<_>>()
+        group.cell_designs.iter().map(|s| open(scenario, group, s, &noise)).collect::<Vec<_>>()
     };
     Ok(groups.iter().flat_map(of_group).collect())
 }
 
-fn open(scenario: &Scenario, group: &NoiseGroup, setting: &Setting, noise: &OpenNoise) -> ReplayedRecords {
-    let case = &scenario.cases()[setting.case];
-    let border = &case.borders[setting.border];
+fn open(
+    scenario: &Scenario,
+    group: &NoiseGroup,
+    cell_design: &CellDesign,
+    noise: &OpenNoise,
+) -> ReplayedRecords {
+    let case = &scenario.cases()[cell_design.case];
+    let border = &case.borders[cell_design.border];
     let experiment = |k: usize| {
         let OpenRecord { lead, v, y, step_means } =
-            noise.record(group, (case, border), (setting, setting.sigma), k);
+            noise.record(group, (case, border), (cell_design, cell_design.sigma), k);
         ReplayedExperiment {
             direction: DIRECTIONS[k],
-            levels: setting.bench.levels(k).to_vec(),
-            satellite: setting.bench.satellite(k),
+            levels: cell_design.setup.levels(k).to_vec(),
+            satellite: cell_design.setup.satellite(k),
             lead,
             v,
             y,
@@ -136,8 +141,8 @@ fn open(scenario: &Scenario, group: &NoiseGroup, setting: &Setting, noise: &Open
     ReplayedRecords {
         case: case.name.clone(),
         border: border.name.clone(),
-        points: setting.bench.points,
-        noise: setting.sigma,
+        points: cell_design.setup.points,
+        noise: cell_design.sigma,
         span: border.hysteresis.span(),
         experiments: [0, 1].map(experiment),
     }

@@ -87,7 +87,7 @@ impl SectionSums {
         }
     }
 
-    /// Adds what a replicate tells of one parameter.
+    /// Adds what a replicate reports one parameter.
     pub(super) fn push_parameter(&mut self, k: usize, replicate: ReplicateError) {
         self.intervals[k].push(replicate.error, replicate.se);
         self.parameters[k].push(replicate);

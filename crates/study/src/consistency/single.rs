@@ -107,7 +107,7 @@ impl Single {
     }
 }
 
-/// Nobody is told of it.
+/// Nobody is reported it.
 struct Nobody;
 
 impl Overseer for Nobody {

@@ -46,7 +46,7 @@ impl CellViews {
             sums.iter().enumerate().map(of).collect::<Vec<_>>()
         };
         let whole = figures(None);
-        // A section without a replicate tells nothing of the spread.
+        // A section without a replicate shows nothing of the spread.
         let enough = total.runs.replicates >= SECTIONS;
         let without = |section| if enough { figures(Some(section)) } else { vec![None; whole.len()] };
         Self { without: (0..SECTIONS).map(without).collect(), whole }

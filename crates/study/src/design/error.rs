@@ -100,7 +100,7 @@ pub enum DesignError {
         /// Periods with which it would be long enough.
         periods: usize,
     },
-    /// The campaign does not fit into the time given.
+    /// The dataset does not fit into the time given.
     #[error(
         "`--duration {given}` s is too short: {needed:.1} s are needed for {fewest} periods of each pulse experiment"
     )]
@@ -113,11 +113,11 @@ pub enum DesignError {
         /// The fewest periods.
         fewest: usize,
     },
-    /// The campaign is too long to be written.
+    /// The dataset is too long to be written.
     #[error(
         "each pulse experiment would have {samples:.3e} samples ({seconds:.3e} s), more than the {most:.0e} that a file should hold"
     )]
-    #[diagnostic(help("ask for less `--precision`, or a shorter campaign"))]
+    #[diagnostic(help("ask for less `--precision`, or a shorter dataset"))]
     TooLong {
         /// Samples of each pulse experiment.
         samples: f64,

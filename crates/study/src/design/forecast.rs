@@ -1,11 +1,11 @@
-//! Standard errors against the length of a campaign.
+//! Standard errors against the length of a dataset.
 
 use super::{DesignError, Truth};
 use switchback_identify::excitation::PulseExperiment;
 use switchback_identify::simulation::{PlannedPrecision, PredictedErrors};
 
 /// Fewest periods planned for a precision. On the machines of the example `design_precision`, achieved over predicted errors (root mean
-/// square over parameters) are off by up to 8 % at three periods and by less than 5 % from ten on. The free records of a shorter campaign
+/// square over parameters) are off by up to 8 % at three periods and by less than 5 % from ten on. The free records of a shorter dataset
 /// would also be too short to be of use.
 pub(crate) const RELIABLE_PERIODS: usize = 10;
 

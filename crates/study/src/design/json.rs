@@ -16,7 +16,7 @@ pub fn json(report: &Report) -> String {
     let plan = &report.plan;
     let request = plan.request();
     let records = plan.records();
-    let pulses = &plan.campaign().pulses()[0];
+    let pulses = &plan.dataset().pulses()[0];
     let total: usize = records.iter().map(|record| record.v.len()).sum();
     let largest = records
         .iter()
@@ -35,11 +35,11 @@ pub fn json(report: &Report) -> String {
         "output": request.labels[1],
         "spacing": pulses.spacing(),
         "period": pulses.period(),
-        "periods": plan.campaign().periods(),
-        "samples": plan.campaign().samples(),
+        "periods": plan.dataset().periods(),
+        "samples": plan.dataset().samples(),
         "levels": {
-            "descendant": plan.campaign().pulses()[direction(Direction::Descendant)].levels(),
-            "ascendant": plan.campaign().pulses()[direction(Direction::Ascendant)].levels(),
+            "descendant": plan.dataset().pulses()[direction(Direction::Descendant)].levels(),
+            "ascendant": plan.dataset().pulses()[direction(Direction::Ascendant)].levels(),
         },
         "records": records.iter().map(|record| json!({
             "file": format!("{}.csv", record.name),
@@ -55,9 +55,9 @@ pub fn json(report: &Report) -> String {
         },
         "rig": outlook.map(truth),
         "precision": outlook.and_then(|outlook| outlook.wanted),
-        "prediction": outlook.map(|o| prediction(plan, o, &o.forecast.at(plan.campaign().periods()))),
+        "prediction": outlook.map(|o| prediction(plan, o, &o.forecast.at(plan.dataset().periods()))),
         "predictions": outlook.map(|o| {
-            lengths(plan.campaign().periods())
+            lengths(plan.dataset().periods())
                 .map(|periods| prediction(plan, o, &o.forecast.at(periods)))
         }),
         "out": report.folder,

@@ -1,7 +1,7 @@
 //! The design of experiments: which inputs to play, and how long to measure for a wanted precision.
 //!
-//! A [`Plan`] is a campaign in physical time; its files are [`artefacts`]. Where a rig was measured already, a [`Truth`] identified from it
-//! lets a [`Forecast`] predict the standard errors of any such campaign.
+//! A [`Plan`] is a dataset in physical time; its files are [`artefacts`]. Where a rig was measured already, a [`Truth`] identified from it
+//! lets a [`Forecast`] predict the standard errors of any such dataset.
 
 mod artefacts;
 mod error;
@@ -25,7 +25,7 @@ pub use plan::Request;
 pub use truth::Truth;
 pub use words::words;
 
-/// What a run of `switchback design` has to tell.
+/// What a run of `switchback design` has to show.
 #[derive(Debug)]
 pub struct Report {
     /// The plan.

@@ -1,7 +1,7 @@
-//! A campaign in physical units.
+//! A dataset in physical units.
 
 use super::DesignError;
-use switchback_identify::excitation::{Campaign, PlannedRecord, Reversals};
+use switchback_identify::excitation::{Dataset, PlannedRecord, Reversals};
 use switchback_io::diagnosis::digits;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Role;
@@ -43,35 +43,35 @@ pub struct Request {
 pub enum Length {
     /// Periods of each pulse experiment.
     Periods(usize),
-    /// Seconds of the whole campaign.
+    /// Seconds of the whole dataset.
     Duration(f64),
 }
 
-/// A campaign that the actuator can play.
+/// A dataset that the actuator can play.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     request: Request,
-    campaign: Campaign,
+    dataset: Dataset,
 }
 
 impl Plan {
-    /// Lays out the campaign.
+    /// Lays out the dataset.
     ///
     /// # Errors
     /// [`DesignError`] if the experiments are impossible, too fast for the actuator, or too short or long to be of use.
     pub fn new(request: Request, length: Length) -> Result<Self, DesignError> {
         let Request { interval, order, points, sample_time, .. } = request;
-        let shortest = Campaign::new(interval, order, points, Campaign::FEWEST_PERIODS)?;
+        let shortest = Dataset::new(interval, order, points, Dataset::FEWEST_PERIODS)?;
         let periods = match length {
-            Length::Periods(periods) if periods < Campaign::FEWEST_PERIODS => {
-                return Err(DesignError::TooFewPeriods { periods, minimum: Campaign::FEWEST_PERIODS });
+            Length::Periods(periods) if periods < Dataset::FEWEST_PERIODS => {
+                return Err(DesignError::TooFewPeriods { periods, minimum: Dataset::FEWEST_PERIODS });
             }
             Length::Periods(periods) => periods,
             Length::Duration(given) => match shortest.periods_within(given / sample_time) {
-                periods if periods >= Campaign::FEWEST_PERIODS => periods,
+                periods if periods >= Dataset::FEWEST_PERIODS => periods,
                 _ => {
                     let needed = shortest.total() as f64 * sample_time;
-                    return Err(DesignError::TooShort { given, needed, fewest: Campaign::FEWEST_PERIODS });
+                    return Err(DesignError::TooShort { given, needed, fewest: Dataset::FEWEST_PERIODS });
                 }
             },
         };
@@ -79,10 +79,10 @@ impl Plan {
         if samples > MOST_SAMPLES {
             return Err(DesignError::TooLong { samples, seconds: samples * sample_time, most: MOST_SAMPLES });
         }
-        let campaign = shortest.with_periods(periods)?.with_free(drive(&request)?, request.seed);
+        let dataset = shortest.with_periods(periods)?.with_free(drive(&request)?, request.seed);
         check_speed(&request)?;
-        check_strokes(&request, &campaign)?;
-        Ok(Self { request, campaign })
+        check_strokes(&request, &dataset)?;
+        Ok(Self { request, dataset })
     }
 
     /// What was asked for.
@@ -90,14 +90,14 @@ impl Plan {
         &self.request
     }
 
-    /// The campaign in samples.
-    pub fn campaign(&self) -> &Campaign {
-        &self.campaign
+    /// The dataset in samples.
+    pub fn dataset(&self) -> &Dataset {
+        &self.dataset
     }
 
     /// Every record to be played, inputs rounded to what a file shows.
     pub fn records(&self) -> Vec<PlannedRecord> {
-        let mut records = self.campaign.records();
+        let mut records = self.dataset.records();
         records.retain(|record| !self.request.free_only || record.role == Role::Free);
         for record in records.iter_mut().filter(|record| record.role == Role::Free) {
             record.v.iter_mut().for_each(|v| *v = rounded(*v, self.request.interval));
@@ -159,15 +159,15 @@ fn check_speed(request: &Request) -> Result<(), DesignError> {
 }
 
 /// The free records begin with a stroke up and one down, which must fit into the shortest of them.
-fn check_strokes(request: &Request, campaign: &Campaign) -> Result<(), DesignError> {
+fn check_strokes(request: &Request, dataset: &Dataset) -> Result<(), DesignError> {
     let Some(limit) = request.max_speed else { return Ok(()) };
     let stroke = (request.interval.width() / (limit * request.sample_time)).ceil();
-    let record = (campaign.samples() as f64 / 3.0).ceil();
+    let record = (dataset.samples() as f64 / 3.0).ceil();
     if 2.0 * stroke <= record {
         return Ok(());
     }
     let [stroke_seconds, record] = [stroke, record].map(|samples| digits(samples * request.sample_time, 3));
-    let periods = (6.0 * stroke / campaign.pulses()[0].period() as f64).ceil() as usize;
+    let periods = (6.0 * stroke / dataset.pulses()[0].period() as f64).ceil() as usize;
     Err(DesignError::TooSlow { limit, stroke: stroke_seconds, record, periods })
 }
 

@@ -58,7 +58,7 @@ impl Truth {
     }
 }
 
-/// Standard deviation of the equation error `ξ` where the method tells another one: `free` minimises the error `r` of its simulation, and
+/// Standard deviation of the equation error `ξ` where the method shows another one: `free` minimises the error `r` of its simulation, and
 /// reports that. What it leaves in the equation is `ξ = A(q⁻¹) r`.
 fn equation_noise(rig: &Rig, found: &Identification) -> Option<f64> {
     let estimate = &found.estimate;

@@ -1,4 +1,4 @@
-//! A plan told to a person.
+//! A plan reported to a person.
 
 use super::{Outlook, Plan, Prediction, RELIABLE_PERIODS, Report};
 use std::fmt::Write;
@@ -42,7 +42,7 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
         truth.system.order(),
         digits(truth.noise_sd, 3),
     );
-    let chosen = plan.campaign().periods();
+    let chosen = plan.dataset().periods();
     page.push_str(&errors(plan, outlook));
     let _ = writeln!(
         page,
@@ -55,7 +55,7 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
         "{chosen} periods, N = {} samples, {} for each pulse experiment, {} for all records",
         at.samples,
         duration(plan.seconds(at.samples)),
-        duration(plan.seconds(plan.campaign().total())),
+        duration(plan.seconds(plan.dataset().total())),
     );
     let worst = percent(at.errors.worst());
     let _ = match wanted {
@@ -84,7 +84,7 @@ fn foreseen(plan: &Plan, outlook: &Outlook) -> String {
 /// A table of the errors of every parameter against the length.
 fn errors(plan: &Plan, outlook: &Outlook) -> String {
     let forecast = &outlook.forecast;
-    let chosen = plan.campaign().periods();
+    let chosen = plan.dataset().periods();
     let lengths = lengths(chosen);
     let predictions: Vec<Prediction> = lengths.iter().map(|periods| forecast.at(*periods)).collect();
     let row = |name: String, value: String, cell: &dyn Fn(&Prediction) -> String| {
@@ -116,7 +116,7 @@ fn errors(plan: &Plan, outlook: &Outlook) -> String {
 
 /// The length chosen in the middle of a ladder, or at its foot where shorter ones cannot be.
 pub(super) fn lengths(chosen: usize) -> [usize; LENGTHS] {
-    let fewest = switchback_identify::excitation::Campaign::FEWEST_PERIODS;
+    let fewest = switchback_identify::excitation::Dataset::FEWEST_PERIODS;
     let shorter = (0..=2).rev().find(|k| chosen / 4usize.pow(*k) >= fewest).unwrap_or(0);
     std::array::from_fn(|k| match (k as u32).checked_sub(shorter) {
         Some(up) => chosen.saturating_mul(4usize.pow(up)),
@@ -144,7 +144,7 @@ fn records(plan: &Plan) -> String {
 /// What the periods are made of, and what the actuator must be able to do.
 fn demands(plan: &Plan) -> String {
     let request = plan.request();
-    let (input, pulses) = (unit(&request.labels[0]), &plan.campaign().pulses()[0]);
+    let (input, pulses) = (unit(&request.labels[0]), &plan.dataset().pulses()[0]);
     let spaced = if input.is_empty() { String::new() } else { format!(" {input}") };
     let a_second = if input.is_empty() { "/s".to_owned() } else { format!(" {input}/s") };
     let fastest = |records: &[switchback_identify::excitation::PlannedRecord]| {
@@ -161,7 +161,7 @@ fn demands(plan: &Plan) -> String {
             pulses.period(),
             counted(pulses.points(), "level"),
             pulses.spacing(),
-            plan.campaign().periods(),
+            plan.dataset().periods(),
         );
         page.push_str(
             "each record begins with one sample at the other end: the move from there loads a known border\n",
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn durations_keep_three_digits_and_a_handy_unit() {
-        let told = [0.01, 3.666, 100.0, 300.0, 10_000.0, 1e6].map(duration);
-        assert_eq!(told, ["10.0 ms", "3.67 s", "100 s", "5.00 min", "2.78 h", "11.6 d"]);
+        let reported = [0.01, 3.666, 100.0, 300.0, 10_000.0, 1e6].map(duration);
+        assert_eq!(reported, ["10.0 ms", "3.67 s", "100 s", "5.00 min", "2.78 h", "11.6 d"]);
     }
 }

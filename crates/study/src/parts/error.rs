@@ -57,7 +57,7 @@ pub enum MergeError {
         shard: Shard,
     },
     /// What the replicates left behind cannot be read.
-    #[error("{folder}: {file} {why}", file = crate::checkpoint::KEPT_FILE)]
+    #[error("{folder}: {file} {why}", file = crate::checkpoint::CHECKPOINT_FILE)]
     #[diagnostic(help(
         "merge parts of one scenario and one round, with the version of the program and on the platform that ran them; or run this part again"
     ))]

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use switchback_io::input::read_text;
 use switchback_io::output::stamped;
 
-/// What tells that a folder holds a part.
+/// What shows that a folder holds a part.
 pub const PART_FILE: &str = "part.json";
 
 const SCHEMA: &str = "switchback/part/1";
@@ -44,7 +44,7 @@ pub fn label<L: DeserializeOwned>(folder: &Path) -> Result<L, MergeError> {
     if written.schema == SCHEMA { Ok(written.label) } else { Err(no_part()) }
 }
 
-/// The scenario's file of a part's folder: it tells which kind of study or examination the part is of.
+/// The scenario's file of a part's folder: it shows which kind of study or examination the part is of.
 ///
 /// # Errors
 /// [`MergeError`] if the folder holds no part.
@@ -75,7 +75,7 @@ impl Piece<'_> {
         self.folder.display().to_string()
     }
 
-    /// What tells that another part belongs to another whole.
+    /// What shows that another part belongs to another whole.
     fn differs_in(&self, other: &Self) -> Option<&'static str> {
         let differences = [
             (self.scenario != other.scenario, "the scenario"),

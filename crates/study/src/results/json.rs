@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_another_layout_and_foreign_json_are_told_apart() {
+    fn a_missing_file_another_layout_and_foreign_json_are_distinguished() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("results.json");
         assert!(matches!(read(folder.path()), Err(ResultsError::Unreadable { .. })));

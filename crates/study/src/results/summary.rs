@@ -63,7 +63,7 @@ pub enum Verdict {
     Consistent,
     /// A bias remains as `N` grows.
     Inconsistent,
-    /// The sweep does not tell.
+    /// The sweep does not show.
     Undecided,
 }
 

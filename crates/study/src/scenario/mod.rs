@@ -132,7 +132,7 @@ pub struct Case {
     pub expect: Expect,
 }
 
-/// On which knots the method `free` estimates the borders; it tells them at the `m` evenly spaced ones of the sweep in every case.
+/// On which knots the method `free` estimates the borders; it shows them at the `m` evenly spaced ones of the sweep in every case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Knots {
     /// On those `m`, whatever the borders do between them.

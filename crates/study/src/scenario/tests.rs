@@ -111,7 +111,7 @@ fn knots_and_promises_of_intervals_are_read_and_checked() {
     assert_eq!((fine.knots, fine.fit), (Knots::Refined, Fit::Prewhitened));
     assert_eq!(fine.expect.coverage, Some(Coverage { mean: (0.9, 0.98), least: 0.85 }));
     assert_eq!(fine.expect.width, Some(Width { of: "fine".to_owned(), at_most: 2.0 }));
-    for (rest, told) in [
+    for (rest, reported) in [
         ("knots = \"refind\"".to_owned(), "refined"),
         ("fit = \"free-run\"".to_owned(), "free run"),
         ("fit = \"free run\"\nknots = \"known\"".to_owned(), "equation error alone"),
@@ -121,7 +121,7 @@ fn knots_and_promises_of_intervals_are_read_and_checked() {
         (expect.replace("2.0", "-2.0"), "at_most must be positive"),
     ] {
         let error = case(&rest).expect_err("a refusal");
-        assert!(format!("{error:?}").contains(told), "{error:?}");
+        assert!(format!("{error:?}").contains(reported), "{error:?}");
     }
 }
 

@@ -10,11 +10,11 @@ use crate::progress::Meter;
 use miette::IntoDiagnostic;
 use std::path::{Path, PathBuf};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
-use switchback_study::checkpoint::Kept;
-use switchback_study::consistency::{Standing, Study};
+use switchback_study::checkpoint::Checkpoint;
+use switchback_study::consistency::{RunState, Study};
 use switchback_study::parts::{MergeError, check_whole};
 
-/// Adds parts up in the order of one run; where a precision is asked for and not reached, tells what to run next, once what there is has been
+/// Adds parts up in the order of one run; where a precision is asked for and not reached, shows what to run next, once what there is has been
 /// written into the folder `next`, or else into that of the report.
 ///
 /// # Errors
@@ -26,11 +26,11 @@ pub fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> Comm
     let first = &parts[0];
     let scenario = first.scenario()?;
     let study = order.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
-    let mut standing = added_up(&parts, &study)?;
+    let mut run_state = added_up(&parts, &study)?;
     let meter = Meter::new(order.quiet);
-    meter.begin(standing.target(), standing.replicates());
-    let is_whole = !study.next_round(&mut standing, &meter);
-    let kept = Kept::new(
+    meter.begin(run_state.target(), run_state.replicates());
+    let is_whole = !study.next_round(&mut run_state, &meter);
+    let kept = Checkpoint::new(
         order.out.unwrap_or(Path::new("")),
         study.origin(BUILD.study_sources),
         interrupt::is_wished,
@@ -41,49 +41,49 @@ pub fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> Comm
     let order = Order { command: &first.label.command, ..order };
     if is_whole {
         let folder = order.force.claim(out, &FILES)?;
-        let results = order.threads.install(|| study.results(&standing, order.command.to_owned()))?;
-        return write(&results, (&scenario, &standing, &kept, &provenance), folder, order);
+        let results = order.threads.install(|| study.results(&run_state, order.command.to_owned()))?;
+        return write(&results, (&scenario, &run_state, &kept, &provenance), folder, order);
     }
     let out = next.unwrap_or(out);
     let merged = first.of_all();
     let folder = order.force.claim(out, &merged.files())?;
-    let mut artefacts = merged.artefacts(kept.bytes(&standing));
+    let mut artefacts = merged.artefacts(kept.bytes(&run_state));
     artefacts.add_beside(PROVENANCE_FILE, provenance.text());
     folder.commit(&artefacts)?;
-    order.quiet.note(&how_to_go_on(&standing, &first.label.scenario, out));
+    order.quiet.note(&how_to_go_on(&run_state, &first.label.scenario, out));
     Ok(Outcome::Stopped)
 }
 
 /// What to run to go on.
-fn how_to_go_on(standing: &Standing, scenario: &str, out: &Path) -> String {
+fn how_to_go_on(run_state: &RunState, scenario: &str, out: &Path) -> String {
     format!(
         "{} replicates, and not precise enough yet; written to {out}.\n\
          Run those up to {} in parts: switchback {scenario} --shard K/N --from {out} --out DIR\n\
          then merge the parts with {out}.\n",
-        standing.replicates(),
-        standing.target(),
+        run_state.replicates(),
+        run_state.target(),
         out = out.display(),
     )
 }
 
 /// The parts of a round, and the rounds before it if they are given.
-fn added_up(parts: &[Part], study: &Study<'_>) -> Result<Standing, MergeError> {
+fn added_up(parts: &[Part], study: &Study<'_>) -> Result<RunState, MergeError> {
     let name = |part: &Part| part.folder.display().to_string();
     let (before, parts) = parts.split_at(parts.partition_point(|part| part.label.shard.is_none()));
     if let [one, other, ..] = before {
         return Err(MergeError::TwoWholes { folder: name(other), first: name(one) });
     }
-    let mut standing = match before.first() {
-        Some(whole) => whole.standing(study)?,
+    let mut run_state = match before.first() {
+        Some(whole) => whole.run_state(study)?,
         None => study.begin(),
     };
-    let round = standing.clone();
+    let round = run_state.clone();
     check_whole(&parts.iter().filter_map(Part::piece).collect::<Vec<_>>())?;
     for part in parts {
-        standing.add(part.standing_in(&round, study)?);
+        run_state.add(part.run_state_in(&round, study)?);
     }
-    match standing.missing() {
-        None => Ok(standing),
+    match run_state.missing() {
+        None => Ok(run_state),
         Some(gap) => Err(MergeError::Gap { start: gap.start, end: gap.end }),
     }
 }

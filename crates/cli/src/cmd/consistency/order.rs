@@ -4,7 +4,7 @@ use crate::options::{Force, Quiet, Threads};
 use std::path::Path;
 use switchback_study::Shard;
 
-/// What is to be run, and how it is told.
+/// What is to be run, and how it is reported.
 #[derive(Debug, Clone, Copy)]
 pub struct Order<'a> {
     /// The scenario's file.

@@ -8,12 +8,12 @@ use switchback_io::input::{FileError, read_text, stream};
 use switchback_io::output::Artefacts;
 use switchback_io::provenance::PROVENANCE_FILE;
 use switchback_study::Shard;
-use switchback_study::checkpoint::KEPT_FILE;
-use switchback_study::consistency::{Standing, Study};
+use switchback_study::checkpoint::CHECKPOINT_FILE;
+use switchback_study::consistency::{RunState, Study};
 use switchback_study::parts::{MergeError, PART_FILE, Piece, label, label_text};
 use switchback_study::scenario::{Engine, Scenario, ScenarioError};
 
-/// What tells which part it is.
+/// What shows which part it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Label {
     /// The scenario's file name.
@@ -56,7 +56,7 @@ impl Part {
 
     /// Names of the files of its folder.
     pub(super) fn files(&self) -> [&str; 4] {
-        [PART_FILE, &self.label.scenario, KEPT_FILE, PROVENANCE_FILE]
+        [PART_FILE, &self.label.scenario, CHECKPOINT_FILE, PROVENANCE_FILE]
     }
 
     /// What its folder gets, with what its replicates left behind.
@@ -64,7 +64,7 @@ impl Part {
         let mut artefacts = Artefacts::default();
         artefacts.add(PART_FILE, label_text(&self.label));
         artefacts.add(self.label.scenario.as_str(), self.text.as_str());
-        artefacts.add(KEPT_FILE, sums);
+        artefacts.add(CHECKPOINT_FILE, sums);
         artefacts
     }
 
@@ -86,20 +86,20 @@ impl Part {
     }
 
     /// Its replicates, as a part of the round that `round` stands at.
-    pub(super) fn standing_in(&self, round: &Standing, study: &Study<'_>) -> Result<Standing, MergeError> {
+    pub(super) fn run_state_in(&self, round: &RunState, study: &Study<'_>) -> Result<RunState, MergeError> {
         let origin = study.origin(BUILD.study_sources).of_part(self.label.shard, round);
         let folder = || self.folder.display().to_string();
-        let sums = std::fs::read(self.folder.join(KEPT_FILE));
+        let sums = std::fs::read(self.folder.join(CHECKPOINT_FILE));
         let sums = sums.map_err(|_| MergeError::NoPart { folder: folder() })?;
         let strange = |why| MergeError::Unusable { folder: folder(), why };
         round.emptied().read(&sums, &origin).map_err(strange)
     }
 
     /// How far the study had come that a folder without a shard holds.
-    pub(super) fn standing(&self, study: &Study<'_>) -> Result<Standing, MergeError> {
+    pub(super) fn run_state(&self, study: &Study<'_>) -> Result<RunState, MergeError> {
         if let Some(shard) = self.label.shard {
             return Err(MergeError::OnePart { folder: self.folder.display().to_string(), shard });
         }
-        self.standing_in(&study.begin(), study)
+        self.run_state_in(&study.begin(), study)
     }
 }

@@ -3,7 +3,7 @@
 use super::Pair;
 use crate::effect::Effect;
 use crate::effects::Follows;
-use crate::model::assembly::Assembly;
+use crate::model::augmented::AugmentedModel;
 
 /// Share of what the best single effect gains, up to which a second one corrects the law of the first. Found on made rigs:
 /// laws that miss a little leave a fifteenth, two causes of one size each take a tenth at least.
@@ -21,31 +21,31 @@ pub(crate) struct Causes {
     pub(crate) effects: Vec<Effect>,
     /// The one that takes no more than what an inexact law of the other leaves.
     pub(crate) correction: Option<Effect>,
-    /// The twin of the only cause that gains more alone: with what corrects the pair, the data cannot tell which it is.
+    /// The confounded effect of the only cause that gains more alone: with what corrects the pair, the data cannot show which it is.
     pub(crate) rival: Option<Effect>,
 }
 
 impl Pair {
-    /// Tells causes from corrections, `alone` being the gains of the single effects over the nominal model on as many `samples`.
+    /// Shows causes from corrections, `alone` being the gains of the single effects over the nominal model on as many `samples`.
     pub(crate) fn causes(&self, alone: &[(Effect, f64)], samples: usize) -> Causes {
-        let assembly = &self.explanation.fit.assembly;
-        let members = self.explanation.effects();
-        let correction = if corrects_a_filter(assembly) {
+        let augmented = &self.hypothesis.fit.augmented;
+        let members = self.hypothesis.effects();
+        let correction = if corrects_a_filter(augmented) {
             members.iter().copied().find(|e| e.card().colours_noise)
-        } else if assembly.saturation.is_some() {
+        } else if augmented.saturation.is_some() {
             // Ties at a limit are exact: there is nothing to correct.
             None
         } else {
             self.small_correction(alone, samples)
         };
         let effects: Vec<Effect> = members.into_iter().filter(|e| Some(*e) != correction).collect();
-        let rival = twin_ahead(&effects, alone);
+        let rival = confounded_ahead(&effects, alone);
         Causes { effects, correction, rival }
     }
 
     /// The member that gains less alone, where it takes no more than what an inexact law of the other leaves.
     fn small_correction(&self, alone: &[(Effect, f64)], samples: usize) -> Option<Effect> {
-        let members = self.explanation.effects();
+        let members = self.hypothesis.effects();
         let of = |effect: Effect| alone.iter().find(|g| g.0 == effect).map_or(f64::NEG_INFINITY, |g| g.1);
         let best = alone.iter().map(|g| g.1).fold(0.0, f64::max);
         let second = if of(members[1]) > of(members[0]) { members[0] } else { members[1] };
@@ -60,18 +60,18 @@ impl Pair {
 
 /// Whether a filter of the input has a moving average of the noise beside it. Where the filter's law `P` is a little off, `A` takes
 /// what is missing, and the noise of the equation pays for it: `A y = B/(P·Q) u + ξ ⟺ Q·A y = B/P u + Q·ξ`.
-fn corrects_a_filter(assembly: &Assembly) -> bool {
-    assembly.denominator.len() > 1 && !assembly.noise.ma.is_empty()
+fn corrects_a_filter(augmented: &AugmentedModel) -> bool {
+    augmented.denominator.len() > 1 && !augmented.noise.ma.is_empty()
 }
 
-/// The twin of an only cause, where it is the effect that gains most `alone`.
-fn twin_ahead(causes: &[Effect], alone: &[(Effect, f64)]) -> Option<Effect> {
+/// The confounded effect of an only cause, where it is the effect that gains most `alone`.
+fn confounded_ahead(causes: &[Effect], alone: &[(Effect, f64)]) -> Option<Effect> {
     let [cause] = causes else { return None };
     let (first, _) = alone.iter().max_by(|x, y| x.1.total_cmp(&y.1))?;
-    cause.twins().contains(first).then_some(*first)
+    cause.confounded_effects().contains(first).then_some(*first)
 }
 
-/// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law; `follows` tells
+/// Whether a second effect that gains `gain` beside a first one that gains `best` alone only corrects its law; `follows` shows
 /// that it follows whatever that misses.
 fn is_correction((second, follows): (Effect, bool), gain: f64, best: f64, samples: usize) -> bool {
     let is_small = follows && gain < SMALL * samples as f64;
@@ -91,9 +91,9 @@ mod tests {
 
     #[test]
     fn a_moving_average_beside_a_lag_corrects_it() {
-        let mut lag = Assembly::default();
+        let mut lag = AugmentedModel::default();
         lag.filter(&[0.1], &[1.0, -0.9]);
-        let mut noise = Assembly::default();
+        let mut noise = AugmentedModel::default();
         noise.noise.ma = vec![-0.8];
         assert!(!corrects_a_filter(&lag) && !corrects_a_filter(&noise));
         noise.filter(&[0.1], &[1.0, -0.9]);
@@ -101,13 +101,13 @@ mod tests {
     }
 
     #[test]
-    fn a_twin_that_gains_more_alone_is_a_rival_of_an_only_cause() {
+    fn a_confounded_that_gains_more_alone_is_a_rival_of_an_only_cause() {
         let alone = [(Effect::ExtraPole, 9000.0), (Effect::InputDelay, 9500.0), (Effect::Creep, 100.0)];
-        assert_eq!(twin_ahead(&[Effect::ExtraPole], &alone), Some(Effect::InputDelay));
-        // It is the first itself, it is no twin of the first, there are two.
-        assert_eq!(twin_ahead(&[Effect::InputDelay], &alone), None);
-        assert_eq!(twin_ahead(&[Effect::Creep], &alone), None);
-        assert_eq!(twin_ahead(&[Effect::ExtraPole, Effect::Outliers], &alone), None);
+        assert_eq!(confounded_ahead(&[Effect::ExtraPole], &alone), Some(Effect::InputDelay));
+        // It is the first itself, it is no confounded effect of the first, there are two.
+        assert_eq!(confounded_ahead(&[Effect::InputDelay], &alone), None);
+        assert_eq!(confounded_ahead(&[Effect::Creep], &alone), None);
+        assert_eq!(confounded_ahead(&[Effect::ExtraPole, Effect::Outliers], &alone), None);
     }
 
     #[test]

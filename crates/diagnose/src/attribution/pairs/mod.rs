@@ -7,13 +7,13 @@ mod steps;
 pub(crate) use self::causes::Causes;
 
 use crate::attribution::Attribution;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::search::{Question, finish};
 use crate::attribution::successive_halving::Halving;
 use crate::diagnosis::Together;
 use crate::effect::Effect;
 use crate::fitted_parameter::FittedParameter;
-use crate::nominal::knots::detail;
+use crate::nominal::knots::refinement;
 use crate::residuals::clustering::come_where_the_input_is;
 use crate::residuals::omnibus::{Omnibus, omnibus};
 use crate::workers::Workers;
@@ -21,7 +21,7 @@ use crate::workers::Workers;
 /// Two effects together.
 #[derive(Debug, Clone)]
 pub(crate) struct Pair {
-    pub(crate) explanation: Explanation,
+    pub(crate) hypothesis: Hypothesis,
     /// Penalised deviance gained over the best single effect.
     pub(crate) gain: f64,
     /// Deviance that causes in general would still gain beside both, and beside the best single effect.
@@ -34,12 +34,12 @@ pub(crate) struct Pair {
 impl Pair {
     /// Two effects and what they leave, beside the best single one and what that leaves.
     pub(crate) fn against(
-        best_single: &Explanation,
+        best_single: &Hypothesis,
         tests: &Omnibus,
-        (explanation, left): (Explanation, f64),
+        (hypothesis, left): (Hypothesis, f64),
     ) -> Self {
-        let gain = best_single.bic() - explanation.bic();
-        Self { explanation, gain, left, left_by_single: tests.excess(), is_hidden: is_hidden(tests) }
+        let gain = best_single.bic() - hypothesis.bic();
+        Self { hypothesis, gain, left, left_by_single: tests.excess(), is_hidden: is_hidden(tests) }
     }
 }
 
@@ -47,15 +47,15 @@ impl Pair {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Firsts<'a> {
     /// Those that may be the cause by themselves, best first.
-    pub(crate) ranked: &'a [Explanation],
+    pub(crate) ranked: &'a [Hypothesis],
     /// Every one that was fitted.
-    pub(crate) all: &'a [Explanation],
+    pub(crate) all: &'a [Hypothesis],
 }
 
 impl Together {
     /// `gains` are those of the single effects over the nominal model, the best first; `parameters` those of the members.
     pub(crate) fn of(pair: &Pair, gains: &[(Effect, f64)], parameters: Vec<Vec<FittedParameter>>) -> Self {
-        let effects = pair.explanation.effects();
+        let effects = pair.hypothesis.effects();
         let alone = |effect: &Effect| gains.iter().find(|g| g.0 == *effect).map_or(0.0, |g| g.1.max(0.0));
         let both = pair.gain + gains.first().map_or(0.0, |g| g.1);
         let (shares, interaction) = Self::shapley(both, [alone(&effects[0]), alone(&effects[1])]);
@@ -92,35 +92,35 @@ const RIVALS: usize = 6;
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
-    /// Whether a deviance that an explanation leaves is worth a second look.
+    /// Whether a deviance that an candidate leaves is worth a second look.
     fn is_worth_a_look(&self, left: f64) -> bool {
-        left > WORTH_A_LOOK * self.campaign.fit_samples() as f64
+        left > WORTH_A_LOOK * self.dataset.fit_samples() as f64
     }
 
     /// The best pair of effects, where the best single one leaves something that a second may explain.
     pub(crate) fn pair(&self, singles: Firsts<'_>, tests: &Omnibus) -> Option<Pair> {
         let best_single = singles.ranked.first()?;
-        let explanation = if self.is_worth_a_look(tests.excess()) {
+        let hypothesis = if self.is_worth_a_look(tests.excess()) {
             self.searched(singles)?
         } else if self.is_worth_a_look(tests.tails) {
             self.with_outliers(singles)?
         } else if is_hidden(tests) {
             self.searched(singles)?
-        } else if come_where_the_input_is(self.campaign, &best_single.fit) {
-            self.with_details(best_single)?
+        } else if come_where_the_input_is(self.dataset, &best_single.fit) {
+            self.with_refinement(best_single)?
         } else {
             return None;
         };
-        let left = omnibus(self.campaign, &explanation.fit).map_or(f64::INFINITY, |o| o.excess());
-        Some(Pair::against(best_single, tests, (explanation, left)))
+        let left = omnibus(self.dataset, &hypothesis.fit).map_or(f64::INFINITY, |o| o.excess());
+        Some(Pair::against(best_single, tests, (hypothesis, left)))
     }
 
     /// Each effect of a pair on its own, from where it is beside the other.
-    pub(crate) fn members_alone(&self, pair: &Pair) -> Vec<Explanation> {
+    pub(crate) fn members_alone(&self, pair: &Pair) -> Vec<Hypothesis> {
         self.workers
             .map(&[0, 1], |&number| {
-                let alone = pair.explanation.part(number, self.campaign)?;
-                Some(self.without_details(finish(self.campaign, 0, &alone)))
+                let alone = pair.hypothesis.effect_term(number, self.dataset)?;
+                Some(self.without_refinement(finish(self.dataset, 0, &alone)))
             })
             .into_iter()
             .flatten()
@@ -128,24 +128,24 @@ impl<W: Workers> Attribution<'_, W> {
     }
 
     /// Details of the borders beside a first effect: the knots that follow them, placed with the effect known.
-    fn with_details(&self, first: &Explanation) -> Option<Explanation> {
+    fn with_refinement(&self, first: &Hypothesis) -> Option<Hypothesis> {
         let is_new = !first.effects().iter().any(|e| e.card().lies_in_the_grid);
-        let detailed = || first.clone().with_details(self.campaign);
-        let considered = is_new && self.settings.consider_details();
-        considered.then(detailed).filter(|detailed| first.bic() - detailed.bic() > detail(self.campaign))
+        let detailed = || first.clone().with_refinement(self.dataset);
+        let considered = is_new && self.settings.consider_refinement();
+        considered.then(detailed).filter(|detailed| first.bic() - detailed.bic() > refinement(self.dataset))
     }
 
     /// Outliers beside the best first effect: the only cause that leaves nothing but heavy tails. They hide which is the best alone.
-    fn with_outliers(&self, singles: Firsts<'_>) -> Option<Explanation> {
+    fn with_outliers(&self, singles: Firsts<'_>) -> Option<Hypothesis> {
         let outliers = self.settings.effects.iter().copied().find(|e| e.card().heavy_tails)?;
         let most = self.gain(singles.ranked.first());
-        let may_have_them = |first: &&Explanation| {
-            let present = first.parts[0].effect;
-            let other = present != outliers && !present.twins().contains(&outliers);
+        let may_have_them = |first: &&Hypothesis| {
+            let present = first.effect_terms[0].effect;
+            let other = present != outliers && !present.confounded_effects().contains(&outliers);
             other && self.gain(Some(first)) > HIDES * most
         };
-        let firsts: Vec<&Explanation> = singles.ranked.iter().filter(may_have_them).take(RIVALS).collect();
-        let beside = |first: &&Explanation| {
+        let firsts: Vec<&Hypothesis> = singles.ranked.iter().filter(may_have_them).take(RIVALS).collect();
+        let beside = |first: &&Hypothesis| {
             let alone = Halving { finished: 1, to_beat: None };
             self.on_top_of(first, &[Question::open(outliers)], alone).into_iter().next()
         };

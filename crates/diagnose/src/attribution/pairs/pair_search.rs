@@ -1,8 +1,8 @@
-//! A search for two effects under way: its steps, and what they found.
+//! A search for two effects running: its steps, and what they found.
 
 use super::Firsts;
 use crate::attribution::Attribution;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::search::{Question, reidentified};
 use crate::attribution::starts::Known;
 use crate::attribution::successive_halving::Halving;
@@ -24,24 +24,24 @@ const CLEAR: f64 = 0.5;
 const CLOSE: f64 = 0.99;
 const RIVALS: usize = 6;
 /// Share of the gain by which a pair with large errors here and there must beat one without.
-const STOPGAP: f64 = 0.01;
+const CATCH_ALL: f64 = 0.01;
 /// Pairs fitted to convergence on each first effect.
 const FINISHED: usize = 3;
 /// Times that a member of a pair is held as it is beside the other.
 const ROUNDS: usize = 2;
 
-/// A search for two effects under way.
+/// A search for two effects running.
 pub(super) struct PairSearch<'a, 'b, W> {
     of: &'a Attribution<'b, W>,
     singles: Firsts<'a>,
     /// Firsts that seconds were looked for on.
     pub(super) tried: Vec<Effect>,
-    /// Firsts that details of the borders were looked for on.
+    /// Firsts that refinements of the borders were looked for on.
     detailed: Vec<Effect>,
     /// Firsts as they were alone, and the seconds of which every law was tried on them.
     exhausted: Vec<[Effect; 2]>,
     /// Pairs found, the best first: of every two laws the best.
-    pub(super) found: Vec<Explanation>,
+    pub(super) found: Vec<Hypothesis>,
 }
 
 impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
@@ -56,36 +56,37 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         let others = self.of.settings.effects.iter().filter(|e| is_another(first, **e));
         let questions: Vec<Question> = others.map(|e| self.question(first, *e)).collect();
         self.ask(first, &questions);
-        self.details(&[first]);
+        self.refinement(&[first]);
     }
 
-    /// The law that served a second alone is asked after where it gained a share of what the first did: a weak trace is not told from
+    /// The law that served a second alone is asked after where it gained a share of what the first did: a weak trace is not distinguished from
     /// what the first leaves.
     fn question(&self, first: Effect, second: Effect) -> Question {
         let least = CLEAR * self.of.gain(self.single(first));
-        let is_clear = |s: &&Explanation| self.of.gain(Some(s)) > least;
+        let is_clear = |s: &&Hypothesis| self.of.gain(Some(s)) > least;
         self.single(second).filter(is_clear).map_or_else(|| Question::open(second), Question::after)
     }
 
     /// Details of the borders beside each first.
-    pub(super) fn details(&mut self, firsts: &[Effect]) {
+    pub(super) fn refinement(&mut self, firsts: &[Effect]) {
         let of = self.of;
         let is_new = |e: &&Effect| !self.detailed.contains(e);
         let firsts: Vec<Effect> = firsts.iter().filter(is_new).copied().collect();
-        let singles: Vec<&Explanation> = firsts.iter().filter_map(|e| self.single(*e)).collect();
-        let found = of.workers.map(&singles, |first| of.with_details(first));
+        let singles: Vec<&Hypothesis> = firsts.iter().filter_map(|e| self.single(*e)).collect();
+        let found = of.workers.map(&singles, |first| of.with_refinement(first));
         self.detailed.extend(firsts);
         self.consider(found.into_iter().flatten());
     }
 
     /// Adds to the pairs found. Large errors here and there take what a law misses now and then: by a little they gain more than the
     /// cause itself.
-    fn consider(&mut self, pairs: impl IntoIterator<Item = Explanation>) {
+    fn consider(&mut self, pairs: impl IntoIterator<Item = Hypothesis>) {
         let of = self.of;
-        let is_pair = |pair: &Explanation| pair.may_be_a_cause() && of.considers(pair) && !are_twins(pair);
+        let is_pair =
+            |pair: &Hypothesis| pair.may_be_a_cause() && of.considers(pair) && !are_confounded_effects(pair);
         self.found.extend(pairs.into_iter().filter(is_pair));
-        let rank = |pair: &Explanation| match members(pair).iter().any(|e| e.card().heavy_tails) {
-            true => pair.bic() + STOPGAP * of.gain(Some(pair)).max(0.0),
+        let rank = |pair: &Hypothesis| match members(pair).iter().any(|e| e.card().heavy_tails) {
+            true => pair.bic() + CATCH_ALL * of.gain(Some(pair)).max(0.0),
             false => pair.bic(),
         };
         self.found.sort_by(|x, y| rank(x).total_cmp(&rank(y)));
@@ -99,14 +100,14 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     }
 
     /// The best pair found.
-    fn best(&self) -> Option<&Explanation> {
+    fn best(&self) -> Option<&Hypothesis> {
         self.found.first()
     }
 
     /// Steps from members of the best pair that were no firsts yet, while something is left.
     pub(super) fn restart(&mut self) {
         for _ in 0..RESTARTS {
-            let members = self.best().map_or_else(Vec::new, Explanation::effects);
+            let members = self.best().map_or_else(Vec::new, Hypothesis::effects);
             let Some(next) = members.into_iter().find(|e| !self.tried.contains(e)) else { break };
             if self.is_whole() {
                 break;
@@ -121,15 +122,15 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         let of = self.of;
         for _ in 0..ROUNDS {
             let Some(pair) = self.best().cloned() else { return };
-            let firsts = (0..2).filter_map(|number| pair.part(number, of.campaign));
-            let asked: Vec<(Explanation, Effect)> = firsts
+            let firsts = (0..2).filter_map(|number| pair.effect_term(number, of.dataset));
+            let asked: Vec<(Hypothesis, Effect)> = firsts
                 .flat_map(|first| {
                     self.seconds_afresh(&pair, &first).into_iter().map(move |e| (first.clone(), e))
                 })
                 .collect();
             let found = of
                 .workers
-                .map(&asked, |(first, second)| reidentified(&Known::new(of.campaign, first), *second));
+                .map(&asked, |(first, second)| reidentified(&Known::new(of.dataset, first), *second));
             self.consider(found.into_iter().flatten());
             if self.best().is_none_or(|best| members(best) == members(&pair)) {
                 break;
@@ -138,8 +139,8 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
     }
 
     /// The other member of a pair, and what else may rule the dynamics: behind coloured noise it would show by itself.
-    fn seconds_afresh(&self, pair: &Explanation, first: &Explanation) -> Vec<Effect> {
-        let present = first.parts[0].effect;
+    fn seconds_afresh(&self, pair: &Hypothesis, first: &Hypothesis) -> Vec<Effect> {
+        let present = first.effect_terms[0].effect;
         let dominant_effects = self.of.dominant_effects().filter(|_| !present.card().colours_noise);
         let mut seconds: Vec<Effect> =
             members(pair).into_iter().chain(dominant_effects).filter(|e| is_another(present, *e)).collect();
@@ -153,10 +154,10 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         self.best().is_some_and(|pair| members(pair).iter().any(|e| e.card().colours_noise))
     }
 
-    /// Every law of both members and of their twins, for the best pairs: each in turn moves while the other is held, first as it
+    /// Every law of both members and of their confounded effects, for the best pairs: each in turn moves while the other is held, first as it
     /// was alone, then as it is beside the other.
     pub(super) fn every_law(&mut self) {
-        let gain = |pair: &Explanation| self.of.gain(Some(pair));
+        let gain = |pair: &Hypothesis| self.of.gain(Some(pair));
         let Some(most) = self.best().map(gain) else { return };
         let mut near: Vec<[Effect; 2]> = Vec::new();
         for both in self.found.iter().filter(|pair| gain(pair) > NEAR_BEST * most).map(members) {
@@ -166,29 +167,29 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         }
         for [one, other] in near {
             for (member, moved) in [(one, other), (other, one)] {
-                for held in alike(member) {
-                    self.exhaust(held, moved);
+                for fixed in alike(member) {
+                    self.exhaust(fixed, moved);
                 }
             }
             for round in 0..ROUNDS {
                 let Some(pair) = self.found.iter().find(|pair| members(pair) == [one, other]).cloned() else {
                     break;
                 };
-                let held = round % 2;
-                let Some(first) = pair.part(held, self.of.campaign) else { break };
-                let moved = pair.parts[1 - held].effect;
-                self.ask_beside(&first, &self.laws_of(first.parts[0].effect, moved));
+                let fixed = round % 2;
+                let Some(first) = pair.effect_term(fixed, self.of.dataset) else { break };
+                let moved = pair.effect_terms[1 - fixed].effect;
+                self.ask_beside(&first, &self.laws_of(first.effect_terms[0].effect, moved));
             }
         }
     }
 
     /// Puts first, of the pairs that come close to the best, the one that with what it leaves to further causes costs least.
     pub(super) fn prefer_what_leaves_less(&mut self) {
-        let gain = |pair: &Explanation| self.of.gain(Some(pair));
+        let gain = |pair: &Hypothesis| self.of.gain(Some(pair));
         let Some(most) = self.best().map(gain) else { return };
         let close = self.found.iter().take_while(|pair| gain(pair) > CLOSE * most).count().min(RIVALS);
-        let cost = |pair: &Explanation| {
-            pair.bic() + omnibus(self.of.campaign, &pair.fit).map_or(0.0, |tests| tests.excess())
+        let cost = |pair: &Hypothesis| {
+            pair.bic() + omnibus(self.of.dataset, &pair.fit).map_or(0.0, |tests| tests.excess())
         };
         let costs = self.of.workers.map(&self.found[..close], cost);
         let least = (0..close).min_by(|&i, &j| costs[i].total_cmp(&costs[j])).unwrap_or(0);
@@ -205,25 +206,25 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         }
     }
 
-    /// Every law of an effect and of its twins beside a first as it was alone, which is the same however often it is asked.
-    fn exhaust(&mut self, held: Effect, moved: Effect) {
-        let mut questions = self.laws_of(held, moved);
-        questions.retain(|question| !self.exhausted.contains(&[held, question.effect]));
+    /// Every law of an effect and of its confounded effects beside a first as it was alone, which is the same however often it is asked.
+    fn exhaust(&mut self, fixed: Effect, moved: Effect) {
+        let mut questions = self.laws_of(fixed, moved);
+        questions.retain(|question| !self.exhausted.contains(&[fixed, question.effect]));
         if !questions.is_empty() {
-            self.exhausted.extend(questions.iter().map(|question| [held, question.effect]));
-            self.ask(held, &questions);
+            self.exhausted.extend(questions.iter().map(|question| [fixed, question.effect]));
+            self.ask(fixed, &questions);
         }
     }
 
-    /// Questions after every law of an effect and of its twins beside another.
-    fn laws_of(&self, held: Effect, moved: Effect) -> Vec<Question> {
-        let considered = |e: &Effect| is_another(held, *e) && self.of.settings.effects.contains(e);
+    /// Questions after every law of an effect and of its confounded effects beside another.
+    fn laws_of(&self, fixed: Effect, moved: Effect) -> Vec<Question> {
+        let considered = |e: &Effect| is_another(fixed, *e) && self.of.settings.effects.contains(e);
         alike(moved).filter(considered).map(Question::open).collect()
     }
 
     /// Deviance left by the best pair; infinite where there is none.
     fn left(&self) -> f64 {
-        let of_pair = |best: &Explanation| omnibus(self.of.campaign, &best.fit).map_or(0.0, |o| o.excess());
+        let of_pair = |best: &Hypothesis| omnibus(self.of.dataset, &best.fit).map_or(0.0, |o| o.excess());
         self.best().map_or(f64::INFINITY, of_pair)
     }
 
@@ -255,45 +256,45 @@ impl<'a, 'b, W: Workers> PairSearch<'a, 'b, W> {
         }
     }
 
-    fn ask_beside(&mut self, first: &Explanation, questions: &[Question]) {
-        let to_beat = self.best().map(Explanation::bic);
+    fn ask_beside(&mut self, first: &Hypothesis, questions: &[Question]) {
+        let to_beat = self.best().map(Hypothesis::bic);
         let halving = Halving { finished: FINISHED, to_beat };
         let seconds = self.of.on_top_of(first, questions, halving).into_iter();
-        self.consider(seconds.filter(Explanation::may_be_a_cause).take(FINISHED));
+        self.consider(seconds.filter(Hypothesis::may_be_a_cause).take(FINISHED));
     }
 
-    fn single(&self, effect: Effect) -> Option<&'a Explanation> {
-        self.singles.all.iter().find(|s| s.parts[0].effect == effect)
+    fn single(&self, effect: Effect) -> Option<&'a Hypothesis> {
+        self.singles.all.iter().find(|s| s.effect_terms[0].effect == effect)
     }
 }
 
 /// Both effects of a pair, in one order.
-fn members(pair: &Explanation) -> [Effect; 2] {
-    let mut both = [pair.parts[0].effect, pair.parts[1].effect];
+fn members(pair: &Hypothesis) -> [Effect; 2] {
+    let mut both = [pair.effect_terms[0].effect, pair.effect_terms[1].effect];
     both.sort_unstable();
     both
 }
 
 /// Both effects of a pair with the numbers of their laws, in one order.
-fn laws(pair: &Explanation) -> [(Effect, (Effect, usize)); 2] {
-    let mut both = [0, 1].map(|i| (pair.parts[i].effect, pair.parts[i].law));
+fn laws(pair: &Hypothesis) -> [(Effect, (Effect, usize)); 2] {
+    let mut both = [0, 1].map(|i| (pair.effect_terms[i].effect, pair.effect_terms[i].law));
     both.sort_unstable();
     both
 }
 
-/// Whether both are twins: signs may have given a law the name of one.
-fn are_twins(pair: &Explanation) -> bool {
+/// Whether both are confounded effects: signs may have given a law the name of one.
+fn are_confounded_effects(pair: &Hypothesis) -> bool {
     let [one, other] = members(pair);
-    one.twins().contains(&other)
+    one.confounded_effects().contains(&other)
 }
 
-/// An effect and its twins.
+/// An effect and its confounded effects.
 fn alike(effect: Effect) -> impl Iterator<Item = Effect> {
-    std::iter::once(effect).chain(effect.twins().iter().copied())
+    std::iter::once(effect).chain(effect.confounded_effects().iter().copied())
 }
 
-/// Whether an effect may stand beside a first: details of the borders and large errors here and there take what any inexact
-/// law leaves, and what a twin adds is the difference between two laws of one thing.
+/// Whether an effect may stand beside a first: refinements of the borders and large errors here and there take what any inexact
+/// law leaves, and what a confounded effect adds is the difference between two laws of one thing.
 fn is_another(first: Effect, second: Effect) -> bool {
-    second != first && !first.twins().contains(&second) && !second.card().stopgap
+    second != first && !first.confounded_effects().contains(&second) && !second.card().catch_all
 }

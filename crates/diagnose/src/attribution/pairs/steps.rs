@@ -2,7 +2,7 @@
 
 use super::Firsts;
 use super::pair_search::{PairSearch, RESTARTS};
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::{Attribution, PairEffort};
 use crate::effect::Effect;
 use crate::workers::Workers;
@@ -12,8 +12,8 @@ use crate::workers::Workers;
 const SEEDS: usize = 3;
 const SEED: f64 = 0.25;
 /// Further firsts while much is left.
-const TWINS: usize = 2;
-/// Single effects beside which details of the borders are looked for.
+const CONFOUNDED_EFFECTS: usize = 2;
+/// Single effects beside which refinements of the borders are looked for.
 const DETAILED: usize = 6;
 /// Share of the gap that the best pair may leave after the restarts: another law of its members seldom takes more.
 const FAR: f64 = 0.2;
@@ -26,18 +26,18 @@ impl<W: Workers> Attribution<'_, W> {
     ///
     /// The first effect of the best pair is seldom the best single one: a third may imitate both. So each member of the
     /// best pair found is in turn held while every other effect is tried beside it; where much is left, or noise of any
-    /// colour stands in for the rest, also with the dynamics identified anew; then twins of the firsts, while much is left;
-    /// then every law of both members and their twins, and border knots placed anew, with which another law may serve better. No
+    /// colour stands in for the rest, also with the dynamics identified anew; then confounded effects of the firsts, while much is left;
+    /// then every law of both members and their confounded effects, and border knots placed anew, with which another law may serve better. No
     /// knot saves a hopeless pair, and where a pair leaves nothing there is nothing to look for. [`PairEffort`] may end it sooner.
-    pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Explanation> {
+    pub(super) fn searched(&self, singles: Firsts<'_>) -> Option<Hypothesis> {
         let serious = self.serious(singles);
         let mut search = PairSearch::new(self, singles);
-        search.details(&serious[..serious.len().min(DETAILED)]);
+        search.refinement(&serious[..serious.len().min(DETAILED)]);
         for &effect in &serious {
-            let is_twin = search.tried.iter().any(|t| t.twins().contains(&effect));
-            // A twin of what was tried finds the same seconds.
+            let is_confounded = search.tried.iter().any(|t| t.confounded_effects().contains(&effect));
+            // A confounded effect of what was tried finds the same seconds.
             let may_gain = search.tried.is_empty() || !search.is_whole();
-            if search.tried.len() < SEEDS && !is_twin && may_gain {
+            if search.tried.len() < SEEDS && !is_confounded && may_gain {
                 search.step(effect);
             }
         }
@@ -58,7 +58,7 @@ impl<W: Workers> Attribution<'_, W> {
             return search.found.into_iter().next();
         }
         for &effect in &serious {
-            if search.tried.len() < SEEDS + RESTARTS + TWINS
+            if search.tried.len() < SEEDS + RESTARTS + CONFOUNDED_EFFECTS
                 && search.leaves_much()
                 && !search.tried.contains(&effect)
             {
@@ -85,11 +85,11 @@ impl<W: Workers> Attribution<'_, W> {
     /// Effects that gain a good part of what the best one does, best first. Heavy tails stand in for whatever else is missing: they
     /// are serious where nothing that may be the cause gains more.
     fn serious(&self, singles: Firsts<'_>) -> Vec<Effect> {
-        let gained = |s: &Explanation| self.gain(Some(s));
+        let gained = |s: &Hypothesis| self.gain(Some(s));
         let most = self.gain(singles.ranked.first());
-        let is_tails = |s: &&Explanation| s.parts[0].effect.card().heavy_tails;
+        let is_tails = |s: &&Hypothesis| s.effect_terms[0].effect.card().heavy_tails;
         let tails = singles.all.iter().filter(is_tails).filter(|s| gained(s) >= most);
         let others = singles.ranked.iter().filter(|s| !is_tails(s) && gained(s) > SEED * most);
-        tails.chain(others).map(|s| s.parts[0].effect).collect()
+        tails.chain(others).map(|s| s.effect_terms[0].effect).collect()
     }
 }

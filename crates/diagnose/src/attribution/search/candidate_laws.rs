@@ -1,7 +1,7 @@
 //! Laws that may explain more, and where a search for them begins.
 
 use super::question::Question;
-use crate::attribution::explain::{Part, assembled};
+use crate::attribution::explain::{EffectTerm, assembled};
 use crate::attribution::starts::{Known, Score, ScoreTest};
 use crate::effects::{Scene, Variant};
 use crate::likelihood::engine::NonlinearParameter;
@@ -10,7 +10,7 @@ use crate::likelihood::engine::NonlinearParameter;
 pub(super) struct CandidateLaw {
     pub(super) law: Variant,
     /// What is known, then the law.
-    pub(super) parts: Vec<Part>,
+    pub(super) effect_terms: Vec<EffectTerm>,
     /// Gain in deviance at its best start by the score test; unknown where the test is blind to the law.
     pub(super) score: Option<f64>,
 }
@@ -23,22 +23,23 @@ const LAW: f64 = 0.4;
 
 /// The laws of one more effect on top of what is known, not tested yet. Empty where the records rule the effect out.
 pub(super) fn candidate_laws(known: &Known<'_>, question: &Question) -> Vec<CandidateLaw> {
-    let scene =
-        Scene { campaign: known.campaign, fit: &known.explanation.fit, innovations: &known.innovations };
+    let scene = Scene { dataset: known.dataset, fit: &known.hypothesis.fit, innovations: &known.innovations };
     ((question.effect.card().laws)(&scene).into_iter().enumerate())
         .filter_map(|(number, law)| Some((number, question.narrowed(number, law)?)))
         .map(|(number, law)| {
-            let mut parts = known.explanation.parts.clone();
-            parts.push(Part::of(question.effect, (number, &law)));
-            CandidateLaw { law, parts, score: None }
+            let mut effect_terms = known.hypothesis.effect_terms.clone();
+            effect_terms.push(EffectTerm::of(question.effect, (number, &law)));
+            CandidateLaw { law, effect_terms, score: None }
         })
         .collect()
 }
 
-/// Whether the score test tells anything of an effect: a law of the noise moves weights, or far more than a chord can tell; and a grid
+/// Whether the score test shows anything of an effect: a law of the noise moves weights, or far more than a chord can show; and a grid
 /// is no start.
 pub(super) fn are_tested(laws: &[CandidateLaw]) -> bool {
-    laws.iter().all(|p| p.law.grid.is_none() && p.parts.last().is_none_or(|part| !part.effect.is_noise()))
+    laws.iter().all(|p| {
+        p.law.grid.is_none() && p.effect_terms.last().is_none_or(|effect_term| !effect_term.effect.is_noise())
+    })
 }
 
 /// Keeps the likeliest laws of one effect, the likeliest first.
@@ -60,7 +61,7 @@ pub(super) struct Tested {
 impl CandidateLaw {
     /// The likeliest starts: by the test, and by what is left where a filter moves poles.
     pub(super) fn tested(&self, test: &ScoreTest<'_>) -> Tested {
-        let build = |values: &[f64]| assembled(&self.parts, values);
+        let build = |values: &[f64]| assembled(&self.effect_terms, values);
         let mut scored: Vec<(Score, Vec<NonlinearParameter>)> = self
             .law
             .starts

@@ -14,14 +14,14 @@ pub(crate) use self::profile::profiled;
 pub(crate) use self::question::Question;
 pub(crate) use self::reidentification::reidentified;
 pub(crate) use self::screening::screened;
-use crate::attribution::explain::{Explanation, assembled};
+use crate::attribution::explain::{Hypothesis, assembled};
 use crate::attribution::starts::Known;
 use crate::effects::Search;
 use crate::likelihood::design::{Design, Linear, Whitener};
-use crate::likelihood::engine::{Build, Fit, Ground, NonlinearParameter, fit};
-use crate::model::assembly::Assembly;
+use crate::likelihood::engine::{Build, Fit, FitContext, NonlinearParameter, fit};
+use crate::model::augmented::AugmentedModel;
 use crate::nominal::dynamics::dynamics_refitted;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// Gauss–Newton rounds of the screening, of the final fit, and before it is known which laws may win.
 const SCREENING: usize = 2;
@@ -36,76 +36,72 @@ const SCOUTED: usize = 8;
 const TRIALS: usize = 30;
 
 /// A sketch some rounds on: enough to see whether it may still win.
-pub(crate) fn advance(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+pub(crate) fn advance(dataset: &Dataset, fixed: usize, sketch: &Hypothesis) -> Hypothesis {
+    improved(dataset, fixed, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), SCOUTED, RACE),
         false => task.together(&fit.nonlinear, &fit.linear, RACE).unwrap_or(fit),
     })
 }
 
-/// A sketch fitted to convergence, which need not be [sound](Explanation::is_sound); where the likelihood has corners, the first
-/// `held` nonlinear parameters stay as they are.
-pub(crate) fn finish(campaign: &Campaign, held: usize, sketch: &Explanation) -> Explanation {
-    improved(campaign, held, sketch, |task, fit| match sketch.has_corners() {
+/// A sketch fitted to convergence, which need not be [sound](Hypothesis::is_sound); where the likelihood has corners, the first
+/// `fixed` nonlinear parameters stay as they are.
+pub(crate) fn finish(dataset: &Dataset, fixed: usize, sketch: &Hypothesis) -> Hypothesis {
+    improved(dataset, fixed, sketch, |task, fit| match sketch.has_corners() {
         true => task.pattern(fit, sketch.only_weighs(), TRIALS, FINAL),
         false => task.settled(fit),
     })
 }
 
-/// An explanation fitted to convergence beside a nominal model whose own parameters stay as they are.
-pub(crate) fn beside_the_model(
-    campaign: &Campaign,
-    nominal: &Explanation,
-    single: &Explanation,
-) -> Explanation {
+/// An candidate fitted to convergence beside a nominal model whose own parameters stay as they are.
+pub(crate) fn beside_the_model(dataset: &Dataset, nominal: &Hypothesis, single: &Hypothesis) -> Hypothesis {
     let known = &nominal.fit;
     let start = Fit { linear: known.linear.clone(), grid: known.grid.clone(), ..single.fit.clone() };
-    let held = campaign.with_nominal_held(&known.grid);
-    let found = finish(&held, 0, &Explanation { fit: start, ..single.clone() });
+    let fixed = dataset.with_nominal_fixed(&known.grid);
+    let found = finish(&fixed, 0, &Hypothesis { fit: start, ..single.clone() });
     let parameters = known.parameters + found.fit.parameters;
-    Explanation { fit: Fit { parameters, ..found.fit }, set_back: nominal.set_back, ..found }
+    Hypothesis { fit: Fit { parameters, ..found.fit }, set_back: nominal.set_back, ..found }
 }
 
 fn improved(
-    campaign: &Campaign,
-    held: usize,
-    sketch: &Explanation,
+    dataset: &Dataset,
+    fixed: usize,
+    sketch: &Hypothesis,
     improve: impl Fn(&Task<'_>, Fit) -> Fit,
-) -> Explanation {
-    let build = |values: &[f64]| assembled(&sketch.parts, values);
+) -> Hypothesis {
+    let build = |values: &[f64]| assembled(&sketch.effect_terms, values);
     let grid = sketch.fit.grid.clone();
     let task = Task {
-        ground: Ground { campaign, grid: &grid, known: Some(sketch.fit.near()) },
+        context: FitContext { dataset, grid: &grid, known: Some(sketch.fit.near()) },
         build: &build,
-        held,
+        fixed,
     };
     let fit = improve(&task, sketch.fit.clone()).set_aside(sketch.fit.near());
-    Explanation { fit, ..sketch.clone() }
+    Hypothesis { fit, ..sketch.clone() }
 }
 
 /// A cheap screening of a law on top of what is known: near its best start.
-fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
-    let (campaign, design, known) = (known.campaign, &known.design, known.explanation);
-    let (law, parts) = (&candidate.law, &candidate.parts);
+fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Hypothesis> {
+    let (dataset, design, known) = (known.dataset, &known.design, known.hypothesis);
+    let (law, effect_terms) = (&candidate.law, &candidate.effect_terms);
     let grid = law.grid.as_ref().unwrap_or(&known.fit.grid);
-    let build = |values: &[f64]| assembled(parts, values);
+    let build = |values: &[f64]| assembled(effect_terms, values);
     let base = match &law.grid {
         Some(grid) => crate::nominal::knots::carried_over(&known.fit, grid),
         None => known.fit.linear.clone(),
     };
-    let ground = Ground { campaign, grid, known: Some(&**design) };
-    let task = Task { ground, build: &build, held: known.fit.nonlinear.len() };
+    let context = FitContext { dataset, grid, known: Some(&**design) };
+    let task = Task { context, build: &build, fixed: known.fit.nonlinear.len() };
     // The nonlinear parameters of what is known, then those of the law.
     let joined = |nonlinear: &[NonlinearParameter]| {
         known.fit.nonlinear.iter().chain(nonlinear).copied().collect::<Vec<NonlinearParameter>>()
     };
     let starts = law.starts.iter().map(|nonlinear| joined(nonlinear));
-    let held = |nonlinear: Vec<NonlinearParameter>| {
-        let here = Design::like(ground.known, campaign, grid, &task.assembly(&nonlinear));
+    let fixed = |nonlinear: Vec<NonlinearParameter>| {
+        let here = Design::like(context.known, dataset, grid, &task.augmented(&nonlinear));
         let there = task.on(&here);
-        let afresh = there.dynamics_refitted(&nonlinear, &base).and_then(|p| there.held(&nonlinear, &p, 0));
-        let nearer = best([there.held(&nonlinear, &base, 0), afresh].into_iter().flatten())?;
-        there.held(&nonlinear, &nearer.linear, 1).map(|fit| fit.set_aside(design))
+        let afresh = there.dynamics_refitted(&nonlinear, &base).and_then(|p| there.fixed(&nonlinear, &p, 0));
+        let nearer = best([there.fixed(&nonlinear, &base, 0), afresh].into_iter().flatten())?;
+        there.fixed(&nonlinear, &nearer.linear, 1).map(|fit| fit.set_aside(design))
     };
     let started = |nonlinear: Vec<NonlinearParameter>| {
         task.together(&nonlinear, &base, 1).map(|fit| fit.set_aside(design))
@@ -116,32 +112,33 @@ fn screen(known: &Known<'_>, candidate: &CandidateLaw) -> Option<Explanation> {
         Search::Smooth => ahead(starts.filter_map(started), |fit| {
             task.from(fit).together(&fit.nonlinear, &fit.linear, SCREENING - 1)
         }),
-        Search::Profile => ahead(starts.filter_map(held), |fit| {
-            task.from(fit).held(&fit.nonlinear, &fit.linear, SCREENING - 1)
+        Search::Profile => ahead(starts.filter_map(fixed), |fit| {
+            task.from(fit).fixed(&fit.nonlinear, &fit.linear, SCREENING - 1)
         }),
-        Search::Weights => best(starts.filter_map(|nonlinear| task.held(&nonlinear, &base, 0)))
-            .and_then(|best| task.held(&best.nonlinear, &best.linear, SCREENING)),
+        Search::Weights => best(starts.filter_map(|nonlinear| task.fixed(&nonlinear, &base, 0)))
+            .and_then(|best| task.fixed(&best.nonlinear, &best.linear, SCREENING)),
         Search::Conditional => {
-            let mut held: Vec<Fit> = starts.filter_map(held).collect();
-            held.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
+            let mut fixed: Vec<Fit> = starts.filter_map(fixed).collect();
+            fixed.sort_by(|x, y| x.deviance.total_cmp(&y.deviance));
             // The best start need not lead to the best point: B may have taken what a neighbour would explain.
             best(
-                held.iter()
+                fixed
+                    .iter()
                     .take(law.climbs)
                     .filter_map(|h| task.together(&h.nonlinear, &h.linear, SCREENING)),
             )
         }
     }?;
     let (fit, set_back) = (fit.set_aside(known.fit.near()), known.set_back);
-    Some(Explanation { parts: parts.clone(), fit, set_back, held_out: 0.0 })
+    Some(Hypothesis { effect_terms: effect_terms.clone(), fit, set_back, held_out: 0.0 })
 }
 
 /// One law's search.
 struct Task<'a> {
-    ground: Ground<'a>,
+    context: FitContext<'a>,
     build: &'a Build<'a>,
     /// Nonlinear parameters that belong to effects already known.
-    held: usize,
+    fixed: usize,
 }
 
 impl Task<'_> {
@@ -152,25 +149,25 @@ impl Task<'_> {
 
     /// The search where something is built already: it serves on.
     fn on<'b>(&'b self, design: &'b Design) -> Task<'b> {
-        let ground = Ground { known: Some(design), ..self.ground };
-        Task { ground, build: self.build, held: self.held }
+        let context = FitContext { known: Some(design), ..self.context };
+        Task { context, build: self.build, fixed: self.fixed }
     }
 
-    fn assembly(&self, nonlinear: &[NonlinearParameter]) -> Assembly {
+    fn augmented(&self, nonlinear: &[NonlinearParameter]) -> AugmentedModel {
         (self.build)(&nonlinear.iter().map(|o| o.value).collect::<Vec<_>>())
     }
 
     /// Everything fitted together.
     fn together(&self, nonlinear: &[NonlinearParameter], start: &Linear, rounds: usize) -> Option<Fit> {
-        let start = self.padded(start, &self.assembly(nonlinear));
-        fit(self.ground, self.build, nonlinear, &start, rounds)
+        let start = self.padded(start, &self.augmented(nonlinear));
+        fit(self.context, self.build, nonlinear, &start, rounds)
     }
 
     /// The fit with the nonlinear parameters held, which is a nearly linear problem.
-    fn held(&self, nonlinear: &[NonlinearParameter], start: &Linear, rounds: usize) -> Option<Fit> {
-        let assembly = self.assembly(nonlinear);
-        let start = self.padded(start, &assembly);
-        let mut fitted = fit(self.ground, &|_| assembly.clone(), &[], &start, rounds)?;
+    fn fixed(&self, nonlinear: &[NonlinearParameter], start: &Linear, rounds: usize) -> Option<Fit> {
+        let augmented = self.augmented(nonlinear);
+        let start = self.padded(start, &augmented);
+        let mut fitted = fit(self.context, &|_| augmented.clone(), &[], &start, rounds)?;
         fitted.nonlinear = nonlinear.to_vec();
         fitted.nonlinear_se = vec![f64::NAN; nonlinear.len()];
         fitted.parameters += nonlinear.len() as f64;
@@ -179,18 +176,19 @@ impl Task<'_> {
 
     /// `A` and `B` by least squares; nothing without a filter. Where the filter of the noise follows from `A`, by some rounds.
     fn dynamics_refitted(&self, nonlinear: &[NonlinearParameter], start: &Linear) -> Option<Linear> {
-        if self.ground.campaign.holds_nominal() {
+        if self.context.dataset.holds_nominal() {
             return None;
         }
-        let assembly = self.assembly(nonlinear);
-        let noise = &assembly.noise;
+        let augmented = self.augmented(nonlinear);
+        let noise = &augmented.noise;
         let coloured = !noise.ar.is_empty() || !noise.ma.is_empty();
-        if assembly.denominator.len() < 2 && assembly.delay == 0.0 && !coloured && noise.output_ratio == 0.0 {
+        if augmented.denominator.len() < 2 && augmented.delay == 0.0 && !coloured && noise.output_ratio == 0.0
+        {
             return None;
         }
         let rounds = if noise.output_ratio > 0.0 { RELAXED } else { 1 };
-        let design = Design::like(self.ground.known, self.ground.campaign, self.ground.grid, &assembly);
-        (0..rounds).try_fold(self.padded(start, &assembly), |p, _| {
+        let design = Design::like(self.context.known, self.context.dataset, self.context.grid, &augmented);
+        (0..rounds).try_fold(self.padded(start, &augmented), |p, _| {
             dynamics_refitted(&design, &Whitener::new(noise, &p.a), &p)
         })
     }
@@ -201,9 +199,9 @@ impl Task<'_> {
         let Some(mut top) = self.together(&sketch.nonlinear, &sketch.linear, FINAL) else { return sketch };
         for _ in 0..3 {
             let next = (self.from(&top))
-                .held(&top.nonlinear, &top.linear, 4)
-                .filter(|held| held.deviance < top.deviance - 1.0)
-                .and_then(|held| self.from(&held).together(&held.nonlinear, &held.linear, FINAL));
+                .fixed(&top.nonlinear, &top.linear, 4)
+                .filter(|fixed| fixed.deviance < top.deviance - 1.0)
+                .and_then(|fixed| self.from(&fixed).together(&fixed.nonlinear, &fixed.linear, FINAL));
             match next {
                 Some(next) if next.deviance < top.deviance - 1.0 => top = next,
                 _ => break,
@@ -221,13 +219,13 @@ impl Task<'_> {
         let mut left = trials;
         while share > 0.02 && left > 0 {
             let mut improved = false;
-            for j in self.held..top.nonlinear.len() {
+            for j in self.fixed..top.nonlinear.len() {
                 for direction in [-1.0, 1.0] {
                     let mut nonlinear = top.nonlinear.clone();
                     let o = &mut nonlinear[j];
                     o.value = (o.value + direction * share * o.step).clamp(o.low, o.high);
                     left = left.saturating_sub(1);
-                    if let Some(f) = self.held(&nonlinear, &top.linear, follows)
+                    if let Some(f) = self.fixed(&nonlinear, &top.linear, follows)
                         && f.deviance < top.deviance
                     {
                         top = f;
@@ -240,11 +238,11 @@ impl Task<'_> {
                 share *= 0.4;
             }
         }
-        self.held(&top.nonlinear, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
+        self.fixed(&top.nonlinear, &top.linear, rounds).filter(|f| f.deviance <= top.deviance).unwrap_or(top)
     }
 
-    fn padded(&self, start: &Linear, assembly: &Assembly) -> Linear {
-        start.padded(self.ground.grid.len(), assembly)
+    fn padded(&self, start: &Linear, augmented: &AugmentedModel) -> Linear {
+        start.padded(self.context.grid.len(), augmented)
     }
 }
 

@@ -1,9 +1,9 @@
 //! Intervals of nonlinear parameters whose likelihood has corners, from its profile.
 
 use super::Task;
-use crate::attribution::explain::{Explanation, assembled};
-use crate::likelihood::engine::{Fit, Ground};
-use crate::records::campaign::Campaign;
+use crate::attribution::explain::{Hypothesis, assembled};
+use crate::likelihood::engine::{Fit, FitContext};
+use crate::records::dataset::Dataset;
 use crate::workers::Workers;
 
 /// Deviance over the least that a 90 % interval allows: quantile of χ² with one degree of freedom.
@@ -21,20 +21,16 @@ const ROUNDS: usize = 2;
 ///
 /// A likelihood with corners may be a staircase: values between which no sample decides are equally likely, and the interval need not
 /// lie evenly about the estimate.
-pub(crate) fn profiled(
-    workers: &impl Workers,
-    campaign: &Campaign,
-    explanation: &Explanation,
-) -> Vec<[f64; 2]> {
-    let fit = &explanation.fit;
+pub(crate) fn profiled(workers: &impl Workers, dataset: &Dataset, hypothesis: &Hypothesis) -> Vec<[f64; 2]> {
+    let fit = &hypothesis.fit;
     let mut intervals = fit.intervals();
     let unknown: Vec<usize> = (0..intervals.len()).filter(|j| fit.nonlinear_se[*j].is_nan()).collect();
     let ends: Vec<(usize, f64)> = unknown.iter().flat_map(|&j| [(j, -1.0), (j, 1.0)]).collect();
     let design = fit.design();
     let found = workers.map(&ends, |&(j, side)| {
-        let build = |values: &[f64]| assembled(&explanation.parts, values);
-        let ground = Ground { campaign, grid: &fit.grid, known: Some(&design) };
-        Task { ground, build: &build, held: 0 }.end(fit, j, side)
+        let build = |values: &[f64]| assembled(&hypothesis.effect_terms, values);
+        let context = FitContext { dataset, grid: &fit.grid, known: Some(&design) };
+        Task { context, build: &build, fixed: 0 }.end(fit, j, side)
     });
     for (j, ends) in unknown.iter().zip(found.chunks(2)) {
         intervals[*j] = [ends[0], ends[1]];
@@ -50,7 +46,7 @@ impl Task<'_> {
         let is_within = |distance: f64| {
             let mut nonlinear = fit.nonlinear.clone();
             nonlinear[j].value += side * distance;
-            let there = self.held(&nonlinear, &fit.linear, ROUNDS);
+            let there = self.fixed(&nonlinear, &fit.linear, ROUNDS);
             there.is_some_and(|there| there.deviance - fit.deviance < WITHIN)
         };
         o.value + side * crossing(FIRST * o.step, most, is_within)

@@ -1,6 +1,6 @@
 //! What a search asks.
 
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::effect::Effect;
 use crate::effects::Variant;
 use crate::likelihood::engine::NonlinearParameter;
@@ -21,9 +21,9 @@ impl Question {
     }
 
     /// The law of an effect that was fitted alone, from where it ended.
-    pub(crate) fn after(single: &Explanation) -> Self {
-        let part = &single.parts[0];
-        let (effect, law) = part.law;
+    pub(crate) fn after(single: &Hypothesis) -> Self {
+        let effect_term = &single.effect_terms[0];
+        let (effect, law) = effect_term.law;
         Self { effect, alone: Some((law, single.fit.nonlinear.clone())) }
     }
 

@@ -3,7 +3,7 @@
 use super::candidate_laws::{CandidateLaw, are_tested, candidate_laws, keep_likeliest};
 use super::{Question, screen};
 use crate::attribution::SIGNIFICANT;
-use crate::attribution::explain::Explanation;
+use crate::attribution::explain::Hypothesis;
 use crate::attribution::starts::Known;
 use crate::effect::Effect;
 use crate::workers::Workers;
@@ -12,12 +12,12 @@ use crate::workers::Workers;
 pub(crate) struct Screened {
     pub(crate) effect: Effect,
     pub(crate) gain: f64,
-    pub(crate) laws: Vec<Explanation>,
+    pub(crate) laws: Vec<Hypothesis>,
 }
 
 /// Second effects screened beside a first, the most promising by the score test.
 const SECONDS: usize = 6;
-/// Share of the best score below which one start of an effect's likeliest law is screened, and the least score that tells so.
+/// Share of the best score below which one start of an effect's likeliest law is screened, and the least score that shows so.
 const HOPELESS: f64 = 0.1;
 const TELLING: f64 = 10.0 * SIGNIFICANT;
 
@@ -46,11 +46,11 @@ impl Entry {
 /// Each effect screened, the most promising first. The score test orders and shortens; it rules out only seconds, far behind.
 pub(crate) fn screened(workers: &impl Workers, known: &Known<'_>, questions: &[Question]) -> Vec<Screened> {
     let mut entries = tested(workers, known, questions);
-    if !known.explanation.parts.is_empty() {
+    if !known.hypothesis.effect_terms.is_empty() {
         keep_promising(&mut entries);
     }
     // Of filters the test knows little where the dynamics are not solved for again, as in simulations.
-    if !known.campaign.criterion.simulates() {
+    if !known.dataset.criterion.simulates() {
         entries = shortened_where_hopeless(entries);
     }
     let laws: Vec<(Effect, CandidateLaw)> = entries
@@ -61,7 +61,7 @@ pub(crate) fn screened(workers: &impl Workers, known: &Known<'_>, questions: &[Q
     let mut screened: Vec<Screened> = Vec::new();
     for ((effect, _), law) in laws.iter().zip(screened_laws) {
         let Some(law) = law else { continue };
-        let gain = known.explanation.bic() - law.bic();
+        let gain = known.hypothesis.bic() - law.bic();
         match screened.iter_mut().find(|entry| entry.effect == *effect) {
             Some(entry) => {
                 entry.gain = entry.gain.max(gain);
@@ -110,17 +110,18 @@ fn shortened_where_hopeless(entries: Vec<Entry>) -> Vec<Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
-    use crate::model::assembly::Assembly;
-    use crate::testing::{small_campaign, small_model};
+    use crate::likelihood::engine::{FitContext, fit};
+    use crate::model::augmented::AugmentedModel;
+    use crate::testing::{small_dataset, small_model};
 
     #[test]
     fn what_scores_far_below_the_best_gets_one_start_of_one_law() {
-        let (campaign, grid) = small_campaign();
-        let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-        let nominal = fit(ground, &|_| Assembly::default(), &[], &small_model(&grid), 10).expect("a fit");
-        let nominal = Explanation::nominal(nominal);
-        let known = Known::new(&campaign, &nominal);
+        let (dataset, grid) = small_dataset();
+        let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+        let nominal =
+            fit(context, &|_| AugmentedModel::default(), &[], &small_model(&grid), 10).expect("a fit");
+        let nominal = Hypothesis::nominal(nominal);
+        let known = Known::new(&dataset, &nominal);
         let shortened = |scores: [Option<f64>; 2]| {
             let effects = [Effect::Backlash, Effect::Stribeck];
             let entries = effects.into_iter().zip(scores).map(|(effect, score)| {
@@ -134,7 +135,7 @@ mod tests {
         };
         assert_eq!(shortened([Some(9000.0), Some(800.0)]), [false, true]);
         assert_eq!(shortened([Some(9000.0), Some(1000.0)]), [false, false]);
-        // Where nothing scores much, and where the test is blind, nothing is told.
+        // Where nothing scores much, and where the test is blind, nothing is reported.
         assert_eq!(shortened([Some(300.0), Some(1.0)]), [false, false]);
         assert_eq!(shortened([Some(9000.0), None]), [false, false]);
     }

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::tapped::tapped;
-use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::design::{Design, DesignScaled};
 use crate::likelihood::whitener::{LEAD, Whitener};
-use crate::model::assembly::convolve;
+use crate::model::augmented::convolve;
 use crate::model::linear::Linear;
 
-/// The parameters that act on one track: of border values nobody visits there and of other tracks' disturbances all derivatives
+/// The parameters that act on one record: of border values nobody visits there and of other records' disturbances all derivatives
 /// are zero.
 pub(super) struct Active<'a> {
     /// Numbers of the border values (and columns).
@@ -20,12 +20,12 @@ pub(super) struct Active<'a> {
 }
 
 impl<'a> Active<'a> {
-    pub(super) fn on(track: &'a DesignTrack, p: &Linear) -> Self {
-        let touched = track.rows.touched(p.f.len());
+    pub(super) fn on(scaled: &'a DesignScaled, p: &Linear) -> Self {
+        let touched = scaled.rows.touched(p.f.len());
         let border: Vec<usize> = (0..touched.len()).filter(|&i| touched[i]).collect();
         let mut place = vec![0; touched.len()];
         border.iter().zip(0..).for_each(|(&i, at)| place[i] = at);
-        Self { border, place, columns: &track.columns.numbers }
+        Self { border, place, columns: &scaled.columns.numbers }
     }
 
     /// Numbers of the parameters among all, in the order of a row.
@@ -37,10 +37,10 @@ impl<'a> Active<'a> {
     }
 }
 
-/// Hands over the derivatives of one track with respect to the parameters that act on it, without weights: a row a counted
+/// Hands over the derivatives of one record with respect to the parameters that act on it, without weights: a row a counted
 /// sample, to be changed at will.
 pub(super) fn dense_rows(
-    (design, track): (&Design, &DesignTrack),
+    (design, scaled): (&Design, &DesignScaled),
     p: &Linear,
     whitener: &Whitener,
     active: &Active<'_>,
@@ -49,24 +49,24 @@ pub(super) fn dense_rows(
     let (na, nb, k) = (p.a.len(), p.b.len(), active.border.len());
     let size = na + nb + k + active.columns.len();
     let negated: Vec<f64> = convolve(&p.b, &design.taps).iter().map(|b| -b).collect();
-    let tapped = tapped(design, track, p);
-    let first = track.from.saturating_sub(LEAD);
+    let tapped = tapped(design, scaled, p);
+    let first = scaled.from.saturating_sub(LEAD);
     // In a simulation the lags are those of the simulated output, the measured one less the error.
-    let error = design.criterion.simulates().then(|| whitener.apply(design.errors(track, p)));
+    let error = design.criterion.simulates().then(|| whitener.apply(design.errors(scaled, p)));
     let error = |t: usize| match &error {
         Some(error) if t >= first => error[t - first],
         _ => 0.0,
     };
     let memory = design.poles.len().max(whitener.ar.len());
     let mut raw = Ring::new(size, memory + 1);
-    let border = Filtered::new((design, track), &active.place, na + nb..na + nb + k, negated);
+    let border = Filtered::new((design, scaled), &active.place, na + nb..na + nb + k, negated);
     let mut white = Ring::new(size, whitener.ma.len() + 1);
     let mut out = vec![0.0; size];
     let mut emit = |row: &[f64]| {
         out.copy_from_slice(row);
         emit(&mut out);
     };
-    for t in 0..track.x.len() {
+    for t in 0..scaled.x.len() {
         border.write(&mut raw, t);
         if t < first {
             continue;
@@ -74,16 +74,16 @@ pub(super) fn dense_rows(
         let row = raw.row_mut(t);
         for i in 0..na {
             let past = t.saturating_sub(i + 1);
-            row[i] = track.x[past] - error(past);
+            row[i] = scaled.x[past] - error(past);
         }
         for j in 0..nb {
             row[na + j] = -tapped[t.saturating_sub(j + 1)];
         }
-        for (x, psi) in row[na + nb + k..].iter_mut().zip(track.columns.row(t)) {
+        for (x, psi) in row[na + nb + k..].iter_mut().zip(scaled.columns.row(t)) {
             *x = -psi;
         }
         if whitener.ar.is_empty() && whitener.ma.is_empty() {
-            if t >= track.from {
+            if t >= scaled.from {
                 emit(raw.row(t));
             }
             continue;
@@ -96,7 +96,7 @@ pub(super) fn dense_rows(
         for (i, c) in whitener.ma.iter().enumerate().filter(|(i, _)| t > first + i) {
             white.add_past(t, i + 1, -c, 0..size);
         }
-        if t >= track.from {
+        if t >= scaled.from {
             emit(white.row(t));
         }
     }
@@ -143,7 +143,7 @@ impl Ring {
 ///
 /// The features are sparse: only the poles' recursion touches whole rows.
 struct Filtered<'a> {
-    track: &'a DesignTrack,
+    scaled: &'a DesignScaled,
     poles: &'a [f64],
     /// Place of each feature among its columns.
     place: &'a [u32],
@@ -155,17 +155,17 @@ struct Filtered<'a> {
 
 impl<'a> Filtered<'a> {
     fn new(
-        (design, track): (&'a Design, &'a DesignTrack),
+        (design, scaled): (&'a Design, &'a DesignScaled),
         place: &'a [u32],
         columns: Range<usize>,
         b: Vec<f64>,
     ) -> Self {
         let rest = b.iter().sum::<f64>() / (1.0 + design.poles.iter().sum::<f64>());
         let mut before = vec![0.0; columns.len()];
-        for &(i, x) in track.rows.row(0) {
+        for &(i, x) in scaled.rows.row(0) {
             before[place[i as usize] as usize] += x * rest;
         }
-        Self { track, poles: &design.poles, place, b, columns, before }
+        Self { scaled, poles: &design.poles, place, b, columns, before }
     }
 
     /// Writes its columns of row `t`, the one after the last.
@@ -173,7 +173,7 @@ impl<'a> Filtered<'a> {
         let row = &mut ring.row_mut(t)[self.columns.clone()];
         row.fill(0.0);
         for (j, b) in self.b.iter().enumerate() {
-            for &(i, x) in self.track.rows.row(t.saturating_sub(j + 1)) {
+            for &(i, x) in self.scaled.rows.row(t.saturating_sub(j + 1)) {
                 row[self.place[i as usize] as usize] += b * x;
             }
         }
@@ -188,14 +188,14 @@ impl<'a> Filtered<'a> {
 }
 
 /// Border features behind the poles, row-major, `k` a sample.
-pub(crate) fn filtered_rows(design: &Design, track: &DesignTrack, k: usize) -> Vec<f64> {
+pub(crate) fn filtered_rows(design: &Design, scaled: &DesignScaled, k: usize) -> Vec<f64> {
     // What is written for one sample ahead is the feature itself.
     let place: Vec<u32> = (0..k as u32).collect();
-    let features = Filtered::new((design, track), &place, 0..k, vec![1.0]);
+    let features = Filtered::new((design, scaled), &place, 0..k, vec![1.0]);
     let mut ring = Ring::new(k, design.poles.len() + 1);
-    let mut out = Vec::with_capacity(track.x.len() * k);
+    let mut out = Vec::with_capacity(scaled.x.len() * k);
     features.write(&mut ring, 0);
-    for t in 1..=track.x.len() {
+    for t in 1..=scaled.x.len() {
         features.write(&mut ring, t);
         out.extend_from_slice(ring.row(t));
     }

@@ -16,13 +16,13 @@ use self::sparse::sparse_rows;
 use crate::least_squares::dense_sums::DenseSums;
 use crate::least_squares::mixed_sums::MixedSums;
 use crate::least_squares::normal::Normal;
-use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::design::{Design, DesignScaled};
 use crate::likelihood::rows::Rows;
 use crate::likelihood::weights::Weights;
 use crate::likelihood::whitener::Whitener;
 use crate::model::linear::Linear;
 
-/// Weighted derivatives, all tracks one after the other.
+/// Weighted derivatives, all records one after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Jacobian {
     columns: usize,
@@ -45,11 +45,11 @@ impl Jacobian {
         let store = if spreads(design, whitener, weights) {
             let mut out = vec![0.0; design.samples() * columns];
             let mut rows = out.chunks_exact_mut(columns);
-            for (number, track) in design.tracks.iter().enumerate() {
-                let active = Active::on(track, p);
+            for (number, scaled) in design.scaled_records.iter().enumerate() {
+                let active = Active::on(scaled, p);
                 let parameters = active.parameters(p);
                 let mut weigh = weights.rows(number, parameters.len());
-                dense_rows((design, track), p, whitener, &active, |row| {
+                dense_rows((design, scaled), p, whitener, &active, |row| {
                     weigh(row);
                     if let Some(out) = rows.next() {
                         parameters.iter().zip(row).for_each(|(&i, x)| out[i] = *x);
@@ -61,8 +61,8 @@ impl Jacobian {
             let mut others = Rows::with_capacity(design.samples());
             let width = p.a.len() + p.b.len();
             let mut dynamics = Vec::with_capacity(design.samples() * width);
-            for (track, factors) in parts(design, weights) {
-                sparse_rows((design, track), p, whitener, factors, |row| {
+            for (scaled, factors) in effect_terms(design, weights) {
+                sparse_rows((design, scaled), p, whitener, factors, |row| {
                     dynamics.extend_from_slice(&row.dynamics);
                     others.push(&row.others, 1.0);
                 });
@@ -141,20 +141,20 @@ pub(crate) fn normal_equations(
     let dynamics = p.a.len() + p.b.len();
     let mut sums = MixedSums::new((0..dynamics).chain(columns..width).collect(), dynamics..columns);
     let mut row_number = 0;
-    for (number, (track, factors)) in parts(design, weights).enumerate() {
+    for (number, (scaled, factors)) in effect_terms(design, weights).enumerate() {
         if spreads(design, whitener, weights) {
-            let active = Active::on(track, p);
+            let active = Active::on(scaled, p);
             let parameters = active.parameters(p);
             let mut weigh = weights.rows(number, parameters.len());
             let mut sums = DenseSums::new(parameters.into_iter().chain(columns..width).collect());
-            dense_rows((design, track), p, whitener, &active, |row| {
+            dense_rows((design, scaled), p, whitener, &active, |row| {
                 weigh(row);
                 sums.push(row, extra.iter().map(|column| column[row_number]), w[row_number]);
                 row_number += 1;
             });
             sums.add_to(&mut normal);
         } else {
-            sparse_rows((design, track), p, whitener, factors, |row| {
+            sparse_rows((design, scaled), p, whitener, factors, |row| {
                 let extra = extra.iter().map(|column| column[row_number]);
                 sums.push(&row.dynamics, extra, &row.others, w[row_number]);
                 row_number += 1;
@@ -171,12 +171,12 @@ fn spreads(design: &Design, whitener: &Whitener, weights: &Weights) -> bool {
 }
 
 /// Tracks with the weights of their counted samples.
-fn parts<'a>(
+fn effect_terms<'a>(
     design: &'a Design,
     weights: &'a Weights,
-) -> impl Iterator<Item = (&'a DesignTrack, Option<&'a [f64]>)> {
+) -> impl Iterator<Item = (&'a DesignScaled, Option<&'a [f64]>)> {
     let factors = |k: usize| weights.scale.as_ref().map(|s| &s[k][..]);
-    design.tracks.iter().enumerate().map(move |(k, track)| (track, factors(k)))
+    design.scaled_records.iter().enumerate().map(move |(k, scaled)| (scaled, factors(k)))
 }
 
 #[cfg(test)]

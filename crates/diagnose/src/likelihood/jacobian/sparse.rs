@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::tapped::tapped;
-use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::design::{Design, DesignScaled};
 use crate::likelihood::whitener::{LEAD, Whitener};
-use crate::model::assembly::convolve;
+use crate::model::augmented::convolve;
 use crate::model::linear::Linear;
 
-/// What whitening by a moving average makes of one track.
+/// What whitening by a moving average makes of one record.
 struct Averaged<'a> {
     /// The average, the leading one included.
     ar: &'a [f64],
@@ -39,8 +39,8 @@ fn averaged(filter: &[f64], x: &[f64], samples: Range<usize>) -> Vec<f64> {
 }
 
 /// Counted samples with the length of the whitening filter there: no error before the [`LEAD`] is known.
-fn spans(track: &DesignTrack, ar: usize) -> impl Iterator<Item = (Range<usize>, usize)> {
-    let (from, end) = (track.from, track.x.len());
+fn spans(scaled: &DesignScaled, ar: usize) -> impl Iterator<Item = (Range<usize>, usize)> {
+    let (from, end) = (scaled.from, scaled.x.len());
     let known = from - from.saturating_sub(LEAD);
     let short = ar.saturating_sub(known);
     let whole = (from + short).min(end);
@@ -72,9 +72,9 @@ impl SparseRow {
     }
 }
 
-/// Hands over the weighted derivatives of one track; whitening with `D` alone is a longer `b̃` and averaged lags.
+/// Hands over the weighted derivatives of one record; whitening with `D` alone is a longer `b̃` and averaged lags.
 pub(super) fn sparse_rows(
-    (design, track): (&Design, &DesignTrack),
+    (design, scaled): (&Design, &DesignScaled),
     p: &Linear,
     whitener: &Whitener,
     weights: Option<&[f64]>,
@@ -83,14 +83,14 @@ pub(super) fn sparse_rows(
     let (na, nb, k) = (p.a.len(), p.b.len(), p.f.len());
     let ar: Vec<f64> = std::iter::once(1.0).chain(whitener.ar.iter().copied()).collect();
     let b = convolve(&p.b, &design.taps);
-    let tapped = tapped(design, track, p);
-    let numbers = &track.columns.numbers;
+    let tapped = tapped(design, scaled, p);
+    let numbers = &scaled.columns.numbers;
     let mut row = SparseRow::default();
-    for (samples, length) in spans(track, whitener.ar.len()) {
-        let signals = [&track.x[..], &tapped];
+    for (samples, length) in spans(scaled, whitener.ar.len()) {
+        let signals = [&scaled.x[..], &tapped];
         let white = Averaged::new(&ar[..=length], signals, &b, (samples.clone(), na.max(nb)));
         for t in samples {
-            let weight = weights.map_or(1.0, |w| w[t - track.from]);
+            let weight = weights.map_or(1.0, |w| w[t - scaled.from]);
             row.clear();
             if weight == 0.0 {
                 row.dynamics.resize(na + nb, 0.0);
@@ -101,11 +101,11 @@ pub(super) fn sparse_rows(
             row.dynamics.extend(white.x[now - na..now].iter().rev().map(|x| weight * x));
             row.dynamics.extend(white.tapped[now - nb..now].iter().rev().map(|u| -weight * u));
             for (j, b) in white.b.iter().enumerate() {
-                row.add(track.rows.row(t.saturating_sub(j + 1)), -weight * b);
+                row.add(scaled.rows.row(t.saturating_sub(j + 1)), -weight * b);
             }
             for (c, number) in numbers.iter().enumerate() {
                 let lags = white.ar.iter().enumerate();
-                let psi: f64 = lags.map(|(i, d)| d * track.columns.row(t - i)[c]).sum();
+                let psi: f64 = lags.map(|(i, d)| d * scaled.columns.row(t - i)[c]).sum();
                 if psi != 0.0 {
                     row.others.push(((k + number) as u32, -weight * psi));
                 }

@@ -1,11 +1,11 @@
 //! The input of `B`, its taps applied.
 
-use crate::likelihood::design::{Design, DesignTrack};
+use crate::likelihood::design::{Design, DesignScaled};
 use crate::model::linear::Linear;
 
 /// `taps ∗ ũ`: what the coefficients of B multiply.
-pub(super) fn tapped(design: &Design, track: &DesignTrack, p: &Linear) -> Vec<f64> {
-    let u = design.input(track, &p.f);
+pub(super) fn tapped(design: &Design, scaled: &DesignScaled, p: &Linear) -> Vec<f64> {
+    let u = design.input(scaled, &p.f);
     if design.taps.len() == 1 && design.taps[0] == 1.0 {
         return u;
     }

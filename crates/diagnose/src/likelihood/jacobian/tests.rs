@@ -1,11 +1,11 @@
 //! The Jacobian against differences, and its sparse rows against the dense ones.
 
 use super::*;
-use crate::model::assembly::{
-    Assembly, BorderColumn, Clock, EquationColumn, Resting, Transition, TransitionLaw,
+use crate::model::augmented::{
+    AugmentedModel, BorderColumn, Clock, EquationColumn, Resting, Transition, TransitionLaw,
 };
-use crate::records::campaign::{Criterion, Track};
-use crate::testing::{small_campaign, small_model};
+use crate::records::dataset::{Criterion, ScaledRecord};
+use crate::testing::{small_dataset, small_model};
 
 /// Central differences of half the sum of squares.
 fn gradient_is_the_slope(normal: &Normal, p: &Linear, half_sum: impl Fn(&Linear) -> f64) {
@@ -20,11 +20,11 @@ fn gradient_is_the_slope(normal: &Normal, p: &Linear, half_sum: impl Fn(&Linear)
 }
 
 /// The oracle of the Jacobian under one step.
-fn check(assembly: &Assembly, p: &Linear) {
-    let (campaign, grid) = small_campaign();
-    let design = Design::new(&campaign, &grid, assembly, Track::is_fit);
+fn check(augmented: &AugmentedModel, p: &Linear) {
+    let (dataset, grid) = small_dataset();
+    let design = Design::new(&dataset, &grid, augmented, ScaledRecord::is_fit);
     // Without output noise the whitening filter does not depend on the parameters.
-    let whitener = Whitener::new(&assembly.noise, &p.a);
+    let whitener = Whitener::new(&augmented.noise, &p.a);
     let half_sum =
         |p: &Linear| 0.5 * design.innovations(p, &whitener).iter().flatten().map(|w| w * w).sum::<f64>();
     let innovations = design.innovations(p, &whitener).concat();
@@ -34,37 +34,37 @@ fn check(assembly: &Assembly, p: &Linear) {
 
 #[test]
 fn the_jacobian_of_a_simulation_agrees_with_differences() {
-    let (campaign, grid) = small_campaign();
-    let campaign = campaign.judged_by(Criterion::Simulation { share: 1.0 });
+    let (dataset, grid) = small_dataset();
+    let dataset = dataset.judged_by(Criterion::Simulation { share: 1.0 });
     let p = Linear { a: vec![-0.9, 0.3], ..small_model(&grid) };
-    let design = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+    let design = Design::new(&dataset, &grid, &AugmentedModel::default(), ScaledRecord::is_fit);
     // Here the filter 1/A moves with the parameters.
     let errors = |p: &Linear| {
-        let whitener = design.whitener(&Assembly::default().noise, &p.a);
+        let whitener = design.whitener(&AugmentedModel::default().noise, &p.a);
         design.innovations(p, &whitener).concat()
     };
     let half_sum = |p: &Linear| 0.5 * errors(p).iter().map(|w| w * w).sum::<f64>();
-    let whitener = design.whitener(&Assembly::default().noise, &p.a);
+    let whitener = design.whitener(&AugmentedModel::default().noise, &p.a);
     let normal = normal_equations(&design, &p, &whitener, &Weights::default(), (&errors(&p), &[]));
     gradient_is_the_slope(&normal, &p, half_sum);
 }
 
 /// The oracle of the sparse rows: the dense ones.
-fn same_as_dense(assembly: &Assembly, p: &Linear) {
-    let (campaign, grid) = small_campaign();
-    let design = Design::new(&campaign, &grid, assembly, Track::is_fit);
-    let whitener = Whitener::new(&assembly.noise, &p.a);
-    let factors = |t: &DesignTrack| (t.from..t.x.len()).map(|t| 0.5 + 0.1 * (t % 7) as f64).collect();
-    let scale: Vec<Vec<f64>> = design.tracks.iter().map(factors).collect();
+fn same_as_dense(augmented: &AugmentedModel, p: &Linear) {
+    let (dataset, grid) = small_dataset();
+    let design = Design::new(&dataset, &grid, augmented, ScaledRecord::is_fit);
+    let whitener = Whitener::new(&augmented.noise, &p.a);
+    let factors = |t: &DesignScaled| (t.from..t.x.len()).map(|t| 0.5 + 0.1 * (t % 7) as f64).collect();
+    let scale: Vec<Vec<f64>> = design.scaled_records.iter().map(factors).collect();
     let weights = Weights { scale: Some(scale), ..Weights::default() };
     let w = design.innovations(p, &whitener).concat();
     let sparse = Jacobian::new(&design, p, &whitener, &weights).normal(&w);
     let mut rows = Vec::new();
-    for (number, track) in design.tracks.iter().enumerate() {
-        let active = Active::on(track, p);
+    for (number, scaled) in design.scaled_records.iter().enumerate() {
+        let active = Active::on(scaled, p);
         let parameters = active.parameters(p);
         let mut weigh = weights.rows(number, parameters.len());
-        dense_rows((&design, track), p, &whitener, &active, |row| {
+        dense_rows((&design, scaled), p, &whitener, &active, |row| {
             weigh(row);
             let mut whole = vec![0.0; p.len()];
             parameters.iter().zip(row).for_each(|(&i, x)| whole[i] = *x);
@@ -82,12 +82,12 @@ fn same_as_dense(assembly: &Assembly, p: &Linear) {
 
 #[test]
 fn further_columns_are_appended() {
-    let (campaign, grid) = small_campaign();
+    let (dataset, grid) = small_dataset();
     let p = small_model(&grid);
     for pole in [None, Some(0.5)] {
-        let mut assembly = Assembly::default();
-        pole.iter().for_each(|p: &f64| assembly.filter(&[1.0 - p], &[1.0, -p]));
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let mut augmented = AugmentedModel::default();
+        pole.iter().for_each(|p: &f64| augmented.filter(&[1.0 - p], &[1.0, -p]));
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let whitener = Whitener::default();
         let w = design.innovations(&p, &whitener).concat();
         let extra: Vec<f64> = (0..w.len()).map(|t| (t as f64 * 0.9).cos()).collect();
@@ -104,31 +104,31 @@ fn further_columns_are_appended() {
 
 #[test]
 fn the_jacobian_agrees_with_differences() {
-    let (_, grid) = small_campaign();
+    let (_, grid) = small_dataset();
     let plain = small_model(&grid);
-    check(&Assembly::default(), &plain);
+    check(&AugmentedModel::default(), &plain);
 
-    let mut assembly = Assembly {
+    let mut augmented = AugmentedModel {
         delay: 1.4,
         transition: Some(Transition { length: 0.1, shape: 1.2, law: TransitionLaw::Offset }),
         border_columns: vec![BorderColumn::Speed { power: 1.0, scale: 0.1, while_resting: Resting::Held }],
         equation_columns: vec![EquationColumn::Trend { clock: Clock::Record, degree: 1 }],
-        ..Assembly::default()
+        ..AugmentedModel::default()
     };
-    assembly.noise.ar = vec![0.3, -0.2];
+    augmented.noise.ar = vec![0.3, -0.2];
     let mut rich = plain;
     rich.f.push(0.3);
     rich.d.push(0.1);
-    check(&assembly, &rich);
-    same_as_dense(&assembly, &rich);
+    check(&augmented, &rich);
+    same_as_dense(&augmented, &rich);
 
     // Longer than what is known before the first counted sample.
-    let short = std::mem::replace(&mut assembly.noise.ar, (1..=9).map(|k| 0.4 / f64::from(k)).collect());
-    check(&assembly, &rich);
-    same_as_dense(&assembly, &rich);
-    assembly.noise.ar = short;
+    let short = std::mem::replace(&mut augmented.noise.ar, (1..=9).map(|k| 0.4 / f64::from(k)).collect());
+    check(&augmented, &rich);
+    same_as_dense(&augmented, &rich);
+    augmented.noise.ar = short;
 
-    assembly.filter(&[0.5], &[1.0, -0.5]);
-    assembly.noise.ma = vec![-0.4];
-    check(&assembly, &rich);
+    augmented.filter(&[0.5], &[1.0, -0.5]);
+    augmented.noise.ma = vec![-0.4];
+    check(&augmented, &rich);
 }

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::clock;
-use crate::model::assembly::{Assembly, EquationColumn};
-use crate::records::campaign::{Campaign, Track};
+use crate::model::augmented::{AugmentedModel, EquationColumn};
+use crate::records::dataset::{Dataset, ScaledRecord};
 
-/// The equation columns that act on one track.
+/// The equation columns that act on one record.
 #[derive(Debug, Clone)]
 pub(crate) struct EquationColumns {
-    /// Their numbers among all columns, increasing: most of these are those of other tracks.
+    /// Their numbers among all columns, increasing: most of these are those of other records.
     pub(crate) numbers: Vec<usize>,
     /// Row-major, as many a sample as there are numbers.
     values: Vec<f64>,
@@ -29,38 +29,38 @@ impl EquationColumns {
     }
 }
 
-/// The equation columns of one track.
+/// The equation columns of one record.
 pub(crate) fn equation_columns(
-    campaign: &Campaign,
-    (number, track): (usize, &Track),
-    assembly: &Assembly,
+    dataset: &Dataset,
+    (number, scaled): (usize, &ScaledRecord),
+    augmented: &AugmentedModel,
 ) -> EquationColumns {
-    let all = &assembly.equation_columns;
+    let all = &augmented.equation_columns;
     let numbers: Vec<usize> = (0..all.len()).filter(|&j| all[j].acts_on(number)).collect();
     let count = numbers.len();
-    let mut out = vec![0.0; track.v.len() * count];
+    let mut out = vec![0.0; scaled.v.len() * count];
     for (k, &j) in numbers.iter().enumerate() {
         let cells = out.iter_mut().skip(k).step_by(count);
         match all[j] {
-            EquationColumn::Line { frequency, track: only, sine } => {
-                let first = if only.is_some() { 0.0 } else { track.clock as f64 };
+            EquationColumn::Line { frequency, scaled: only, sine } => {
+                let first = if only.is_some() { 0.0 } else { scaled.clock as f64 };
                 let mut wave = Wave::starting(frequency, first);
                 cells.for_each(|cell| *cell = wave.next(sine));
             }
             EquationColumn::Trend { clock: c, degree } => cells.enumerate().for_each(|(t, cell)| {
-                let at = clock(c, campaign, track, t, track.moves[t].path);
+                let at = clock(c, dataset, scaled, t, scaled.moves[t].path);
                 *cell = (2.0 * at - 1.0).powi(degree as i32);
             }),
             EquationColumn::Gain => {
-                let Some(gain) = &assembly.gain else { continue };
+                let Some(gain) = &augmented.gain else { continue };
                 cells.enumerate().for_each(|(t, cell)| {
-                    *cell = gain.at(clock(gain.clock, campaign, track, t, track.moves[t].path));
+                    *cell = gain.at(clock(gain.clock, dataset, scaled, t, scaled.moves[t].path));
                 });
             }
             EquationColumn::Decay { radius, frequency, sine, .. } => {
                 let mut wave = Wave::starting(frequency, 0.0);
                 let mut size = 1.0;
-                let from = track.from.min(6);
+                let from = scaled.from.min(6);
                 for (t, cell) in cells.enumerate() {
                     let value = size * wave.next(sine);
                     *cell = if t < from { 0.0 } else { value };
@@ -71,10 +71,10 @@ pub(crate) fn equation_columns(
                 }
             }
             EquationColumn::Local { piece, pieces, .. } => cells.enumerate().for_each(|(t, cell)| {
-                let at = t as f64 / track.v.len() as f64 * pieces as f64;
+                let at = t as f64 / scaled.v.len() as f64 * pieces as f64;
                 *cell = (1.0 - (at - piece as f64).abs()).max(0.0);
             }),
-            EquationColumn::Offset { track: only, .. } => {
+            EquationColumn::Offset { scaled: only, .. } => {
                 let sign = if only == number { 1.0 } else { -1.0 };
                 cells.for_each(|cell| *cell = sign);
             }

@@ -4,7 +4,7 @@ use libm::erfc;
 
 use super::sparse_rows::Rows;
 use crate::model::borders::{Grid, side};
-use crate::records::campaign::Track;
+use crate::records::dataset::ScaledRecord;
 
 /// Probability that the noisy position rises: `P(step + n₁ − n₀ > 0)`, both noises normal with standard deviation `jitter`.
 pub(super) fn ascending(step: f64, jitter: f64) -> f64 {
@@ -14,12 +14,12 @@ pub(super) fn ascending(step: f64, jitter: f64) -> f64 {
 /// How `u` answers to a small change of `v`, as rows: per unit of `v` while moving (over a fiftieth of the stroke, so
 /// that a jump counts as a steep slope), and by a switch to the other border while resting, or at any
 /// time where noise on the position of standard deviation `jitter` switches branches.
-pub(crate) fn sensitivity_rows(track: &Track, grid: &Grid, jitter: f64) -> [Rows; 2] {
+pub(crate) fn sensitivity_rows(scaled: &ScaledRecord, grid: &Grid, jitter: f64) -> [Rows; 2] {
     const HALF: f64 = 0.01;
-    let mut moving = Rows::with_capacity(track.v.len());
-    let mut resting = Rows::with_capacity(track.v.len());
+    let mut moving = Rows::with_capacity(scaled.v.len());
+    let mut resting = Rows::with_capacity(scaled.v.len());
     let (mut slope, mut gap) = (Vec::new(), Vec::new());
-    for (m, &v) in track.moves.iter().zip(&track.v) {
+    for (m, &v) in scaled.moves.iter().zip(&scaled.v) {
         slope.clear();
         gap.clear();
         let border = side(m.branch);

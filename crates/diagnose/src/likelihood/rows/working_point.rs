@@ -2,9 +2,9 @@
 
 use switchback_model::step::NEGLIGIBLE;
 
-use crate::model::assembly::{Transition, TransitionLaw};
+use crate::model::augmented::{Transition, TransitionLaw};
 use crate::model::borders::{Finder, Grid, side};
-use crate::records::campaign::Criterion;
+use crate::records::dataset::Criterion;
 use crate::records::motion::Motion;
 
 /// Follows the working point.
@@ -41,7 +41,7 @@ impl<'a> WorkingPoint<'a> {
     ) -> Self {
         let finder = Finder::new(grid);
         let hat = |side, factor| hat(&finder, side, v, factor);
-        // Before the first move u is unknown; the end of the stroke that v is nearer to tells the likelier border.
+        // Before the first move u is unknown; the end of the stroke that v is nearer to shows the likelier border.
         let border = usize::from(v >= 0.5);
         let share = match criterion {
             Criterion::OneStep => 0.0,
@@ -169,32 +169,32 @@ fn merge(terms: &[(u32, f64)], sums: &mut [f64], out: &mut Vec<(u32, f64)>) {
 #[cfg(test)]
 mod tests {
     use crate::likelihood::design::Design;
-    use crate::model::assembly::{
-        Assembly, BorderColumn, Relaxation, Speeds, Transition, TransitionLaw, Widening,
+    use crate::model::augmented::{
+        AugmentedModel, BorderColumn, Relaxation, Speeds, Transition, TransitionLaw, Widening,
     };
-    use crate::records::campaign::Track;
-    use crate::testing::{small_campaign, small_model};
+    use crate::records::dataset::ScaledRecord;
+    use crate::testing::{small_dataset, small_model};
 
     /// The oracle: the state `z` of friction between −1 and 1, stepped by `dz = (s − z)·|dv|/length`.
     #[test]
     fn a_crossing_is_the_state_of_friction() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let length = 0.09;
         let law = TransitionLaw::Crossing;
         let transition = Some(Transition { length, shape: 1.0, law });
-        let assembly = Assembly { transition, ..Assembly::default() };
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let augmented = AugmentedModel { transition, ..AugmentedModel::default() };
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let f = small_model(&grid).f;
-        for (track, part) in campaign.fit().zip(&design.tracks) {
-            let u = design.input(part, &f);
+        for (scaled, effect_term) in dataset.fit().zip(&design.scaled_records) {
+            let u = design.input(effect_term, &f);
             let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
-            let mut z = if track.v[0] >= 0.5 { 1.0 } else { -1.0 };
+            let mut z = if scaled.v[0] >= 0.5 { 1.0 } else { -1.0 };
             let mut expected = u[0];
-            for t in 1..track.v.len() {
-                let step = track.v[t] - track.v[t - 1];
+            for t in 1..scaled.v.len() {
+                let step = scaled.v[t] - scaled.v[t - 1];
                 if step != 0.0 {
                     z = step.signum() + (z - step.signum()) * (-step.abs() / length).exp();
-                    expected = 0.5 * (1.0 + z) * on(1, track.v[t]) + 0.5 * (1.0 - z) * on(0, track.v[t]);
+                    expected = 0.5 * (1.0 + z) * on(1, scaled.v[t]) + 0.5 * (1.0 - z) * on(0, scaled.v[t]);
                 }
                 assert!((u[t] - expected).abs() < 1e-4, "{t}: {} {expected}", u[t]);
             }
@@ -204,8 +204,8 @@ mod tests {
     /// The oracle: the width of the loop times what the speed makes of it.
     #[test]
     fn a_widening_loop_keeps_its_middle() {
-        let (campaign, grid) = small_campaign();
-        let plain = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
+        let (dataset, grid) = small_dataset();
+        let plain = Design::new(&dataset, &grid, &AugmentedModel::default(), ScaledRecord::is_fit);
         let f = small_model(&grid).f;
         let law = |speeds| Widening { share: 0.7, power: 0.5, scale: 0.02, speeds };
         let rises = |r: f64| 0.7 * (r / 0.02).sqrt();
@@ -213,16 +213,17 @@ mod tests {
         let laws: [(Widening, &dyn Fn(f64) -> f64); 2] =
             [(law(Speeds::High), &rises), (law(Speeds::Low), &falls)];
         for (widening, at) in laws {
-            let assembly = Assembly { widening: Some(widening), ..Assembly::default() };
-            let wide = Design::new(&campaign, &grid, &assembly, Track::is_fit);
-            for (number, track) in campaign.fit().enumerate() {
-                let [plain, wide] = [&plain, &wide].map(|design| design.input(&design.tracks[number], &f));
+            let augmented = AugmentedModel { widening: Some(widening), ..AugmentedModel::default() };
+            let wide = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
+            for (number, scaled) in dataset.fit().enumerate() {
+                let [plain, wide] =
+                    [&plain, &wide].map(|design| design.input(&design.scaled_records[number], &f));
                 let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
                 let mut growth = 0.0;
-                for t in 1..track.v.len() {
-                    let step = track.v[t] - track.v[t - 1];
+                for t in 1..scaled.v.len() {
+                    let step = scaled.v[t] - scaled.v[t - 1];
                     if step != 0.0 {
-                        let half = 0.5 * (on(1, track.v[t]) - on(0, track.v[t]));
+                        let half = 0.5 * (on(1, scaled.v[t]) - on(0, scaled.v[t]));
                         growth = step.signum() * half * at(step.abs());
                     }
                     assert!((wide[t] - plain[t] - growth).abs() < 1e-12, "{t}");
@@ -234,19 +235,20 @@ mod tests {
     /// The oracle: the distance to the middle between the borders, and how much of it is left.
     #[test]
     fn a_working_point_at_rest_goes_towards_the_middle() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let relaxation = Some(Relaxation { share: 0.8, tau: 2.5 });
-        let plain = Design::new(&campaign, &grid, &Assembly::default(), Track::is_fit);
-        let assembly = Assembly { relaxation, ..Assembly::default() };
-        let relaxed = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let plain = Design::new(&dataset, &grid, &AugmentedModel::default(), ScaledRecord::is_fit);
+        let augmented = AugmentedModel { relaxation, ..AugmentedModel::default() };
+        let relaxed = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let f = small_model(&grid).f;
-        for (number, track) in campaign.fit().enumerate() {
-            let [plain, relaxed] = [&plain, &relaxed].map(|design| design.input(&design.tracks[number], &f));
+        for (number, scaled) in dataset.fit().enumerate() {
+            let [plain, relaxed] =
+                [&plain, &relaxed].map(|design| design.input(&design.scaled_records[number], &f));
             let on = |side: usize, v: f64| grid.hat(side, v).iter().map(|&(i, w)| w * f[i]).sum::<f64>();
             let mut rest = 0.0;
-            for t in 1..track.v.len() {
-                rest = if track.v[t] == track.v[t - 1] { rest + 1.0 } else { 0.0 };
-                let middle = 0.5 * (on(0, track.v[t]) + on(1, track.v[t]));
+            for t in 1..scaled.v.len() {
+                rest = if scaled.v[t] == scaled.v[t - 1] { rest + 1.0 } else { 0.0 };
+                let middle = 0.5 * (on(0, scaled.v[t]) + on(1, scaled.v[t]));
                 let left = 1.0 - 0.8 * (1.0 - (-rest / 2.5_f64).exp());
                 assert!((relaxed[t] - middle - left * (plain[t] - middle)).abs() < 1e-4, "{t}");
             }
@@ -256,18 +258,18 @@ mod tests {
     /// The oracle: the bristle itself.
     #[test]
     fn a_bristle_bends_along_a_travel() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let (power, scale, length) = (2.0, 0.03, 0.05);
         let border_columns = vec![BorderColumn::Bristle { power, scale, length }];
-        let assembly = Assembly { border_columns, ..Assembly::default() };
-        let design = Design::new(&campaign, &grid, &assembly, Track::is_fit);
+        let augmented = AugmentedModel { border_columns, ..AugmentedModel::default() };
+        let design = Design::new(&dataset, &grid, &augmented, ScaledRecord::is_fit);
         let mut f = vec![0.0; grid.len()];
         f.push(1.0);
-        for (track, part) in campaign.fit().zip(&design.tracks) {
-            let u = design.input(part, &f);
+        for (scaled, effect_term) in dataset.fit().zip(&design.scaled_records) {
+            let u = design.input(effect_term, &f);
             let mut bristle = 0.0;
-            for t in 1..track.v.len() {
-                let step = track.v[t] - track.v[t - 1];
+            for t in 1..scaled.v.len() {
+                let step = scaled.v[t] - scaled.v[t - 1];
                 let aim = step.signum() * (-(step / scale).powi(2)).exp();
                 let share = (-step.abs() / length).exp();
                 if step != 0.0 {

@@ -6,9 +6,9 @@ use crate::likelihood::engine::Fit;
 use crate::likelihood::gains::Gains;
 use crate::likelihood::jacobian::Jacobian;
 use crate::likelihood::weights::Weights;
-use crate::model::assembly::convolve;
+use crate::model::augmented::convolve;
 use crate::model::borders::{Grid, side};
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 use crate::records::motion::Motion;
 
 /// Gain in deviance that a new knot must bring: two parameters and the search over its place among N samples.
@@ -26,11 +26,11 @@ struct Place {
 }
 
 /// A finer grid, or nothing where no knot is worth its cost.
-pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
-    let design = Design::like(Some(best.near()), campaign, &best.grid, &best.assembly);
-    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
+pub(super) fn improved_grid(dataset: &Dataset, best: &Fit) -> Option<Grid> {
+    let design = Design::like(Some(best.near()), dataset, &best.grid, &best.augmented);
+    let whitener = design.whitener(&best.augmented.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener);
-    let mut places = suspicious(campaign, best, &design, &innovations);
+    let mut places = suspicious(dataset, best, &design, &innovations);
     places.sort_by(|x, y| y.strength.total_cmp(&x.strength));
     places.truncate(CELLS);
     if places.is_empty() {
@@ -47,7 +47,7 @@ pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
         }
         let at = place.v;
         let of_shape = |shape: &dyn Fn(f64) -> f64| {
-            gains.score(column(campaign, best, &design, &whitener, place.side, shape))
+            gains.score(column(dataset, best, &design, &whitener, place.side, shape))
         };
         let bend = of_shape(&|v| (v - at).max(0.0));
         let step = of_shape(&|v| f64::from(u8::from(v > at)));
@@ -62,15 +62,17 @@ pub(super) fn improved_grid(campaign: &Campaign, best: &Fit) -> Option<Grid> {
 }
 
 /// In each cell, the place where the cumulated sensitivity of the residual peaks.
-fn suspicious(campaign: &Campaign, best: &Fit, design: &Design, innovations: &[Vec<f64>]) -> Vec<Place> {
+fn suspicious(dataset: &Dataset, best: &Fit, design: &Design, innovations: &[Vec<f64>]) -> Vec<Place> {
     let b = convolve(&best.linear.b, &design.taps);
     let mut visits: [Vec<(f64, f64)>; 2] = [Vec::new(), Vec::new()];
-    for ((track, part), w) in campaign.fit().zip(&design.tracks).zip(innovations) {
-        let at = |t: usize| if t >= part.from && t < track.v.len() { w[t - part.from] } else { 0.0 };
+    for ((scaled, effect_term), w) in dataset.fit().zip(&design.scaled_records).zip(innovations) {
+        let at = |t: usize| {
+            if t >= effect_term.from && t < scaled.v.len() { w[t - effect_term.from] } else { 0.0 }
+        };
         let mut current: Option<usize> = None;
-        for (t, m) in part.moves.iter().enumerate() {
+        for (t, m) in effect_term.moves.iter().enumerate() {
             if m.moves {
-                visits[side(m.branch)].push((track.v[t], 0.0));
+                visits[side(m.branch)].push((scaled.v[t], 0.0));
                 current = Some(side(m.branch));
             }
             // While the input rests, u stays where the last move put it.
@@ -113,7 +115,7 @@ fn suspicious(campaign: &Campaign, best: &Fit, design: &Design, innovations: &[V
 
 /// The derivative of the innovations with respect to a change `shape(v)` of a border.
 pub(super) fn column(
-    campaign: &Campaign,
+    dataset: &Dataset,
     best: &Fit,
     design: &Design,
     whitener: &Whitener,
@@ -122,7 +124,7 @@ pub(super) fn column(
 ) -> Vec<f64> {
     let b = convolve(&best.linear.b, &design.taps);
     let mut out = Vec::with_capacity(design.samples());
-    for (track, part) in campaign.fit().zip(&design.tracks) {
+    for (scaled, effect_term) in dataset.fit().zip(&design.scaled_records) {
         let mut now = 0.0;
         let at = |(m, v): (&Motion, &f64)| {
             if m.moves {
@@ -130,8 +132,8 @@ pub(super) fn column(
             }
             now
         };
-        let g: Vec<f64> = part.moves.iter().zip(&track.v).map(at).collect();
-        out.extend(whitener.column(&g, &b, part.from));
+        let g: Vec<f64> = effect_term.moves.iter().zip(&scaled.v).map(at).collect();
+        out.extend(whitener.column(&g, &b, effect_term.from));
     }
     out
 }

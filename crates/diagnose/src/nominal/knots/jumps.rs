@@ -3,7 +3,7 @@
 use super::model::{Model, carried_over};
 use super::passages::Steps;
 use crate::likelihood::design::Design;
-use crate::likelihood::engine::{Fit, Ground, fit};
+use crate::likelihood::engine::{Fit, FitContext, fit};
 use crate::likelihood::gains::Gains;
 use crate::likelihood::jacobian::Jacobian;
 use crate::likelihood::weights::Weights;
@@ -39,7 +39,7 @@ const TOUCHING: f64 = 1e-7;
 
 /// Narrow cells replaced by jumps where that fits no worse: a jump found in two steps leaves a steep cell.
 pub(super) fn collapsed(model: &Model<'_>, mut best: Fit) -> Fit {
-    let campaign = model.campaign;
+    let dataset = model.dataset;
     for s in 0..2 {
         let mut i = 0;
         while i + 1 < best.grid.knots[s].len() {
@@ -48,7 +48,7 @@ pub(super) fn collapsed(model: &Model<'_>, mut best: Fit) -> Fit {
             if r - l <= 2.0 * TOUCHING || !(r - l <= NARROW || is_steep(&best, s, i - 1)) {
                 continue;
             }
-            let is_level = [l, r].map(|k| campaign.levels.contains(&k));
+            let is_level = [l, r].map(|k| dataset.levels.contains(&k));
             let inner = [0.5 * (l + r), l + 1e-4, r - 1e-4];
             let beside = [is_level[1].then_some(r - TOUCHING), is_level[0].then_some(l + TOUCHING)];
             let options = inner.into_iter().filter(|x| *x > l && *x < r).chain(beside.into_iter().flatten());
@@ -92,7 +92,7 @@ pub(super) fn polished(model: &Model<'_>, mut fitted: Fit) -> Option<Fit> {
 fn looked_at(model: &Model<'_>, fitted: &Fit, grid: &Grid) -> Option<Fit> {
     let known = Some(&**fitted.near());
     fit(
-        Ground { campaign: model.campaign, grid, known },
+        FitContext { dataset: model.dataset, grid, known },
         model.build,
         &fitted.nonlinear,
         &carried_over(fitted, grid),
@@ -108,8 +108,8 @@ fn moved_jumps(model: &Model<'_>, best: &Fit) -> Option<Grid> {
     if (0..2).all(|s| best.grid.jumps(s).next().is_none()) {
         return None;
     }
-    let design = Design::like(Some(best.near()), model.campaign, &best.grid, &best.assembly);
-    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
+    let design = Design::like(Some(best.near()), model.dataset, &best.grid, &best.augmented);
+    let whitener = design.whitener(&best.augmented.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener).concat();
     let jacobian = Jacobian::new(&design, &best.linear, &whitener, &Weights::default());
     let gains = Gains::new(&jacobian, &innovations, best.variance / design.criterion.share())?;

@@ -18,17 +18,17 @@ use self::passages::Passages;
 use self::prune::pruned;
 use self::rough::roughness;
 use crate::likelihood::engine::{Build, Fit};
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// Rounds of refinement.
 const ROUNDS: usize = 4;
 
 /// Adds knots and jumps while the data ask for them.
-pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
-    let passages = Passages::new(campaign, &best.design());
-    let model = Model { campaign, build, passages: &passages };
+pub(crate) fn refine(dataset: &Dataset, mut best: Fit, build: &Build<'_>) -> Fit {
+    let passages = Passages::new(dataset, &best.design());
+    let model = Model { dataset, build, passages: &passages };
     for _ in 0..ROUNDS {
-        let Some(grid) = improved_grid(campaign, &best) else { break };
+        let Some(grid) = improved_grid(dataset, &best) else { break };
         let next = model.refitted(&best, &grid).and_then(|f| polished(&model, f));
         let Some(next) = next else { break };
         if next.deviance > best.deviance - 0.5 * KNOT_GAIN {
@@ -37,45 +37,45 @@ pub(crate) fn refine(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> F
         best = next;
     }
     let placed = collapsed(&model, pruned(&model, best));
-    halved(campaign, placed, build)
+    halved(dataset, placed, build)
 }
 
-/// The model on an even grid through the levels of the experiments, as fine as pays: no knot is placed to follow a detail.
-pub(crate) fn evenly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    Some(halved(campaign, on_first_grid(campaign, fitted, build)?, build))
+/// The model on an even grid through the levels of the experiments, as fine as pays: no knot is placed to follow a refinement.
+pub(crate) fn evenly(dataset: &Dataset, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    Some(halved(dataset, on_first_grid(dataset, fitted, build)?, build))
 }
 
-/// Penalised deviance that details of the borders must be worth before the grid counts as too coarse: a tenth a sample, which is a
+/// Penalised deviance that refinements of the borders must be worth before the grid counts as too coarse: a tenth a sample, which is a
 /// third of the noise's standard deviation. No grid is fine enough for every border, and knots that follow a bend or a small jump are
 /// the border's own.
-pub(crate) fn detail(campaign: &Campaign) -> f64 {
-    0.1 * campaign.fit_samples() as f64
+pub(crate) fn refinement(dataset: &Dataset) -> f64 {
+    0.1 * dataset.fit_samples() as f64
 }
 
-/// Share of what a finer even grid gains, foretold by no smooth curve, from which it follows a detail.
+/// Share of what a finer even grid gains, predicted by no smooth curve, from which it follows a refinement.
 const ROUGH: f64 = 1.0 / 3.0;
 
-/// The same, as fine as smooth borders ask for: a finer grid may follow a detail all along the borders.
-pub(crate) fn smoothly(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    let first = on_first_grid(campaign, fitted, build)?;
-    let fine = halved(campaign, first.clone(), build);
-    let unforetold = roughness(&first.grid, &fine.grid, &fine.linear.f);
-    let is_detail = unforetold * (first.deviance - fine.deviance) > detail(campaign);
-    Some(if unforetold > ROUGH && is_detail { first } else { fine })
+/// The same, as fine as smooth borders ask for: a finer grid may follow a refinement all along the borders.
+pub(crate) fn smoothly(dataset: &Dataset, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let first = on_first_grid(dataset, fitted, build)?;
+    let fine = halved(dataset, first.clone(), build);
+    let innovation_share = roughness(&first.grid, &fine.grid, &fine.linear.f);
+    let is_refinement = innovation_share * (first.deviance - fine.deviance) > refinement(dataset);
+    Some(if innovation_share > ROUGH && is_refinement { first } else { fine })
 }
 
 /// The first grid, with the jumps found where no experiment has set levels: a border may be discontinuous (Rochdi et al. 2009,
 /// Assumption 1), and only where it is tabulated at levels can a jump between them be finer than the table.
-fn on_first_grid(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
-    let mut grid = first_grid(campaign);
-    if campaign.levels.is_empty() {
+fn on_first_grid(dataset: &Dataset, fitted: &Fit, build: &Build<'_>) -> Option<Fit> {
+    let mut grid = first_grid(dataset);
+    if dataset.levels.is_empty() {
         for side in 0..2 {
             for jump in fitted.grid.jumps(side) {
                 grid.insert(side, jump, true);
             }
         }
     }
-    refitted(campaign, fitted, &grid, build)
+    refitted(dataset, fitted, &grid, build)
 }
 
 /// Gain in deviance per knot that an evenly finer grid must bring: smooth borders spread their gain over all cells.
@@ -84,8 +84,8 @@ const HALVING_GAIN: f64 = 9.5;
 const FINEST: f64 = 0.03;
 
 /// The grid with its cells halved, as long as that pays.
-fn halved(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
-    let visits = visited(campaign);
+fn halved(dataset: &Dataset, mut best: Fit, build: &Build<'_>) -> Fit {
+    let visits = visited(dataset);
     for _ in 0..2 {
         let mut grid = best.grid.clone();
         for s in 0..2 {
@@ -97,7 +97,7 @@ fn halved(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
             }
         }
         let added = (grid.len() - best.grid.len()) as f64;
-        match refitted(campaign, &best, &grid, build) {
+        match refitted(dataset, &best, &grid, build) {
             Some(f) if added > 0.0 && f.deviance < best.deviance - HALVING_GAIN * added => best = f,
             _ => break,
         }
@@ -106,11 +106,11 @@ fn halved(campaign: &Campaign, mut best: Fit, build: &Build<'_>) -> Fit {
 }
 
 /// Knots placed anew from the first grid: those found with an effect missing from the model followed its trace.
-pub(crate) fn replace(campaign: &Campaign, fitted: &Fit, build: &Build<'_>) -> Fit {
-    let fresh = refitted(campaign, fitted, &first_grid(campaign), build).map(|f| refine(campaign, f, build));
+pub(crate) fn replace(dataset: &Dataset, fitted: &Fit, build: &Build<'_>) -> Fit {
+    let fresh = refitted(dataset, fitted, &first_grid(dataset), build).map(|f| refine(dataset, f, build));
     let bic = |f: &Fit| f.deviance + f.parameters * (f.samples as f64).ln();
     match fresh {
         Some(f) if bic(&f) < bic(fitted) => f,
-        _ => refine(campaign, fitted.clone(), build),
+        _ => refine(dataset, fitted.clone(), build),
     }
 }

@@ -1,28 +1,28 @@
 //! The model whose knots are placed.
 
 use super::passages::Passages;
-use crate::likelihood::engine::{Build, Fit, Ground, fit};
+use crate::likelihood::engine::{Build, Fit, FitContext, fit};
 use crate::model::borders::Grid;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// What knots are placed for.
 pub(super) struct Model<'a> {
-    pub(super) campaign: &'a Campaign,
+    pub(super) dataset: &'a Dataset,
     pub(super) build: &'a Build<'a>,
     pub(super) passages: &'a Passages,
 }
 
 impl Model<'_> {
     pub(super) fn refitted(&self, fitted: &Fit, grid: &Grid) -> Option<Fit> {
-        refitted(self.campaign, fitted, grid, self.build)
+        refitted(self.dataset, fitted, grid, self.build)
     }
 }
 
 /// The same model re-fitted on another grid.
-pub(super) fn refitted(campaign: &Campaign, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
+pub(super) fn refitted(dataset: &Dataset, fitted: &Fit, grid: &Grid, build: &Build<'_>) -> Option<Fit> {
     let start = carried_over(fitted, grid);
     let known = Some(&**fitted.near());
-    fit(Ground { campaign, grid, known }, build, &fitted.nonlinear, &start, 5)
+    fit(FitContext { dataset, grid, known }, build, &fitted.nonlinear, &start, 5)
 }
 
 /// The linear parameters on a finer grid: the same borders.

@@ -4,9 +4,9 @@ use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::likelihood::gains::{Gains, Sums};
 use crate::likelihood::weights::impulse_response;
-use crate::model::assembly::convolve;
+use crate::model::augmented::convolve;
 use crate::model::borders::side;
-use crate::records::campaign::Campaign;
+use crate::records::dataset::Dataset;
 
 /// A move on a border.
 #[derive(Debug, Clone, Copy)]
@@ -14,8 +14,8 @@ pub(super) struct Passage {
     v: f64,
     /// On a free record.
     free: bool,
-    /// Number among the fitted tracks.
-    track: u32,
+    /// Number among the fitted records.
+    scaled: u32,
     /// The sample of the move, and that of the next one.
     from: u32,
     until: u32,
@@ -26,13 +26,13 @@ pub(super) struct Passage {
 pub(super) struct Passages([Vec<Passage>; 2]);
 
 impl Passages {
-    pub(super) fn new(campaign: &Campaign, design: &Design) -> Self {
+    pub(super) fn new(dataset: &Dataset, design: &Design) -> Self {
         let mut sides = [Vec::new(), Vec::new()];
-        for (number, (track, part)) in campaign.fit().zip(&design.tracks).enumerate() {
-            let mut until = part.moves.len() as u32;
-            for (t, m) in part.moves.iter().enumerate().rev().filter(|(_, m)| m.moves) {
-                let (v, free, from) = (track.v[t], !track.is_pulsed(), t as u32);
-                sides[side(m.branch)].push(Passage { v, free, track: number as u32, from, until });
+        for (number, (scaled, effect_term)) in dataset.fit().zip(&design.scaled_records).enumerate() {
+            let mut until = effect_term.moves.len() as u32;
+            for (t, m) in effect_term.moves.iter().enumerate().rev().filter(|(_, m)| m.moves) {
+                let (v, free, from) = (scaled.v[t], !scaled.is_pulsed(), t as u32);
+                sides[side(m.branch)].push(Passage { v, free, scaled: number as u32, from, until });
                 until = from;
             }
         }
@@ -70,7 +70,7 @@ pub(super) struct Steps<'a> {
     design: &'a Design,
     /// Response of the innovations to a unit of `u`, from lag 1 on.
     response: Vec<f64>,
-    /// First row of each track.
+    /// First row of each record.
     rows: Vec<usize>,
     column: Vec<f64>,
     touched: Vec<usize>,
@@ -79,14 +79,14 @@ pub(super) struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(gains: &'a Gains<'a>, design: &'a Design, fit: &Fit) -> Self {
-        let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
+        let whitener = design.whitener(&fit.augmented.noise, &fit.linear.a);
         let ar: Vec<f64> = std::iter::once(1.0).chain(whitener.ar).collect();
         let b = convolve(&convolve(&fit.linear.b, &design.taps), &ar);
-        let mut rows = Vec::with_capacity(design.tracks.len());
+        let mut rows = Vec::with_capacity(design.scaled_records.len());
         let mut samples = 0;
-        for track in &design.tracks {
+        for scaled in &design.scaled_records {
             rows.push(samples);
-            samples += track.x.len() - track.from;
+            samples += scaled.x.len() - scaled.from;
         }
         Self {
             gains,
@@ -108,14 +108,14 @@ impl<'a> Steps<'a> {
     /// Adds passages: while the input rests, u stays where the last move put it.
     pub(super) fn add(&mut self, passages: &[Passage]) {
         for p in passages {
-            let track = &self.design.tracks[p.track as usize];
+            let scaled = &self.design.scaled_records[p.scaled as usize];
             for t in p.from as usize..p.until as usize {
                 for (lag, h) in self.response.iter().enumerate() {
                     let at = t + lag + 1;
-                    if at < track.from || at >= track.x.len() {
+                    if at < scaled.from || at >= scaled.x.len() {
                         continue;
                     }
-                    let row = self.rows[p.track as usize] + at - track.from;
+                    let row = self.rows[p.scaled as usize] + at - scaled.from;
                     let before = self.column[row];
                     self.sums.corner += (before + h) * (before + h) - before * before;
                     self.column[row] += h;
@@ -136,29 +136,29 @@ impl<'a> Steps<'a> {
 mod tests {
     use super::super::improve::column;
     use super::*;
-    use crate::likelihood::engine::{Ground, fit};
+    use crate::likelihood::engine::{FitContext, fit};
     use crate::likelihood::jacobian::Jacobian;
     use crate::likelihood::weights::Weights;
-    use crate::model::assembly::Assembly;
-    use crate::testing::{small_campaign, small_model};
+    use crate::model::augmented::AugmentedModel;
+    use crate::testing::{small_dataset, small_model};
 
     /// The oracle of the sums: the column itself.
     #[test]
     fn steps_gain_what_their_columns_do() {
-        let (campaign, grid) = small_campaign();
+        let (dataset, grid) = small_dataset();
         let start = small_model(&grid);
         for ma in [Vec::new(), vec![0.4]] {
-            let mut assembly = Assembly::default();
-            assembly.noise.ar = vec![0.3];
-            assembly.noise.ma = ma;
-            let ground = Ground { campaign: &campaign, grid: &grid, known: None };
-            let fit = fit(ground, &|_| assembly.clone(), &[], &start, 3).expect("a fit");
+            let mut augmented = AugmentedModel::default();
+            augmented.noise.ar = vec![0.3];
+            augmented.noise.ma = ma;
+            let context = FitContext { dataset: &dataset, grid: &grid, known: None };
+            let fit = fit(context, &|_| augmented.clone(), &[], &start, 3).expect("a fit");
             let design = &fit.design();
-            let whitener = design.whitener(&fit.assembly.noise, &fit.linear.a);
+            let whitener = design.whitener(&fit.augmented.noise, &fit.linear.a);
             let w = design.innovations(&fit.linear, &whitener).concat();
             let jacobian = Jacobian::new(design, &fit.linear, &whitener, &Weights::default());
             let gains = Gains::new(&jacobian, &w, 1.0).expect("determined");
-            let passages = Passages::new(&campaign, design);
+            let passages = Passages::new(&dataset, design);
             let mut steps = Steps::new(&gains, design, &fit);
             for (side, low, high) in [(0, 0.3, 0.45), (1, 0.4, 0.6)] {
                 steps.clear();
@@ -166,7 +166,7 @@ mod tests {
                 steps.add(passages.between(side, low, middle));
                 steps.add(passages.between(side, middle, high));
                 let step = |v: f64| f64::from(u8::from(v > low && v <= high));
-                let whole = gains.score(column(&campaign, &fit, design, &whitener, side, step));
+                let whole = gains.score(column(&dataset, &fit, design, &whitener, side, step));
                 let (found, wanted) = (steps.gain(), gains.of(&[&whole]));
                 assert!((found - wanted).abs() < 2e-2 * wanted.max(1.0), "{found} {wanted}");
             }

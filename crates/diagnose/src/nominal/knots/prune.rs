@@ -12,15 +12,15 @@ const WORTH: f64 = 16.0;
 
 /// Without the knots and jumps that earn less than they cost.
 pub(super) fn pruned(model: &Model<'_>, best: Fit) -> Fit {
-    let campaign = model.campaign;
-    let first = first_grid(campaign);
-    let design = Design::like(Some(best.near()), campaign, &best.grid, &best.assembly);
-    let whitener = design.whitener(&best.assembly.noise, &best.linear.a);
+    let dataset = model.dataset;
+    let first = first_grid(dataset);
+    let design = Design::like(Some(best.near()), dataset, &best.grid, &best.augmented);
+    let whitener = design.whitener(&best.augmented.noise, &best.linear.a);
     let innovations = design.counted_innovations(&best.linear, &whitener);
     let mut normal =
         normal_equations(&design, &best.linear, &whitener, &Weights::default(), (&innovations.concat(), &[]));
     // Without the gauge no border value would be determined.
-    priors(&mut normal, &best.grid, &best.linear, &best.assembly);
+    priors(&mut normal, &best.grid, &best.linear, &best.augmented);
     let Some(factor) = normal.factor(1e-9) else { return best };
     let base = best.linear.a.len() + best.linear.b.len();
     let mut grid = best.grid.clone();

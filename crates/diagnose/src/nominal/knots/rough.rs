@@ -1,8 +1,8 @@
-//! Whether a finer grid follows a smooth border or a detail of it.
+//! Whether a finer grid follows a smooth border or a refinement of it.
 
 use crate::model::borders::Grid;
 
-/// Share of what knots between those of a coarse grid gain that no smooth curve through the coarse ones foretells.
+/// Share of what knots between those of a coarse grid gain that no smooth curve through the coarse ones predicts.
 ///
 /// ```text
 /// Σ (f(v) − cubic(v))² / Σ (f(v) − linear(v))²   over the knots between
@@ -10,10 +10,10 @@ use crate::model::borders::Grid;
 ///
 /// `cubic` is Lagrange's polynomial through the two coarse knots on either side of `v`. Linear interpolation misses a smooth border
 /// by the square of the cell's width, the polynomial by its fourth power; of a ripple as short as two cells neither knows anything.
-/// In the cells at the ends it goes through three, and cannot tell a bend all along the cell from a kink at its inner end, where a
+/// In the cells at the ends it goes through three, and cannot show a bend all along the cell from a kink at its inner end, where a
 /// loop that closes may have one: whichever of the two misses less counts there.
 pub(super) fn roughness(coarse: &Grid, fine: &Grid, f: &[f64]) -> f64 {
-    let (mut unforetold, mut all) = (0.0, 0.0);
+    let (mut innovation_share, mut all) = (0.0, 0.0);
     for side in 0..2 {
         let offset = side * fine.knots[0].len();
         let knots: Vec<(f64, f64)> =
@@ -30,12 +30,12 @@ pub(super) fn roughness(coarse: &Grid, fine: &Grid, f: &[f64]) -> f64 {
                 };
                 let [linear, cubic] = [1, 2].map(missed);
                 let is_end = right == 1 || right + 1 == known.len();
-                unforetold += if is_end { cubic.min(linear) } else { cubic };
+                innovation_share += if is_end { cubic.min(linear) } else { cubic };
                 all += linear;
             }
         }
     }
-    if all > 0.0 { unforetold / all } else { 0.0 }
+    if all > 0.0 { innovation_share / all } else { 0.0 }
 }
 
 /// The polynomial through some points.
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn a_smooth_border_is_foretold_and_a_ripple_is_not() {
+    fn a_smooth_border_is_forecast_and_a_ripple_is_not() {
         assert!(of(|v| v * v - 0.3 * v) < 1e-20);
         assert!(of(|v| (3.0 * (v - 0.5)).tanh()) < 0.05);
         assert!(of(|v| v + 0.1 * (62.0 * v).sin()) > 0.6);
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_that_closes_with_a_kink_is_foretold_and_a_jump_or_a_bump_is_not() {
+    fn a_loop_that_closes_with_a_kink_is_forecast_and_a_jump_or_a_bump_is_not() {
         let closing = |v: f64| (v * v).max(0.2 * v - 0.01);
         assert!(of(closing) < 0.2);
         assert!(of(|v| if v < 0.42 { 0.0 } else { 1.0 }) > 0.9);

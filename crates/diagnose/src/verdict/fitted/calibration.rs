@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::choice::{Choice, Sign, fitted, probabilities};
 use super::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT, RulesSay};
 use super::{
-    Agreed, AgreedOn, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on, harms, told,
+    Agreed, AgreedOn, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on,
+    degrades_validation, reported,
 };
 use crate::effect::Effect;
 use crate::evidence::Compared;
@@ -22,7 +23,7 @@ const FOLDS: usize = 10;
 /// Weights of the penalty tried: standard deviations of a coefficient from 3 down to 0.2.
 const RIDGES: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
 
-/// What holds of a rig; several where nobody can tell which of them is seen.
+/// What holds of a rig; several where nobody can show which of them is seen.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Holds {
     /// These effects.
@@ -46,7 +47,7 @@ pub struct Example {
     pub excluded: Vec<Effect>,
     /// What holds; nothing where nobody knows: such an example is predicted, and fitted to nothing.
     pub holds: Holds,
-    /// What rules tuned by hand tell, and what they find likeliest.
+    /// What rules tuned by hand show, and what they find likeliest.
     pub rules: (Verdict, Option<(Effect, f64)>),
     /// Probability that these gave to what holds.
     pub by_rules: f64,
@@ -72,7 +73,7 @@ pub struct OutOfFold(Weighed);
 impl OutOfFold {
     /// The verdict with a threshold of naming; `example` is what was predicted.
     pub fn verdict(&self, example: &Example, name_at: f64) -> Verdict {
-        by_fit::verdict(&self.0, (name_at, harms(&example.evidence, &self.0)))
+        by_fit::verdict(&self.0, (name_at, degrades_validation(&example.evidence, &self.0)))
     }
 
     /// The one cause that rules name, where all readings agree on it.
@@ -80,13 +81,13 @@ impl OutOfFold {
         agreed_on(&example.rules.0, &example.evidence, &self.0, |effect| example.excluded.contains(&effect))
     }
 
-    /// What is told, for what agreement is worth.
-    pub fn told(&self, example: &Example, agreed: Agreed, name_at: f64) -> Verdict {
+    /// What is reported, for what agreement is worth.
+    pub fn reported(&self, example: &Example, agreed: Agreed, name_at: f64) -> Verdict {
         let agreed = self.agreed_on(example).map(|p| agreed.probability(p));
-        told(&self.verdict(example, name_at), &example.rules.0, agreed, name_at)
+        reported(&self.verdict(example, name_at), &example.rules.0, agreed, name_at)
     }
 
-    /// The likeliest explanation: an effect, or `none` or `unexplained`.
+    /// The likeliest candidate: an effect, or `none` or `unexplained`.
     pub fn top(&self) -> (&'static str, f64) {
         let rest = [("none", self.0.none), ("unexplained", self.0.none_of_these)];
         let effects = self.0.effects.iter().map(|(effect, p)| (effect.name(), *p));
@@ -129,8 +130,8 @@ pub fn calibrate(
     let coefficients = fitted(&labelled, &signs(), *ridge);
     let count = labelled.len() as f64;
     let by_shares = labelled.iter().map(|choice| -share_of(choice, shares).ln()).sum::<f64>() / count;
-    let told = examples.iter().filter(|e| !e.holds.is_unknown());
-    let by_rules = told.map(|e| -e.by_rules.max(LEAST).ln()).sum::<f64>() / count;
+    let reported = examples.iter().filter(|e| !e.holds.is_unknown());
+    let by_rules = reported.map(|e| -e.by_rules.max(LEAST).ln()).sum::<f64>() / count;
     let provenance = Provenance {
         command: command.to_owned(),
         studies: studies.to_vec(),
@@ -353,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kind_that_is_missing_is_told() {
+    fn a_kind_that_is_missing_is_reported() {
         let mut examples = rigs(60);
         examples.retain(|e| !e.holds.none_of_these);
         let refused = calibrate(&examples, ("", &[])).expect_err("no foreign fault");

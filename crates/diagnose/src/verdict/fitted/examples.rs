@@ -18,7 +18,7 @@ pub(in crate::verdict) fn says(effect: Effect, delta_bic: f64, share: f64, certa
         heldout_log_score: 0.0,
         gains: [Horizon::Step, Horizon::Samples(30), Horizon::FreeRun].map(gain).to_vec(),
         closure: Some(0.0),
-        harms: false,
+        degrades_validation: false,
         unstable: false,
     }
 }

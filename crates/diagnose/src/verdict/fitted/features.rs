@@ -1,11 +1,11 @@
 //! Features of the alternatives: every effect, nothing, and none of these.
 //!
 //! All are of the order of one, without unit, and the same whatever the effect's name. Explanations are compared one step `ahead`, as
-//! simulators identified anew (`simulated`), and as simulators on top of a given model (`held`); what was not compared is 0. How much an
+//! simulators identified anew (`simulated`), and as simulators on top of a given model (`fixed`); what was not compared is 0. How much an
 //! effect gains in deviance depends on how wrong the model is, which differs from rig to rig; where it stands among the others does not.
 //!
 //! ```text
-//! first_…       1 where ΔBIC is above 10 and above that of every effect of another class, and it harms no held-out record that way
+//! first_…       1 where ΔBIC is above 10 and above that of every effect of another class, and it degrades no held-out record that way
 //! margin_…      (ΔBIC − Δ')/max(ΔBIC, Δ', 10), Δ' that of the best of another class, 0 at least; −1 where it harms
 //! settling_…    −ln(1 − s), s the share of error saved on the fit records until the model has settled
 //! closure_…     share of the gap that it closes on held-out records, from −1 to 1
@@ -14,7 +14,7 @@
 //! noise, clocked    1 for an effect that changes only what is random; that follows a clock or has a phase of its own in each record
 //! predicts      of such noise: gain in held-out log score, nats a sample, from −1 to 3
 //! parameters    ln(1 + k), k the parameters that it adds
-//! by_rules      probability that rules give to it, where it is their likeliest explanation
+//! by_rules      probability that rules give to it, where it is their likeliest candidate
 //! ```
 //!
 //! A ΔBIC of 10 is what R. Kass and A. Raftery, "Bayes factors", JASA 90, 1995, call very strong. What moves no simulation settles nothing,
@@ -84,8 +84,8 @@ pub(crate) const OF_ALL: [&str; 10] = [
 pub(crate) const COEFFICIENTS: usize = OF_EFFECT.len() + 2 * OF_ALL.len();
 
 /// The ways of comparing in the order of the features, each with the scale of its deviance.
-const WAYS: [(Comparison, f64); 3] =
-    [(Comparison::OneStep, 50.0), (Comparison::Simulation, 20.0), (Comparison::GivenModelHeld, 20.0)];
+const ANALYSES: [(Comparison, f64); 3] =
+    [(Comparison::OneStep, 50.0), (Comparison::Simulation, 20.0), (Comparison::GivenModelFixed, 20.0)];
 
 /// ΔBIC that chance does not give.
 const VERY_STRONG: f64 = 10.0;
@@ -97,7 +97,7 @@ pub(crate) struct RulesSay {
     pub nothing: bool,
     /// That the cause is none of the effects.
     pub unexplained: bool,
-    /// The effect that they find the likeliest explanation of all, with its probability.
+    /// The effect that they find the likeliest candidate of all, with its probability.
     pub likeliest: Option<(Effect, f64)>,
 }
 
@@ -120,16 +120,16 @@ pub(crate) struct Alternatives {
 impl Alternatives {
     /// Those of what was compared and of what rules say; `excluded` effects are none.
     pub(crate) fn of(evidence: &[Compared], rules: RulesSay, excluded: impl Fn(Effect) -> bool) -> Self {
-        let mut ways = WAYS.map(|(comparison, scale)| {
+        let mut analyses = ANALYSES.map(|(comparison, scale)| {
             let compared = evidence.iter().find(|compared| compared.comparison == comparison);
             let effects = compared.map_or_else(Vec::new, |compared| compared.effects.clone());
-            Way { effects, scale }
+            Analysis { effects, scale }
         });
-        ways.iter_mut().for_each(|way| way.effects.retain(|says| !excluded(says.effect)));
+        analyses.iter_mut().for_each(|analysis| analysis.effects.retain(|says| !excluded(says.effect)));
         let fitted =
-            Effect::ALL.into_iter().filter_map(|effect| Some((effect, of_effect(&ways, rules, effect)?)));
+            Effect::ALL.into_iter().filter_map(|effect| Some((effect, of_effect(&analyses, rules, effect)?)));
         let (effects, of_effects): (Vec<Effect>, Vec<_>) = fitted.unzip();
-        Self { effects, of_effects, of_all: of_all(evidence, rules, &ways) }
+        Self { effects, of_effects, of_all: of_all(evidence, rules, &analyses) }
     }
 
     /// Features of the effects, of nothing and of none of these, in the coordinates of the coefficients.
@@ -159,12 +159,12 @@ impl Alternatives {
 }
 
 /// What one way of comparing says of the effects that are candidates, and the scale of its deviance.
-struct Way {
+struct Analysis {
     effects: Vec<EffectEvidence>,
     scale: f64,
 }
 
-impl Way {
+impl Analysis {
     fn of(&self, effect: Effect) -> Option<&EffectEvidence> {
         self.effects.iter().find(|says| says.effect == effect)
     }
@@ -173,22 +173,24 @@ impl Way {
         (delta_bic / self.scale).asinh() / 5.0
     }
 
-    /// ΔBIC of the best effect of another class that harms no held-out record; 0 at least.
+    /// ΔBIC of the best effect of another class that degrades no held-out record; 0 at least.
     fn best_beside(&self, effect: Effect) -> f64 {
-        let others =
-            self.effects.iter().filter(|o| o.effect != effect && !effect.twins().contains(&o.effect));
-        others.filter(|o| !o.harms).map(|other| other.delta_bic).fold(0.0, f64::max)
+        let others = self
+            .effects
+            .iter()
+            .filter(|o| o.effect != effect && !effect.confounded_effects().contains(&o.effect));
+        others.filter(|o| !o.degrades_validation).map(|other| other.delta_bic).fold(0.0, f64::max)
     }
 
     /// 1 for the best of its class, where that is before all others.
     fn first(&self, says: &EffectEvidence) -> f64 {
         let least = self.best_beside(says.effect).max(VERY_STRONG);
-        if says.delta_bic > least && !says.harms { 1.0 } else { 0.0 }
+        if says.delta_bic > least && !says.degrades_validation { 1.0 } else { 0.0 }
     }
 
     /// How far an effect is before, or behind, the best one of another class.
     fn margin(&self, says: &EffectEvidence) -> f64 {
-        if says.harms {
+        if says.degrades_validation {
             return -1.0;
         }
         let other = self.best_beside(says.effect);
@@ -198,7 +200,7 @@ impl Way {
 
     /// The best in a figure of the effects that harm no held-out record.
     fn best(&self, figure: impl Fn(&EffectEvidence) -> f64) -> f64 {
-        self.effects.iter().filter(|says| !says.harms).map(figure).fold(0.0, f64::max)
+        self.effects.iter().filter(|says| !says.degrades_validation).map(figure).fold(0.0, f64::max)
     }
 }
 
@@ -221,33 +223,34 @@ fn closure(says: &EffectEvidence) -> f64 {
 }
 
 /// The features of an effect; none without a fit.
-fn of_effect(ways: &[Way; 3], rules: RulesSay, effect: Effect) -> Option<[f64; OF_EFFECT.len()]> {
-    let says = ways.each_ref().map(|way| way.of(effect).map(|says| (way, says)));
+fn of_effect(analyses: &[Analysis; 3], rules: RulesSay, effect: Effect) -> Option<[f64; OF_EFFECT.len()]> {
+    let says = analyses.each_ref().map(|analysis| analysis.of(effect).map(|says| (analysis, says)));
     let all: Vec<&EffectEvidence> = says.iter().flatten().map(|(_, says)| *says).collect();
     let parameters = all.first()?.parameters;
-    let of =
-        |figure: fn(&Way, &EffectEvidence) -> f64| says.map(|way| way.map_or(0.0, |(way, e)| figure(way, e)));
-    let [_, settles, settles_held] = of(|_, e| moving(e, saved(settling(e))));
-    let [_, closes, closes_held] = of(|_, e| moving(e, closure(e)));
+    let of = |figure: fn(&Analysis, &EffectEvidence) -> f64| {
+        says.map(|analysis| analysis.map_or(0.0, |(analysis, e)| figure(analysis, e)))
+    };
+    let [_, settles, settles_fixed] = of(|_, e| moving(e, saved(settling(e))));
+    let [_, closes, closes_fixed] = of(|_, e| moving(e, closure(e)));
     let certain = all.iter().filter_map(|e| Some(moving(e, settling(e)?.certainty.clamp(-3.0, 8.0) / 4.0)));
     let is = |is: bool| if is { 1.0 } else { 0.0 };
     let is_noise = is(effect.is_noise());
     let rest = [
         settles,
-        settles_held,
+        settles_fixed,
         closes,
-        closes_held,
+        closes_fixed,
         largest(certain),
-        all.iter().filter(|e| e.harms).count() as f64 / all.len() as f64,
+        all.iter().filter(|e| e.degrades_validation).count() as f64 / all.len() as f64,
         is_noise,
-        is_noise * ways[0].of(effect).map_or(0.0, |e| e.heldout_log_score.clamp(-1.0, 3.0)),
+        is_noise * analyses[0].of(effect).map_or(0.0, |e| e.heldout_log_score.clamp(-1.0, 3.0)),
         is(effect.is_of_its_record()),
         parameters.max(0.0).ln_1p(),
         rules.likeliest.filter(|(likeliest, _)| *likeliest == effect).map_or(0.0, |(_, p)| p),
     ];
-    let of_ways = [of(Way::first), of(Way::margin)];
+    let of_analyses = [of(Analysis::first), of(Analysis::margin)];
     let mut features = [0.0; OF_EFFECT.len()];
-    features.iter_mut().zip(of_ways.into_iter().flatten().chain(rest)).for_each(|(f, x)| *f = x);
+    features.iter_mut().zip(of_analyses.into_iter().flatten().chain(rest)).for_each(|(f, x)| *f = x);
     Some(features)
 }
 
@@ -262,10 +265,10 @@ fn largest(figures: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The features of nothing and of none of these.
-fn of_all(evidence: &[Compared], rules: RulesSay, ways: &[Way; 3]) -> [f64; OF_ALL.len()] {
-    let [ahead, simulated, held] = ways;
-    let is_given = !held.effects.is_empty();
-    let simulator = if is_given { held } else { simulated };
+fn of_all(evidence: &[Compared], rules: RulesSay, analyses: &[Analysis; 3]) -> [f64; OF_ALL.len()] {
+    let [ahead, simulated, fixed] = analyses;
+    let is_given = !fixed.effects.is_empty();
+    let simulator = if is_given { fixed } else { simulated };
     let both = |figure: fn(&EffectEvidence) -> f64| ahead.best(figure).max(simulator.best(figure));
     let first =
         evidence.iter().find(|compared| compared.comparison == Comparison::OneStep).or(evidence.first());
@@ -306,12 +309,12 @@ mod tests {
     fn features_are_what_their_formulas_say() {
         let ahead = EffectEvidence { closure: Some(0.3), ..says(Effect::Creep, 200.0, 0.4, 6.0) };
         let rival = says(Effect::SensorSaturation, 150.0, 0.4, 6.0);
-        let simulated = EffectEvidence { harms: true, ..says(Effect::Creep, 5.0, 0.6, 2.0) };
-        let held = EffectEvidence { closure: Some(0.8), ..says(Effect::Creep, 8.0, 0.2, 1.0) };
+        let simulated = EffectEvidence { degrades_validation: true, ..says(Effect::Creep, 5.0, 0.6, 2.0) };
+        let fixed = EffectEvidence { closure: Some(0.8), ..says(Effect::Creep, 8.0, 0.2, 1.0) };
         let evidence = [
             compared(Comparison::OneStep, vec![ahead, rival]),
             compared(Comparison::Simulation, vec![simulated]),
-            compared(Comparison::GivenModelHeld, vec![held]),
+            compared(Comparison::GivenModelFixed, vec![fixed]),
         ];
         let rules = RulesSay::of(Status::Unexplained, Some((Effect::Creep, 0.4)));
         let alternatives = Alternatives::of(&evidence, rules, |_| false);
@@ -341,19 +344,20 @@ mod tests {
     }
 
     #[test]
-    fn only_the_first_of_its_class_is_first_and_a_twin_does_not_count() {
+    fn only_the_first_of_its_class_is_first_and_a_confounded_does_not_count() {
         let [of_play, of_transition] = [Effect::Backlash, Effect::GradualTransition];
-        assert!(of_play.twins().contains(&of_transition));
+        assert!(of_play.confounded_effects().contains(&of_transition));
         let says = vec![
             says(of_play, 300.0, 0.1, 1.0),
             says(of_transition, 250.0, 0.1, 1.0),
             says(Effect::Stribeck, 100.0, 0.1, 1.0),
         ];
-        let alternatives = of(&[compared(Comparison::GivenModelHeld, says)]);
-        let told = |effect| ["first_held", "margin_held"].map(|name| feature(&alternatives, effect, name));
-        assert_eq!(told(of_play), [1.0, 2.0 / 3.0]);
-        assert_eq!(told(of_transition), [1.0, 0.6]);
-        assert_eq!(told(Effect::Stribeck), [0.0, -2.0 / 3.0]);
+        let alternatives = of(&[compared(Comparison::GivenModelFixed, says)]);
+        let reported =
+            |effect| ["first_held", "margin_held"].map(|name| feature(&alternatives, effect, name));
+        assert_eq!(reported(of_play), [1.0, 2.0 / 3.0]);
+        assert_eq!(reported(of_transition), [1.0, 0.6]);
+        assert_eq!(reported(Effect::Stribeck), [0.0, -2.0 / 3.0]);
     }
 
     #[test]
@@ -371,9 +375,10 @@ mod tests {
     }
 
     #[test]
-    fn what_harms_is_not_among_the_best_and_what_is_left_out_is_no_alternative() {
+    fn what_degrades_validation_is_not_among_the_best_and_what_is_left_out_is_no_alternative() {
         let good = says(Effect::Creep, 100.0, 0.2, 2.0);
-        let harming = EffectEvidence { harms: true, ..says(Effect::Backlash, 9000.0, 0.9, 9.0) };
+        let harming =
+            EffectEvidence { degrades_validation: true, ..says(Effect::Backlash, 9000.0, 0.9, 9.0) };
         let colour = says(Effect::ColouredNoise, 50_000.0, 0.0, 0.0);
         let evidence = [compared(Comparison::OneStep, vec![harming, good, colour])];
         let alternatives =

@@ -3,7 +3,7 @@
 //!
 //! A [conditional logit](choice) on a few [features](features) that know no effect's name, among them what rules tuned by hand find, fitted by [`calibrate`] to rigs whose cause is
 //! known. What it says holds for rigs drawn as those were, and their [shares](Shares) of faults, of none and of foreign ones: for others the
-//! odds are to be multiplied by the ratio of the shares. Evidence outside what was met when it was fitted is told as such.
+//! odds are to be multiplied by the ratio of the shares. Evidence outside what was met when it was fitted is reported as such.
 
 mod calibration;
 mod choice;
@@ -54,11 +54,11 @@ impl Coefficient {
 }
 
 /// How often a cause that rules name was the right one where all readings of the records agree on it, and the fitted verdict finds it
-/// with its twins likelier than all else together.
+/// with its confounded effects likelier than all else together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Agreed {
-    /// Right ones, or twins of these.
+    /// Right ones, or confounded effects of these.
     pub right: usize,
     /// All that could be judged, each predicted from other rigs.
     pub of: usize,
@@ -82,14 +82,14 @@ impl Agreed {
 pub struct AgreedOn {
     /// Probability that the fitted verdict gives to it.
     pub fitted: f64,
-    /// The same of it and its twins.
-    pub with_twins: f64,
+    /// The same of it and its confounded effects.
+    pub with_confounded_effects: f64,
 }
 
 impl AgreedOn {
-    /// Whether it is among those counted: with its twins likelier than all else together.
+    /// Whether it is among those counted: with its confounded effects likelier than all else together.
     pub fn counts(self) -> bool {
-        self.with_twins > 0.5
+        self.with_confounded_effects > 0.5
     }
 }
 
@@ -180,11 +180,11 @@ pub struct SecondOpinion {
     pub examples: usize,
     /// How common causes are, which its probabilities hold for.
     pub shares: Shares,
-    /// What it would tell by itself; its `calibrated` says whether evidence like this was met when it was fitted.
+    /// What it would show by itself; its `calibrated` says whether evidence like this was met when it was fitted.
     pub verdict: Verdict,
-    /// What rules that were tuned by hand would tell.
+    /// What rules that were tuned by hand would show.
     pub by_rules: Verdict,
-    /// The effect that these find the likeliest explanation, with its probability; none where that is none.
+    /// The effect that these find the likeliest candidate, with its probability; none where that is none.
     pub likeliest_by_rules: Option<(Effect, f64)>,
     /// Probability of the cause that rules name, where all readings of the records agree on it.
     pub agreed: Option<f64>,
@@ -197,12 +197,12 @@ pub struct SecondOpinion {
 }
 
 impl SecondOpinion {
-    /// The verdict as it is told, where a cause is named from a probability on.
-    pub(crate) fn told(&self, name_at: f64) -> Verdict {
-        told(&self.verdict, &self.by_rules, self.agreed, name_at)
+    /// The verdict as it is reported, where a cause is named from a probability on.
+    pub(crate) fn reported(&self, name_at: f64) -> Verdict {
+        reported(&self.verdict, &self.by_rules, self.agreed, name_at)
     }
 
-    /// Probability of every effect as it is told, and of nothing and of none of these: those of the fitted verdict, unless all readings agree on a
+    /// Probability of every effect as it is reported, and of nothing and of none of these: those of the fitted verdict, unless all readings agree on a
     /// cause; then the others share the rest as they did.
     pub(crate) fn weights(&self) -> (Vec<(Effect, f64)>, [f64; 2]) {
         let mut effects: Vec<(Effect, f64)> =
@@ -218,17 +218,17 @@ impl SecondOpinion {
     }
 }
 
-/// The verdict as it is told, from the fitted one and that by rules; `agreed` is the probability of the cause that these name, where all
+/// The verdict as it is reported, from the fitted one and that by rules; `agreed` is the probability of the cause that these name, where all
 /// readings agree on it.
 ///
 /// ```text
 /// named         such a cause from a probability of `name_at` on; two causes at once, which only rules weigh
-/// ambiguous     such a cause by itself, where it is less probable and the fitted verdict tells no cause or class
-/// else          what the fitted verdict tells; where that is no cause, rules say whether parameters are off, the held-out records were taken under
+/// ambiguous     such a cause by itself, where it is less probable and the fitted verdict shows no cause or class
+/// else          what the fitted verdict shows; where that is no cause, rules say whether parameters are off, the held-out records were taken under
 ///               other conditions, or something is left, and it says with what probability. Where they find that another order or delay does what
-///               the effect would do, that is told
+///               the effect would do, that is reported
 /// ```
-pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_at: f64) -> Verdict {
+pub(super) fn reported(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_at: f64) -> Verdict {
     let weighed = |probability| Verdict { probability, calibrated: fitted.calibrated, ..rules.clone() };
     let is_silent = matches!(fitted.status, Status::None | Status::Unexplained);
     let is_dynamics = |effect: &Effect| effect.card().room.is_some();
@@ -250,12 +250,14 @@ pub(super) fn told(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, name_
 }
 
 /// Whether the likeliest effect makes a held-out record worse in every way of comparing.
-fn harms(evidence: &[Compared], weighed: &Weighed) -> bool {
+fn degrades_validation(evidence: &[Compared], weighed: &Weighed) -> bool {
     let first = weighed.effects.first();
-    first.is_some_and(|(effect, _)| evidence.iter().all(|says| says.harms(*effect) != Some(false)))
+    first.is_some_and(|(effect, _)| {
+        evidence.iter().all(|says| says.degrades_validation(*effect) != Some(false))
+    })
 }
 
-/// The one cause that rules name, where all readings agree on it and it harms no held-out record in the way that these tell; that is the first.
+/// The one cause that rules name, where all readings agree on it and it degrades no held-out record in the way that these show; that is the first.
 fn agreed_on(
     by_rules: &Verdict,
     evidence: &[Compared],
@@ -263,15 +265,20 @@ fn agreed_on(
     excluded: impl Fn(Effect) -> bool,
 ) -> Option<AgreedOn> {
     let (Status::Named, &[cause]) = (by_rules.status, &by_rules.effects[..]) else { return None };
-    let harms = evidence.first().and_then(|says| says.harms(cause)) == Some(true);
+    let degrades_validation = evidence.first().and_then(|says| says.degrades_validation(cause)) == Some(true);
     let likeliest = weighed.effects.first().map(|(effect, _)| *effect);
-    if harms || !agrees(cause, evidence, likeliest, excluded) {
+    if degrades_validation || !agrees(cause, evidence, likeliest, excluded) {
         return None;
     }
     let of =
         |is: &dyn Fn(Effect) -> bool| weighed.effects.iter().filter(|(e, _)| is(*e)).map(|(_, p)| p).sum();
     let fitted = of(&|effect| effect == cause);
-    Some(AgreedOn { fitted, with_twins: of(&|effect| effect == cause || cause.twins().contains(&effect)) })
+    Some(AgreedOn {
+        fitted,
+        with_confounded_effects: of(&|effect| {
+            effect == cause || cause.confounded_effects().contains(&effect)
+        }),
+    })
 }
 
 impl FittedVerdict {
@@ -330,7 +337,7 @@ impl FittedVerdict {
         SecondOpinion {
             examples: self.provenance.examples,
             shares: self.shares,
-            verdict: by_fit::verdict(&weighed, (name_at, harms(evidence, &weighed))),
+            verdict: by_fit::verdict(&weighed, (name_at, degrades_validation(evidence, &weighed))),
             agreed: agreed.map(|p| self.agreed.probability(p)),
             by_rules,
             likeliest_by_rules,
@@ -362,30 +369,30 @@ mod tests {
     }
 
     #[test]
-    fn rules_name_where_all_agree_and_tell_what_kind_of_nothing_it_is() {
+    fn rules_name_where_all_agree_and_describe_what_kind_of_nothing_it_is() {
         let rules = saying(Status::Named, &[Effect::Creep], 0.99);
         let fitted = saying(Status::Unexplained, &[], 0.3);
-        let told = |fitted: &Verdict, rules: &Verdict, agreed| told(fitted, rules, agreed, 0.85);
-        let agreed = told(&fitted, &rules, Some(0.9));
+        let reported = |fitted: &Verdict, rules: &Verdict, agreed| reported(fitted, rules, agreed, 0.85);
+        let agreed = reported(&fitted, &rules, Some(0.9));
         assert_eq!((agreed.status, &agreed.effects[..]), (Status::Named, &[Effect::Creep][..]));
         assert_eq!(agreed.probability, 0.9);
-        assert_eq!(told(&fitted, &rules, None), fitted);
-        let weak = told(&fitted, &rules, Some(0.4));
+        assert_eq!(reported(&fitted, &rules, None), fitted);
+        let weak = reported(&fitted, &rules, Some(0.4));
         assert_eq!(
             (weak.status, &weak.class[..], weak.probability),
             (Status::Ambiguous, &[Effect::Creep][..], 0.4)
         );
         assert!(weak.effects.is_empty());
-        let refit = told(&fitted, &saying(Status::Refit, &[], 0.8), None);
+        let refit = reported(&fitted, &saying(Status::Refit, &[], 0.8), None);
         assert_eq!((refit.status, refit.probability), (Status::Refit, 0.3));
         let named = saying(Status::Named, &[Effect::Resonance], 0.87);
-        assert_eq!(told(&named, &saying(Status::None, &[], 0.9), None), named);
+        assert_eq!(reported(&named, &saying(Status::None, &[], 0.9), None), named);
         let both = saying(Status::Named, &[Effect::Creep, Effect::Backlash], 0.9);
-        assert_eq!(told(&named, &both, None), both);
+        assert_eq!(reported(&named, &both, None), both);
     }
 
     #[test]
-    fn probabilities_as_told_sum_to_one_and_hold_what_agreement_is_worth() {
+    fn probabilities_as_reported_sum_to_one_and_hold_what_agreement_is_worth() {
         let effects = vec![(Effect::Creep, 0.3, Vec::new()), (Effect::Backlash, 0.2, Vec::new())];
         let mut opinion = SecondOpinion {
             examples: 1,
@@ -411,16 +418,18 @@ mod tests {
         assert_eq!(Agreed::default().rate(), 0.5);
         let agreed = Agreed { right: 8, of: 8 };
         assert!((agreed.rate() - 0.9).abs() < 1e-12);
-        let on = |fitted, with_twins| agreed.probability(AgreedOn { fitted, with_twins });
+        let on = |fitted, with_confounded_effects| {
+            agreed.probability(AgreedOn { fitted, with_confounded_effects })
+        };
         assert_eq!([on(0.3, 0.4), on(0.4, 0.6), on(0.95, 0.95)], [0.3, agreed.rate(), 0.95]);
     }
 
     #[test]
     fn what_another_order_does_as_well_is_no_cause() {
         let rules = saying(Status::Refit, &[], 0.8);
-        let told = |effect| told(&saying(Status::Named, &[effect], 0.95), &rules, None, 0.85);
-        assert_eq!(told(Effect::Resonance), rules);
-        assert_eq!(told(Effect::Stribeck).effects, [Effect::Stribeck]);
+        let reported = |effect| reported(&saying(Status::Named, &[effect], 0.95), &rules, None, 0.85);
+        assert_eq!(reported(Effect::Resonance), rules);
+        assert_eq!(reported(Effect::Stribeck).effects, [Effect::Stribeck]);
     }
 
     #[test]

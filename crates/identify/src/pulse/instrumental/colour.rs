@@ -10,7 +10,7 @@ use nalgebra::Complex;
 ///
 /// By Levinson's recursion on `γ_0…γ_L`. Exact where the noise is an autoregression of order `L` or less, as white equation error is, white
 /// noise on the output, and equation error that is itself a short autoregression; else the process of greatest entropy with these
-/// autocovariances, whose spectrum is near as far as `L` lags tell.
+/// autocovariances, whose spectrum is near as far as `L` lags show.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Colour {
     /// `d₁…d_L`.

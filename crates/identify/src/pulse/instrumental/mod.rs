@@ -1,4 +1,4 @@
-//! Consistent where the equation error is not white: the response to a periodic input, told from the noise by averaging over periods.
+//! Consistent where the equation error is not white: the response to a periodic input, distinguished from the noise by averaging over periods.
 //!
 //! ```text
 //! Ȳ_k = Σ_p ȳ_p e^{−jω_k p} = Z_k(θ) + Ē_k,   ω_k = 2πk/T

@@ -214,7 +214,7 @@ impl FoldedSolution {
         })
     }
 
-    /// Ready to tell its [first-order terms](Self::first_order).
+    /// Ready to show its [first-order terms](Self::first_order).
     pub(crate) fn with_responses(self) -> Self {
         let to_parameters = &self.gradients * &self.inverse;
         let rights = self.problem.right_of_means(&self.theta);

@@ -7,7 +7,7 @@ use super::error::{DataError, DataProblem, Place};
 use super::lines::is_idle;
 use super::measurements::Table;
 
-/// Faults kept of a column or of the rows; of others only the count is told.
+/// Faults kept of a column or of the rows; of others only the count is reported.
 pub(super) const KEPT: usize = 3;
 
 impl Column {
@@ -62,7 +62,7 @@ impl<'t> Rows<'t> {
         self.table.places.push(Place::Line(line));
     }
 
-    /// Tells what was odd, once all lines are in.
+    /// Shows what was odd, once all lines are in.
     pub(super) fn finish(self) {
         let Self { table, dialect, readers, mut ragged, last, .. } = self;
         for (column, reader) in table.columns.iter().zip(&readers) {

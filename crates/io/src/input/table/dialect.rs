@@ -16,7 +16,7 @@ pub(super) struct Dialect {
 }
 
 /// In the order of preference where several read the text equally well. Blanks come last, since they surround other signs too; commas
-/// that separate and are decimal can only be told apart by quotation marks.
+/// that separate and are decimal can only be distinguished by quotation marks.
 const CANDIDATES: [(Delimiter, Decimal); 10] = [
     (Delimiter::Sign('\t'), Decimal::Point),
     (Delimiter::Sign('\t'), Decimal::Comma),

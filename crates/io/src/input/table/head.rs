@@ -73,7 +73,7 @@ impl Head {
     }
 }
 
-/// Goes down to the first row, then up again over lines that are rows with a fault, which the rows' reader will tell.
+/// Goes down to the first row, then up again over lines that are rows with a fault, which the rows' reader will show.
 fn above<'t>(text: &'t str, dialect: &Dialect) -> Above<'t> {
     let mut cells = Vec::new();
     let mut lines: Vec<(u64, &str)> = Vec::new();

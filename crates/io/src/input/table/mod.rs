@@ -1,7 +1,7 @@
 //! A file of measurements as named columns of numbers, whatever its dialect.
 //!
-//! Recognised without being told: what separates cells, decimal commas, the header and a row of units, what stands above the table,
-//! comments (`#`, `%`, `//`), missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be told.
+//! Recognised without being reported: what separates cells, decimal commas, the header and a row of units, what stands above the table,
+//! comments (`#`, `%`, `//`), missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be reported.
 
 mod body;
 mod cell;
@@ -39,16 +39,16 @@ use std::path::Path;
 
 /// Why a text gives no table.
 enum Unread {
-    Told(TableError),
+    Reported(TableError),
     /// It is not UTF-8, as was guessed.
     NotUtf8,
 }
 
 impl Unread {
     /// Read as Windows-1252 every text is one.
-    fn told(self) -> TableError {
+    fn reported(self) -> TableError {
         match self {
-            Self::Told(error) => error,
+            Self::Reported(error) => error,
             Self::NotUtf8 => unreachable!("every byte is a letter"),
         }
     }
@@ -56,14 +56,14 @@ impl Unread {
 
 impl From<DataError> for Unread {
     fn from(error: DataError) -> Self {
-        Self::Told(TableError::Data(error))
+        Self::Reported(TableError::Data(error))
     }
 }
 
 impl From<PieceError> for Unread {
     fn from(error: PieceError) -> Self {
         match error {
-            PieceError::File(error) => Self::Told(TableError::File(error)),
+            PieceError::File(error) => Self::Reported(TableError::File(error)),
             PieceError::NotUtf8 => Self::NotUtf8,
         }
     }
@@ -85,19 +85,19 @@ impl Table {
         match Self::of_pieces(path, pieces, least) {
             Err(Unread::NotUtf8) => {
                 let again = TextPieces::open(path).map_err(TableError::File)?.in_windows_1252();
-                Self::of_pieces(path, again, least).map_err(Unread::told)
+                Self::of_pieces(path, again, least).map_err(Unread::reported)
             }
-            table => table.map_err(Unread::told),
+            table => table.map_err(Unread::reported),
         }
     }
 
     /// The table in a text.
     pub(crate) fn parse(text: &str, least: usize) -> Result<Self, TableError> {
         let path = Path::new("");
-        Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::told)
+        Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::reported)
     }
 
-    /// The first lines tell the dialect; then rows are read line by line, and no more of the text is held than a piece.
+    /// The first lines show the dialect; then rows are read line by line, and no more of the text is held than a piece.
     fn of_pieces(path: &Path, mut pieces: TextPieces<'_>, least: usize) -> Result<Self, Unread> {
         let path = path.display().to_string();
         let fail = |place, problem| DataError { path: path.clone(), place, problem };

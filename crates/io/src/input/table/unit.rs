@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_are_told_from_names() {
+    fn units_are_distinguished_from_names() {
         for (header, name, unit) in [
             ("force [N]", "force", Some("N")),
             ("Force (kN)", "Force", Some("kN")),

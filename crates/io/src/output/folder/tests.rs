@@ -58,10 +58,10 @@ fn what_someone_else_wrote_or_changed_is_refused_in_one_message() {
     fs::write(root.path().join("b"), "edited").unwrap();
     fs::write(root.path().join("c"), "measured").unwrap();
     let error = write(root.path(), &[("a", "new"), ("b", "new"), ("c", "new")]).unwrap_err();
-    let told = error.to_string();
-    assert!(told.contains("b (changed since"), "{told}");
-    assert!(told.contains("c (not written by this program)"), "{told}");
-    assert!(!told.contains("a ("), "{told}");
+    let reported = error.to_string();
+    assert!(reported.contains("b (changed since"), "{reported}");
+    assert!(reported.contains("c (not written by this program)"), "{reported}");
+    assert!(!reported.contains("a ("), "{reported}");
     assert_eq!(["a", "b", "c"].map(|name| text(root.path(), name)), ["old", "edited", "measured"]);
     assert_eq!(names(root.path()), [SUMS, "a", "b", "c"]);
 }
@@ -263,10 +263,10 @@ fn a_second_claim_is_refused_while_the_first_lives() {
     let target = root.path().join("new/out");
     let first = OutputFolder::claim(&target, false).unwrap();
     let error = OutputFolder::claim(&target, true).unwrap_err();
-    let told = error.to_string();
+    let reported = error.to_string();
     assert!(
-        matches!(error, FolderError::Busy(..)) && told.contains(&std::process::id().to_string()),
-        "{told}"
+        matches!(error, FolderError::Busy(..)) && reported.contains(&std::process::id().to_string()),
+        "{reported}"
     );
     assert!(OutputFolder::claim(&root.path().join("new/other"), false).is_ok());
     first.commit(&artefacts(&[("a", "1")])).unwrap();

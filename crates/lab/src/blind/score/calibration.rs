@@ -11,7 +11,7 @@ pub struct Calibration {
     pub bins: Vec<CalibrationBin>,
     /// Expected calibration error of the verdict's probability: `Σ (n_bin/n)·|mean claimed − share held|`.
     pub ece: Option<f64>,
-    /// The same for the likeliest explanation, `none` and `unexplained` among the explanations.
+    /// The same for the likeliest candidate, `none` and `unexplained` among the candidate.
     pub top_ece: Option<f64>,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn abstention(cases: &[Case]) -> Vec<AbstentionRow> {
         .collect()
 }
 
-/// Rigs with one explanation at most; of pairs no single probability speaks.
+/// Rigs with one candidate at most; of pairs no single probability speaks.
 fn judged(cases: &[Case]) -> impl Iterator<Item = &Case> {
     cases.iter().filter(|c| c.kind != Kind::Pair && c.reply.status != "failed")
 }

@@ -87,7 +87,7 @@ pub(super) fn measures(
             "outside_no_twin",
             "the same, not counting a twin of what was taken out",
             |_| None,
-            share(Share::over(of(Kind::Outside), |c| c.names_a_cause() && !c.names_a_twin())),
+            share(Share::over(of(Kind::Outside), |c| c.names_a_cause() && !c.names_a_confounded())),
         ),
         (
             "ece",

@@ -34,7 +34,7 @@ fn reached(cases: &[Case], key: &str) -> Option<f64> {
 }
 
 #[test]
-fn a_twin_is_the_right_class_but_not_exact() {
+fn a_confounded_is_the_right_class_but_not_exact() {
     let cases = [
         case(Kind::Single, &["backlash"], "named", &["backlash"]),
         case(Kind::Single, &["backlash"], "named", &["gradual_transition"]),
@@ -90,7 +90,7 @@ fn an_interval_covers_what_the_models_really_close() {
 }
 
 #[test]
-fn an_expectation_that_nothing_tells_is_broken() {
+fn an_expectation_that_nothing_shows_is_broken() {
     let expect = Expect { pairs_exact: Some(0.5), ..Expect::default() };
     let scores = score(&[case(Kind::None, &[], "none", &[])], &expect);
     let broken: Vec<_> = scores.measures.iter().filter(|m| m.is_unexpected()).map(|m| m.key).collect();

@@ -120,7 +120,7 @@ pub struct Stratum {
 /// The object.
 pub(super) fn results(study: &Study, key_sha256: &str, cases: &[Case], scores: &Scores) -> String {
     let count = |kind: Kind| cases.iter().filter(|c| c.kind == kind).count();
-    let kinds = [Kind::Planted, Kind::Outside, Kind::Bare, Kind::Resampled];
+    let kinds = [Kind::Injected, Kind::Outside, Kind::Bare, Kind::Resampled];
     let mut measured: Vec<String> = cases.iter().filter(|c| c.is_measured).map(|c| c.base.clone()).collect();
     measured.sort_unstable();
     measured.dedup();

@@ -72,7 +72,7 @@ fn row(asked: &Asked<'_>) -> Vec<String> {
     ]
 }
 
-/// Empty where nobody can tell, or cannot tell yet.
+/// Empty where nobody can show, or cannot show yet.
 fn rating(rating: Option<Rating>) -> &'static str {
     match rating {
         Some(Rating::Exact) => "exact",

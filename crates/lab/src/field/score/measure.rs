@@ -17,13 +17,13 @@ pub(crate) const TARGETS: Expect = Expect {
     false_alarm_made: Some(0.03),
     false_alarm_resampled: Some(0.03),
     outside_named: None,
-    harms: Some(0.0),
+    degrades_validation: Some(0.0),
     calibration: Some(0.03),
     coverage: Some([0.85, 0.95]),
 };
 
 pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) -> Vec<Measure> {
-    let told = |s: Share| (s.value(), s.interval(), s.of);
+    let reported = |s: Share| (s.value(), s.interval(), s.of);
     let large =
         |with_model: bool| asked.iter().filter(move |a| a.is_large() && a.answer.with_model == with_model);
     let answered = |a: &&Asked<'_>| a.rating().is_some_and(|rating| rating != Rating::Silent);
@@ -39,73 +39,73 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
         });
         judged.filter_map(|a| a.answer.closure.as_ref())
     };
-    let harms: Vec<bool> = asked.iter().filter_map(Asked::harms).collect();
+    let degrades_validation: Vec<bool> = asked.iter().filter_map(Asked::degrades_validation).collect();
     let lines: [Line<Expect>; 15] = [
         (
             "model_class",
             "model given: right class, size ≥ 2",
             |e| e.model_class.map(Bound::AtLeast),
-            told(share(large(true), &RIGHT)),
+            reported(share(large(true), &RIGHT)),
         ),
         (
             "model_exact",
             "model given: exact effect named, size ≥ 2",
             |e| e.model_exact.map(Bound::AtLeast),
-            told(share(large(true), &[Rating::Exact])),
+            reported(share(large(true), &[Rating::Exact])),
         ),
         (
             "class",
             "no model given: right class, size ≥ 2",
             |e| e.class.map(Bound::AtLeast),
-            told(share(large(false), &RIGHT)),
+            reported(share(large(false), &RIGHT)),
         ),
         (
             "exact",
             "no model given: exact effect named, size ≥ 2",
             |e| e.exact.map(Bound::AtLeast),
-            told(share(large(false), &[Rating::Exact])),
+            reported(share(large(false), &[Rating::Exact])),
         ),
         (
             "wrong",
             "of causes named for certain, wrong ones",
             |e| e.wrong.map(Bound::AtMost),
-            told(share(asked.iter().filter(named), &wrong)),
+            reported(share(asked.iter().filter(named), &wrong)),
         ),
         (
             "wrong_planted",
             "the same, only where a fault of the library is",
             |_| None,
-            told(share(of(Kind::Planted).filter(named), &wrong)),
+            reported(share(of(Kind::Injected).filter(named), &wrong)),
         ),
         (
             "wrong_class",
-            "of all classes told, those without the fault",
+            "of all classes reported, those without the fault",
             |_| None,
-            told(share(asked.iter().filter(in_a_class), &wrong)),
+            reported(share(asked.iter().filter(in_a_class), &wrong)),
         ),
         (
             "false_alarm_made",
             "made base without fault: a cause named",
             |e| e.false_alarm_made.map(Bound::AtMost),
-            told(share(bare_made, &wrong)),
+            reported(share(bare_made, &wrong)),
         ),
         (
             "false_alarm_resampled",
             "residuals resampled: a cause not the base's own",
             |e| e.false_alarm_resampled.map(Bound::AtMost),
-            told(share(of(Kind::Resampled), &wrong)),
+            reported(share(of(Kind::Resampled), &wrong)),
         ),
         (
             "outside_named",
             "foreign fault, yet a cause named",
             |e| e.outside_named.map(Bound::AtMost),
-            told(share(of(Kind::Outside), &wrong)),
+            reported(share(of(Kind::Outside), &wrong)),
         ),
         (
             "harms",
             "named although it harms a held-out record",
-            |e| e.harms.map(Bound::AtMost),
-            told(Share::over(harms.iter(), |harms| *harms)),
+            |e| e.degrades_validation.map(Bound::AtMost),
+            reported(Share::over(degrades_validation.iter(), |degrades_validation| *degrades_validation)),
         ),
         (
             "calibration",
@@ -118,13 +118,13 @@ pub(super) fn measures(asked: &[Asked<'_>], claims: &Claims, expect: &Expect) ->
             "coverage",
             "coverage of the 90 % closure interval, model given",
             |e| e.coverage.map(|[low, high]| Bound::Within(low, high)),
-            told(Share::over(closures(false), ClosureCheck::is_covered)),
+            reported(Share::over(closures(false), ClosureCheck::is_covered)),
         ),
         (
             "coverage_right",
-            "the same, only where the right class is told",
+            "the same, only where the right class is reported",
             |_| None,
-            told(Share::over(closures(true), ClosureCheck::is_covered)),
+            reported(Share::over(closures(true), ClosureCheck::is_covered)),
         ),
     ];
     bounded(lines, (&TARGETS, expect), &["calibration", "ece"])

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 pub(crate) enum Rating {
     /// The fault, and nothing else.
     Exact,
-    /// A class of at most three with the fault, or only twins of it.
+    /// A class of at most three with the fault, or only confounded effects of it.
     Class,
     /// Nothing.
     Silent,
@@ -69,17 +69,18 @@ impl<'c> Asked<'c> {
 
     /// The effect put in, where the library has it.
     pub(crate) fn truth(&self) -> Option<&'static str> {
-        let fault = self.case.fault.as_ref().filter(|_| self.case.kind == Kind::Planted)?;
+        let fault = self.case.fault.as_ref().filter(|_| self.case.kind == Kind::Injected)?;
         Some(fault.effect)
     }
 
-    /// What the answer is worth. None where nobody can tell: a measured base as it is, one whose own verdict is not known, a fault that the
+    /// What the answer is worth. None where nobody can show: a measured base as it is, one whose own verdict is not known, a fault that the
     /// base shows by itself, and one too small to be asked for.
     pub(crate) fn rating(&self) -> Option<Rating> {
         let news = self.news()?;
-        let is_told_by_base = self.truth().is_some_and(|truth| self.own.unwrap_or_default().contains(&truth));
+        let is_reported_by_base =
+            self.truth().is_some_and(|truth| self.own.unwrap_or_default().contains(&truth));
         let is_unobservable = self.case.fault.as_ref().is_some_and(|fault| !fault.is_observable());
-        if is_told_by_base || is_unobservable || (self.case.kind == Kind::Bare && self.case.is_measured) {
+        if is_reported_by_base || is_unobservable || (self.case.kind == Kind::Bare && self.case.is_measured) {
             return None;
         }
         if news.is_empty() {
@@ -87,16 +88,18 @@ impl<'c> Asked<'c> {
         }
         let Some(truth) = self.truth() else { return Some(Rating::Wrong) };
         let is_class = self.answer.reply.said().len() <= WIDEST_CLASS;
-        let are_twins = news.iter().all(|effect| same_class(effect, truth));
+        let are_confounded_effects = news.iter().all(|effect| same_class(effect, truth));
         Some(match self.answer.reply.status {
             "named" if news == [truth] => Rating::Exact,
-            "named" if are_twins => Rating::Class,
-            "class" | "ambiguous" if is_class && (are_twins || news.contains(&truth)) => Rating::Class,
+            "named" if are_confounded_effects => Rating::Class,
+            "class" | "ambiguous" if is_class && (are_confounded_effects || news.contains(&truth)) => {
+                Rating::Class
+            }
             _ => Rating::Wrong,
         })
     }
 
-    /// The probability claimed and whether what it claims holds; none where nobody can tell, as where only what the base shows by itself
+    /// The probability claimed and whether what it claims holds; none where nobody can show, as where only what the base shows by itself
     /// is named.
     pub(crate) fn claim(&self) -> Option<(f64, bool)> {
         let rating = self.rating()?;
@@ -117,10 +120,10 @@ impl<'c> Asked<'c> {
     }
 
     /// Whether the one effect named makes a held-out record worse beyond its error; none where not one is named.
-    pub(crate) fn harms(&self) -> Option<bool> {
+    pub(crate) fn degrades_validation(&self) -> Option<bool> {
         let [named] = self.answer.reply.effects[..] else { return None };
         let effects = &self.answer.evidence.compared.first()?.effects;
-        effects.iter().find(|known| known.effect.name() == named).map(|known| known.harms)
+        effects.iter().find(|known| known.effect.name() == named).map(|known| known.degrades_validation)
     }
 
     /// Whether a fault of the library is large enough that it must be named.

@@ -17,7 +17,7 @@ pub struct AnswerRow {
     pub asked: usize,
     /// Exactly the fault was named.
     pub exact: Share,
-    /// The right class was told, or exactly the fault.
+    /// The right class was reported, or exactly the fault.
     pub class: Share,
     /// Nothing was named.
     pub silent: Share,
@@ -68,8 +68,8 @@ pub(super) fn confusion(asked: &[Asked<'_>]) -> Confusion {
     let mut counts = vec![vec![0; columns.len()]; rows.len()];
     for one in asked.iter().filter(|a| a.rating().is_some()) {
         let truth = match one.case.kind {
-            Kind::Planted if one.is_large() => one.truth().unwrap_or_default(),
-            Kind::Planted => continue,
+            Kind::Injected if one.is_large() => one.truth().unwrap_or_default(),
+            Kind::Injected => continue,
             Kind::Outside => "outside",
             Kind::Bare | Kind::Resampled => "none",
         };

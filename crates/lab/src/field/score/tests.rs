@@ -41,8 +41,8 @@ fn case(kind: Kind, base: &str, effect: Option<&'static str>, answer: Answered) 
 }
 
 /// A backlash in a made base.
-fn planted(answer: Answered) -> Case {
-    case(Kind::Planted, "made-1", Some("backlash"), answer)
+fn injected(answer: Answered) -> Case {
+    case(Kind::Injected, "made-1", Some("backlash"), answer)
 }
 
 fn rating(cases: &[Case]) -> Option<Rating> {
@@ -71,13 +71,13 @@ fn each_answer_about_a_fault_has_its_worth() {
         ("failed", &[], Rating::Silent),
     ];
     for (status, effects, worth) in known {
-        assert_eq!(rating(&[planted(answered(status, effects))]), Some(worth), "{status} {effects:?}");
+        assert_eq!(rating(&[injected(answered(status, effects))]), Some(worth), "{status} {effects:?}");
     }
 }
 
 #[test]
 fn other_parameters_are_an_answer_of_their_own() {
-    let table = score(&[planted(answered("refit", &[]))], &Expect::default()).confusion;
+    let table = score(&[injected(answered("refit", &[]))], &Expect::default()).confusion;
     let at = |names: &[&str], name: &str| names.iter().position(|n| *n == name).expect(name);
     assert_eq!(table.counts[at(&table.rows, "backlash")][at(&table.columns, "refit")], 1);
     assert_eq!(table.counts.iter().flatten().sum::<usize>(), 1);
@@ -86,9 +86,9 @@ fn other_parameters_are_an_answer_of_their_own() {
 #[test]
 fn what_a_measured_base_shows_by_itself_is_neither_right_nor_wrong() {
     let on_seal =
-        |effects: &[&'static str]| case(Kind::Planted, "seal", Some("backlash"), answered("named", effects));
+        |effects: &[&'static str]| case(Kind::Injected, "seal", Some("backlash"), answered("named", effects));
     let bare = |effects: &[&'static str]| case(Kind::Bare, "seal", None, answered("named", effects));
-    let rated = |told: &[&'static str], own: &[&'static str]| rating(&[on_seal(told), bare(own)]);
+    let rated = |reported: &[&'static str], own: &[&'static str]| rating(&[on_seal(reported), bare(own)]);
     assert_eq!(rated(&["backlash", "creep"], &["creep"]), Some(Rating::Exact));
     assert_eq!(rated(&["creep"], &["creep"]), Some(Rating::Silent));
     assert_eq!(rated(&["outliers"], &["creep"]), Some(Rating::Wrong));
@@ -129,22 +129,22 @@ fn a_foreign_fault_is_no_cause_of_the_library() {
 
 #[test]
 fn sizes_count_as_reached_and_small_faults_apart() {
-    let mut small = planted(answered("none", &[]));
+    let mut small = injected(answered("none", &[]));
     small.fault.as_mut().expect("a fault").size = 0.49;
-    let mut middling = planted(answered("none", &[]));
+    let mut middling = injected(answered("none", &[]));
     middling.fault.as_mut().expect("a fault").size = 1.2;
-    let cases = [planted(answered("named", &["backlash"])), small, middling];
+    let cases = [injected(answered("named", &["backlash"])), small, middling];
     let scores = score(&cases, &Expect::default());
     assert_eq!(scores.not_observable, 1);
     assert_eq!(reached(&cases, "exact"), Some(1.0));
-    let told: Vec<(&str, usize, usize)> =
+    let reported: Vec<(&str, usize, usize)> =
         scores.by_size.iter().map(|row| (row.of.as_str(), row.asked, row.exact.of)).collect();
-    assert_eq!(told, [("1 to 2", 1, 1), ("2 to 4", 1, 1), ("below ½: not observable", 1, 0)]);
+    assert_eq!(reported, [("1 to 2", 1, 1), ("2 to 4", 1, 1), ("below ½: not observable", 1, 0)]);
 }
 
 #[test]
-fn with_the_model_and_without_are_told_apart() {
-    let mut case = planted(answered("named", &["backlash"]));
+fn with_the_model_and_without_are_distinguished() {
+    let mut case = injected(answered("named", &["backlash"]));
     case.answers.push(Answered { with_model: true, ..answered("none", &[]) });
     let cases = [case];
     assert_eq!((reached(&cases, "exact"), reached(&cases, "model_exact")), (Some(1.0), Some(0.0)));
@@ -153,9 +153,9 @@ fn with_the_model_and_without_are_told_apart() {
 #[test]
 fn calibration_is_judged_against_perfect_claims() {
     // Claims of 0.9 of which nine in ten hold: no error, where chance alone would show some.
-    let told =
-        |k: usize| planted(answered("named", if k.is_multiple_of(10) { &["creep"] } else { &["backlash"] }));
-    let cases: Vec<Case> = (0..100).map(told).collect();
+    let reported =
+        |k: usize| injected(answered("named", if k.is_multiple_of(10) { &["creep"] } else { &["backlash"] }));
+    let cases: Vec<Case> = (0..100).map(reported).collect();
     let claims = score(&cases, &Expect::default()).claims;
     assert!(claims.error.expect("claims") < 1e-12);
     // The mean distance of a share of 100 from 0.9 is √(2/π)·√(0.9·0.1/100) = 0.0239.
@@ -166,7 +166,7 @@ fn calibration_is_judged_against_perfect_claims() {
 #[test]
 fn an_interval_covers_the_share_of_the_gap_that_is_the_faults() {
     let with = |actual: f64| {
-        let mut case = planted(answered("named", &["backlash"]));
+        let mut case = injected(answered("named", &["backlash"]));
         let check = ClosureCheck { estimate: 0.8, ci90: [0.7, 0.9], actual };
         case.answers[0] = Answered { with_model: true, closure: Some(check), ..case.answers[0].clone() };
         case
@@ -175,9 +175,9 @@ fn an_interval_covers_the_share_of_the_gap_that_is_the_faults() {
 }
 
 #[test]
-fn an_expectation_that_nothing_tells_is_broken() {
+fn an_expectation_that_nothing_shows_is_broken() {
     let expect = Expect { model_exact: Some(0.5), ..Expect::default() };
-    let scores = score(&[planted(answered("named", &["backlash"]))], &expect);
+    let scores = score(&[injected(answered("named", &["backlash"]))], &expect);
     let broken: Vec<_> = scores.measures.iter().filter(|m| m.is_unexpected()).map(|m| m.key).collect();
     assert_eq!(broken, ["model_exact"]);
 }

@@ -84,7 +84,7 @@ impl Law for UnevenPlay {
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
         let plant = scene.plant;
         let mean = scene.x() * plant.interval.width();
-        let phase = scene.dose.between(0, 0.0, std::f64::consts::TAU);
+        let phase = scene.amount.between(0, 0.0, std::f64::consts::TAU);
         play(v, |v| mean * (1.0 + 0.7 * (5.0 * position(plant, v) + phase).sin()));
     }
 }

@@ -15,7 +15,7 @@ impl Law for Jump {
     card!("border_resolution", "jump", Operator, "spans of u", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let place = scene.dose.between(2, 0.2, 0.8);
+        let place = scene.amount.between(2, 0.2, 0.8);
         in_one_cell(scene, v, u, |share| if share < place { -share } else { 1.0 - share });
     }
 }
@@ -50,7 +50,7 @@ impl Law for Ripple {
 /// Adds `x·shape(share of the cell)` in one inner cell of each border, zero at its ends.
 fn in_one_cell(scene: &Scene<'_>, v: &[f64], u: &mut [f64], shape: impl Fn(f64) -> f64) {
     let cells = scene.plant.levels.len() - 1;
-    let cell = |i: usize| 1.0 + (scene.dose.shape[i] * (cells - 2) as f64).floor();
+    let cell = |i: usize| 1.0 + (scene.amount.shape[i] * (cells - 2) as f64).floor();
     let (rising, falling) = (cell(0), cell(1));
     for (t, direction) in directions(scene.plant, v).into_iter().enumerate() {
         let place = cells as f64 * position(scene.plant, v[t]);

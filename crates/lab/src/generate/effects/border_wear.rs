@@ -6,7 +6,7 @@ use crate::generate::law::{Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 4] = [&Linear, &RunIn, &OneBorder, &Pitting];
 
-/// The loop narrows in proportion to travel: half-width × `(1 − x·w)`, `w` from 0 to 1 over the campaign.
+/// The loop narrows in proportion to travel: half-width × `(1 − x·w)`, `w` from 0 to 1 over the dataset.
 #[derive(Debug)]
 struct Linear;
 
@@ -26,7 +26,7 @@ impl Law for RunIn {
     card!("border_wear", "run-in", Operator, "half-widths of the loop", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let rate = scene.dose.between(0, 3.0, 8.0);
+        let rate = scene.amount.between(0, 3.0, 8.0);
         wear(scene, v, u, |worn, _| 1.0 - (-rate * worn).exp());
     }
 }
@@ -39,7 +39,7 @@ impl Law for OneBorder {
     card!("border_wear", "one border", Operator, "spans of u", 0.5);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let side = scene.dose.sign(0);
+        let side = scene.amount.sign(0);
         let directions = directions(scene.plant, v);
         for (t, worn) in scene.passage.wear_clock().into_iter().enumerate() {
             if directions[t] == side {
@@ -57,7 +57,7 @@ impl Law for Pitting {
     card!("border_wear", "pitting", Operator, "half-widths of the loop", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let centre = scene.dose.between(0, 0.25, 0.75);
+        let centre = scene.amount.between(0, 0.25, 0.75);
         let plant = scene.plant;
         wear(scene, v, u, |worn, v| worn * (-((position(plant, v) - centre) / 0.15).powi(2)).exp());
     }

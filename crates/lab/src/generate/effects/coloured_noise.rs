@@ -55,7 +55,7 @@ impl Law for Resonant {
 
     fn equation_error(&self, scene: &mut Scene<'_>, _u: &[f64], xi: &mut [f64]) {
         let radius = scene.x();
-        let angle = std::f64::consts::PI * scene.dose.between(0, 0.1, 0.7);
+        let angle = std::f64::consts::PI * scene.amount.between(0, 0.1, 0.7);
         for t in 2..xi.len() {
             xi[t] += 2.0 * radius * angle.cos() * xi[t - 1] - radius * radius * xi[t - 2];
         }

@@ -14,7 +14,7 @@ impl Law for Logarithmic {
     card!("creep", "logarithmic", Operator, "spans of u a decade", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let start = scene.dose.between(0, 1.0, 8.0);
+        let start = scene.amount.between(0, 1.0, 8.0);
         let directions = directions(scene.plant, v);
         for (t, since) in since_reversal(&directions).into_iter().enumerate() {
             u[t] += scene.x() * directions[t] * (1.0 + since / start).log10();
@@ -35,7 +35,7 @@ impl Law for KelvinVoigt {
             let instant = *now;
             for (lag, samples) in lags.iter_mut().zip([10.0, 50.0, 250.0_f64]) {
                 *lag += (instant - *lag) / samples;
-                *now += scene.dose.magnitude * (*lag - instant) / 3.0;
+                *now += scene.amount.magnitude * (*lag - instant) / 3.0;
             }
         }
     }
@@ -49,7 +49,7 @@ impl Law for RestingCreep {
     card!("creep", "resting", Operator, "spans of u", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let time = scene.dose.between(0, 2.0, 30.0);
+        let time = scene.amount.between(0, 2.0, 30.0);
         let directions = directions(scene.plant, v);
         let mut rest = 0.0;
         for (t, speed) in moves(scene.plant, v).into_iter().enumerate() {

@@ -1,12 +1,12 @@
-//! How slow effects run over a campaign.
+//! How slow effects run over a dataset.
 
-use crate::generate::law::Dose;
+use crate::generate::law::Amount;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
-/// A slow course over the campaign, of order one. `clock` runs from 0 to 1.
+/// A slow course over the dataset, of order one. `clock` runs from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Envelope {
     /// A straight line from −1/2 to 1/2.
@@ -33,28 +33,28 @@ impl Envelope {
     }
 
     /// The course at every clock.
-    pub(super) fn course(self, dose: &Dose, clock: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(super) fn course(self, amount: &Amount, clock: impl Iterator<Item = f64>) -> Vec<f64> {
         match self {
             Self::Ramp => clock.map(|c| c - 0.5).collect(),
             Self::WarmUp => {
-                let rate = dose.between(0, 3.0, 8.0);
+                let rate = amount.between(0, 3.0, 8.0);
                 clock.map(|c| -(-rate * c).exp()).collect()
             }
             Self::Sinusoid => {
-                let (waves, phase) = (dose.between(0, 1.0, 3.0), dose.between(1, 0.0, TAU));
+                let (waves, phase) = (amount.between(0, 1.0, 3.0), amount.between(1, 0.0, TAU));
                 clock.map(|c| 0.5 * (TAU * waves * c + phase).sin()).collect()
             }
             Self::RandomWalk => {
-                let walk = random_walk(dose);
+                let walk = random_walk(amount);
                 clock.map(|c| interpolate(&walk, c)).collect()
             }
         }
     }
 }
 
-/// A walk over the whole campaign; its steps come from the dose, so that every passage sees the same one.
-fn random_walk(dose: &Dose) -> Vec<f64> {
-    let mut rng = ChaCha8Rng::seed_from_u64(dose.shape[3].to_bits());
+/// A walk over the whole dataset; its steps come from the magnitude, so that every passage sees the same one.
+fn random_walk(amount: &Amount) -> Vec<f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(amount.shape[3].to_bits());
     let mut level = 0.0;
     (0..=KNOTS)
         .map(|_| {

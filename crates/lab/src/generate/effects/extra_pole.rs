@@ -38,7 +38,7 @@ impl Law for LagWithFeedthrough {
     card!("extra_pole", "lag with feedthrough", Dynamics, "pole", 0.97);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let share = scene.dose.between(0, 0.4, 0.8);
+        let share = scene.amount.between(0, 0.4, 0.8);
         let mut lagged = u.to_vec();
         lag(scene.x(), &mut lagged);
         u.iter_mut().zip(lagged).for_each(|(u, l)| *u += share * (l - *u));

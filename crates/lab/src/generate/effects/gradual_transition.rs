@@ -65,7 +65,7 @@ impl Law for BoucWen {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let length = scene.x();
-        let beta = scene.dose.between(0, 0.5, 0.9);
+        let beta = scene.amount.between(0, 0.5, 0.9);
         blend(scene, v, u, |z, s, travel| {
             let slope = |z: f64| s - (beta * s * z.abs() + (1.0 - beta) * z) * z.abs();
             // z is within 10⁻⁹ of s after 12 lengths; Heun's rule over steps of at most λ/20.

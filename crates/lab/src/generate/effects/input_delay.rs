@@ -1,7 +1,7 @@
 //! `input_delay`: the actuator answers late.
 
 use super::card;
-use crate::generate::law::{Law, Planting, Scene};
+use crate::generate::law::{Injection, Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 2] = [&HeldCommand, &LateClock];
 
@@ -12,8 +12,8 @@ struct HeldCommand;
 impl Law for HeldCommand {
     card!("input_delay", "held command", Input, "samples", 4.0);
 
-    fn planting(&self) -> Planting {
-        Planting::Recording
+    fn injection(&self) -> Injection {
+        Injection::Recording
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
@@ -38,8 +38,8 @@ struct LateClock;
 impl Law for LateClock {
     card!("input_delay", "late clock", Input, "samples", 4.0);
 
-    fn planting(&self) -> Planting {
-        Planting::Recording
+    fn injection(&self) -> Injection {
+        Injection::Recording
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {

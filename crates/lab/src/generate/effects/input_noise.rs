@@ -2,7 +2,7 @@
 
 use super::card;
 use super::motion::{border, directions};
-use crate::generate::law::{INTERVAL_WIDTHS, Law, Nature, Planting, Scene};
+use crate::generate::law::{INTERVAL_WIDTHS, Injection, Law, Nature, Scene};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -16,8 +16,8 @@ struct PositionJitter;
 impl Law for PositionJitter {
     card!("input_noise", "position jitter", Input, INTERVAL_WIDTHS, 0.2);
 
-    fn planting(&self) -> Planting {
-        Planting::Recording
+    fn injection(&self) -> Injection {
+        Injection::Recording
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
@@ -47,7 +47,7 @@ impl Law for ActuatorNoise {
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
         for now in u {
             let normal: f64 = StandardNormal.sample(&mut scene.rng);
-            *now += scene.dose.magnitude * normal;
+            *now += scene.amount.magnitude * normal;
         }
     }
 }
@@ -59,8 +59,8 @@ struct LaplaceJitter;
 impl Law for LaplaceJitter {
     card!("input_noise", "Laplace jitter", Input, INTERVAL_WIDTHS, 0.2);
 
-    fn planting(&self) -> Planting {
-        Planting::Recording
+    fn injection(&self) -> Injection {
+        Injection::Recording
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {

@@ -92,7 +92,7 @@ impl Law for Spikes {
 
 fn contaminate(scene: &mut Scene<'_>, signal: &mut [f64]) {
     let sd = scene.x() * scene.plant.noise_sd;
-    let share = scene.dose.between(0, 0.004, 0.02);
+    let share = scene.amount.between(0, 0.004, 0.02);
     for now in signal {
         let normal: f64 = StandardNormal.sample(&mut scene.rng);
         if scene.rng.random_bool(share) {

@@ -1,7 +1,7 @@
 //! `output_noise`: white noise on the output, besides the equation error.
 
 use super::card;
-use crate::generate::law::{Dose, Law, Nature, Scene};
+use crate::generate::law::{Amount, Law, Nature, Scene};
 use crate::generate::plant::Plant;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -20,8 +20,8 @@ impl Law for Gaussian {
         Nature::Noise
     }
 
-    fn oracle_variance(&self, plant: &Plant, dose: &Dose) -> f64 {
-        innovations_variance(plant, dose.magnitude)
+    fn oracle_variance(&self, plant: &Plant, amount: &Amount) -> f64 {
+        innovations_variance(plant, amount.magnitude)
     }
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
@@ -44,8 +44,8 @@ impl Law for Uniform {
         Nature::Noise
     }
 
-    fn oracle_variance(&self, plant: &Plant, dose: &Dose) -> f64 {
-        innovations_variance(plant, dose.magnitude)
+    fn oracle_variance(&self, plant: &Plant, amount: &Amount) -> f64 {
+        innovations_variance(plant, amount.magnitude)
     }
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {

@@ -15,7 +15,7 @@ impl Law for Viscous {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let moves = moves(scene.plant, v);
-        u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.dose.magnitude * speed);
+        u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.amount.magnitude * speed);
     }
 }
 
@@ -27,10 +27,10 @@ impl Law for PowerLaw {
     card!("rate_dependence", "power law", Operator, "spans of u at a width a sample", 20.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let power = scene.dose.between(0, 0.3, 0.7);
+        let power = scene.amount.between(0, 0.3, 0.7);
         let moves = moves(scene.plant, v);
         let force = |speed: f64| if speed == 0.0 { 0.0 } else { speed.signum() * speed.abs().powf(power) };
-        u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.dose.magnitude * force(speed));
+        u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.amount.magnitude * force(speed));
     }
 }
 
@@ -42,7 +42,7 @@ impl Law for WideningLoop {
     card!("rate_dependence", "widening loop", Operator, "half-widths of the loop", 5.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let reference = scene.dose.between(0, 0.01, 0.05);
+        let reference = scene.amount.between(0, 0.01, 0.05);
         let speeds = last_moves(scene.plant, v);
         for t in 0..v.len() {
             let growth = scene.x() * (1.0 + speeds[t].abs() / reference).ln();

@@ -1,7 +1,7 @@
 //! `resonance`: a lightly damped mode beside the nominal dynamics.
 
 use super::card;
-use crate::generate::law::{Dose, Law, Scene};
+use crate::generate::law::{Amount, Law, Scene};
 use std::f64::consts::PI;
 
 pub(super) static LAWS: [&dyn Law; 3] = [&ParallelMode, &TwoModes, &Notch];
@@ -14,8 +14,8 @@ impl Law for ParallelMode {
     card!("resonance", "parallel mode", Dynamics, "peak gain of the mode over that of u", 5.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let mode = band_pass(frequency(&scene.dose, 0), scene.dose.between(1, 0.93, 0.99), u);
-        u.iter_mut().zip(mode).for_each(|(u, m)| *u += scene.dose.magnitude * m);
+        let mode = band_pass(frequency(&scene.amount, 0), scene.amount.between(1, 0.93, 0.99), u);
+        u.iter_mut().zip(mode).for_each(|(u, m)| *u += scene.amount.magnitude * m);
     }
 }
 
@@ -27,11 +27,11 @@ impl Law for TwoModes {
     card!("resonance", "two modes", Dynamics, "peak gain of the modes over that of u", 5.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let radius = scene.dose.between(1, 0.95, 0.99);
-        let first = band_pass(frequency(&scene.dose, 0), radius, u);
-        let second = band_pass(frequency(&scene.dose, 2), radius, u);
+        let radius = scene.amount.between(1, 0.95, 0.99);
+        let first = band_pass(frequency(&scene.amount, 0), radius, u);
+        let second = band_pass(frequency(&scene.amount, 2), radius, u);
         for ((u, first), second) in u.iter_mut().zip(first).zip(second) {
-            *u += scene.dose.magnitude * 0.5 * (first + second);
+            *u += scene.amount.magnitude * 0.5 * (first + second);
         }
     }
 }
@@ -44,13 +44,13 @@ impl Law for Notch {
     card!("resonance", "antiresonance", Dynamics, "depth", 1.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let mode = band_pass(frequency(&scene.dose, 0), scene.dose.between(1, 0.85, 0.97), u);
-        u.iter_mut().zip(mode).for_each(|(u, m)| *u -= scene.dose.magnitude * m);
+        let mode = band_pass(frequency(&scene.amount, 0), scene.amount.between(1, 0.85, 0.97), u);
+        u.iter_mut().zip(mode).for_each(|(u, m)| *u -= scene.amount.magnitude * m);
     }
 }
 
-fn frequency(dose: &Dose, i: usize) -> f64 {
-    PI * dose.between(i, 0.08, 0.75)
+fn frequency(amount: &Amount, i: usize) -> f64 {
+    PI * amount.between(i, 0.08, 0.75)
 }
 
 /// `(1−r²)/2 · (1 − q⁻²)/(1 − 2r·cos ω q⁻¹ + r² q⁻²)`: gain one at ω (close to it for r near 1), none at rest.

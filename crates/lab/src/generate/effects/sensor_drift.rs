@@ -11,7 +11,7 @@ pub(super) static LAWS: [&dyn Law; 4] = [
     &Reset,
 ];
 
-/// `y'(t) = y(t) + x·σ·g(t)` with an envelope `g` over campaign time.
+/// `y'(t) = y(t) + x·σ·g(t)` with an envelope `g` over dataset time.
 #[derive(Debug)]
 struct Drift {
     envelope: Envelope,
@@ -36,7 +36,7 @@ impl Law for Drift {
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
         let clock = (0..y.len()).map(|t| scene.passage.clock(t));
-        let course = self.envelope.course(&scene.dose, clock);
+        let course = self.envelope.course(&scene.amount, clock);
         let scale = scene.x() * scene.plant.noise_sd;
         y.iter_mut().zip(course).for_each(|(y, g)| *y += scale * g);
     }
@@ -50,7 +50,7 @@ impl Law for Reset {
     card!("sensor_drift", "relaxation after each reset", Sensor, "noise sd", 2000.0);
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let time = scene.dose.between(0, 300.0, 2000.0);
+        let time = scene.amount.between(0, 300.0, 2000.0);
         let scale = scene.x() * scene.plant.noise_sd;
         for (t, y) in y.iter_mut().skip(scene.passage.lead).enumerate() {
             *y += scale * (1.0 - (-(t as f64) / time).exp());

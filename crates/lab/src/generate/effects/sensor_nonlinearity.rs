@@ -13,7 +13,7 @@ impl Law for Quadratic {
     card!("sensor_nonlinearity", "quadratic", Sensor, "share of the range", 0.45);
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let side = scene.dose.sign(0);
+        let side = scene.amount.sign(0);
         bend(scene, y, |e| side * e * e);
     }
 }

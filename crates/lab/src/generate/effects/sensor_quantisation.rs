@@ -33,7 +33,7 @@ impl Law for Truncation {
     }
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let offset = scene.dose.shape[0];
+        let offset = scene.amount.shape[0];
         on_lattice(scene, y, |code| (code - offset).floor() + offset);
     }
 }

@@ -25,7 +25,7 @@ impl Law for OneSided {
     card!("sensor_saturation", "one-sided clipping", Sensor, "share of the range lost", 0.95);
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let side = scene.dose.sign(0);
+        let side = scene.amount.sign(0);
         beyond(scene, y, |excess, _| if excess * side > 0.0 { -excess } else { 0.0 });
     }
 }

@@ -1,7 +1,7 @@
 //! `step_change`: a gain or the width of the loop changes at one instant.
 
 use crate::generate::effects::motion::{directions, half_width};
-use crate::generate::law::{Law, Planting, Scene, Stage};
+use crate::generate::law::{Injection, Law, Scene, Stage};
 
 pub(super) static LAWS: [&dyn Law; 4] = [
     &StepChange { of: Of::Gain, course: Course::Abrupt },
@@ -19,7 +19,7 @@ enum Of {
     Loop,
 }
 
-/// How it changes from `h = 0` to `h = 1`, at 0.2 to 0.6 of the campaign: its last quarter are the records held out.
+/// How it changes from `h = 0` to `h = 1`, at 0.2 to 0.6 of the dataset: its last quarter are the records held out.
 #[derive(Debug)]
 enum Course {
     /// From one sample to the next.
@@ -38,10 +38,10 @@ impl StepChange {
     /// `h` at every sample of a passage.
     fn course(&self, scene: &Scene<'_>) -> Vec<f64> {
         let passage = scene.passage;
-        let instant = scene.dose.between(0, 0.2, 0.6) * passage.total as f64;
+        let instant = scene.amount.between(0, 0.2, 0.6) * passage.total as f64;
         let samples = match self.course {
             Course::Abrupt => 1.0,
-            Course::Ramp => scene.dose.between(1, 20.0, 200.0),
+            Course::Ramp => scene.amount.between(1, 20.0, 200.0),
         };
         let h = |t: usize| (((passage.start + t) as f64 - instant) / samples).clamp(0.0, 1.0);
         (0..passage.v.len()).map(h).collect()
@@ -72,16 +72,16 @@ impl Law for StepChange {
     fn limit(&self) -> f64 {
         0.9
     }
-    fn planting(&self) -> Planting {
+    fn injection(&self) -> Injection {
         match self.of {
-            Of::Gain => Planting::Gain,
-            Of::Loop => Planting::Carried,
+            Of::Gain => Injection::Gain,
+            Of::Loop => Injection::Carried,
         }
     }
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let Of::Loop = self.of else { return };
-        let change = scene.x() * scene.dose.sign(2);
+        let change = scene.x() * scene.amount.sign(2);
         let directions = directions(scene.plant, v);
         for (t, h) in self.course(scene).into_iter().enumerate() {
             u[t] += change * h * directions[t] * half_width(scene.plant, v[t]);
@@ -90,7 +90,7 @@ impl Law for StepChange {
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
         let Of::Gain = self.of else { return };
-        let change = scene.x() * scene.dose.sign(2);
+        let change = scene.x() * scene.amount.sign(2);
         u.iter_mut().zip(self.course(scene)).for_each(|(u, h)| *u *= 1.0 + change * h);
     }
 }

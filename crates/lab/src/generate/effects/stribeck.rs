@@ -42,7 +42,7 @@ impl Law for Bristle {
     card!("stribeck", "LuGre bristle", Operator, "spans of u", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let slow = scene.dose.between(0, 0.01, 0.06);
+        let slow = scene.amount.between(0, 0.01, 0.06);
         let directions = directions(scene.plant, v);
         let mut bristle = 0.0;
         for (t, speed) in moves(scene.plant, v).into_iter().enumerate() {
@@ -54,7 +54,7 @@ impl Law for Bristle {
 }
 
 fn at_low_speed(scene: &Scene<'_>, v: &[f64], u: &mut [f64], force: impl Fn(f64) -> f64) {
-    let slow = scene.dose.between(0, 0.01, 0.06);
+    let slow = scene.amount.between(0, 0.01, 0.06);
     for (t, speed) in last_moves(scene.plant, v).into_iter().enumerate() {
         let side = if speed == 0.0 { 0.0 } else { speed.signum() };
         u[t] += scene.x() * side * force(speed.abs() / slow);

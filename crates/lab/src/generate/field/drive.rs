@@ -1,4 +1,4 @@
-//! Inputs as campaigns in the field have them, as shares of the reach in `[0, 1]`.
+//! Inputs as datasets in the field have them, as shares of the reach in `[0, 1]`.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

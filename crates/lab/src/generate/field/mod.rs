@@ -2,7 +2,7 @@
 //!
 //! What a machine of the field has beside a nominal system are laws of this crate at drawn magnitudes, its [base](properties); an effect is
 //! put in on top, and a property of the same name is then left out. Its size is what survives identification anew, as that of a fault
-//! planted into measured records ([`PlantedFault::size`](crate::generate::PlantedFault::size)).
+//! planted into measured records ([`InjectedFault::size`](crate::generate::InjectedFault::size)).
 
 mod colour;
 mod drive;
@@ -15,18 +15,18 @@ mod sizing;
 pub(crate) use sizing::size_of_all;
 pub(crate) use sizing::sized;
 
+use crate::generate::generator::{Description, Generator};
 use crate::generate::plant::Family;
 use crate::generate::setting::Setting;
 use crate::generate::stream::{Purpose, stream};
-use crate::generate::workshop::{Description, Workshop};
 use rand::RngExt;
 
 /// Samples to the slowest time constant, and their spread as a factor: coarse, usual and fine sampling.
 const RATES: [f64; 3] = [5.0, 15.0, 50.0];
 const SPREAD: std::ops::Range<f64> = 0.8..1.25;
 
-/// Draws the machine of a seed, without the properties of the given names, and its campaign.
-pub(crate) fn workshop(seed: u64, family: Family, spared: &[&str]) -> Workshop {
+/// Draws the machine of a seed, without the properties of the given names, and its dataset.
+pub(crate) fn generator(seed: u64, family: Family, spared: &[&str]) -> Generator {
     let mut rng = stream(seed, Purpose::Base);
     let time_constant = RATES[rng.random_range(0..RATES.len())] * rng.random_range(SPREAD);
     let (input, output) = machine::labels(&mut rng);
@@ -40,10 +40,10 @@ pub(crate) fn workshop(seed: u64, family: Family, spared: &[&str]) -> Workshop {
     if plant.curved {
         names.push(machine::CURVED_BORDERS);
     }
-    let passages = records::campaign(&plant, time_constant, &mut stream(seed, Purpose::Drive));
+    let passages = records::dataset(&plant, time_constant, &mut stream(seed, Purpose::Drive));
     let description =
         Description { setting: Setting::Field, order: None, interval: None, input, output, base: names };
-    Workshop::new(seed, (plant, base), passages, description)
+    Generator::new(seed, (plant, base), passages, description)
 }
 
 #[cfg(test)]

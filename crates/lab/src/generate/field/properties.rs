@@ -4,7 +4,7 @@ use super::colour::{self, Colour};
 use super::machine::pole;
 use super::reading::Reading;
 use crate::generate::effects::laws_of;
-use crate::generate::law::{Dose, Law};
+use crate::generate::law::{Amount, Law};
 use crate::generate::plant::{Plant, amplification, multiply};
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
@@ -45,8 +45,8 @@ pub(super) fn draw(seed: u64, time_constant: f64, spared: &[&str], rng: &mut Cha
     for (slot, (law, often, magnitude)) in (FIRST_SLOT..).zip(all) {
         if rng.random_bool(often) && !spared.contains(&law.effect()) {
             let mut shapes = stream(seed, Purpose::Shape(slot));
-            let dose = Dose { magnitude, shape: std::array::from_fn(|_| shapes.random()) };
-            base.push(Active { law, dose, slot });
+            let amount = Amount { magnitude, shape: std::array::from_fn(|_| shapes.random()) };
+            base.push(Active { law, amount, slot });
         }
     }
     base
@@ -60,7 +60,7 @@ fn evenly_over_the_logarithm(range: Range<f64>, rng: &mut ChaCha8Rng) -> f64 {
 pub(super) fn noise_amplification(plant: &Plant, base: &[Active]) -> f64 {
     let mut denominator = [&[1.0], plant.a.as_slice()].concat();
     if let Some(colour) = base.iter().find(|property| property.law.effect() == Colour.effect()) {
-        denominator = multiply(&denominator, &colour::denominator(&colour.dose));
+        denominator = multiply(&denominator, &colour::denominator(&colour.amount));
     }
     amplification(&denominator[1..])
 }

@@ -1,7 +1,7 @@
 //! A recorded input that was measured, not commanded.
 
 use crate::generate::effects::card;
-use crate::generate::law::{INTERVAL_WIDTHS, Law, Nature, Planting, Scene};
+use crate::generate::law::{INTERVAL_WIDTHS, Injection, Law, Nature, Scene};
 use rand_distr::{Distribution, StandardNormal};
 
 /// White Gaussian noise of standard deviation `x` on the record of the input, at rest too; the machine never feels it.
@@ -15,8 +15,8 @@ impl Law for Reading {
         Nature::Noise
     }
 
-    fn planting(&self) -> Planting {
-        Planting::Recording
+    fn injection(&self) -> Injection {
+        Injection::Recording
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {

@@ -1,14 +1,14 @@
-//! The records of a campaign in the field.
+//! The records of a dataset in the field.
 
 use super::drive::Drive;
-use crate::generate::campaign::{Passage, lead_in, one_after_the_other};
+use crate::generate::dataset::{Passage, lead_in, one_after_the_other};
 use crate::generate::plant::Plant;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
 use switchback_model::rig::{Role, Usage};
 
-/// Records of a campaign, at most.
+/// Records of a dataset, at most.
 const MOST: usize = 4;
 /// What of a single record is held out, at its end.
 const HELD_OUT: f64 = 0.3;
@@ -25,7 +25,7 @@ const MARGIN: f64 = 0.01;
 const RUN_IN: f64 = 2.0;
 
 /// Draws one to four records; one is held out, or the last part of a single one.
-pub(super) fn campaign(plant: &Plant, time_constant: f64, rng: &mut ChaCha8Rng) -> Vec<Passage> {
+pub(super) fn dataset(plant: &Plant, time_constant: f64, rng: &mut ChaCha8Rng) -> Vec<Passage> {
     let count = rng.random_range(1..=MOST);
     // The first record visits the whole interval: it is one of those that are fitted, and what is held out asks for no more.
     let held_out = if count > 1 { rng.random_range(1..count) } else { MOST };

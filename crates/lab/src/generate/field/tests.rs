@@ -1,9 +1,9 @@
 use super::*;
 use crate::generate::effects::{EFFECTS, FOREIGN, laws_of};
-use crate::generate::ingredient::Ingredient;
-use crate::generate::law::{Dose, Nature};
+use crate::generate::law::{Amount, Nature};
 use crate::generate::made_rig::MadeRig;
 use crate::generate::make::MakeRig;
+use crate::generate::requested_fault::RequestedFault;
 use crate::generate::simulate::{Active, Noise, simulate};
 use std::collections::HashSet;
 use switchback_model::rig::{Role, Usage};
@@ -72,7 +72,7 @@ fn each_property_occurs_and_none_but_the_colour_always() {
 fn poles_lie_where_one_of_three_sampling_rates_puts_them() {
     let mut at = [0; 3];
     for seed in SEEDS {
-        let plant = recipe(seed).workshop().plant;
+        let plant = recipe(seed).generator().plant;
         // The response falls below 10⁻⁶ after some fourteen time constants.
         let decayed = plant.settling() as f64 / 1e6_f64.ln();
         at[(0..3)
@@ -88,16 +88,16 @@ fn poles_lie_where_one_of_three_sampling_rates_puts_them() {
 #[test]
 fn the_repeating_output_plus_noise_is_the_record() {
     let shape = [0.3, 0.6, 0.2, 0.8];
-    let backlash = Active { law: laws_of("backlash")[0], dose: Dose { magnitude: 0.1, shape }, slot: 0 };
+    let backlash = Active { law: laws_of("backlash")[0], amount: Amount { magnitude: 0.1, shape }, slot: 0 };
     for seed in 0..12 {
-        let workshop = recipe(seed).workshop();
-        let of_base = workshop.base();
+        let generator = recipe(seed).generator();
+        let of_base = generator.base();
         let colour = of_base.iter().find(|p| p.law.effect() == "coloured_noise").expect("a colour");
-        let [_, d1, d2] = colour::denominator(&colour.dose);
-        let plant = &workshop.plant;
+        let [_, d1, d2] = colour::denominator(&colour.amount);
+        let plant = &generator.plant;
         for active in [vec![], vec![backlash]] {
             let all = [of_base, &active].concat();
-            for passage in &workshop.passages {
+            for passage in &generator.passages {
                 let [recorded, repeating] =
                     [Noise::Recorded, Noise::None].map(|noise| simulate(plant, &all, passage, seed, noise));
                 let noise: Vec<f64> = recorded.y.iter().zip(&repeating.y).map(|(y, x)| y - x).collect();
@@ -125,14 +125,14 @@ fn the_repeating_output_plus_noise_is_the_record() {
 fn the_parts_of_a_single_record_are_one_recording() {
     let mut singles = 0;
     for seed in SEEDS {
-        let workshop = recipe(seed).workshop();
-        let [first, second] = workshop.passages.as_slice() else { continue };
+        let generator = recipe(seed).generator();
+        let [first, second] = generator.passages.as_slice() else { continue };
         if first.index != second.index {
             continue;
         }
         singles += 1;
         assert_eq!((first.usage, second.usage), (Usage::Fit, Usage::Holdout));
-        let run = |passage| simulate(&workshop.plant, workshop.base(), passage, seed, Noise::Recorded).y;
+        let run = |passage| simulate(&generator.plant, generator.base(), passage, seed, Noise::Recorded).y;
         let (of_first, whole) = (run(first), run(second));
         assert_eq!(of_first, whole[..of_first.len()]);
         assert_eq!(second.recorded(&whole), &whole[of_first.len()..]);
@@ -144,11 +144,11 @@ fn the_parts_of_a_single_record_are_one_recording() {
 #[test]
 fn the_record_of_the_input_is_the_input_plus_the_noise_of_its_sensor() {
     for seed in SEEDS {
-        let workshop = recipe(seed).workshop();
-        let reading = workshop.base().iter().find(|p| p.law.effect() == "input_noise");
-        let sd = reading.map_or(0.0, |p| p.dose.magnitude * workshop.plant.interval.width());
-        let rig = workshop.rig(&[]).expect("a rig");
-        for (record, passage) in rig.records.iter().zip(&workshop.passages) {
+        let generator = recipe(seed).generator();
+        let reading = generator.base().iter().find(|p| p.law.effect() == "input_noise");
+        let sd = reading.map_or(0.0, |p| p.amount.magnitude * generator.plant.interval.width());
+        let rig = generator.rig(&[]).expect("a rig");
+        for (record, passage) in rig.records.iter().zip(&generator.passages) {
             let acting = passage.recorded(&passage.v);
             let square: f64 = record.record.v().iter().zip(acting).map(|(x, y)| (x - y).powi(2)).sum();
             let found = (square / acting.len() as f64).sqrt();
@@ -166,7 +166,7 @@ fn what_is_put_in_is_not_in_the_machine_beside_and_all_else_stays() {
     for seed in SEEDS {
         let (has, before) = machine(&recipe(seed));
         for name in &has {
-            let effect = Ingredient::plain(name, 2.0).expect("an effect");
+            let effect = RequestedFault::plain(name, 2.0).expect("an effect");
             let (left, after) = machine(&recipe(seed).with(effect));
             let others: Vec<_> = has.iter().filter(|other| *other != name).collect();
             assert_eq!(left.iter().collect::<Vec<_>>(), others, "seed {seed}");
@@ -179,13 +179,13 @@ fn what_is_put_in_is_not_in_the_machine_beside_and_all_else_stays() {
 #[test]
 fn sizes_are_met_and_the_same_recipe_or_key_gives_the_same_rig() {
     for (seed, effect) in [(5, "backlash"), (2, "sensor_drift"), (3, "outliers")] {
-        let recipe = recipe(seed).with(Ingredient::plain(effect, 2.0).expect("an effect"));
+        let recipe = recipe(seed).with(RequestedFault::plain(effect, 2.0).expect("an effect"));
         let made = recipe.make().expect("a rig");
         let found = made.key.effects[0].clone();
         assert!((found.size / 2.0 - 1.0).abs() < 0.1 && made.key.size == found.size, "{found:?}");
         // By the examiner of planted faults, on the records alone.
         let base = recipe.base().make().expect("a rig");
-        let size = crate::generate::planting::Base::new(&base.rig).expect("a model").surviving(&made.rig);
+        let size = crate::generate::injection::Base::new(&base.rig).expect("a model").surviving(&made.rig);
         assert!((size / found.size - 1.0).abs() < 1e-9, "{size} against {found:?}");
         let same = |other: MadeRig| {
             assert!(other.rig == made.rig && other.key == made.key && other.truth == made.truth, "{found:?}");
@@ -207,12 +207,12 @@ fn another_seed_is_another_machine() {
 
 #[test]
 fn of_magnitude_zero_every_law_leaves_the_machine_as_it_is() {
-    let workshop = recipe(4).workshop();
-    let before = workshop.rig(&[]).expect("a rig");
+    let generator = recipe(4).generator();
+    let before = generator.rig(&[]).expect("a rig");
     for law in EFFECTS.iter().chain(&FOREIGN).flat_map(|effect| laws_of(effect)) {
-        let active = workshop.active(0, *law, 0.0);
-        assert!(workshop.rig(&[active]).expect("a rig") == before, "{} {}", law.effect(), law.name());
+        let active = generator.active(0, *law, 0.0);
+        assert!(generator.rig(&[active]).expect("a rig") == before, "{} {}", law.effect(), law.name());
     }
-    let noises = workshop.base().iter().filter(|p| p.law.nature() == Nature::Noise);
+    let noises = generator.base().iter().filter(|p| p.law.nature() == Nature::Noise);
     assert!(noises.count() > 0);
 }

@@ -88,7 +88,7 @@ fn what_is_stated_holds_for_an_effect_of_two_laws() {
 }
 
 #[test]
-fn what_is_never_found_is_told_so_after_a_few_draws() {
+fn what_is_never_found_is_reported_so_after_a_few_draws() {
     let often_missed = Psychometric { threshold: 1.0, slope: 4.0, lapse: 0.9, guess: GUESS };
     let runs: Vec<_> = (0..40).map(|seed| observed(|s| often_missed.found(s), 24, seed)).collect();
     assert!(runs.iter().all(|(conclusion, _)| conclusion.is_beyond() && conclusion.size.is_none()));

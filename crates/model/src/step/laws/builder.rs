@@ -62,9 +62,9 @@ impl Builder {
     }
 
     /// The program, whose last two procedures are `start` and `step`.
-    pub(super) fn finish(self, output: Variable, told: Option<Variable>, direct: bool) -> Program {
+    pub(super) fn finish(self, output: Variable, reported: Option<Variable>, direct: bool) -> Program {
         let Self { variables, arrays, procedures } = self;
-        Program { variables, arrays, procedures, output, told, direct }
+        Program { variables, arrays, procedures, output, reported, direct }
     }
 }
 

@@ -39,10 +39,10 @@ impl Model {
         let begins = ("start", "Begins a run at rest at `v`, as if the input had always been there.");
         b.procedure(begins, &[ends.v, ends.branch], start);
         b.procedure(("step", "The output after one more sample `v` of the input."), &[ends.v], step);
-        b.finish(ends.output, motion.told, self.is_direct())
+        b.finish(ends.output, motion.reported, self.is_direct())
     }
 
-    /// Whether an output depends on the input of the same sample: by the first coefficient, or by a turning sample that it tells of.
+    /// Whether an output depends on the input of the same sample: by the first coefficient, or by a turning sample that it reports.
     fn is_direct(&self) -> bool {
         let shares = matches!(self.direction, Direction::FirstMove { between_samples: true, .. });
         self.linear.lag == 0 || (shares && self.linear.lag == 1)

@@ -1,12 +1,12 @@
-//! The explanations, and why each stands where it stands.
+//! The candidates, and why each stands where it stands.
 
-use crate::diagnosis::json::{Explanation, GapFile, Pair, Parameter, SecondOpinion, Verdict};
+use crate::diagnosis::json::{GapFile, Hypothesis, Pair, Parameter, SecondOpinion, Verdict};
 use crate::diagnosis::probability;
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
 use switchback_io::diagnosis::{closed_percent, digits};
 
-/// A row an explanation; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
+/// A row an candidate; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
 pub(super) fn candidates(gap: &GapFile) -> Markup {
     html! {
         (table(gap).html())
@@ -31,7 +31,7 @@ fn table(gap: &GapFile) -> Table {
         "closure",
         "parameters, 90 % interval",
     ];
-    let mut table = Table::new("The explanations, best first", head);
+    let mut table = Table::new("The candidates, best first", head);
     for candidate in &gap.candidates {
         let closure = match candidate.closure {
             _ if candidate.unstable => "unstable".to_owned(),
@@ -68,18 +68,18 @@ fn table(gap: &GapFile) -> Table {
 
 /// Second opinions listed; the rest is in gap.json.
 const LISTED: usize = 6;
-/// Parameters of one effect that are told one by one.
+/// Parameters of one effect that are reported one by one.
 const READABLE: usize = 6;
 
-fn parameters(candidate: &Explanation) -> String {
+fn parameters(candidate: &Hypothesis) -> String {
     match candidate.parameters.len() {
         count if count > READABLE => format!("{count} parameters, in gap.json"),
-        _ => candidate.parameters.iter().map(told).collect::<Vec<_>>().join("; "),
+        _ => candidate.parameters.iter().map(reported).collect::<Vec<_>>().join("; "),
     }
 }
 
 /// `play 1.003 [1.000, 1.004] mm`.
-pub(super) fn told(parameter: &Parameter) -> String {
+pub(super) fn reported(parameter: &Parameter) -> String {
     let [low, high] = parameter.ci90;
     let interval = match low.is_finite() && high.is_finite() {
         true => format!(" [{}, {}]", digits(low, 4), digits(high, 4)),
@@ -97,7 +97,7 @@ pub(super) fn told(parameter: &Parameter) -> String {
 
 /// What share of the error each saves on the fit records, by how many samples ahead it predicts.
 fn gains(gap: &GapFile) -> Markup {
-    let ahead = |candidate: &Explanation| candidate.gains.iter().map(|gain| gain.samples).collect::<Vec<_>>();
+    let ahead = |candidate: &Hypothesis| candidate.gains.iter().map(|gain| gain.samples).collect::<Vec<_>>();
     let Some(horizons) = gap.candidates.iter().map(ahead).max_by_key(Vec::len).filter(|h| !h.is_empty())
     else {
         return html! {};
@@ -171,14 +171,14 @@ fn second(opinion: &SecondOpinion) -> Markup {
     for weighed in opinion.effects.iter().take(LISTED) {
         let mut reasons: Vec<_> = weighed.contributions.iter().filter(|c| c.adds.is_finite()).collect();
         reasons.sort_by(|one, other| other.adds.abs().total_cmp(&one.adds.abs()));
-        let told = reasons
+        let reported = reasons
             .iter()
             .take(3)
             .map(|c| format!("{} {:+.2}", c.feature.replace('_', " "), c.adds).replace('-', "−"));
         table.row([
             Cell::word(weighed.effect.replace('_', " ")),
             Cell::number(probability(weighed.probability), Some(weighed.probability)),
-            Cell::word(told.collect::<Vec<_>>().join(", ")),
+            Cell::word(reported.collect::<Vec<_>>().join(", ")),
         ]);
     }
     html! {

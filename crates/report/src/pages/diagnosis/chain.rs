@@ -1,6 +1,6 @@
 //! The block diagram, with what speaks for each stage.
 
-use crate::diagnosis::json::{Explanation, GapFile};
+use crate::diagnosis::json::{GapFile, Hypothesis};
 use crate::diagnosis::probability;
 use maud::{Markup, html};
 use switchback_diagnose::{Effect, Stage};
@@ -38,8 +38,8 @@ pub(super) fn chain(gap: &GapFile) -> Markup {
 }
 
 fn one(gap: &GapFile, stage: Stage) -> Markup {
-    let within = |candidate: &&Explanation| candidate.stage == stage.name();
-    let here: Vec<&Explanation> = gap.candidates.iter().filter(within).collect();
+    let within = |candidate: &&Hypothesis| candidate.stage == stage.name();
+    let here: Vec<&Hypothesis> = gap.candidates.iter().filter(within).collect();
     let sum: f64 = here.iter().map(|candidate| candidate.probability).filter(|p| p.is_finite()).sum();
     let accused = accused(gap, stage);
     html! {

@@ -73,7 +73,7 @@ fn verdict(gap: &GapFile) -> Markup {
         div class="box" {
             @for sentence in &gap.in_words { p { (sentence) } }
             @if is_calibrated {
-                p class="note" { "The probability is calibrated: of verdicts told with it about that share was right on the rigs of the examination." }
+                p class="note" { "The probability is calibrated: of verdicts reported with it about that share was right on the rigs of the examination." }
             }
         }
     }
@@ -94,7 +94,7 @@ fn headline(gap: &GapFile) -> String {
             format!("The model lacks {} (probability {probability}).", named(&verdict.effects, " and "))
         }
         "class" => format!(
-            "The model lacks one of {}, which these records do not tell apart (probability {probability}).",
+            "The model lacks one of {}, which these records do not distinguish (probability {probability}).",
             named(&verdict.class, ", ")
         ),
         "ambiguous" => format!(

@@ -28,12 +28,12 @@ pub(super) fn model(
     );
     for effect in &augmented.header.effects {
         for parameter in &effect.parameters {
-            let told = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| digits(x, 4));
-            let [low, high] = parameter.ci90.map(told);
+            let reported = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| digits(x, 4));
+            let [low, high] = parameter.ci90.map(reported);
             table.row([
                 Cell::word(effect.effect.replace('_', " ")),
                 Cell::word(parameter.name.clone()),
-                Cell::number(told(parameter.value), parameter.value),
+                Cell::number(reported(parameter.value), parameter.value),
                 Cell::word(format!("[{low}, {high}]")),
                 Cell::word(parameter.unit.clone()),
             ]);

@@ -16,7 +16,7 @@ pub(super) fn places(gap: &GapFile) -> Markup {
             |x: f64| Cell::number(if x < 0.001 { "< 0.001".to_owned() } else { format!("{x:.3}") }, Some(x));
         table.row([
             Cell::word(place.axis.replace('_', " ")),
-            Cell::word(told(place)),
+            Cell::word(reported(place)),
             percent(place.share),
             percent(place.exposure),
             Cell::number(format!("× {:.2}", place.enrichment), Some(place.enrichment)),
@@ -34,7 +34,7 @@ pub(super) fn places(gap: &GapFile) -> Markup {
     }
 }
 
-fn told(place: &Place) -> String {
+fn reported(place: &Place) -> String {
     let plain = |x: f64| plain(format!("{x:.3e}").parse().unwrap_or(x));
     let unit = place.unit.as_deref().unwrap_or_default();
     match (place.low, place.high) {

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What both kinds tell of how they were made.
+/// What both kinds report how they were made.
 pub(super) struct Made<'a> {
     pub(super) study: &'a str,
     pub(super) version: &'a str,

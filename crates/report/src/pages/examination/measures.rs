@@ -14,7 +14,7 @@ pub(super) fn answer(measures: &[MeasureFile]) -> Markup {
     html! {
         p class="lead" {
             (judged.len() - short.len()) " of " (judged.len()) " measures reach what they must."
-            @if open > 0 { " " (open) " cannot be told from so few rigs." }
+            @if open > 0 { " " (open) " cannot be distinguished from so few rigs." }
         }
         @if !short.is_empty() { p class="bad" { "Short: " (short.join("; ")) "." } }
     }
@@ -36,7 +36,7 @@ pub(super) fn table(measures: &[MeasureFile]) -> Markup {
         };
         let verdict = match (measure.must_reach, measure.meets) {
             (None, _) => "",
-            (_, None) => "not told",
+            (_, None) => "not reported",
             (_, Some(true)) => "reached",
             (_, Some(false)) => "short",
         };

@@ -18,7 +18,7 @@ pub(super) fn borders(estimate: &EstimateFile) -> Result<Markup, PageError> {
         @if let Some(apart) = &estimate.r#loop {
             p {
                 "The borders " (if apart.z > apart.limit { "differ beyond chance" } else { "do not differ beyond chance" }) ": on "
-                (format!("{:.0} %", 100.0 * apart.told_apart)) " of the interval their difference is beyond chance; it is clearest at "
+                (format!("{:.0} %", 100.0 * apart.distinguished)) " of the interval their difference is beyond chance; it is clearest at "
                 (digits(apart.clearest_v, 3)) ", where it is " (digits(apart.difference, 3)) " with a standard error of " (digits(apart.se, 2))
                 " (" (digits(apart.z, 3)) " standard errors; the limit for all points together is " (digits(apart.limit, 3)) ")."
             }

@@ -16,14 +16,14 @@ pub(super) fn coefficients(estimate: &EstimateFile) -> Markup {
     );
     let mut row = |name: String, value: f64, se: Option<f64>, unit: &str| {
         let se = se.filter(|se| se.is_finite());
-        let told = |x: f64| digits(x, 5);
+        let reported = |x: f64| digits(x, 5);
         table.row([
             Cell::word(name),
-            Cell::number(told(value), Some(value)),
+            Cell::number(reported(value), Some(value)),
             Cell::number(se.map_or_else(|| "–".to_owned(), |se| digits(se, 2)), se),
             Cell::word(se.map_or_else(
                 || "–".to_owned(),
-                |se| format!("[{}, {}]", told(value - Z95 * se), told(value + Z95 * se)),
+                |se| format!("[{}, {}]", reported(value - Z95 * se), reported(value + Z95 * se)),
             )),
             Cell::word(unit),
         ]);

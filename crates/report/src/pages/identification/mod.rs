@@ -104,7 +104,7 @@ fn residuals(estimate: &EstimateFile, series: &Series) -> Result<Markup, PageErr
         (figure("correlations", &svg)?)
         p class="note" {
             @if let Some(innovations) = &estimate.innovations {
-                "The past of the residuals foretells " (format!("{:.1} %", 100.0 * innovations.foretold)) " of their variance (Ljung–Box "
+                "The past of the residuals predicts " (format!("{:.1} %", 100.0 * innovations.forecast)) " of their variance (Ljung–Box "
                 (format!("{:.0}", innovations.ljung_box)) " over " (innovations.lags) " lags). "
             }
             "Correlation with the input at negative lags means feedback from output to input, or a model that looks too far ahead. "

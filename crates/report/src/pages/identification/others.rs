@@ -28,7 +28,7 @@ pub(super) fn others(estimate: &EstimateFile) -> Markup {
             Cell::number(excess.unwrap_or_else(|| "–".to_owned()), beside.excess.map(|e| e[0])),
         ]);
     };
-    estimate.yardsticks.iter().for_each(|beside| row(beside.method.clone(), beside));
+    estimate.baselines.iter().for_each(|beside| row(beside.method.clone(), beside));
     if let Some(held_out) = estimate.causal_alternative.as_ref().and_then(|causal| causal.held_out.as_ref()) {
         row("the same, in real time".to_owned(), held_out);
     }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use switchback_io::diagnosis::digits;
 use switchback_study::results::{Results, Summary, Verdict};
 
-/// One sentence a case: which methods converge to the truth, which do not, which cannot be told; then what was expected.
+/// One sentence a case: which methods converge to the truth, which do not, which cannot be reported; then what was expected.
 pub(super) fn answer(results: &Results) -> Markup {
     let cases = distinct(results.summaries.iter().map(|s| s.series.case.as_str()));
     let broken = results.expectations.iter().filter(|e| !e.held).count();
@@ -54,8 +54,8 @@ fn sentence(summaries: &[&Summary]) -> String {
         ("They do not by ", wrong),
         ("Undecided: ", open),
     ];
-    let told = parts.into_iter().filter(|(_, methods)| !methods.is_empty());
-    told.map(|(start, methods)| format!("{start}{}.", listed(&methods))).collect::<Vec<_>>().join(" ")
+    let reported = parts.into_iter().filter(|(_, methods)| !methods.is_empty());
+    reported.map(|(start, methods)| format!("{start}{}.", listed(&methods))).collect::<Vec<_>>().join(" ")
 }
 
 /// `a, b and c`.
@@ -84,15 +84,15 @@ mod tests {
     use switchback_study::results::synthetic;
 
     #[test]
-    fn methods_are_told_by_their_verdicts() {
+    fn methods_are_reported_by_their_verdicts() {
         let results = synthetic::results();
         let all: Vec<&Summary> = results.summaries.iter().collect();
-        let told = sentence(&all);
+        let reported = sentence(&all);
         assert!(
-            told.starts_with("The estimates converge to the truth by paper-descendant and joint."),
-            "{told}"
+            reported.starts_with("The estimates converge to the truth by paper-descendant and joint."),
+            "{reported}"
         );
-        assert!(told.contains("They do not by memoryless (a bias of up to"), "{told}");
+        assert!(reported.contains("They do not by memoryless (a bias of up to"), "{reported}");
         assert_eq!(listed(&["a".into(), "b".into(), "c".into()]), "a, b and c");
     }
 }

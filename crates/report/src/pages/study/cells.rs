@@ -33,7 +33,7 @@ impl Status {
         }
     }
 
-    fn told(self, replicates: usize) -> String {
+    fn reported(self, replicates: usize) -> String {
         match self {
             Self::Whole => format!("{replicates}"),
             Self::Imprecise => format!("{replicates} ≈"),
@@ -86,7 +86,7 @@ fn grid(case: &str, cells: &[&Cell]) -> Markup {
                             @for n in &samples {
                                 @if let Some(cell) = row.get(n) {
                                     @let status = Status::of(cell);
-                                    td class=(status.class()) { (status.told(cell.replicates)) }
+                                    td class=(status.class()) { (status.reported(cell.replicates)) }
                                 } @else { td { "–" } }
                             }
                         }

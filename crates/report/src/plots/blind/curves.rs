@@ -34,12 +34,12 @@ type Curves<R, const N: usize> = [Curve<R>; N];
 /// Draws a curve a share, marks a little apart so that intervals do not cover each other.
 fn curves<R, const N: usize>(panel: &Panel<'_>, rows: &[R], x: fn(&R) -> f64, curves: &Curves<R, N>) {
     for (k, ((_, share), colour)) in curves.iter().zip(OKABE_ITO).enumerate() {
-        let told: Vec<_> =
+        let reported: Vec<_> =
             rows.iter().filter_map(|r| Some((x(r), share(r).value()?, share(r).interval()?))).collect();
-        let line: Vec<(f64, f64)> = told.iter().map(|(x, y, _)| (*x, *y)).collect();
+        let line: Vec<(f64, f64)> = reported.iter().map(|(x, y, _)| (*x, *y)).collect();
         panel.line(&line, Pen::hair(colour));
         let aside = APART * (k as f64 - (N - 1) as f64 / 2.0);
-        for (x, y, [low, high]) in told {
+        for (x, y, [low, high]) in reported {
             panel.mark(x, y, (low, high), Mark { aside, ..Mark::disc(Pen::data(colour), RADIUS) });
         }
     }

@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_tell_how_many_rigs_they_are_of_and_bins_too() {
+    fn rows_describe_how_many_rigs_they_are_of_and_bins_too() {
         let figures = drawn();
         assert!(figures[0].contains("\n371\n"), "none has 371 rigs");
         assert!(figures[2].contains("\n376\n") && figures[2].contains("\n1\n"));

@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_have_units_and_a_single_cell_is_told_instead_of_drawn() {
+    fn axes_have_units_and_a_single_cell_is_reported_instead_of_drawn() {
         let figures = figures(&found());
         assert!(figures[3].svg.contains("force [output units]"));
         let places = &figures[0].svg;

@@ -180,7 +180,7 @@ fn axis_name(axis: &str, units: &Units) -> String {
         "rest_samples" => "samples since the last move".to_owned(),
         "loop_size" => format!("size of the loop [{}]", units.input),
         "speed" => format!("speed |Δv/Δt| [{}/s]", units.input),
-        "time" => "time, as a share of the campaign".to_owned(),
+        "time" => "time, as a share of the dataset".to_owned(),
         "frequency" => "frequency [Hz]".to_owned(),
         other => other.replace('_', " "),
     }

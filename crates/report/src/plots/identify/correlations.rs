@@ -26,11 +26,11 @@ pub(crate) fn correlations(estimate: &EstimateFile, series: &Series) -> Option<S
     let runs: Vec<Residuals<'_>> =
         series.records.iter().filter(|r| r.usage == "fit").filter_map(free_run).collect();
     let one_step: Vec<Residuals<'_>> = runs.iter().map(|run| ahead(run, &estimate.a)).collect();
-    let foretold = |of: &[Residuals<'_>]| {
-        Whiteness::of(&of.iter().map(|r| &r.e[..]).collect::<Vec<_>>()).map(|w| w.foretold)
+    let forecast = |of: &[Residuals<'_>]| {
+        Whiteness::of(&of.iter().map(|r| &r.e[..]).collect::<Vec<_>>()).map(|w| w.forecast)
     };
     // As the program does where it warns of colour: noise may enter before or behind the linear part, and neither is a fault of the model.
-    let is_output_error = foretold(&runs).zip(foretold(&one_step)).is_some_and(|(run, step)| run < step);
+    let is_output_error = forecast(&runs).zip(forecast(&one_step)).is_some_and(|(run, step)| run < step);
     let (name, residuals) = match is_output_error {
         true => ("y − ŷ of the free run", &runs),
         false => ("A(q⁻¹)(y − ŷ), one step ahead", &one_step),

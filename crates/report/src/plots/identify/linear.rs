@@ -13,7 +13,7 @@ use switchback_io::diagnosis::digits;
 use switchback_io::identification::unit;
 
 const HEIGHT: f64 = 270.0;
-/// Roots beyond are drawn there: zeros far outside tell little, and would make the unit circle a dot.
+/// Roots beyond are drawn there: zeros far outside show little, and would make the unit circle a dot.
 const FAR: f64 = 2.5;
 const ESTIMATE: &str = "estimate";
 const BAND: &str = "95 % band";

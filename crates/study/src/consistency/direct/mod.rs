@@ -14,9 +14,9 @@ mod solved;
 pub(super) use record::{OpenNoise, OpenRecord, disturbed};
 
 use super::cell::ActiveCells;
+use super::cell_design::{CellDesign, MethodCase};
 use super::noise_group::NoiseGroup;
 use super::sections::{Outcome, SectionSums};
-use super::setting::{Contender, Setting};
 use super::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Scenario};
 use regression::Experiment;
@@ -36,28 +36,28 @@ impl<'a> DirectGroup<'a> {
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [SectionSums]) {
         let noise = OpenNoise::draw(self.group, seed, replicate);
         let mut cells = active.iter().zip(sums);
-        for setting in &self.group.settings {
-            let case = &self.scenario.cases()[setting.case];
-            let border = &case.borders[setting.border];
+        for cell_design in &self.group.cell_designs {
+            let case = &self.scenario.cases()[cell_design.case];
+            let border = &case.borders[cell_design.border];
             let records =
-                |sigma| [0, 1].map(|k| noise.record(self.group, (case, border), (setting, sigma), k));
-            let simulated = |sigma| Simulated::new(case, setting, &records(sigma));
-            let (own, mirrored) = (simulated(setting.sigma), simulated(-setting.sigma));
+                |sigma| [0, 1].map(|k| noise.record(self.group, (case, border), (cell_design, sigma), k));
+            let simulated = |sigma| Simulated::new(case, cell_design, &records(sigma));
+            let (own, mirrored) = (simulated(cell_design.sigma), simulated(-cell_design.sigma));
             for (checkpoint, &samples) in self.group.noise.pulses.checkpoints.iter().enumerate() {
                 let length = (checkpoint, samples);
-                for contender in &setting.methods {
+                for method_case in &cell_design.methods {
                     let Some((active, sums)) = cells.next() else { return };
                     if !*active {
                         continue;
                     }
                     sums.runs.replicates += 1;
-                    match own.estimate(contender, length) {
+                    match own.estimate(method_case, length) {
                         Ok(own) => {
-                            let partner = contender
+                            let partner = method_case
                                 .is_paired()
-                                .then(|| mirrored.estimate(contender, length).ok())
+                                .then(|| mirrored.estimate(method_case, length).ok())
                                 .flatten();
-                            let variances = contender.expansions[checkpoint].variances.as_deref();
+                            let variances = method_case.expansions[checkpoint].variances.as_deref();
                             sums.push_pair(&own, partner.as_ref(), variances);
                         }
                         Err(error) => sums.runs.fail(replicate, error.to_string()),
@@ -89,16 +89,16 @@ struct Simulated {
 }
 
 impl Simulated {
-    fn new(case: &Case, setting: &Setting, records: &[OpenRecord; 2]) -> Self {
+    fn new(case: &Case, cell_design: &CellDesign, records: &[OpenRecord; 2]) -> Self {
         let order = case.order;
-        let period = setting.bench.period();
+        let period = cell_design.setup.period();
         let experiment = |k: usize| {
-            let (record, levels) = (&records[k], setting.bench.levels(k).to_vec());
+            let (record, levels) = (&records[k], cell_design.setup.levels(k).to_vec());
             let level = |v: f64| levels.iter().position(|l| *l == v);
             let seen = |t: usize| (1..=order).find_map(|lag| Some((level(record.v[t - lag])?, lag)));
             Experiment {
-                branch: setting.bench.branch(k),
-                satellite: setting.bench.satellite(k),
+                branch: cell_design.setup.branch(k),
+                satellite: cell_design.setup.satellite(k),
                 before: record.y[..record.lead - order].to_vec(),
                 y: record.y[record.lead - order..].to_vec(),
                 period,
@@ -112,23 +112,23 @@ impl Simulated {
 
     fn estimate(
         &self,
-        contender: &Contender,
+        method_case: &MethodCase,
         (checkpoint, samples): (usize, usize),
     ) -> Result<Outcome, PulseFitError> {
         let steps = self
             .step_means
             .each_ref()
             .map(|means| StepMean { mean: means[checkpoint], samples: samples as f64 });
-        let estimates = fit::fit(contender.kind, self.order, &self.experiments, steps, samples)?;
+        let estimates = fit::fit(method_case.kind, self.order, &self.experiments, steps, samples)?;
         let data = [0, 1].map(|k| {
             let data = self.statistics(k, samples);
             let folds =
-                contender.kind.folds().then(|| folds::means(&self.experiments[k], self.order, samples));
+                method_case.kind.folds().then(|| folds::means(&self.experiments[k], self.order, samples));
             data.with_folds(folds)
         });
         let outcome =
-            |method: PulseMethod<'_>| contender.outcome_of(checkpoint, &method, estimates.into_iter());
-        Ok(contender.kind.with_input(&data, steps, outcome))
+            |method: PulseMethod<'_>| method_case.outcome_of(checkpoint, &method, estimates.into_iter());
+        Ok(method_case.kind.with_input(&data, steps, outcome))
     }
 
     /// What the control variate is made of.

@@ -1,8 +1,8 @@
 //! Records in the open: the operator, the difference equation and the noise, run sample by sample.
 
+use crate::consistency::cell_design::CellDesign;
 use crate::consistency::noise::draw;
 use crate::consistency::noise_group::NoiseGroup;
-use crate::consistency::setting::Setting;
 use crate::scenario::{Border, Case, Disturbance};
 use switchback_model::linear::filter;
 use switchback_noise::{NoiseSamples, StreamId, samples};
@@ -49,20 +49,20 @@ impl OpenNoise {
         &self,
         group: &NoiseGroup,
         (case, border): (&Case, &Border),
-        (setting, sigma): (&Setting, f64),
+        (cell_design, sigma): (&CellDesign, f64),
         k: usize,
     ) -> OpenRecord {
-        let (lead, bench, noise) = (group.noise.pulses.lags, &setting.bench, &self.pulses[k]);
+        let (lead, setup, noise) = (group.noise.pulses.lags, &cell_design.setup, &self.pulses[k]);
         let count = noise.w.len() - noise.burn_in;
         // One sample loads the border; then whole periods until both transients and noise have settled.
         let settling = (case.system.settling_samples(SETTLED) + lead).max(noise.burn_in);
-        let before = 1 + settling.next_multiple_of(bench.period()) + bench.period();
-        let v = bench.input(k, before - 1 + count);
+        let before = 1 + settling.next_multiple_of(setup.period()) + setup.period();
+        let v = setup.input(k, before - 1 + count);
         let u = border.hysteresis.output(&v, border.hysteresis.u_low());
         let mut white = vec![0.0; before - noise.burn_in];
         white.extend(noise.w.iter().map(|w| sigma * w));
         let y = disturbed(case, &u, &white, 0.0);
-        let step_mean = |e: &f64| bench.satellite_output(k) + sigma * e;
+        let step_mean = |e: &f64| setup.satellite_output(k) + sigma * e;
         OpenRecord {
             lead,
             v: v[before - lead..].to_vec(),

@@ -4,9 +4,9 @@
 //! every `N₁` samples, `N₁` the smallest of `sweep.samples`; what differs between replicates is the noise. `sweep.points` is the number `m` of evenly spaced knots on each border, the ends of the interval
 //! among them. Where a border is not piecewise linear on these knots the method does not hold the truth, and a bias stays.
 
+mod cell_design;
 mod drive;
 mod noise_group;
-mod setting;
 mod simulate;
 
 pub(super) use noise_group::FreeNoiseGroup;

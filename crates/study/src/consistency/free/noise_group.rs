@@ -1,12 +1,14 @@
 //! The cells of one case, which share the noise of a replicate.
 
+use super::cell_design::{
+    Analysis, CellDesign, GridOnDrive, NoiseSums, Regressions, RequestedFaults, Response,
+};
 use super::drive::{self, Program};
-use super::setting::{GridOnDrive, Ingredients, NoiseSums, Regressions, Response, Setting, Way};
 use super::simulate::Simulator;
-use crate::consistency::bench::NoiseFilter;
 use crate::consistency::cell::{ActiveCells, CellSpec, CellTheory};
 use crate::consistency::error::StudyError;
 use crate::consistency::sections::SectionSums;
+use crate::consistency::setup::NoiseFilter;
 use crate::consistency::workload::{Chunk, Task, Workload, one_by_one};
 use crate::scenario::{Case, Engine, Fit, Knots, Sweep};
 use nalgebra::DMatrix;
@@ -37,7 +39,7 @@ pub(in crate::consistency) struct FreeNoiseGroup {
     checkpoints: usize,
     responses: Vec<Response>,
     grids: Vec<GridOnDrive>,
-    settings: Vec<Setting>,
+    cell_designs: Vec<CellDesign>,
     /// The direct engine's, which simulates every setting on its own.
     simulator: Option<Simulator>,
 }
@@ -79,12 +81,12 @@ impl FreeNoiseGroup {
                 Response { lags: grids[0].regressions.all()[0].lag_products(&z, &z), z }
             })
             .collect();
-        let mut settings = Vec::new();
+        let mut cell_designs = Vec::new();
         for (b, border) in case.borders.iter().enumerate() {
             for (g, grid) in grids.iter().enumerate() {
                 for &sigma in &sweep.noise {
-                    let of = Ingredients { case, border, v: &v, samples: &sweep.samples };
-                    settings.push(Setting::new(of, (b, &responses[b]), (g, grid), sigma)?);
+                    let of = RequestedFaults { case, border, v: &v, samples: &sweep.samples };
+                    cell_designs.push(CellDesign::new(of, (b, &responses[b]), (g, grid), sigma)?);
                 }
             }
         }
@@ -104,7 +106,7 @@ impl FreeNoiseGroup {
             checkpoints: sweep.samples.len(),
             responses,
             grids,
-            settings,
+            cell_designs,
             simulator: (engine == Engine::Direct).then(|| Simulator::new(case, &v)),
             case: case.clone(),
             drive: v,
@@ -114,37 +116,42 @@ impl FreeNoiseGroup {
 
     /// What tables and verdicts need of the cells: settings in order, each by increasing `N`.
     pub(in crate::consistency) fn specs(&self) -> impl Iterator<Item = CellSpec> {
-        self.settings.iter().flat_map(|setting| setting.specs.iter().cloned())
+        self.cell_designs.iter().flat_map(|cell_design| cell_design.specs.iter().cloned())
     }
 
     /// What theory says of the cells, in the same order.
     pub(in crate::consistency) fn theories(&self) -> impl Iterator<Item = CellTheory> {
-        self.settings.iter().flat_map(|setting| setting.theories.iter().cloned())
+        self.cell_designs.iter().flat_map(|cell_design| cell_design.theories.iter().cloned())
     }
 
     fn replicate(&self, seed: u64, replicate: u32, active: &[bool], sums: &mut [SectionSums]) {
         let noise = self.draw(seed, replicate);
         let shared = self.simulator.is_none().then(|| Noise::new(self, &noise));
         let cells = active.chunks(self.checkpoints).zip(sums.chunks_mut(self.checkpoints));
-        for (setting, (active, sums)) in self.settings.iter().zip(cells) {
+        for (cell_design, (active, sums)) in self.cell_designs.iter().zip(cells) {
             let record = self.simulator.as_ref().map(|simulator| Record {
-                y: simulator.output(setting.response, setting.sigma, &noise),
+                y: simulator.output(cell_design.response, cell_design.sigma, &noise),
                 sums: RefCell::default(),
             });
             let open = (self.kind().is_some() && record.is_none()).then(|| {
-                let z = &self.responses[setting.response].z;
+                let z = &self.responses[cell_design.response].z;
                 z.iter()
                     .zip(&noise.e[noise.burn_in..])
-                    .map(|(z, e)| z + setting.sigma * e)
+                    .map(|(z, e)| z + cell_design.sigma * e)
                     .collect::<Vec<_>>()
             });
             for (checkpoint, sums) in sums.iter_mut().enumerate().filter(|(c, _)| active[*c]) {
                 let moments = |number: usize| {
-                    let regression = (number, &self.grids[setting.grid].regressions.all()[number]);
+                    let regression = (number, &self.grids[cell_design.grid].regressions.all()[number]);
                     match (&record, &shared) {
                         (None, Some(shared)) => {
-                            let noise = shared.sums(setting, number, checkpoint);
-                            setting.moments(regression, &self.responses[setting.response], checkpoint, noise)
+                            let noise = shared.sums(cell_design, number, checkpoint);
+                            cell_design.moments(
+                                regression,
+                                &self.responses[cell_design.response],
+                                checkpoint,
+                                noise,
+                            )
                         }
                         (Some(record), _) => record.moments(regression, checkpoint),
                         (None, None) => unreachable!("either engine has its noise"),
@@ -158,7 +165,7 @@ impl FreeNoiseGroup {
                     period: self.simulator.is_none().then_some(self.period),
                     kind,
                 });
-                self.estimate((setting, checkpoint), (moments, output), replicate, sums);
+                self.estimate((cell_design, checkpoint), (moments, output), replicate, sums);
             }
         }
     }
@@ -170,11 +177,11 @@ impl FreeNoiseGroup {
         seed: u64,
         replicate: u32,
     ) -> (Vec<f64>, Vec<f64>) {
-        let setting = &self.settings[cell / self.checkpoints];
+        let cell_design = &self.cell_designs[cell / self.checkpoints];
         let simulator = Simulator::new(&self.case, &self.drive);
-        let mut y = simulator.output(setting.response, setting.sigma, &self.draw(seed, replicate));
+        let mut y = simulator.output(cell_design.response, cell_design.sigma, &self.draw(seed, replicate));
         // The first rows are lags of those that count.
-        let rows = setting.specs[cell % self.checkpoints].samples + self.case.order;
+        let rows = cell_design.specs[cell % self.checkpoints].samples + self.case.order;
         y.truncate(rows);
         (self.drive[..y.len()].to_vec(), y)
     }
@@ -195,16 +202,16 @@ impl FreeNoiseGroup {
 
     fn estimate(
         &self,
-        (setting, checkpoint): (&Setting, usize),
+        (cell_design, checkpoint): (&CellDesign, usize),
         (moments, output): (impl Fn(usize) -> Moments, Option<Output<'_>>),
         replicate: u32,
         sums: &mut SectionSums,
     ) {
-        let on = &self.grids[setting.grid];
+        let on = &self.grids[cell_design.grid];
         let regressions = on.regressions.all();
         sums.runs.replicates += 1;
-        let (estimate, first_order) = match (&setting.ways[checkpoint], &on.regressions) {
-            (Way::Given(limit), _) => {
+        let (estimate, first_order) = match (&cell_design.ways[checkpoint], &on.regressions) {
+            (Analysis::Given(limit), _) => {
                 if let Some(output) = output {
                     (regressions[0].free_run_estimate(output, &moments(0)), None)
                 } else {
@@ -212,16 +219,16 @@ impl FreeNoiseGroup {
                     (regressions[0].estimate(&moments), Some(limit.first_order(&moments)))
                 }
             }
-            (Way::Known(number), _) => (regressions[*number].estimate(&moments(*number)), None),
-            (Way::Refined, Regressions::Nested(nested)) => match output {
+            (Analysis::Known(number), _) => (regressions[*number].estimate(&moments(*number)), None),
+            (Analysis::Refined, Regressions::Nested(nested)) => match output {
                 Some(output) => (nested.free_run_estimate(output, moments), None),
                 None => (nested.estimate(moments), None),
             },
-            (Way::Refined, Regressions::Given(_)) => unreachable!("a grid that is refined is nested"),
+            (Analysis::Refined, Regressions::Given(_)) => unreachable!("a grid that is refined is nested"),
         };
         match estimate.map(|estimate| at_knots(estimate, &on.grid.basis)) {
             Ok(estimate) if parameters(&estimate).all(|(x, se)| x.is_finite() && se.is_finite()) => {
-                let truth = &setting.specs[checkpoint].truth;
+                let truth = &cell_design.specs[checkpoint].truth;
                 for (k, (value, se)) in parameters(&estimate).enumerate() {
                     let first_order = first_order.as_ref().map(|first| first[k]);
                     let error = value - truth[k];
@@ -240,7 +247,7 @@ impl FreeNoiseGroup {
 
 impl Workload for FreeNoiseGroup {
     fn cells(&self) -> usize {
-        self.settings.len() * self.checkpoints
+        self.cell_designs.len() * self.checkpoints
     }
 
     fn take_in<'a>(&'a self, chunk: Chunk<'a>, cells: ActiveCells<'a>) -> Vec<Task<'a>> {
@@ -312,11 +319,11 @@ impl Noise {
         }
     }
 
-    fn sums(&self, setting: &Setting, number: usize, checkpoint: usize) -> NoiseSums<'_> {
+    fn sums(&self, cell_design: &CellDesign, number: usize, checkpoint: usize) -> NoiseSums<'_> {
         NoiseSums {
             lags: &self.lags[checkpoint],
-            cross: &self.cross[setting.response][checkpoint],
-            input: &self.input[setting.grid][number][checkpoint],
+            cross: &self.cross[cell_design.response][checkpoint],
+            input: &self.input[cell_design.grid][number][checkpoint],
         }
     }
 }

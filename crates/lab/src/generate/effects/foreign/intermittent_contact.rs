@@ -22,7 +22,7 @@ impl Law for LostGrip {
             }
             if left > 0 {
                 left -= 1;
-                *now -= scene.dose.magnitude * (*now - centre);
+                *now -= scene.amount.magnitude * (*now - centre);
             }
         }
     }

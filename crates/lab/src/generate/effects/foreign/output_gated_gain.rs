@@ -17,7 +17,7 @@ impl Law for Bilinear {
         let mut slow = u[0] - centre;
         for now in u {
             let instant = *now;
-            *now += scene.dose.magnitude * slow * (instant - centre);
+            *now += scene.amount.magnitude * slow * (instant - centre);
             slow += (instant - centre - slow) / 30.0;
         }
     }

@@ -24,7 +24,7 @@ impl Law for LateEpisodes {
             left -= 1;
             let instant = *now;
             if late {
-                *now += scene.dose.magnitude * (before - instant);
+                *now += scene.amount.magnitude * (before - instant);
             }
             before = instant;
         }

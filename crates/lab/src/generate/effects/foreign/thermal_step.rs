@@ -6,7 +6,7 @@ use crate::generate::law::{Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 1] = [&OneBorderForAWhile];
 
-/// `u' = u + x` on one border only, during a fifth to two fifths of the campaign, and then as before.
+/// `u' = u + x` on one border only, during a fifth to two fifths of the dataset, and then as before.
 #[derive(Debug)]
 struct OneBorderForAWhile;
 
@@ -14,9 +14,9 @@ impl Law for OneBorderForAWhile {
     card!("thermal_step", "one border for a while", Operator, "spans of u", 0.5);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let side = scene.dose.sign(0);
-        let start = scene.dose.between(1, 0.1, 0.5);
-        let end = start + scene.dose.between(2, 0.2, 0.4);
+        let side = scene.amount.sign(0);
+        let start = scene.amount.between(1, 0.1, 0.5);
+        let end = start + scene.amount.between(2, 0.2, 0.4);
         for (t, direction) in directions(scene.plant, v).into_iter().enumerate() {
             if direction == side && (start..end).contains(&scene.passage.clock(t)) {
                 u[t] += scene.x();
