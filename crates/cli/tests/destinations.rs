@@ -1,4 +1,4 @@
-//! Folders that cannot be written are found before the run: another writes there, something stands in the way, the disk is full.
+//! Folders that cannot be written are found before the run: another writes there, a file stands at the place, the disk is full.
 #![cfg(all(unix, debug_assertions))]
 
 use crate::common::faults::{Change, Files, RUN, run, start};
@@ -41,7 +41,7 @@ fn of_two_runs_into_one_folder_the_second_is_refused_at_once() {
     assert!(change.now() == change.old);
 }
 
-/// Where a file stands in the way, or the folder may not be written to, nothing is computed.
+/// Where a file stands at the place, or the folder may not be written to, nothing is computed.
 #[test]
 fn a_folder_that_cannot_be_written_is_found_before_the_run() {
     let folder = Folder::with_good_rig();

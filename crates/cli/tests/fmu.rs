@@ -152,12 +152,12 @@ fn what_is_not_as_expected_exits_with_one_after_the_report_is_written() {
     }
 }
 
-/// An FMU from the C file beside this test; `way` is the way in which it fails, 0 for none.
-fn by_hand(folder: &Folder, way: u8, description: &str) -> Option<PathBuf> {
+/// An FMU from the C file beside this test; `failure` is the number of its failure, 0 for none.
+fn by_hand(folder: &Folder, failure: u8, description: &str) -> Option<PathBuf> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmu/simulator.c");
-    let library = folder.path(&format!("hand{way}{DLL_SUFFIX}"));
+    let library = folder.path(&format!("hand{failure}{DLL_SUFFIX}"));
     let made = Command::new("cc")
-        .args(["-shared", "-fPIC", "-O1", &format!("-DWAY={way}")])
+        .args(["-shared", "-fPIC", "-O1", &format!("-DWAY={failure}")])
         .arg(source)
         .arg("-o")
         .arg(&library)
@@ -223,15 +223,15 @@ fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_reported() {
         &["gap", "rig.toml", "--fmu", "hand.fmu"],
         &["which input is `v` cannot be reported", "--map v=NAME"],
     );
-    let ways: [(u8, &[&str]); 5] = [
+    let failures: [(u8, &[&str]); 5] = [
         (1, &["crashed", "the record descendant"]),
         (2, &["did not return within 2 s"]),
         (3, &["refuses a step of 0.01 s", "the record descendant"]),
         (4, &["makes no instance"]),
         (5, &["no finite number", "the record descendant"]),
     ];
-    for (way, words) in ways {
-        by_hand(&folder, way, DESCRIPTION);
+    for (failure, words) in failures {
+        by_hand(&folder, failure, DESCRIPTION);
         refused(&folder, &gap(MAP), words);
     }
 }

@@ -247,7 +247,7 @@ pub struct Diagnosis {
     pub probability_unexplained: f64,
     /// Deviance that causes in general would still gain beside what the verdict rests on, beyond chance.
     pub left: f64,
-    /// What the records say of every effect, a way of comparing at a time, that of the verdict first.
+    /// What the records say of every effect, one comparison at a time, that of the verdict first.
     pub evidence: Vec<Compared>,
     /// Samples fitted, which deviances grow with.
     pub samples: usize,

@@ -43,10 +43,10 @@ pub struct EffectEvidence {
     pub unstable: bool,
 }
 
-/// What one way of comparing says.
+/// What one comparison says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
-    /// The way.
+    /// The comparison.
     pub comparison: Comparison,
     /// Samples fitted.
     pub samples: usize,

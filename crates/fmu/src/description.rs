@@ -20,7 +20,7 @@ pub struct Description {
     pub constants: Vec<Constant>,
 }
 
-/// A number that is reported and never changes.
+/// A constant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
     /// A name with dots between its parts.

@@ -46,7 +46,7 @@ fn text(pointer: *const c_char) -> String {
     unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
 }
 
-/// Does something to an instance; what is refused is reported, and no panic leaves the library.
+/// Does something to an instance; an error is reported, and no panic leaves the library.
 fn on(component: Component, act: impl FnOnce(&mut Living) -> Result<(), Refusal>) -> Status {
     // SAFETY: the caller hands back what `fmi2Instantiate` gave it and has not freed.
     let Some(living) = (unsafe { component.cast::<Living>().as_mut() }) else { return Status::Error };

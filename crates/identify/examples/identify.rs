@@ -1,6 +1,6 @@
 //! A leaf spring behind a second-order sensor, identified from the paper's two experiments: `cargo run --example identify`.
 //!
-//! The records are simulated here; on a bench, play [`PulseExperiment::record_input`] and record `y`.
+//! The records are simulated here; on a setup, play [`PulseExperiment::record_input`] and record `y`.
 
 #![allow(clippy::disallowed_macros, reason = "an example prints")]
 
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let spring = SwitchedHysteresis::new(interval, Box::new(LeafSpring::hardening(0.12, 6e-5, 2.0)?))?;
     let system = LinearSystem::new(vec![-1.2, 0.45], vec![0.15, 0.10])?;
 
-    // What the bench does: play the input, and measure.
+    // What the setup does: play the input, and measure.
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut measure = |direction: Direction| -> Result<PulseData, Box<dyn std::error::Error>> {
         let experiment = PulseExperiment::evenly_spaced(interval, direction, 8, system.order())?;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use switchback_model::rig::Role;
 
-/// A way from records to a system. The serialised form is the name used in scenario files.
+/// A method from records to a system. The serialised form is the name used in scenario files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {

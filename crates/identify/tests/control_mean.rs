@@ -1,6 +1,6 @@
 //! The means of the control variate's terms, against a sum over noise that is exact for quadratics.
 
-use crate::sweep::{Bench, methods, systems};
+use crate::sweep::{Setup, methods, systems};
 use nalgebra::{Cholesky, DMatrix};
 use proptest::prelude::*;
 use switchback_identify::pulse::{ErrorTerms, Limit, PulseData, SecondOrder};
@@ -27,9 +27,9 @@ fn sigma_points(gamma: &[f64]) -> Vec<[Vec<f64>; 2]> {
     points
 }
 
-/// The statistics of both experiments of a bench.
-fn data(bench: &Bench, sigma: f64, moments: [NoiseMoments; 2]) -> [PulseData; 2] {
-    [0, 1].map(|k| superpose(&bench.designs[k], &bench.responses[k], sigma, &moments[k]))
+/// The statistics of both experiments of a setup.
+fn data(setup: &Setup, sigma: f64, moments: [NoiseMoments; 2]) -> [PulseData; 2] {
+    [0, 1].map(|k| superpose(&setup.designs[k], &setup.responses[k], sigma, &moments[k]))
 }
 
 proptest! {
@@ -40,24 +40,24 @@ proptest! {
         (system, order) in systems(), friction in 0.1..1.0_f64, points in 1..=5_usize, sigma in 0.02..0.5_f64, beyond in 0..40_usize,
         colour in prop::option::of(-0.6..0.6_f64),
     ) {
-        let mut bench = Bench::new(system, order, friction, points, 0);
+        let mut setup = Setup::new(system, order, friction, points, 0);
         // One period and a part of another: levels that were visited twice, and others once.
-        let period = bench.designs[0].period();
-        bench.samples = period + beyond;
-        let (ar, ma) = (bench.system.a().to_vec(), Vec::from_iter(colour));
-        let both = |moments: NoiseMoments| data(&bench, sigma, [moments.clone(), moments]);
-        let finite = both(NoiseMoments::expected_over(&ar, &ma, order, period, bench.samples));
-        let steps = [0, 1].map(|k| bench.step(k, sigma, 0.0));
+        let period = setup.designs[0].period();
+        setup.samples = period + beyond;
+        let (ar, ma) = (setup.system.a().to_vec(), Vec::from_iter(colour));
+        let both = |moments: NoiseMoments| data(&setup, sigma, [moments.clone(), moments]);
+        let finite = both(NoiseMoments::expected_over(&ar, &ma, order, period, setup.samples));
+        let steps = [0, 1].map(|k| setup.step(k, sigma, 0.0));
         let finite = [&finite[0], &finite[1]];
-        let gamma = autocovariance(&ar, &ma, order + bench.samples - 1);
+        let gamma = autocovariance(&ar, &ma, order + setup.samples - 1);
         let replicates: Vec<[PulseData; 2]> = sigma_points(&gamma)
             .iter()
-            .map(|e| data(&bench, sigma, [0, 1].map(|k| NoiseMoments::from_samples(&e[k], order, period))))
+            .map(|e| data(&setup, sigma, [0, 1].map(|k| NoiseMoments::from_samples(&e[k], order, period))))
             .collect();
         for (m, (method, experiments)) in methods(&finite, steps).into_iter().enumerate() {
             let Ok(limit) = Limit::of(method) else { continue };
-            let designs: Vec<&PeriodicDesign> = experiments.iter().map(|k| &bench.designs[*k]).collect();
-            let covariance = SumCovariance::new(&designs, (&ar, &ma), sigma, bench.samples);
+            let designs: Vec<&PeriodicDesign> = experiments.iter().map(|k| &setup.designs[*k]).collect();
+            let covariance = SumCovariance::new(&designs, (&ar, &ma), sigma, setup.samples);
             let means = limit.mean_terms(&methods(&finite, steps)[m].0, |x, y| covariance.at(x, y));
             let mut sums = [vec![0.0; means.first.len()], vec![0.0; means.first.len()]];
             let mut sizes = [0.0_f64; 2];

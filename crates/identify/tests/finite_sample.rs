@@ -1,6 +1,6 @@
 //! Bias and standard deviation at a given number of samples, against the delta method carried out by brute force.
 
-use crate::sweep::{Bench, methods};
+use crate::sweep::{Setup, methods};
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 use switchback_identify::pulse::{
@@ -32,12 +32,12 @@ fn moved(data: &PulseData, by: &[f64], times: f64) -> PulseData {
 
 /// Covariance of the statistics of one experiment, written out sample by sample: each is `c + lᵀe + eᵀQe`, and by Isserlis' theorem
 /// `Cov = l₁ᵀΓl₂ + 2 tr(Q₁ΓQ₂Γ)`.
-fn covariance(bench: &Bench, k: usize, sigma: f64, samples: usize) -> DMatrix<f64> {
-    let (design, z, n) = (&bench.designs[k], &bench.responses[k], bench.order);
+fn covariance(setup: &Setup, k: usize, sigma: f64, samples: usize) -> DMatrix<f64> {
+    let (design, z, n) = (&setup.designs[k], &setup.responses[k], setup.order);
     let (period, length) = (z.len(), samples + n);
     // e(t−l) is entry t − l + n.
     let place = |t: usize, l: usize| t + n - l;
-    let gamma = autocovariance(bench.system.a(), &[], length);
+    let gamma = autocovariance(setup.system.a(), &[], length);
     let noise = DMatrix::from_fn(length, length, |i, j| sigma * sigma * gamma[i.abs_diff(j)]);
     let (groups, width) = (design.group_count(), n + 1);
     let size = groups * width + width * width;
@@ -103,16 +103,16 @@ proptest! {
         system in systems(), friction in 0.2..1.0_f64, points in 2..=4_usize, sigma in 0.05..0.4_f64, beyond in 0..60_usize,
     ) {
         let order = system.order();
-        let mut bench = Bench::new(system, order, friction, points, 0);
-        let period = bench.designs[0].period();
-        bench.samples = 2 * period + beyond;
-        let samples = bench.samples;
-        let moments = NoiseMoments::expected_over(bench.system.a(), &[], order, period, samples);
-        let data = [0, 1].map(|k| superpose(&bench.designs[k], &bench.responses[k], sigma, &moments));
-        let steps = [0, 1].map(|k| bench.step(k, sigma, 0.0));
-        let memory = NoiseMemory::of(bench.system.a());
+        let mut setup = Setup::new(system, order, friction, points, 0);
+        let period = setup.designs[0].period();
+        setup.samples = 2 * period + beyond;
+        let samples = setup.samples;
+        let moments = NoiseMoments::expected_over(setup.system.a(), &[], order, period, samples);
+        let data = [0, 1].map(|k| superpose(&setup.designs[k], &setup.responses[k], sigma, &moments));
+        let steps = [0, 1].map(|k| setup.step(k, sigma, 0.0));
+        let memory = NoiseMemory::of(setup.system.a());
         let directions = [0, 1].map(|k| {
-            let SymmetricEigen { eigenvalues, eigenvectors } = covariance(&bench, k, sigma, samples).symmetric_eigen();
+            let SymmetricEigen { eigenvalues, eigenvectors } = covariance(&setup, k, sigma, samples).symmetric_eigen();
             let largest = eigenvalues.max();
             eigenvalues
                 .iter()
@@ -127,7 +127,7 @@ proptest! {
             let limit = Limit::of(method).expect("excited");
             let records: Vec<ExpectedRecord<'_>> = experiments
                 .iter()
-                .map(|&k| ExpectedRecord { groups: &bench.designs[k].groups, response: &bench.responses[k], samples })
+                .map(|&k| ExpectedRecord { groups: &setup.designs[k].groups, response: &setup.responses[k], samples })
                 .collect();
             let theory = limit.finite_sample(&records, EquationNoise { sigma, memory: &memory });
             let mut sums = [vec![0.0; theory.bias.len()], vec![0.0; theory.bias.len()]];
@@ -142,7 +142,7 @@ proptest! {
             }
             if m < 2 {
                 let k = experiments[0];
-                let gamma = autocovariance(bench.system.a(), &[], samples);
+                let gamma = autocovariance(setup.system.a(), &[], samples);
                 let sum: f64 = (0..samples * samples).map(|c| gamma[(c / samples).abs_diff(c % samples)]).sum();
                 let sd = sigma * sum.sqrt() / samples as f64;
                 add_differences(&mut sums, |times| {

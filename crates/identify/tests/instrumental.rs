@@ -1,6 +1,6 @@
 //! Refined instrumental variables: what they refuse, and their bias against the second derivatives of the estimate itself.
 
-use crate::sweep::Bench;
+use crate::sweep::Setup;
 use nalgebra::DMatrix;
 use switchback_identify::pulse::{
     EquationNoise, ExpectedRecord, Folds, Limit, PulseData, PulseFitError, PulseMethod,
@@ -12,12 +12,12 @@ use switchback_model::linear::{LinearSystem, NoiseMemory, autocovariance};
 
 const SIGMA: f64 = 0.01;
 
-/// Expected statistics of a second-order bench with output noise `σ C/D w`.
-fn expected(bench: &Bench, (ar, ma): (&[f64], &[f64])) -> [PulseData; 2] {
+/// Expected statistics of a second-order setup with output noise `σ C/D w`.
+fn expected(setup: &Setup, (ar, ma): (&[f64], &[f64])) -> [PulseData; 2] {
     [0, 1].map(|k| {
         let noise =
-            NoiseMoments::expected(ar, ma, bench.order, bench.designs[k].period(), bench.samples as f64);
-        superpose(&bench.designs[k], &bench.responses[k], SIGMA, &noise)
+            NoiseMoments::expected(ar, ma, setup.order, setup.designs[k].period(), setup.samples as f64);
+        superpose(&setup.designs[k], &setup.responses[k], SIGMA, &noise)
     })
 }
 
@@ -38,16 +38,16 @@ fn the_bias_is_half_the_second_derivative_of_the_estimate_times_the_covariance_o
     let system = LinearSystem::new(vec![-1.2, 0.45], vec![0.15, 0.10]).expect("a system");
     let laws: [(&[f64], &[f64]); 3] = [(&[-1.2, 0.45], &[]), (&[], &[]), (&[-0.5], &[0.3])];
     for (ar, ma) in laws {
-        let mut bench = Bench::new(system.clone(), 2, 0.5, 4, 0);
-        let period = bench.designs[0].period();
-        bench.samples = 50 * period;
-        let data = expected(&bench, (ar, ma));
+        let mut setup = Setup::new(system.clone(), 2, 0.5, 4, 0);
+        let period = setup.designs[0].period();
+        setup.samples = 50 * period;
+        let data = expected(&setup, (ar, ma));
         let both = [&data[0], &data[1]];
         let limit = Limit::of(PulseMethod::Instrumental(&both)).expect("excited");
         let records = [0, 1].map(|k| ExpectedRecord {
-            groups: &bench.designs[k].groups,
-            response: &bench.responses[k],
-            samples: bench.samples,
+            groups: &setup.designs[k].groups,
+            response: &setup.responses[k],
+            samples: setup.samples,
         });
         let memory = NoiseMemory::of(ar);
         let theory = limit.finite_sample(&records, EquationNoise { sigma: SIGMA, memory: &memory });

@@ -1,6 +1,6 @@
 //! Eight replicates abreast against the methods one replicate at a time.
 
-use crate::sweep::{Bench, methods, noise, systems};
+use crate::sweep::{Setup, methods, noise, systems};
 use proptest::prelude::*;
 use switchback_identify::pulse::lanes::{LANES, Lane, LaneFit, LaneMethod, LaneSample, LaneStep, LaneTerms};
 use switchback_identify::pulse::{ErrorTerms, Limit, PulseData, PulseMethod, SecondOrder, StepMean};
@@ -44,15 +44,15 @@ proptest! {
     fn lanes_give_what_every_replicate_gives_by_itself(
         (system, order) in systems(), friction in 0.1..1.0_f64, points in 1..=9_usize, sigma in 0.02..0.5_f64, samples in 0..60_usize, seed in 0..1000_u64,
     ) {
-        let bench = Bench::new(system, order, friction, points, samples);
+        let setup = Setup::new(system, order, friction, points, samples);
         let moments: Vec<[NoiseMoments; 2]> =
-            (0..LANES as u64).map(|l| [0, 1].map(|k| bench.moments(seed * 100 + 2 * l + k))).collect();
-        let step_noise = noise(seed, LANES).iter().map(|x| x / (bench.samples as f64).sqrt()).collect::<Vec<_>>();
+            (0..LANES as u64).map(|l| [0, 1].map(|k| setup.moments(seed * 100 + 2 * l + k))).collect();
+        let step_noise = noise(seed, LANES).iter().map(|x| x / (setup.samples as f64).sqrt()).collect::<Vec<_>>();
         let lanes: [_; 2] = std::array::from_fn(|k| {
-            let mut all = LaneMoments::zeros(order, bench.designs[k].period()).with_left(order);
+            let mut all = LaneMoments::zeros(order, setup.designs[k].period()).with_left(order);
             moments.iter().enumerate().for_each(|(l, m)| all.set(l, &m[k]));
-            let grouped = LaneGroupedNoise::new(&Grouping::new(&bench.designs[k], bench.samples), &all);
-            let superposition = LaneSuperposition::new(&bench.designs[k], &bench.responses[k], bench.samples);
+            let grouped = LaneGroupedNoise::new(&Grouping::new(&setup.designs[k], setup.samples), &all);
+            let superposition = LaneSuperposition::new(&setup.designs[k], &setup.responses[k], setup.samples);
             let mut cross = LaneCross::default();
             superposition.cross(&grouped, &mut cross);
             let mut statistics = superposition.statistics();
@@ -61,19 +61,19 @@ proptest! {
         });
         let expected: [PulseData; 2] = std::array::from_fn(|k| {
             let m =
-                NoiseMoments::expected_over(bench.system.a(), &[], order, bench.designs[k].period(), bench.samples);
-            superpose(&bench.designs[k], &bench.responses[k], sigma, &m)
+                NoiseMoments::expected_over(setup.system.a(), &[], order, setup.designs[k].period(), setup.samples);
+            superpose(&setup.designs[k], &setup.responses[k], sigma, &m)
         });
         let expected = [&expected[0], &expected[1]];
-        let settled = [0, 1].map(|k| bench.step(k, sigma, 0.0));
+        let settled = [0, 1].map(|k| setup.step(k, sigma, 0.0));
         let mut fits = [LaneFit::default()];
         let orders = [SecondOrder::Whole, SecondOrder::Profile];
         for (m, (example, experiments)) in methods(&expected, settled).into_iter().enumerate() {
             let method = LaneMethod::of(&example);
             let parts: Vec<_> = experiments.iter().map(|k| &lanes[*k]).collect();
             let step = step_of(&example).map(|_| LaneStep {
-                mean: Lane(std::array::from_fn(|l| bench.step(experiments[0], sigma, step_noise[l]).mean)),
-                samples: bench.samples as f64,
+                mean: Lane(std::array::from_fn(|l| setup.step(experiments[0], sigma, step_noise[l]).mean)),
+                samples: setup.samples as f64,
             });
             let sample = [LaneSample { parts: &parts, step }];
             method.fit(&sample, &mut fits);
@@ -89,12 +89,12 @@ proptest! {
             });
             for l in 0..LANES {
                 let data: [PulseData; 2] =
-                    std::array::from_fn(|k| superpose(&bench.designs[k], &bench.responses[k], sigma, &moments[l][k]));
+                    std::array::from_fn(|k| superpose(&setup.designs[k], &setup.responses[k], sigma, &moments[l][k]));
                 let both = [&data[0], &data[1]];
-                let steps = [0, 1].map(|k| bench.step(k, sigma, step_noise[l]));
+                let steps = [0, 1].map(|k| setup.step(k, sigma, step_noise[l]));
                 let slow_method = methods(&both, steps)[m].0;
                 let Ok(slow) = slow_method.fit() else { continue };
-                if m == 6 && order > bench.system.a().len() {
+                if m == 6 && order > setup.system.a().len() {
                     // What is superfluous is determined by nothing: the folds hold no noise to fit it to.
                     continue;
                 }
@@ -108,7 +108,7 @@ proptest! {
                 if m == 6 && (se > 1.0 || scale > 50.0) {
                     continue;
                 }
-                let superfluous = order > bench.system.a().len();
+                let superfluous = order > setup.system.a().len();
                 let tolerance = (1e-9 * scale).max(if superfluous || m == 6 { 1e-6 * se } else { 0.0 });
                 for (k, p) in slow.parameters().enumerate() {
                     near(&format!("method {m}, parameter {k}"), fit.values[k].0[l], p.value, tolerance)?;

@@ -1,6 +1,6 @@
 //! The whole second-order term of a replicate's error, against differences of the estimators themselves.
 
-use crate::sweep::{Bench, methods, systems};
+use crate::sweep::{Setup, methods, systems};
 use proptest::prelude::*;
 use switchback_identify::pulse::{GroupedStatistics, Limit, PulseData, PulseMethod, SecondOrder, StepMean};
 use switchback_identify::simulation::{NoiseMoments, superpose};
@@ -45,13 +45,13 @@ proptest! {
     ) {
         // Normal equations of third order have condition numbers of 10⁷: rounding leaves too little of a second difference.
         prop_assume!(order == system.order() && order <= 2);
-        let bench = Bench::new(system, order, friction, points, samples);
-        let period = bench.designs[0].period();
-        let superposed = |k: usize, moments: &NoiseMoments| superpose(&bench.designs[k], &bench.responses[k], sigma, moments);
-        let expected = NoiseMoments::expected_over(bench.system.a(), &[], order, period, bench.samples);
+        let setup = Setup::new(system, order, friction, points, samples);
+        let period = setup.designs[0].period();
+        let superposed = |k: usize, moments: &NoiseMoments| superpose(&setup.designs[k], &setup.responses[k], sigma, moments);
+        let expected = NoiseMoments::expected_over(setup.system.a(), &[], order, period, setup.samples);
         let expected = [0, 1].map(|k| superposed(k, &expected));
-        let replicate = [0, 1].map(|k| superposed(k, &bench.moments(2 * seed + k as u64)));
-        let [settled, disturbed] = [0.0, step_noise].map(|noise| [0, 1].map(|k| bench.step(k, sigma, noise)));
+        let replicate = [0, 1].map(|k| superposed(k, &setup.moments(2 * seed + k as u64)));
+        let [settled, disturbed] = [0.0, step_noise].map(|noise| [0, 1].map(|k| setup.step(k, sigma, noise)));
         // The four methods whose model holds; the last two, wrong models, are linear in their parameters.
         for m in 0..6 {
             let (of_limit, of_sample) = ([&expected[0], &expected[1]], [&replicate[0], &replicate[1]]);

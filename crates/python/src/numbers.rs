@@ -1,4 +1,4 @@
-//! Arrays on their way between the languages: the bytes of float64 numbers in the order of the machine.
+//! Arrays between the languages: the bytes of float64 numbers in the order of the machine.
 //!
 //! The buffers of NumPy are no part of the stable interface of CPython 3.9; bytes are, and copying them takes no time beside what is computed.
 

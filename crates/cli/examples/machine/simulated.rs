@@ -227,7 +227,7 @@ fn triangles(rng: &mut ChaCha8Rng, seconds: f64) -> Drive {
         let upwards = turns.len() % 2 == 1;
         let next = if upwards { uniform(rng, v, STROKE) } else { uniform(rng, -STROKE, v) };
         if (next - v).abs() < 0.5 {
-            // The other way round from here would be no reversal.
+            // Conversely from here would be no reversal.
             let far = if upwards { STROKE } else { -STROKE };
             t += (far - v).abs().max(1e-3) / 80.0;
             v = far;

@@ -158,7 +158,7 @@ pub fn injected(
         Some((file, path)) => InjectionContext::carried_by(rig, carrying(rig, file, path)?),
         None => InjectionContext::new(rig),
     };
-    Ok(context.and_then(|context| context.plant(&requested_fault, asked.seed)).map_err(refused)?)
+    Ok(context.and_then(|context| context.inject(&requested_fault, asked.seed)).map_err(refused)?)
 }
 
 /// The model of a file, where it can carry a fault into the records of a rig.

@@ -2,8 +2,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#ifndef WAY
-#define WAY 0
+#ifndef FAILURE
+#define FAILURE 0
 #endif
 
 typedef void *component;
@@ -12,7 +12,7 @@ static double v, y;
 
 component fmi2Instantiate(const char *name, int kind, const char *guid, const char *place, const void *callbacks, int visible, int logging) {
     (void)name; (void)kind; (void)guid; (void)place; (void)callbacks; (void)visible; (void)logging;
-    return WAY == 4 ? NULL : &v;
+    return FAILURE == 4 ? NULL : &v;
 }
 void fmi2FreeInstance(component c) { (void)c; }
 int fmi2SetupExperiment(component c, int has, double tolerance, double begin, int ends, double end) {
@@ -36,10 +36,10 @@ int fmi2GetReal(component c, const reference *r, size_t count, double *x) {
 int fmi2DoStep(component c, double point, double step, int keeps) {
     (void)c; (void)step; (void)keeps;
     if (point > 0.3) {
-        if (WAY == 1) abort();
-        if (WAY == 2) for (;;) {}
-        if (WAY == 3) return 3;
-        if (WAY == 5) { y = 0.0 / (v - v); return 0; }
+        if (FAILURE == 1) abort();
+        if (FAILURE == 2) for (;;) {}
+        if (FAILURE == 3) return 3;
+        if (FAILURE == 5) { y = 0.0 / (v - v); return 0; }
     }
     y = 2.0 * v;
     return 0;

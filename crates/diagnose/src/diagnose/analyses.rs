@@ -1,4 +1,4 @@
-//! The ways in which candidates were compared, and what is reported every effect in the end.
+//! The comparisons of candidates, and what is reported every effect in the end.
 
 use super::parameters::parameters;
 use super::plan::Plan;
@@ -14,14 +14,14 @@ use crate::verdict::answer::Status;
 use crate::verdict::fitted::{FittedVerdict, SecondOpinion};
 use crate::workers::Workers;
 
-/// One way of comparing candidates, and what it concludes.
+/// One comparison of candidates, and what it concludes.
 pub(super) struct Analysis {
     pub(super) plan: Plan,
     pub(super) conclusion: Conclusion,
 }
 
 impl Analysis {
-    /// Goes a way.
+    /// Runs an analysis.
     pub(super) fn analysed(workers: &impl Workers, mut plan: Plan) -> Self {
         let conclusion = plan.attribute(workers);
         Self { plan, conclusion }
@@ -37,20 +37,20 @@ impl Analysis {
         self.plan.does_the_same(chosen, &self.conclusion.augmented.fit)
     }
 
-    /// Whether it shows rivals among which another way names one.
+    /// Whether it shows rivals among which another analysis names one.
     pub(super) fn leaves_open(&self, other: &Self) -> bool {
         let (rivals, named) = (&self.conclusion.verdict.class, &other.conclusion.verdict);
         named.status == Status::Named && matches!(named.effects[..], [only] if rivals.contains(&only))
     }
 
-    /// Whether the augmented model of another way does better on the judged records.
+    /// Whether the augmented model of another analysis does better on the judged records.
     pub(super) fn is_outdone_by(&self, other: &Self) -> bool {
         let anew = (&other.plan.dataset, &other.conclusion.augmented.fit);
         self.plan.is_outdone_by(anew, &self.conclusion.augmented.fit)
     }
 }
 
-/// All ways that were gone, with what each says of every effect.
+/// All analyses, with what each says of every effect.
 pub(super) struct Analyses {
     /// That of the verdict.
     reported: Analysis,
@@ -59,7 +59,7 @@ pub(super) struct Analyses {
 }
 
 impl Analyses {
-    /// Asks each way about every effect.
+    /// Asks each analysis about every effect.
     pub(super) fn new(workers: &impl Workers, reported: Analysis, others: Vec<Analysis>) -> Self {
         workers.begin(Phase::Report);
         let asked = |analysis: &Analysis| analysis.plan.compared(workers, &analysis.conclusion);
@@ -110,7 +110,7 @@ impl Analyses {
         Some(fitted.opinion(&compared, |effect| self.is_no_cause(effect), by_rules, plan.settings.name_at))
     }
 
-    /// Shows what the fitted verdict says, on the way that simulates best with the first effect reported.
+    /// Shows what the fitted verdict says, by the analysis that simulates best with the first effect reported.
     fn describe(&mut self, opinion: &SecondOpinion) {
         let verdict = opinion.reported(self.reported.plan.settings.name_at);
         let is_by_rules =
@@ -127,7 +127,7 @@ impl Analyses {
         self.reported.conclusion.verdict = verdict;
     }
 
-    /// Puts the way first that simulates the judged records best with an effect, of those in which it degrades no record, if there are any.
+    /// Puts the analysis first that simulates the judged records best with an effect, of those in which it degrades no record, if there are any.
     fn describe_of(&mut self, effect: Effect) {
         let fitted = |analysis: &Analysis| {
             analysis.conclusion.fitted.iter().find(|s| s.effect_terms[0].effect == effect).cloned()
@@ -153,7 +153,7 @@ impl Analyses {
         effect.card().colours_noise || self.reported.plan.settings.is_left_out(effect)
     }
 
-    /// All ways with what they say, that of the verdict first.
+    /// All analyses with what they say, that of the verdict first.
     fn all(&self) -> impl Iterator<Item = (&Analysis, &Compared)> {
         std::iter::once((&self.reported, &self.evidence))
             .chain(self.others.iter().map(|(analysis, says)| (analysis, says)))

@@ -1,4 +1,4 @@
-//! What one way of comparing says of every effect.
+//! What one comparison says of every effect.
 
 use super::plan::Plan;
 use super::report::Conclusion;

@@ -33,7 +33,7 @@ pub(super) struct Evidence {
 }
 
 impl Plan {
-    /// Fits every effect, and where much is left every two. A better optimum of a single effect that shows on the way
+    /// Fits every effect, and where much is left every two. A better optimum of a single effect that is found meanwhile
     /// counts from then on.
     pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
         workers.begin(Phase::Effects);

@@ -77,7 +77,7 @@ pub fn diagnose_with(
     Ok(Analyses::new(workers, reported, others).report(workers))
 }
 
-/// The way of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed. Behind it the other way,
+/// The analysis of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed. Behind it the other analysis,
 /// where that was gone, too.
 fn analysed(
     workers: &impl Workers,
@@ -107,7 +107,7 @@ fn analysed(
     })
 }
 
-/// The way on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be reported and a higher
+/// The analysis on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be reported and a higher
 /// order or another delay does the same on the held-out records. What that one shows counts, unless it is such an effect again, or
 /// nothing of use: then the order is the answer.
 fn with_room_for_dynamics(

@@ -13,7 +13,7 @@
 //! time (Krejci and Kuhnen, "Inverse control of systems with hysteresis and creep", IEE Proc. Control Theory Appl. 148, 2001).
 //! Parameters: `kappa` (−0.9…1 for one time constant, beyond which the lag is the response and no after-effect; 3 for several), share `k` of the distance (−1…2), time constant `tau` in samples (8…5000; the shortest
 //! of several 1…1000), their ratio `rho` (1.5…20). Stage: operator. After each move the output goes on
-//! drifting: the same way, or back where `kappa` is negative or `k` positive (relaxation, which is the creep of a force at rest). Both are one
+//! drifting: onwards, or back where `kappa` is negative or `k` positive (relaxation, which is the creep of a force at rest). Both are one
 //! cause, and the parameters' signs say which. Confused with: rate dependence, an extra pole (much faster), sensor drift.
 
 use super::{Card, Scene, Variant, fitted_scaled_records, parameter};

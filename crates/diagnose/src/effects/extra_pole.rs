@@ -29,7 +29,7 @@ pub(super) const CARD: Card = Card {
     ..Card::of(Stage::Dynamics, variants)
 };
 
-/// One way to lag.
+/// One kind of lag.
 struct Lag {
     poles: usize,
     /// Whether the equation error passes it.

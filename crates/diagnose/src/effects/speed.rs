@@ -4,7 +4,7 @@
 //! H(r) = half + c·g(r)     half the width of the loop at speed r;   half, c from the fit, g(r) the law's function of speed
 //! ```
 //!
-//! A law of friction that falls with speed fits one that rises as well, with a coefficient of the other sign, and the other way round. Whichever
+//! A law of friction that falls with speed fits one that rises as well, with a coefficient of the other sign, and conversely. Whichever
 //! law fitted it: where `|H|` rises with speed it is rate dependence, where it falls Stribeck friction. The sign of `c` alone says nothing:
 //! the gauge is free (`B` and the borders may both be turned over), so it is taken relative to the loop's orientation, the sign of `H` in
 //! the mean.
@@ -35,7 +35,7 @@ fn named(rises: bool, coefficient: f64) -> Effect {
 }
 
 /// The sign of the loop: positive where the ascending border lies above, in the mean. None where `u` falls along the stroke all the same, from
-/// the start of the descending border to the end of the ascending one, or the other way round: such a loop lags, and no friction makes it.
+/// the start of the descending border to the end of the ascending one, or conversely: such a loop lags, and no friction makes it.
 fn orientation(fit: &Fit) -> Option<f64> {
     let added = mean_added(&fit.design(), fit.grid.len());
     let coefficients = &fit.linear.f[fit.grid.len()..];

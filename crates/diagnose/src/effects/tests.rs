@@ -183,7 +183,7 @@ fn a_sensor_that_stretches_saturates_nowhere() {
     assert_eq!(named(&bent(-0.05), Effect::SensorSaturation), Some(Effect::SensorSaturation));
 }
 
-/// An after-effect is creep whether it goes on or goes back, and which it is is reported: `kappa`, or the share of the way to the middle.
+/// An after-effect is creep whether it goes on or goes back, and which it is is reported: `kappa`, or the share of the distance to the middle.
 #[test]
 fn an_after_effect_that_goes_back_is_creep_and_says_so() {
     for kappa in [0.4, -0.3] {

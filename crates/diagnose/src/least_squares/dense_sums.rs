@@ -67,7 +67,7 @@ impl DenseSums {
     }
 }
 
-/// The rows kept, on their way into the sums.
+/// The rows kept, before they enter the sums.
 struct Block<'a> {
     sums: &'a mut DenseSums,
 }

@@ -94,7 +94,7 @@ impl MixedSums {
     }
 }
 
-/// The rows kept, on their way into the sums.
+/// The rows kept, before they enter the sums.
 struct Block<'a> {
     sums: &'a mut MixedSums,
 }

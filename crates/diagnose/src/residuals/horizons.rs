@@ -33,7 +33,7 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// The fitted records as a model predicts them: one step ahead, until it has settled, half way between on a scale of ratios, and all
+    /// The fitted records as a model predicts them: one step ahead, until it has settled, midway between on a scale of ratios, and all
     /// of each record.
     pub(crate) fn of(fit: &Fit) -> Self {
         let settling = fit.linear.settling();

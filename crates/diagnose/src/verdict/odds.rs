@@ -93,7 +93,7 @@ fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }
 
-/// How far the best counts as leaving nothing of the gap, from a fraction of which it leaves: 1 all the way.
+/// How far the best counts as leaving nothing of the gap, from a fraction of which it leaves: 1 throughout.
 fn explained_weight(best: Effect, fraction: f64) -> f64 {
     let (nothing, scale) =
         if best.is_flexible() { calibration::NOTHING_BY_FLEXIBLE } else { calibration::NOTHING };
@@ -178,7 +178,7 @@ impl<'a> Weighing<'a> {
         }
     }
 
-    /// Whether the best follows something else a good part of the way.
+    /// Whether the best follows something else to a good part.
     fn is_stand_in(&self) -> bool {
         let (left, fraction) = (self.leaves.deviance, self.fraction());
         let others = self.effects.iter().filter(|e| Some(e.0) != self.first);

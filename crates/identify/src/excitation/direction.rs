@@ -1,9 +1,9 @@
-//! Which way a pulse experiment visits its levels.
+//! The direction in which a pulse experiment visits its levels.
 
 use std::fmt;
 use switchback_model::hysteresis::{Branch, Interval};
 
-/// Which way a pulse experiment leaves its satellite.
+/// The direction in which a pulse experiment leaves its satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// The descendant experiment (3.1): falls from the satellite `h_M`, and so shows `C_d`.

@@ -119,8 +119,8 @@ impl Reversals {
         let least = ((to - from).abs() / self.fastest).ceil().max(1.0) as u32;
         let steps = rng.random_range(1..=LONGEST_MOVE).max(least);
         let room = length.saturating_sub(v.len());
-        let on_the_way = |k: u32| from + (to - from) * (f64::from(k) / f64::from(steps));
-        v.extend((1..steps).take(room).map(on_the_way));
+        let on_the_path = |k: u32| from + (to - from) * (f64::from(k) / f64::from(steps));
+        v.extend((1..steps).take(room).map(on_the_path));
         v.push(to);
         if rng.random_bool(REST.0) {
             let rest = rng.random_range(1..=REST.1);

@@ -149,7 +149,7 @@ impl Spacing {
     }
 }
 
-/// `count` knots (at least 2) over the interval, each half-way between the share of the interval and the same share of the
+/// `count` knots (at least 2) over the interval, each midway between the share of the interval and the same share of the
 /// visits.
 ///
 /// Shares of the visits alone crowd where the input dwells (the turning points of a sine) and leave the middle bare; shares

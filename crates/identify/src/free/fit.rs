@@ -47,17 +47,17 @@ impl Fitted {
     }
 }
 
-/// Knots a curve on the way up, and in the first stage of the selection: enough for a bend and a jump.
+/// Knots a curve in the coarse fits, and in the first stage of the selection: enough for a bend and a jump.
 pub(super) const FIRST_KNOTS: usize = 5;
 
 impl<'a> Ladder<'a> {
-    /// The way up to `knots` knots a curve.
+    /// The coarse fits up to `knots` knots a curve.
     pub(super) fn new(data: &Data<'a>, map: InputMap, knots: usize) -> Self {
-        let on_the_way = knots.min(FIRST_KNOTS);
+        let on_the_path = knots.min(FIRST_KNOTS);
         let mut rungs = vec![(InputMap::Linear, 2)];
         if map != InputMap::Linear {
-            rungs.push((InputMap::Static, on_the_way));
-            rungs.push((map, on_the_way));
+            rungs.push((InputMap::Static, on_the_path));
+            rungs.push((map, on_the_path));
             rungs.push((map, knots));
             rungs.dedup();
         }
@@ -114,12 +114,12 @@ impl<'a> Ladder<'a> {
         below
     }
 
-    /// The fit to everything, by way of the smaller structures inside it.
+    /// The fit to everything, by means of the smaller structures inside it.
     pub(super) fn climb_from_smaller(&self, structure: Structure, effort: Effort) -> Option<Fitted> {
         let smaller = |delay: isize| (1..=structure.order).map(move |order| Structure { order, delay });
         let delays = structure.delay..=structure.delay.max(0);
-        let way: Vec<Structure> = delays.rev().flat_map(smaller).collect();
-        let fits = self.climb_all(&way, Effort::SEARCH, |rung, s| rung.segments(s));
+        let path: Vec<Structure> = delays.rev().flat_map(smaller).collect();
+        let fits = self.climb_all(&path, Effort::SEARCH, |rung, s| rung.segments(s));
         let start: Vec<Fitted> = fits.into_iter().flatten().filter(|f| f.structure == structure).collect();
         let top = self.top();
         let theta =

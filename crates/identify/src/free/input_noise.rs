@@ -33,7 +33,7 @@ use switchback_noise::{StreamId, white_samples};
 ///
 /// Reported is the largest shift alone, in standard errors of the coefficient or border point that it moves. On made records of steady sweeps with noise of 0.1 to 1 % of the
 /// range it was 0.8 to 1.5 times the true one in the median where the machine turns between samples, and 0.4 to 1.0 times where it turns at samples, whose lag of half a sample on
-/// average the noise hides (`crates/identify/tests/input_noise.rs` prints the table); single records scatter by a factor of two and more. Which parameter is moved, and which way, is not reported: where the
+/// average the noise hides (`crates/identify/tests/input_noise.rs` prints the table); single records scatter by a factor of two and more. Which parameter is moved, and in which direction, is not reported: where the
 /// noise blurs turning points by more than a sample, the stand-in turns elsewhere than the machine did, and single shifts come out wrong.
 ///
 /// The input does not say whether the machine follows its fast part, which is no noise then. The figure means nothing in that case.

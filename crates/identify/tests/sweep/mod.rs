@@ -36,7 +36,7 @@ pub(crate) fn noise(seed: u64, count: usize) -> Vec<f64> {
     (0..count).map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0).collect()
 }
 
-pub(crate) struct Bench {
+pub(crate) struct Setup {
     pub(crate) designs: [PeriodicDesign; 2],
     pub(crate) responses: [Vec<f64>; 2],
     pub(crate) system: LinearSystem,
@@ -44,7 +44,7 @@ pub(crate) struct Bench {
     pub(crate) samples: usize,
 }
 
-impl Bench {
+impl Setup {
     pub(crate) fn new(
         system: LinearSystem,
         order: usize,

@@ -92,7 +92,7 @@ fn others(
 }
 
 /// Every reservation, weightiest first: runs that are useless, simpler models that do better, what the errors say, innovations that are not white, what
-/// real time would cost, and what was found by the way.
+/// real time would cost, and what was found in passing.
 fn flags(rig: &Rig, found: &Identification, examination: &Examination, useless: Vec<Flag>) -> Vec<Flag> {
     let no_holdout = lacks_holdout(rig).then(|| Flag {
         kind: "no_holdout",

@@ -1,4 +1,4 @@
-//! A text file read piece by piece and decoded on the way, so that it is never whole in memory.
+//! A text file read piece by piece and decoded at once, so that it is never whole in memory.
 
 use super::file_error::FileError;
 use super::stream::{self, is_stream};
@@ -10,7 +10,7 @@ use std::path::Path;
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 16;
 
-/// A text on its way in: UTF-8, UTF-16 with a byte order mark, else Windows-1252.
+/// A text being read: UTF-8, UTF-16 with a byte order mark, else Windows-1252.
 pub(super) struct TextPieces<'a> {
     /// The file, as messages call it.
     path: String,

@@ -15,7 +15,7 @@ use std::path::{Component, Path};
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
-/// A rig, and what was inferred on the way.
+/// A rig, with the inferred settings.
 #[derive(Debug, Clone)]
 pub struct Loaded {
     /// The rig.

@@ -85,7 +85,7 @@ pub struct Evidence {
     pub samples: usize,
     /// The best pair of effects, where one was looked for.
     pub together: Option<PairEvidence>,
-    /// What the records say of every effect, a way of comparing at a time: what a verdict is fitted to.
+    /// What the records say of every effect, one comparison at a time: what a verdict is fitted to.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compared: Vec<Compared>,
 }

@@ -102,7 +102,7 @@ impl<'a> Field<'a> {
             None => {
                 let context = self.known(ticket.base).context.as_ref().map_err(Clone::clone)?;
                 let requested_fault = fault.requested_fault().map_err(reported)?;
-                injected(context.plant(&requested_fault, ticket.seed).map_err(reported)?.fault)
+                injected(context.inject(&requested_fault, ticket.seed).map_err(reported)?.fault)
             }
         };
         let is_finite = [put_in.magnitude, put_in.size, put_in.raw].iter().all(|x| x.is_finite());

@@ -1,7 +1,7 @@
 //! The field examination: known faults in measured records and in made ones as the field has them.
 //!
 //! ```text
-//! scenario → bases → design → seal (plant, hash the keys) → judge (diagnose twice, open, compare) → score → report
+//! scenario → bases → design → seal (machine, hash the keys) → judge (diagnose twice, open, compare) → score → report
 //! ```
 //!
 //! A *base* is a measured rig from a folder, or a made one. Every rig of the design is a base with a fault, a foreign fault, resampled

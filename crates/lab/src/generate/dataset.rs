@@ -1,6 +1,6 @@
 //! The dataset: which records are taken, in which order, with which inputs.
 
-use crate::generate::plant::Plant;
+use crate::generate::machine::Machine;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use switchback_model::hysteresis::Interval;
@@ -118,21 +118,21 @@ impl Passage {
     }
 }
 
-/// Draws the inputs of a dataset on the plant's levels.
-pub(crate) fn dataset(plan: &Plan, plant: &Plant, rng: &mut ChaCha8Rng) -> Vec<Passage> {
-    let interval = plant.interval;
+/// Draws the inputs of a dataset on the machine's levels.
+pub(crate) fn dataset(plan: &Plan, machine: &Machine, rng: &mut ChaCha8Rng) -> Vec<Passage> {
+    let interval = machine.interval;
     let (low, high) = (interval.low(), interval.high());
-    let settle = plant.settling();
+    let settle = machine.settling();
     let step = |from: f64, to: f64| std::iter::once(from).chain(std::iter::repeat_n(to, plan.step)).collect();
     let free = |samples: usize, rng: &mut ChaCha8Rng| random_ramps(interval, samples, rng);
     let recorded: Vec<(&'static str, Role, Usage, Vec<f64>)> = vec![
         ("step_high", Role::StepHigh, Usage::Fit, step(low, high)),
-        ("descendant", Role::Descendant, Usage::Fit, descendant(plant, plan.periods)),
+        ("descendant", Role::Descendant, Usage::Fit, descendant(machine, plan.periods)),
         ("step_low", Role::StepLow, Usage::Fit, step(high, low)),
-        ("ascendant", Role::Ascendant, Usage::Fit, ascendant(plant, plan.periods)),
+        ("ascendant", Role::Ascendant, Usage::Fit, ascendant(machine, plan.periods)),
         ("sweep", Role::Free, Usage::Fit, free(plan.sweep, rng)),
         ("drive", Role::Free, Usage::Holdout, free(plan.drive, rng)),
-        ("descendant_again", Role::Descendant, Usage::Holdout, descendant(plant, plan.repeat_periods)),
+        ("descendant_again", Role::Descendant, Usage::Holdout, descendant(machine, plan.repeat_periods)),
     ];
     let passages = recorded.into_iter().enumerate().map(|(index, (name, role, usage, record))| {
         let lead = lead_in(interval, record[0], settle);
@@ -167,20 +167,20 @@ pub(crate) fn lead_in(interval: Interval, start: f64, settle: usize) -> Vec<f64>
 }
 
 /// The descendant experiment (3.1) after one loading move.
-fn descendant(plant: &Plant, periods: usize) -> Vec<f64> {
-    let m = plant.levels.len() - 1;
-    pulses(plant, periods, plant.interval.low(), plant.interval.high(), &plant.levels[..m])
+fn descendant(machine: &Machine, periods: usize) -> Vec<f64> {
+    let m = machine.levels.len() - 1;
+    pulses(machine, periods, machine.interval.low(), machine.interval.high(), &machine.levels[..m])
 }
 
 /// The ascendant experiment (4.1) after one loading move.
-fn ascendant(plant: &Plant, periods: usize) -> Vec<f64> {
-    let visited: Vec<f64> = plant.levels[1..].iter().rev().copied().collect();
-    pulses(plant, periods, plant.interval.high(), plant.interval.low(), &visited)
+fn ascendant(machine: &Machine, periods: usize) -> Vec<f64> {
+    let visited: Vec<f64> = machine.levels[1..].iter().rev().copied().collect();
+    pulses(machine, periods, machine.interval.high(), machine.interval.low(), &visited)
 }
 
 /// From the satellite, visits of one sample: the first at `2s`, the j-th (j ≥ 2) at `(2+j)s`, period `s(m+3)`.
-fn pulses(plant: &Plant, periods: usize, load: f64, satellite: f64, visited: &[f64]) -> Vec<f64> {
-    let s = plant.order().max(2);
+fn pulses(machine: &Machine, periods: usize, load: f64, satellite: f64, visited: &[f64]) -> Vec<f64> {
+    let s = machine.order().max(2);
     let mut period = vec![satellite; s * (visited.len() + 3)];
     for (j, &level) in visited.iter().enumerate() {
         period[if j == 0 { 2 * s } else { (3 + j) * s }] = level;

@@ -3,9 +3,9 @@
 use crate::generate::dataset::Passage;
 use crate::generate::key::{Key, TrueEffect, Truth};
 use crate::generate::law::{Amount, Law, Nature, Scene};
+use crate::generate::machine::Machine;
 use crate::generate::made_rig::MadeRig;
 use crate::generate::make_error::MakeError;
-use crate::generate::plant::Plant;
 use crate::generate::refit::{Leftover, Refit};
 use crate::generate::requested_fault::RequestedFault;
 use crate::generate::setting::Setting;
@@ -32,7 +32,7 @@ pub(crate) struct Description {
 
 /// A system with its dataset, on which effects are tried.
 pub(crate) struct Generator {
-    pub plant: Plant,
+    pub machine: Machine,
     /// What the system has before any effect is put in.
     base: Vec<Active>,
     description: Description,
@@ -51,12 +51,12 @@ impl Generator {
     /// Lays out the re-fit of a system with what it has by itself, and learns what its output reaches.
     pub(crate) fn new(
         seed: u64,
-        (plant, base): (Plant, Vec<Active>),
+        (machine, base): (Machine, Vec<Active>),
         passages: Vec<Passage>,
         description: Description,
     ) -> Self {
-        let refit = Refit::new(&plant, &passages);
-        let mut generator = Self { plant, base, description, passages, refit, seed };
+        let refit = Refit::new(&machine, &passages);
+        let mut generator = Self { machine, base, description, passages, refit, seed };
         generator.measure_reach();
         generator
     }
@@ -69,14 +69,14 @@ impl Generator {
 
     /// Runs the nominal rig once, without noise, to learn what its output reaches.
     fn measure_reach(&mut self) {
-        let centre = self.plant.y_centre();
+        let centre = self.machine.y_centre();
         let outputs = self.recorded(&self.traces(&[], Noise::None));
-        self.plant.reach = outputs.iter().flatten().fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
+        self.machine.reach = outputs.iter().flatten().fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
     }
 
     fn traces(&self, active: &[Active], noise: Noise) -> Vec<Trace> {
         let all = [&self.base, active].concat();
-        self.passages.iter().map(|p| simulate(&self.plant, &all, p, self.seed, noise)).collect()
+        self.passages.iter().map(|p| simulate(&self.machine, &all, p, self.seed, noise)).collect()
     }
 
     fn recorded(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
@@ -100,7 +100,7 @@ impl Generator {
                 count += white.len();
             }
         }
-        let oracle: f64 = active.iter().map(|e| e.law.oracle_variance(&self.plant, &e.amount)).product();
+        let oracle: f64 = active.iter().map(|e| e.law.oracle_variance(&self.machine, &e.amount)).product();
         let ratio = leftover.variance / (oracle * sum / count as f64);
         (ratio - 1.0).max(0.0).sqrt()
     }
@@ -137,13 +137,13 @@ impl Generator {
             one.amount.magnitude = one.law.least();
             entry.size = self.size_of(std::slice::from_ref(one));
         }
-        let span = 2.0 * self.plant.y_half() / self.plant.noise_amplification();
+        let span = 2.0 * self.machine.y_half() / self.machine.noise_amplification();
         for _ in 0..ROUNDS {
             if (entry.size / entry.wanted - 1.0).abs() < 0.02 {
                 break;
             }
-            self.plant.noise_sd =
-                (self.plant.noise_sd * entry.size / entry.wanted).clamp(2e-4 * span, 0.06 * span);
+            self.machine.noise_sd =
+                (self.machine.noise_sd * entry.size / entry.wanted).clamp(2e-4 * span, 0.06 * span);
             entry.size = self.size_of(std::slice::from_ref(one));
         }
         if entry.size > 1.05 * entry.wanted {
@@ -172,7 +172,7 @@ impl Generator {
         };
         Ok(Rig {
             name: format!("rig-{}", self.seed),
-            sample_time: self.plant.sample_time,
+            sample_time: self.machine.sample_time,
             order: self.description.order,
             interval: self.description.interval,
             input_label: self.description.input.clone(),
@@ -186,7 +186,7 @@ impl Generator {
         let mut v = passage.v.clone();
         for Active { law, amount, slot } in &self.base {
             let rng = stream(self.seed, Purpose::Effect { effect: *slot, record: passage.index });
-            law.recording(&mut Scene { plant: &self.plant, passage, amount: *amount, rng }, &mut v);
+            law.recording(&mut Scene { machine: &self.machine, passage, amount: *amount, rng }, &mut v);
         }
         passage.recorded(&v).to_vec()
     }
@@ -207,13 +207,13 @@ impl Generator {
         let truth = self.truth(active, &trial);
         let key = Key {
             seed: self.seed,
-            order: self.plant.order(),
-            a: self.plant.a.clone(),
-            b: self.plant.b.clone(),
-            borders: self.plant.shape.name(),
-            curved: self.plant.curved,
-            interval: self.plant.interval,
-            noise_sd: self.plant.noise_sd,
+            order: self.machine.order(),
+            a: self.machine.a.clone(),
+            b: self.machine.b.clone(),
+            borders: self.machine.shape.name(),
+            curved: self.machine.curved,
+            interval: self.machine.interval,
+            noise_sd: self.machine.noise_sd,
             setting: self.description.setting,
             base: self.description.base.clone(),
             effects,
@@ -244,7 +244,7 @@ impl Generator {
         match self.description.setting {
             Setting::Laboratory => {
                 let white = |(p, t): (&Passage, &Trace)| p.recorded(&t.white).to_vec();
-                (self.passages.iter().zip(&trial.traces).map(white).collect(), self.plant.noise_sd)
+                (self.passages.iter().zip(&trial.traces).map(white).collect(), self.machine.noise_sd)
             }
             Setting::Field => {
                 let base = self.trial(&[]).leftover;

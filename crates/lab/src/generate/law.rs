@@ -1,7 +1,7 @@
 //! What a law of an effect is: hooks along the block diagram.
 
 use crate::generate::dataset::Passage;
-use crate::generate::plant::Plant;
+use crate::generate::machine::Machine;
 use rand_chacha::ChaCha8Rng;
 use std::fmt::Debug;
 
@@ -100,7 +100,7 @@ impl Amount {
 #[derive(Debug)]
 pub struct Scene<'a> {
     /// The nominal system.
-    pub plant: &'a Plant,
+    pub machine: &'a Machine,
     /// The record running, with its lead-in.
     pub passage: &'a Passage,
     /// How much of the effect.
@@ -159,7 +159,7 @@ pub trait Law: Debug + Send + Sync {
     /// Variance of the one-step prediction error of a model that knows the effect, over that of the white equation error.
     ///
     /// 1 unless the effect itself raises what nobody could predict.
-    fn oracle_variance(&self, _plant: &Plant, _amount: &Amount) -> f64 {
+    fn oracle_variance(&self, _machine: &Machine, _amount: &Amount) -> f64 {
         1.0
     }
 

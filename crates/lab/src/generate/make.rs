@@ -4,9 +4,9 @@ use crate::generate::dataset::{Plan, dataset};
 use crate::generate::field;
 use crate::generate::generator::{Description, Generator};
 use crate::generate::key::{Key, TrueEffect};
+use crate::generate::machine::{Family, Machine};
 use crate::generate::made_rig::MadeRig;
 use crate::generate::make_error::MakeError;
-use crate::generate::plant::{Family, Plant};
 use crate::generate::requested_fault::RequestedFault;
 use crate::generate::setting::Setting;
 use crate::generate::simulate::Active;
@@ -130,7 +130,7 @@ impl MakeRig {
 
     fn with_found(&self, noise_sd: f64, effects: Vec<TrueEffect>) -> Result<MadeRig, MakeError> {
         let mut generator = self.generator();
-        generator.plant.noise_sd = noise_sd;
+        generator.machine.noise_sd = noise_sd;
         let sized = self.requested_faults.iter().zip(&effects).enumerate();
         let active: Vec<Active> =
             sized.map(|(slot, (i, e))| generator.active(slot, i.law, e.magnitude)).collect();
@@ -142,16 +142,16 @@ impl MakeRig {
         if self.setting == Setting::Field {
             return field::generator(self.seed, self.family, &self.spared);
         }
-        let plant = Plant::draw(self.family, &mut stream(self.seed, Purpose::Plant));
-        let passages = dataset(&self.plan, &plant, &mut stream(self.seed, Purpose::Drive));
+        let machine = Machine::draw(self.family, &mut stream(self.seed, Purpose::Machine));
+        let passages = dataset(&self.plan, &machine, &mut stream(self.seed, Purpose::Drive));
         let description = Description {
             setting: Setting::Laboratory,
-            order: Some(plant.order()),
-            interval: Some(plant.interval),
+            order: Some(machine.order()),
+            interval: Some(machine.interval),
             input: "v".to_owned(),
             output: "y".to_owned(),
             base: Vec::new(),
         };
-        Generator::new(self.seed, (plant, Vec::new()), passages, description)
+        Generator::new(self.seed, (machine, Vec::new()), passages, description)
     }
 }

@@ -1,7 +1,7 @@
 //! The best nominal model of a rig: what it leaves is the surviving gap.
 
 use crate::generate::dataset::Passage;
-use crate::generate::plant::Plant;
+use crate::generate::machine::Machine;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use switchback_model::rig::Usage;
 
@@ -37,9 +37,9 @@ pub(crate) struct Leftover {
 
 impl Refit {
     /// Lays out the regression for the commanded inputs of a dataset.
-    pub(crate) fn new(plant: &Plant, passages: &[Passage]) -> Self {
-        let order = plant.order();
-        let knots = 1 + (plant.levels.len() - 1) * if plant.curved { FINER } else { 1 };
+    pub(crate) fn new(machine: &Machine, passages: &[Passage]) -> Self {
+        let order = machine.order();
+        let knots = 1 + (machine.levels.len() - 1) * if machine.curved { FINER } else { 1 };
         let mut hats = Vec::with_capacity(passages.len());
         let mut first = Vec::with_capacity(passages.len());
         for passage in passages {
@@ -51,7 +51,7 @@ impl Refit {
                 if t > 0 && now != v[t - 1] {
                     rising = now > v[t - 1];
                 }
-                let place = (knots - 1) as f64 * (now - plant.interval.low()) / plant.interval.width();
+                let place = (knots - 1) as f64 * (now - machine.interval.low()) / machine.interval.width();
                 let left = (place.max(0.0) as usize).min(knots - 2);
                 let share = place - left as f64;
                 let column = left + if rising { 0 } else { knots };

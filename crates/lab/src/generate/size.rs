@@ -26,8 +26,8 @@ const TOLERANCE: f64 = 0.01;
 
 /// Smallest magnitude in `(0, limit]` at which `size_of` reaches `wanted`; else the one that comes closest.
 ///
-/// Climbs from `limit·2⁻¹⁸` in doublings to the first crossing, then bisects: sizes need not grow with magnitude all
-/// the way (a pole at 1 becomes a constant), but the first crossing is the effect one would call small.
+/// Climbs from `limit·2⁻¹⁸` in doublings to the first crossing, then bisects: sizes need not grow with magnitude everywhere
+/// (a pole at 1 becomes a constant), but the first crossing is the effect one would call small.
 pub(crate) fn magnitude_for(wanted: f64, limit: f64, mut size_of: impl FnMut(f64) -> f64) -> Sized {
     let mut best = Sized { magnitude: 0.0, size: 0.0 };
     let mut below = 0.0;

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// The nominal system.
-    Plant,
+    Machine,
     /// The inputs of the records.
     Drive,
     /// What the machine has before any effect is put in.
@@ -28,7 +28,7 @@ pub(crate) enum Purpose {
 /// The stream of `purpose` in the rig of `seed`.
 pub(crate) fn stream(seed: u64, purpose: Purpose) -> ChaCha8Rng {
     let number = match purpose {
-        Purpose::Plant => 0,
+        Purpose::Machine => 0,
         Purpose::Drive => 1,
         Purpose::Base => 2,
         Purpose::Shape(effect) => 16 + effect as u64,

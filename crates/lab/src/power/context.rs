@@ -131,6 +131,6 @@ impl<'a> Context<'a> {
         let law = law(effect, scramble(seed, LAW));
         let requested_fault = RequestedFault::with_law(effect, law, size).map_err(|e| reported(&e))?;
         let context = self.injection.with_records(&base).map_err(|e| reported(&e))?;
-        context.plant_to(precision, &requested_fault, scramble(seed, FAULT)).map_err(|e| reported(&e))
+        context.inject_to(precision, &requested_fault, scramble(seed, FAULT)).map_err(|e| reported(&e))
     }
 }

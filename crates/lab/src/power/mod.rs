@@ -1,7 +1,7 @@
 //! Which effects would have been found in a rig's own records, and from which size on.
 //!
 //! ```text
-//! records → ground → diagnoses without fault → rounds (size, law, noise → plant → diagnose → posterior) → findings
+//! records → ground → diagnoses without fault → rounds (size, law, noise → machine → diagnose → posterior) → findings
 //! ```
 //!
 //! A draw takes the records as a model would have them, its simulation plus the residuals drawn anew in blocks, so that noise stays what it is

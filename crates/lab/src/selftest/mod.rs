@@ -39,7 +39,7 @@ pub struct Check {
     figures: fn(u64) -> miette::Result<Vec<Figure>>,
 }
 
-/// Every check, the quickest way to a cause first: what fails further down may be due to what failed above.
+/// Every check, the nearest to a cause first: what fails further down may be due to what failed above.
 pub const CHECKS: [Check; 6] = [
     Check {
         name: "noise",

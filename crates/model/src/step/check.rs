@@ -37,7 +37,7 @@ pub(crate) fn whole(program: &Program) -> Result<(), Fault> {
     }
     let checker = |callable| Checker { program, callable };
     checker(0).variable(program.output)?;
-    program.reported.map_or(Ok(()), |reported| checker(0).variable(reported))?;
+    program.first_direction.map_or(Ok(()), |first_direction| checker(0).variable(first_direction))?;
     for (callable, card) in program.procedures.iter().enumerate() {
         let checker = checker(callable);
         card.parameters.iter().try_for_each(|parameter| checker.variable(*parameter))?;

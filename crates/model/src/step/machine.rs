@@ -41,7 +41,7 @@ impl Machine {
     }
 
     /// Begins a run at rest at an input, as if that had always been there: on the ascending border for a `branch` of +1, on the descending
-    /// one for −1; for 0 where the model begins by itself, see [`Program::reported`].
+    /// one for −1; for 0 where the model begins by itself, see [`Program::first_direction`].
     pub fn start(&mut self, v: f64, branch: f64) {
         self.call(self.program.start(), &[v, branch]);
     }
@@ -58,8 +58,8 @@ impl Machine {
     }
 
     /// The first direction of the input: ±1, 0 while it is unknown. None where no run depends on it.
-    pub fn reported(&self) -> Option<f64> {
-        self.program.reported.map(|reported| self.memory.numbers[reported.0])
+    pub fn first_direction(&self) -> Option<f64> {
+        self.program.first_direction.map(|variable| self.memory.numbers[variable.0])
     }
 
     /// The memory, to come back to it.

@@ -13,7 +13,7 @@ pub struct Model {
     pub output: Scale,
     /// What acts lies between the last two positions, this share of a sample back.
     pub late: f64,
-    /// How the direction of the input is reported.
+    /// How the direction of the input is determined.
     pub direction: Direction,
     /// What the working point runs on.
     pub borders: Borders,
@@ -45,7 +45,7 @@ impl Scale {
     }
 }
 
-/// How the direction of the input is reported, and where a run begins.
+/// How the direction of the input is determined, and where a run begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Direction {
     /// A run begins on the border of its first move: known once the input has moved by more than the threshold.
@@ -61,7 +61,7 @@ pub enum Direction {
         threshold: f64,
         /// Play before the operator: its width in the middle of the stroke and how that changes towards the ends.
         play: Play,
-        /// Whether it begins half-way between the borders, instead of on that whose end is nearer.
+        /// Whether it begins midway between the borders, instead of on that whose end is nearer.
         between_borders: bool,
     },
 }

@@ -78,8 +78,8 @@ pub struct Program {
     pub procedures: Vec<ProcedureCard>,
     /// Holds the output after a step.
     pub output: Variable,
-    /// 0 until the input has reported its direction, then ±1, the first one. None where a run begins at a border by the place of the input.
-    pub reported: Option<Variable>,
+    /// 0 until the input has shown its direction, then ±1, the first one. None where a run begins at a border by the place of the input.
+    pub first_direction: Option<Variable>,
     /// Whether the output of a sample depends on the input of the same sample.
     pub direct: bool,
 }
@@ -189,7 +189,7 @@ pub enum Statement {
     Copy(Array, Array),
     /// A value goes in front of an array, whose last one is lost.
     Push(Array, Value),
-    /// One of two ways.
+    /// One of two branches.
     If(Condition, Vec<Statement>, Vec<Statement>),
     /// So many times, with an index from 0.
     Repeat(Variable, usize, Vec<Statement>),

@@ -4,7 +4,7 @@ use crate::step::Machine;
 
 /// A machine from its start on.
 ///
-/// Where a model runs on the border of its first move and nobody reported which, two runs go on side by side until the input shows: what is
+/// Where a model runs on the border of its first move and it is unknown which, two runs go on side by side until the input shows: what is
 /// shown until then is the one on the ascending border.
 #[derive(Debug, Clone)]
 pub struct Run {
@@ -20,7 +20,7 @@ impl Run {
             machine.start(v, branch);
             machine
         };
-        let waits = branch == 0.0 && machine.reported().is_some();
+        let waits = branch == 0.0 && machine.first_direction().is_some();
         Self { shown: started(branch), falling: waits.then(|| started(-1.0)) }
     }
 
@@ -29,9 +29,9 @@ impl Run {
         let mut y = self.shown.step(v);
         if let Some(falling) = &mut self.falling {
             let other = falling.step(v);
-            match self.shown.reported() {
+            match self.shown.first_direction() {
                 Some(0.0) => return y,
-                Some(reported) if reported < 0.0 => {
+                Some(first) if first < 0.0 => {
                     std::mem::swap(&mut self.shown, falling);
                     y = other;
                 }

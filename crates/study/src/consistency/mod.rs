@@ -181,7 +181,7 @@ impl<'s> Study<'s> {
         let views = views::of_cells(&theories, &totals);
         let summaries = judge::summaries(specs, &theories, &views, scenario.sweep().slope_from);
         let paired = (scenario.coupling() == Coupling::Shared)
-            .then(|| paired::pairing(specs, &views, &self.cells_of_worlds()));
+            .then(|| paired::pairing(specs, &views, &self.cells_of_noise_groups()));
         let expectations = expectations::check(scenario, &summaries, &cells);
         let of = run_state.target();
         let partial = run_state.missing().map(|_| Partial { replicates: run_state.replicates(), of });
@@ -214,7 +214,7 @@ impl<'s> Study<'s> {
     }
 
     /// Where the cells of each workload stand among all cells.
-    fn cells_of_worlds(&self) -> Vec<Range<usize>> {
+    fn cells_of_noise_groups(&self) -> Vec<Range<usize>> {
         let counts = self.pulses.iter().map(|group| group.cells().count());
         let counts = counts.chain(self.free.iter().map(Workload::cells));
         let mut first = 0;

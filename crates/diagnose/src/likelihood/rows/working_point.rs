@@ -129,7 +129,7 @@ impl<'a> WorkingPoint<'a> {
         self.at_stop.clone_from(&self.terms);
     }
 
-    /// Goes by a share of the way from where it stopped to the middle between the borders.
+    /// Goes by a share of the distance from where it stopped to the middle between the borders.
     pub(super) fn relax(&mut self, v: f64, share: f64) {
         let sum = &mut self.sum;
         sum.clear();

@@ -5,12 +5,12 @@
 //! effect gains in deviance depends on how wrong the model is, which differs from rig to rig; where it stands among the others does not.
 //!
 //! ```text
-//! first_…       1 where ΔBIC is above 10 and above that of every effect of another class, and it degrades no held-out record that way
+//! first_…       1 where ΔBIC is above 10 and above that of every effect of another class, and it degrades no held-out record there
 //! margin_…      (ΔBIC − Δ')/max(ΔBIC, Δ', 10), Δ' that of the best of another class, 0 at least; −1 where it harms
 //! settling_…    −ln(1 − s), s the share of error saved on the fit records until the model has settled
 //! closure_…     share of the gap that it closes on held-out records, from −1 to 1
 //! certainty     z/4, z the largest of the shares s in standard errors, from −3 to 8
-//! harm          share of the ways in which it makes a held-out record worse beyond its error
+//! harm          share of the comparisons in which it makes a held-out record worse beyond its error
 //! noise, clocked    1 for an effect that changes only what is random; that follows a clock or has a phase of its own in each record
 //! predicts      of such noise: gain in held-out log score, nats a sample, from −1 to 3
 //! parameters    ln(1 + k), k the parameters that it adds
@@ -20,7 +20,7 @@
 //! A ΔBIC of 10 is what R. Kass and A. Raftery, "Bayes factors", JASA 90, 1995, call very strong. What moves no simulation settles nothing,
 //! closes nothing and has no certainty.
 //!
-//! Nothing and none of these have a constant each, and the best of the effects that harm no record in that way in `deviance` one step ahead
+//! Nothing and none of these have a constant each, and the best of the effects that degrade no record there, in `deviance` one step ahead
 //! (asinh(ΔBIC/50)/5), and as simulators in `deviance` (asinh(ΔBIC/20)/5), `settling` and `closure` (on top of a given model, where there is
 //! one); `left`, the share of its gain in deviance that something else would still gain beside the best effect; `resolved`, whether the
 //! held-out records show a gap; `given`, whether a model was; and whether rules say that nothing is missing but parameters (`none_by_rules`), or
@@ -83,7 +83,7 @@ pub(crate) const OF_ALL: [&str; 10] = [
 /// Coefficients of the whole model: of effects, of nothing, of none of these.
 pub(crate) const COEFFICIENTS: usize = OF_EFFECT.len() + 2 * OF_ALL.len();
 
-/// The ways of comparing in the order of the features, each with the scale of its deviance.
+/// The comparisons in the order of the features, each with the scale of its deviance.
 const ANALYSES: [(Comparison, f64); 3] =
     [(Comparison::OneStep, 50.0), (Comparison::Simulation, 20.0), (Comparison::GivenModelFixed, 20.0)];
 
@@ -158,7 +158,7 @@ impl Alternatives {
     }
 }
 
-/// What one way of comparing says of the effects that are candidates, and the scale of its deviance.
+/// What one comparison says of the effects that are candidates, and the scale of its deviance.
 struct Analysis {
     effects: Vec<EffectEvidence>,
     scale: f64,

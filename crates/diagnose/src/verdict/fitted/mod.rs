@@ -249,7 +249,7 @@ pub(super) fn reported(fitted: &Verdict, rules: &Verdict, agreed: Option<f64>, n
     }
 }
 
-/// Whether the likeliest effect makes a held-out record worse in every way of comparing.
+/// Whether the likeliest effect makes a held-out record worse in every comparison.
 fn degrades_validation(evidence: &[Compared], weighed: &Weighed) -> bool {
     let first = weighed.effects.first();
     first.is_some_and(|(effect, _)| {
@@ -257,7 +257,7 @@ fn degrades_validation(evidence: &[Compared], weighed: &Weighed) -> bool {
     })
 }
 
-/// The one cause that rules name, where all readings agree on it and it degrades no held-out record in the way that these show; that is the first.
+/// The one cause that rules name, where all readings agree on it and it degrades no held-out record by that analysis; that is the first.
 fn agreed_on(
     by_rules: &Verdict,
     evidence: &[Compared],

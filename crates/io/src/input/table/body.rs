@@ -20,7 +20,7 @@ impl Column {
     }
 }
 
-/// Rows on their way into the columns of a table.
+/// Rows before they enter the columns of a table.
 pub(super) struct Rows<'t> {
     table: &'t mut Table,
     dialect: Dialect,

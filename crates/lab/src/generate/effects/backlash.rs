@@ -30,7 +30,7 @@ impl Law for Play {
     }
 
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
-        let width = scene.x() * scene.plant.interval.width();
+        let width = scene.x() * scene.machine.interval.width();
         play(v, |_| width);
     }
 }
@@ -56,7 +56,7 @@ impl Law for PrandtlIshlinskii {
         }
         let mut sum = vec![0.0; v.len()];
         for k in 0..5 {
-            let width = scene.x() * scene.plant.interval.width() * (0.6 + 0.2 * f64::from(k));
+            let width = scene.x() * scene.machine.interval.width() * (0.6 + 0.2 * f64::from(k));
             let mut one = v.to_vec();
             play(&mut one, |_| width);
             sum.iter_mut().zip(one).for_each(|(s, v)| *s += v);
@@ -82,10 +82,10 @@ impl Law for UnevenPlay {
     }
 
     fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
-        let plant = scene.plant;
-        let mean = scene.x() * plant.interval.width();
+        let machine = scene.machine;
+        let mean = scene.x() * machine.interval.width();
         let phase = scene.amount.between(0, 0.0, std::f64::consts::TAU);
-        play(v, |v| mean * (1.0 + 0.7 * (5.0 * position(plant, v) + phase).sin()));
+        play(v, |v| mean * (1.0 + 0.7 * (5.0 * position(machine, v) + phase).sin()));
     }
 }
 

@@ -40,20 +40,20 @@ impl Law for Ripple {
     card!("border_resolution", "ripple", Operator, "spans of u", 0.5);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let cells = (scene.plant.levels.len() - 1) as f64;
+        let cells = (scene.machine.levels.len() - 1) as f64;
         for (u, &v) in u.iter_mut().zip(v) {
-            *u += scene.x() * (PI * cells * position(scene.plant, v)).sin();
+            *u += scene.x() * (PI * cells * position(scene.machine, v)).sin();
         }
     }
 }
 
 /// Adds `x·shape(share of the cell)` in one inner cell of each border, zero at its ends.
 fn in_one_cell(scene: &Scene<'_>, v: &[f64], u: &mut [f64], shape: impl Fn(f64) -> f64) {
-    let cells = scene.plant.levels.len() - 1;
+    let cells = scene.machine.levels.len() - 1;
     let cell = |i: usize| 1.0 + (scene.amount.shape[i] * (cells - 2) as f64).floor();
     let (rising, falling) = (cell(0), cell(1));
-    for (t, direction) in directions(scene.plant, v).into_iter().enumerate() {
-        let place = cells as f64 * position(scene.plant, v[t]);
+    for (t, direction) in directions(scene.machine, v).into_iter().enumerate() {
+        let place = cells as f64 * position(scene.machine, v[t]);
         let share = place - if direction > 0.0 { rising } else { falling };
         if (0.0..1.0).contains(&share) {
             u[t] += scene.x() * shape(share);

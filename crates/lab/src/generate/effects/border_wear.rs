@@ -40,7 +40,7 @@ impl Law for OneBorder {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let side = scene.amount.sign(0);
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         for (t, worn) in scene.passage.wear_clock().into_iter().enumerate() {
             if directions[t] == side {
                 u[t] -= scene.x() * worn * side;
@@ -58,14 +58,14 @@ impl Law for Pitting {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let centre = scene.amount.between(0, 0.25, 0.75);
-        let plant = scene.plant;
-        wear(scene, v, u, |worn, v| worn * (-((position(plant, v) - centre) / 0.15).powi(2)).exp());
+        let machine = scene.machine;
+        wear(scene, v, u, |worn, v| worn * (-((position(machine, v) - centre) / 0.15).powi(2)).exp());
     }
 }
 
 fn wear(scene: &Scene<'_>, v: &[f64], u: &mut [f64], depth: impl Fn(f64, f64) -> f64) {
-    let directions = directions(scene.plant, v);
+    let directions = directions(scene.machine, v);
     for (t, worn) in scene.passage.wear_clock().into_iter().enumerate() {
-        u[t] -= scene.x() * depth(worn, v[t]) * directions[t] * half_width(scene.plant, v[t]);
+        u[t] -= scene.x() * depth(worn, v[t]) * directions[t] * half_width(scene.machine, v[t]);
     }
 }

@@ -15,7 +15,7 @@ impl Law for Logarithmic {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let start = scene.amount.between(0, 1.0, 8.0);
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         for (t, since) in since_reversal(&directions).into_iter().enumerate() {
             u[t] += scene.x() * directions[t] * (1.0 + since / start).log10();
         }
@@ -50,9 +50,9 @@ impl Law for RestingCreep {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let time = scene.amount.between(0, 2.0, 30.0);
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         let mut rest = 0.0;
-        for (t, speed) in moves(scene.plant, v).into_iter().enumerate() {
+        for (t, speed) in moves(scene.machine, v).into_iter().enumerate() {
             rest = if speed == 0.0 { rest + 1.0 } else { 0.0 };
             u[t] += scene.x() * directions[t] * (1.0 - (-rest / time).exp());
         }

@@ -1,4 +1,4 @@
-//! `extra_pole`: something between operator and plant lags.
+//! `extra_pole`: something between operator and machine lags.
 
 use super::card;
 use crate::generate::law::{Law, Scene};

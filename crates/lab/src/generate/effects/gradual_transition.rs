@@ -97,8 +97,8 @@ impl Law for MaxwellSlip {
         if scene.x() == 0.0 {
             return;
         }
-        let directions = directions(scene.plant, v);
-        let moves = moves(scene.plant, v);
+        let directions = directions(scene.machine, v);
+        let moves = moves(scene.machine, v);
         let mut sliders = [directions[0]; 5];
         for t in 0..v.len() {
             for (k, z) in sliders.iter_mut().enumerate() {
@@ -106,7 +106,7 @@ impl Law for MaxwellSlip {
                 *z = (*z + moves[t] / reach).clamp(-1.0, 1.0);
             }
             let z = sliders.iter().sum::<f64>() / 5.0;
-            u[t] += (z - directions[t]) * half_width(scene.plant, v[t]);
+            u[t] += (z - directions[t]) * half_width(scene.machine, v[t]);
         }
     }
 }
@@ -116,13 +116,13 @@ fn blend(scene: &Scene<'_>, v: &[f64], u: &mut [f64], step: impl Fn(f64, f64, f6
     if scene.x() == 0.0 {
         return;
     }
-    let directions = directions(scene.plant, v);
-    let moves = moves(scene.plant, v);
+    let directions = directions(scene.machine, v);
+    let moves = moves(scene.machine, v);
     let mut z = directions[0];
     for t in 0..v.len() {
         if moves[t] != 0.0 {
             z = step(z, directions[t], moves[t].abs());
         }
-        u[t] += (z - directions[t]) * half_width(scene.plant, v[t]);
+        u[t] += (z - directions[t]) * half_width(scene.machine, v[t]);
     }
 }

@@ -77,16 +77,16 @@ impl Law for LaplaceJitter {
 }
 
 fn jitter(scene: &mut Scene<'_>, v: &[f64], u: &mut [f64], unit: impl Fn(&mut ChaCha8Rng) -> f64) {
-    let plant = scene.plant;
-    let sd = scene.x() * plant.interval.width();
-    let directions = directions(plant, v);
+    let machine = scene.machine;
+    let sd = scene.x() * machine.interval.width();
+    let directions = directions(machine, v);
     let mut w = 0.0;
     for t in 1..v.len() {
         let miss = unit(&mut scene.rng);
         if v[t] != v[t - 1] {
             w = sd * miss;
         }
-        u[t] += border(plant, directions[t], v[t] + w) - border(plant, directions[t], v[t]);
+        u[t] += border(machine, directions[t], v[t] + w) - border(machine, directions[t], v[t]);
     }
 }
 
@@ -103,7 +103,7 @@ fn laplace(rng: &mut ChaCha8Rng) -> f64 {
 
 /// A record of the input that misses what acts: `v' = v + w`, `w` drawn anew at every move and kept at rest.
 fn recorded_beside(scene: &mut Scene<'_>, v: &mut [f64], unit: impl Fn(&mut ChaCha8Rng) -> f64) {
-    let sd = scene.x() * scene.plant.interval.width();
+    let sd = scene.x() * scene.machine.interval.width();
     let (mut w, mut last) = (0.0, v[0]);
     for now in v {
         let miss = unit(&mut scene.rng);

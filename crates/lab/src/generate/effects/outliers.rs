@@ -35,7 +35,7 @@ impl Law for StudentTails {
     }
 
     fn equation_error(&self, scene: &mut Scene<'_>, _u: &[f64], xi: &mut [f64]) {
-        let scale = scene.x() * scene.plant.noise_sd;
+        let scale = scene.x() * scene.machine.noise_sd;
         let student = StudentT::new(2.0).expect("two degrees of freedom");
         for now in xi {
             let draw: f64 = student.sample(&mut scene.rng);
@@ -59,7 +59,7 @@ impl Law for Bursts {
     }
 
     fn equation_error(&self, scene: &mut Scene<'_>, _u: &[f64], xi: &mut [f64]) {
-        let sd = scene.x() * scene.plant.noise_sd;
+        let sd = scene.x() * scene.machine.noise_sd;
         let mut left = 0;
         for now in xi {
             if left == 0 && scene.rng.random_bool(1.0 / 400.0) {
@@ -91,7 +91,7 @@ impl Law for Spikes {
 }
 
 fn contaminate(scene: &mut Scene<'_>, signal: &mut [f64]) {
-    let sd = scene.x() * scene.plant.noise_sd;
+    let sd = scene.x() * scene.machine.noise_sd;
     let share = scene.amount.between(0, 0.004, 0.02);
     for now in signal {
         let normal: f64 = StandardNormal.sample(&mut scene.rng);

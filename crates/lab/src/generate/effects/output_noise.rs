@@ -2,7 +2,7 @@
 
 use super::card;
 use crate::generate::law::{Amount, Law, Nature, Scene};
-use crate::generate::plant::Plant;
+use crate::generate::machine::Machine;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::PI;
@@ -20,12 +20,12 @@ impl Law for Gaussian {
         Nature::Noise
     }
 
-    fn oracle_variance(&self, plant: &Plant, amount: &Amount) -> f64 {
-        innovations_variance(plant, amount.magnitude)
+    fn oracle_variance(&self, machine: &Machine, amount: &Amount) -> f64 {
+        innovations_variance(machine, amount.magnitude)
     }
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let sd = scene.x() * scene.plant.noise_sd;
+        let sd = scene.x() * scene.machine.noise_sd;
         for now in y {
             let normal: f64 = StandardNormal.sample(&mut scene.rng);
             *now += sd * normal;
@@ -44,12 +44,12 @@ impl Law for Uniform {
         Nature::Noise
     }
 
-    fn oracle_variance(&self, plant: &Plant, amount: &Amount) -> f64 {
-        innovations_variance(plant, amount.magnitude)
+    fn oracle_variance(&self, machine: &Machine, amount: &Amount) -> f64 {
+        innovations_variance(machine, amount.magnitude)
     }
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
-        let half = 3.0_f64.sqrt() * scene.x() * scene.plant.noise_sd;
+        let half = 3.0_f64.sqrt() * scene.x() * scene.machine.noise_sd;
         for now in y {
             *now += half * scene.rng.random_range(-1.0..1.0);
         }
@@ -57,12 +57,12 @@ impl Law for Uniform {
 }
 
 /// One-step variance of `ξ/A + w` over that of ξ, by Kolmogorov and Szegő: `exp(mean over ω of ln(|A|⁻² + x²))`.
-fn innovations_variance(plant: &Plant, x: f64) -> f64 {
+fn innovations_variance(machine: &Machine, x: f64) -> f64 {
     const POINTS: usize = 512;
     let log_spectrum = (0..POINTS).map(|k| {
         let omega = PI * (k as f64 + 0.5) / POINTS as f64;
         let (mut re, mut im) = (1.0, 0.0);
-        for (i, a) in plant.a.iter().enumerate() {
+        for (i, a) in machine.a.iter().enumerate() {
             re += a * (omega * (i + 1) as f64).cos();
             im -= a * (omega * (i + 1) as f64).sin();
         }

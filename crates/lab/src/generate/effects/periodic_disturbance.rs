@@ -60,7 +60,7 @@ fn phase(amount: &Amount, i: usize, t: f64) -> f64 {
 }
 
 fn add(scene: &Scene<'_>, signal: &mut [f64], wave: impl Fn(&Amount, f64) -> f64) {
-    let scale = scene.x() * scene.plant.noise_sd;
+    let scale = scene.x() * scene.machine.noise_sd;
     for (t, now) in signal.iter_mut().enumerate() {
         *now += scale * wave(&scene.amount, (scene.passage.start + t) as f64);
     }

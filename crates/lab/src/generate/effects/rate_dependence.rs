@@ -14,7 +14,7 @@ impl Law for Viscous {
     card!("rate_dependence", "viscous", Operator, "spans of u per width a sample", 20.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let moves = moves(scene.plant, v);
+        let moves = moves(scene.machine, v);
         u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.amount.magnitude * speed);
     }
 }
@@ -28,7 +28,7 @@ impl Law for PowerLaw {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let power = scene.amount.between(0, 0.3, 0.7);
-        let moves = moves(scene.plant, v);
+        let moves = moves(scene.machine, v);
         let force = |speed: f64| if speed == 0.0 { 0.0 } else { speed.signum() * speed.abs().powf(power) };
         u.iter_mut().zip(moves).for_each(|(u, speed)| *u += scene.amount.magnitude * force(speed));
     }
@@ -43,11 +43,11 @@ impl Law for WideningLoop {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let reference = scene.amount.between(0, 0.01, 0.05);
-        let speeds = last_moves(scene.plant, v);
+        let speeds = last_moves(scene.machine, v);
         for t in 0..v.len() {
             let growth = scene.x() * (1.0 + speeds[t].abs() / reference).ln();
             let side = if speeds[t] == 0.0 { 0.0 } else { speeds[t].signum() };
-            u[t] += growth * side * half_width(scene.plant, v[t]);
+            u[t] += growth * side * half_width(scene.machine, v[t]);
         }
     }
 }

@@ -16,7 +16,7 @@ impl Law for Normal {
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
         let z: f64 = StandardNormal.sample(&mut scene.rng);
-        shift(y, scene.x() * scene.plant.noise_sd * z);
+        shift(y, scene.x() * scene.machine.noise_sd * z);
     }
 }
 
@@ -30,7 +30,7 @@ impl Law for Uniform {
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
         let half = 3.0_f64.sqrt();
         let z = scene.rng.random_range(-half..half);
-        shift(y, scene.x() * scene.plant.noise_sd * z);
+        shift(y, scene.x() * scene.machine.noise_sd * z);
     }
 }
 

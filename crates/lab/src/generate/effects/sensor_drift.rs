@@ -37,7 +37,7 @@ impl Law for Drift {
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
         let clock = (0..y.len()).map(|t| scene.passage.clock(t));
         let course = self.envelope.course(&scene.amount, clock);
-        let scale = scene.x() * scene.plant.noise_sd;
+        let scale = scene.x() * scene.machine.noise_sd;
         y.iter_mut().zip(course).for_each(|(y, g)| *y += scale * g);
     }
 }
@@ -51,7 +51,7 @@ impl Law for Reset {
 
     fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
         let time = scene.amount.between(0, 300.0, 2000.0);
-        let scale = scene.x() * scene.plant.noise_sd;
+        let scale = scene.x() * scene.machine.noise_sd;
         for (t, y) in y.iter_mut().skip(scene.passage.lead).enumerate() {
             *y += scale * (1.0 - (-(t as f64) / time).exp());
         }

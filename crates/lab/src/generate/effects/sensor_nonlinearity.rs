@@ -44,8 +44,8 @@ impl Law for SoftCentre {
 
 /// Adds `x·P·shape(e/P)`.
 fn bend(scene: &Scene<'_>, y: &mut [f64], shape: impl Fn(f64) -> f64) {
-    let centre = scene.plant.y_centre();
-    let range = scene.plant.reach;
+    let centre = scene.machine.y_centre();
+    let range = scene.machine.reach;
     for now in y {
         *now += scene.x() * range * shape((*now - centre) / range);
     }

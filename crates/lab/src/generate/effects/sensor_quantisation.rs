@@ -58,7 +58,7 @@ impl Law for UnevenCodes {
 }
 
 fn on_lattice(scene: &Scene<'_>, y: &mut [f64], code: impl Fn(f64) -> f64) {
-    let step = scene.x() * scene.plant.noise_sd;
+    let step = scene.x() * scene.machine.noise_sd;
     if step == 0.0 {
         return;
     }

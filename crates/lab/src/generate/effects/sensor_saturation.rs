@@ -50,8 +50,8 @@ fn beyond(scene: &Scene<'_>, y: &mut [f64], change: impl Fn(f64, f64) -> f64) {
     if scene.x() == 0.0 {
         return; // noise may exceed even the full range
     }
-    let centre = scene.plant.y_centre();
-    let range = scene.plant.reach;
+    let centre = scene.machine.y_centre();
+    let range = scene.machine.reach;
     let limit = range * (1.0 - scene.x());
     for now in y {
         let excess = (*now - centre).abs() - limit;

@@ -82,9 +82,9 @@ impl Law for StepChange {
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let Of::Loop = self.of else { return };
         let change = scene.x() * scene.amount.sign(2);
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         for (t, h) in self.course(scene).into_iter().enumerate() {
-            u[t] += change * h * directions[t] * half_width(scene.plant, v[t]);
+            u[t] += change * h * directions[t] * half_width(scene.machine, v[t]);
         }
     }
 

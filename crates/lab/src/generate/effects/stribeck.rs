@@ -43,9 +43,9 @@ impl Law for Bristle {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let slow = scene.amount.between(0, 0.01, 0.06);
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         let mut bristle = 0.0;
-        for (t, speed) in moves(scene.plant, v).into_iter().enumerate() {
+        for (t, speed) in moves(scene.machine, v).into_iter().enumerate() {
             let aim = directions[t] * (-(speed / slow).powi(2)).exp();
             bristle += (aim - bristle) * (1.0 - (-speed.abs() / 0.02).exp());
             u[t] += scene.x() * bristle;
@@ -55,7 +55,7 @@ impl Law for Bristle {
 
 fn at_low_speed(scene: &Scene<'_>, v: &[f64], u: &mut [f64], force: impl Fn(f64) -> f64) {
     let slow = scene.amount.between(0, 0.01, 0.06);
-    for (t, speed) in last_moves(scene.plant, v).into_iter().enumerate() {
+    for (t, speed) in last_moves(scene.machine, v).into_iter().enumerate() {
         let side = if speed == 0.0 { 0.0 } else { speed.signum() };
         u[t] += scene.x() * side * force(speed.abs() / slow);
     }

@@ -1,6 +1,6 @@
 //! The nominal system of a machine of the field: sampled at a rate that nobody chose with its poles in mind.
 
-use crate::generate::plant::{CURVED, Family, Plant, multiply};
+use crate::generate::machine::{CURVED, Family, Machine, multiply};
 use crate::generate::stream::{Purpose, stream};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -9,10 +9,10 @@ use rand_chacha::ChaCha8Rng;
 pub(super) const CURVED_BORDERS: &str = "border_resolution";
 
 /// Draws the system; the slowest time constant is given in samples.
-pub(super) fn draw((seed, family): (u64, Family), time_constant: f64, spared: &[&str]) -> Plant {
+pub(super) fn draw((seed, family): (u64, Family), time_constant: f64, spared: &[&str]) -> Machine {
     let often_curved = if spared.contains(&CURVED_BORDERS) { 0.0 } else { CURVED };
     let poles = |order: usize, rng: &mut ChaCha8Rng| denominator(order, time_constant, rng);
-    Plant::draw_with(family, (poles, often_curved), &mut stream(seed, Purpose::Plant))
+    Machine::draw_with(family, (poles, often_curved), &mut stream(seed, Purpose::Machine))
 }
 
 /// A denominator whose slowest pole, or pair of damping 0.3 to 0.95, decays with the time constant, all others with 0.15 to 0.6 of it.

@@ -16,7 +16,7 @@ pub(crate) use sizing::size_of_all;
 pub(crate) use sizing::sized;
 
 use crate::generate::generator::{Description, Generator};
-use crate::generate::plant::Family;
+use crate::generate::machine::Family;
 use crate::generate::setting::Setting;
 use crate::generate::stream::{Purpose, stream};
 use rand::RngExt;
@@ -33,17 +33,18 @@ pub(crate) fn generator(seed: u64, family: Family, spared: &[&str]) -> Generator
     let sample_time = machine::sample_time(&mut rng);
     let output_noise = machine::output_noise(&mut rng);
     let base = properties::draw(seed, time_constant, spared, &mut rng);
-    let mut plant = machine::draw((seed, family), time_constant, spared);
-    plant.sample_time = sample_time;
-    plant.noise_sd = 2.0 * plant.y_half() * output_noise / properties::noise_amplification(&plant, &base);
+    let mut machine = machine::draw((seed, family), time_constant, spared);
+    machine.sample_time = sample_time;
+    machine.noise_sd =
+        2.0 * machine.y_half() * output_noise / properties::noise_amplification(&machine, &base);
     let mut names: Vec<&'static str> = base.iter().map(|property| property.law.effect()).collect();
-    if plant.curved {
+    if machine.curved {
         names.push(machine::CURVED_BORDERS);
     }
-    let passages = records::dataset(&plant, time_constant, &mut stream(seed, Purpose::Drive));
+    let passages = records::dataset(&machine, time_constant, &mut stream(seed, Purpose::Drive));
     let description =
         Description { setting: Setting::Field, order: None, interval: None, input, output, base: names };
-    Generator::new(seed, (plant, base), passages, description)
+    Generator::new(seed, (machine, base), passages, description)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::machine::pole;
 use super::reading::Reading;
 use crate::generate::effects::laws_of;
 use crate::generate::law::{Amount, Law};
-use crate::generate::plant::{Plant, amplification, multiply};
+use crate::generate::machine::{Machine, amplification, multiply};
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
 use rand::RngExt;
@@ -57,8 +57,8 @@ fn evenly_over_the_logarithm(range: Range<f64>, rng: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Output noise sd over that of the equation noise's innovations, with the colour that the base gives it.
-pub(super) fn noise_amplification(plant: &Plant, base: &[Active]) -> f64 {
-    let mut denominator = [&[1.0], plant.a.as_slice()].concat();
+pub(super) fn noise_amplification(machine: &Machine, base: &[Active]) -> f64 {
+    let mut denominator = [&[1.0], machine.a.as_slice()].concat();
     if let Some(colour) = base.iter().find(|property| property.law.effect() == Colour.effect()) {
         denominator = multiply(&denominator, &colour::denominator(&colour.amount));
     }

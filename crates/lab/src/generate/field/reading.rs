@@ -20,7 +20,7 @@ impl Law for Reading {
     }
 
     fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
-        let sd = scene.x() * scene.plant.interval.width();
+        let sd = scene.x() * scene.machine.interval.width();
         for now in v {
             let normal: f64 = StandardNormal.sample(&mut scene.rng);
             *now += sd * normal;

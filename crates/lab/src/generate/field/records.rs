@@ -2,7 +2,7 @@
 
 use super::drive::Drive;
 use crate::generate::dataset::{Passage, lead_in, one_after_the_other};
-use crate::generate::plant::Plant;
+use crate::generate::machine::Machine;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
@@ -25,7 +25,7 @@ const MARGIN: f64 = 0.01;
 const RUN_IN: f64 = 2.0;
 
 /// Draws one to four records; one is held out, or the last part of a single one.
-pub(super) fn dataset(plant: &Plant, time_constant: f64, rng: &mut ChaCha8Rng) -> Vec<Passage> {
+pub(super) fn dataset(machine: &Machine, time_constant: f64, rng: &mut ChaCha8Rng) -> Vec<Passage> {
     let count = rng.random_range(1..=MOST);
     // The first record visits the whole interval: it is one of those that are fitted, and what is held out asks for no more.
     let held_out = if count > 1 { rng.random_range(1..count) } else { MOST };
@@ -40,12 +40,12 @@ pub(super) fn dataset(plant: &Plant, time_constant: f64, rng: &mut ChaCha8Rng) -
         let low = rng.random_range(0.0..=1.0 - reach);
         let place = |z: f64| {
             let share = MARGIN + (1.0 - 2.0 * MARGIN) * (low + reach * z);
-            plant.interval.low() + plant.interval.width() * share
+            machine.interval.low() + machine.interval.width() * share
         };
         let mut before: Vec<f64> =
             drive.samples(run_in + samples, period, rng).into_iter().map(place).collect();
         let recorded = before.split_off(run_in);
-        let mut lead = lead_in(plant.interval, before[0], 0);
+        let mut lead = lead_in(machine.interval, before[0], 0);
         lead.extend(before);
         let name = format!("{}-{}", drive.name(), index + 1);
         Passage::of(index, name, (Role::Free, usage), (lead, recorded))

@@ -19,7 +19,7 @@ pub(crate) fn sized(
     let one = |(slot, requested_fault): (usize, &RequestedFault)| {
         let law = requested_fault.law;
         // What counts noise sds has no limit of its own; slow poles make the same equation noise larger in the output.
-        let larger = if law.counts_noise() { generator.plant.noise_amplification().max(1.0) } else { 1.0 };
+        let larger = if law.counts_noise() { generator.machine.noise_amplification().max(1.0) } else { 1.0 };
         let with = |magnitude: f64| Ok(generator.rig(&[generator.active(slot, law, magnitude)])?);
         let limit = larger * law.limit();
         let goal = Goal { size: requested_fault.size, limit, precision: Precision::FINE };

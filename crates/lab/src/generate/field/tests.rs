@@ -72,9 +72,9 @@ fn each_property_occurs_and_none_but_the_colour_always() {
 fn poles_lie_where_one_of_three_sampling_rates_puts_them() {
     let mut at = [0; 3];
     for seed in SEEDS {
-        let plant = recipe(seed).generator().plant;
+        let machine = recipe(seed).generator().machine;
         // The response falls below 10⁻⁶ after some fourteen time constants.
-        let decayed = plant.settling() as f64 / 1e6_f64.ln();
+        let decayed = machine.settling() as f64 / 1e6_f64.ln();
         at[(0..3)
             .min_by(|i, j| (RATES[*i] / decayed).ln().abs().total_cmp(&(RATES[*j] / decayed).ln().abs()))
             .unwrap()] += 1;
@@ -94,25 +94,25 @@ fn the_repeating_output_plus_noise_is_the_record() {
         let of_base = generator.base();
         let colour = of_base.iter().find(|p| p.law.effect() == "coloured_noise").expect("a colour");
         let [_, d1, d2] = colour::denominator(&colour.amount);
-        let plant = &generator.plant;
+        let machine = &generator.machine;
         for active in [vec![], vec![backlash]] {
             let all = [of_base, &active].concat();
             for passage in &generator.passages {
                 let [recorded, repeating] =
-                    [Noise::Recorded, Noise::None].map(|noise| simulate(plant, &all, passage, seed, noise));
+                    [Noise::Recorded, Noise::None].map(|noise| simulate(machine, &all, passage, seed, noise));
                 let noise: Vec<f64> = recorded.y.iter().zip(&repeating.y).map(|(y, x)| y - x).collect();
                 let scale = noise.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 let past = |x: &[f64], t: usize, i: usize| if t >= i { x[t - i] } else { 0.0 };
                 let xi: Vec<f64> = (0..noise.len())
                     .map(|t| {
-                        noise[t] + plant.a.iter().zip(1..).map(|(a, i)| a * past(&noise, t, i)).sum::<f64>()
+                        noise[t] + machine.a.iter().zip(1..).map(|(a, i)| a * past(&noise, t, i)).sum::<f64>()
                     })
                     .collect();
                 for t in 0..xi.len() {
                     let white = xi[t] + d1 * past(&xi, t, 1) + d2 * past(&xi, t, 2);
                     let off = (white - recorded.white[t]).abs();
                     assert!(
-                        off < 1e-9 * (scale + plant.y_centre().abs() + plant.reach),
+                        off < 1e-9 * (scale + machine.y_centre().abs() + machine.reach),
                         "seed {seed}, {t}: {off}"
                     );
                 }
@@ -132,7 +132,7 @@ fn the_parts_of_a_single_record_are_one_recording() {
         }
         singles += 1;
         assert_eq!((first.usage, second.usage), (Usage::Fit, Usage::Holdout));
-        let run = |passage| simulate(&generator.plant, generator.base(), passage, seed, Noise::Recorded).y;
+        let run = |passage| simulate(&generator.machine, generator.base(), passage, seed, Noise::Recorded).y;
         let (of_first, whole) = (run(first), run(second));
         assert_eq!(of_first, whole[..of_first.len()]);
         assert_eq!(second.recorded(&whole), &whole[of_first.len()..]);
@@ -146,7 +146,7 @@ fn the_record_of_the_input_is_the_input_plus_the_noise_of_its_sensor() {
     for seed in SEEDS {
         let generator = recipe(seed).generator();
         let reading = generator.base().iter().find(|p| p.law.effect() == "input_noise");
-        let sd = reading.map_or(0.0, |p| p.amount.magnitude * generator.plant.interval.width());
+        let sd = reading.map_or(0.0, |p| p.amount.magnitude * generator.machine.interval.width());
         let rig = generator.rig(&[]).expect("a rig");
         for (record, passage) in rig.records.iter().zip(&generator.passages) {
             let acting = passage.recorded(&passage.v);

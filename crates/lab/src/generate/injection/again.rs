@@ -16,7 +16,7 @@ impl InjectionContext<'_> {
         &self.base.identified
     }
 
-    /// The records with a fault whose magnitude is known: with that of [`plant`](Self::plant) and the same seed the same records to the bit.
+    /// The records with a fault whose magnitude is known: with that of [`machine`](Self::machine) and the same seed the same records to the bit.
     ///
     /// # Errors
     /// [`InjectionError::Record`] where the altered signals are not finite.

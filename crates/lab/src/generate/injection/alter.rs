@@ -41,14 +41,14 @@ fn signals(
         ..passage.clone()
     };
     let rng = stream(seed, Purpose::Effect { effect: active.slot, record: passage.index });
-    let mut scene = Scene { plant: &host_model.plant, passage: &alone, amount: active.amount, rng };
+    let mut scene = Scene { machine: &host_model.machine, passage: &alone, amount: active.amount, rng };
     match active.law.injection() {
         Injection::Reading => active.law.sensor(&mut scene, &mut y),
         Injection::Gain => active.law.dynamics(&mut scene, &mut y),
         Injection::Recording => active.law.recording(&mut scene, &mut v),
         Injection::Carried => {
             let run = |effects: &[Active]| {
-                let trace = simulate(&host_model.plant, effects, passage, seed, Noise::Recorded);
+                let trace = simulate(&host_model.machine, effects, passage, seed, Noise::Recorded);
                 passage.recorded(&trace.y).to_vec()
             };
             let (without, with) = (run(&[]), run(std::slice::from_ref(active)));

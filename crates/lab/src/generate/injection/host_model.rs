@@ -3,7 +3,7 @@
 use super::base::Base;
 use super::injection_error::InjectionError;
 use crate::generate::dataset::{Passage, lead_in, one_after_the_other};
-use crate::generate::plant::{Plant, Shape, Table};
+use crate::generate::machine::{Machine, Shape, Table};
 use switchback_identify::free::{InputMap, Model, Settings, identify};
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
 use switchback_model::rig::{Rig, RigRecord};
@@ -14,7 +14,7 @@ const KNOTS: usize = 17;
 /// A machine that is close to the measured one and lies outside the candidates' class.
 #[derive(Debug)]
 pub(super) struct HostModel {
-    pub(super) plant: Plant,
+    pub(super) machine: Machine,
     /// The records as passages, in the rig's order.
     pub(super) passages: Vec<Passage>,
 }
@@ -42,13 +42,13 @@ impl HostModel {
 
     /// A model as the host model.
     pub(super) fn of(rig: &Rig, model: &Model) -> Result<Self, InjectionError> {
-        let mut plant = plant(model, rig)?;
+        let mut machine = machine(model, rig)?;
         let lead = (-model.structure().delay).max(0) as usize;
-        let passages = passages(rig, &plant, (lead, model.rule().threshold));
-        plant.noise_sd = equation_error(&plant, &passages, rig);
-        let centre = plant.y_centre();
-        plant.reach = outputs(rig).map(|y| (y - centre).abs()).fold(0.0, f64::max);
-        Ok(Self { plant, passages })
+        let passages = passages(rig, &machine, (lead, model.rule().threshold));
+        machine.noise_sd = equation_error(&machine, &passages, rig);
+        let centre = machine.y_centre();
+        machine.reach = outputs(rig).map(|y| (y - centre).abs()).fold(0.0, f64::max);
+        Ok(Self { machine, passages })
     }
 }
 
@@ -56,8 +56,8 @@ fn outputs(rig: &Rig) -> impl Iterator<Item = f64> + '_ {
     rig.records.iter().flat_map(|r| r.record.y().iter().copied())
 }
 
-/// The model as a plant: its constant becomes part of `u`, its extra delay leading zeros of `B`.
-fn plant(model: &Model, rig: &Rig) -> Result<Plant, InjectionError> {
+/// The model as a machine: its constant becomes part of `u`, its extra delay leading zeros of `B`.
+fn machine(model: &Model, rig: &Rig) -> Result<Machine, InjectionError> {
     let basis = model.basis();
     let (down, up) = (basis.descending(), basis.ascending());
     let coefficients = model.coefficients();
@@ -89,7 +89,7 @@ fn plant(model: &Model, rig: &Rig) -> Result<Plant, InjectionError> {
     let interval = Interval::new(levels[0], levels[levels.len() - 1]).expect("knots rise");
     let table = Table { levels: levels.clone(), ascending, descending };
     let hysteresis = SwitchedHysteresis::new(interval, Box::new(table))?;
-    Ok(Plant {
+    Ok(Machine {
         a,
         b,
         hysteresis,
@@ -105,13 +105,13 @@ fn plant(model: &Model, rig: &Rig) -> Result<Plant, InjectionError> {
 
 /// The records with their lead-ins. The input is led by the samples that the output precedes it, and follows moves beyond the threshold of
 /// reversals only: noise on `v` must not switch the borders.
-fn passages(rig: &Rig, plant: &Plant, (lead, threshold): (usize, f64)) -> Vec<Passage> {
-    let settle = plant.settling();
+fn passages(rig: &Rig, machine: &Machine, (lead, threshold): (usize, f64)) -> Vec<Passage> {
+    let settle = machine.settling();
     let passage = |(index, record): (usize, &RigRecord)| {
         let recorded = quiet(record.record.v(), threshold);
         let last = recorded.len() - 1;
         let led = (0..=last).map(|t| recorded[(t + lead).min(last)]).collect();
-        let lead_in = lead_in(plant.interval, recorded[0], settle);
+        let lead_in = lead_in(machine.interval, recorded[0], settle);
         Passage::of(index, record.name.clone(), (record.role, record.usage), (lead_in, led))
     };
     one_after_the_other(rig.records.iter().enumerate().map(passage).collect())
@@ -130,14 +130,14 @@ fn quiet(v: &[f64], threshold: f64) -> Vec<f64> {
 }
 
 /// Standard deviation of `A y − B u` over the records: the noise that laws measure themselves against.
-fn equation_error(plant: &Plant, passages: &[Passage], rig: &Rig) -> f64 {
+fn equation_error(machine: &Machine, passages: &[Passage], rig: &Rig) -> f64 {
     let (mut sum, mut count) = (0.0, 0_usize);
     for (passage, record) in passages.iter().zip(&rig.records) {
-        let u = plant.hysteresis.output(&passage.v, plant.hysteresis.u_low());
+        let u = machine.hysteresis.output(&passage.v, machine.hysteresis.u_low());
         let (u, y) = (passage.recorded(&u), record.record.y());
-        for t in plant.order()..y.len() {
-            let past = |i: usize| plant.a[i] * y[t - 1 - i] - plant.b[i] * u[t - 1 - i];
-            let error = y[t] + (0..plant.order()).map(past).sum::<f64>();
+        for t in machine.order()..y.len() {
+            let past = |i: usize| machine.a[i] * y[t - 1 - i] - machine.b[i] * u[t - 1 - i];
+            let error = y[t] + (0..machine.order()).map(past).sum::<f64>();
             sum += error * error;
             count += 1;
         }

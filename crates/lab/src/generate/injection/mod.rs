@@ -123,15 +123,15 @@ impl<'a> InjectionContext<'a> {
     ///
     /// # Errors
     /// [`InjectionError::Record`] where the altered signals are not finite.
-    pub fn plant(&self, requested_fault: &RequestedFault, seed: u64) -> Result<InjectedRig, InjectionError> {
-        self.plant_to(Precision::FINE, requested_fault, seed)
+    pub fn inject(&self, requested_fault: &RequestedFault, seed: u64) -> Result<InjectedRig, InjectionError> {
+        self.inject_to(Precision::FINE, requested_fault, seed)
     }
 
     /// The same with the size met as closely as asked.
     ///
     /// # Errors
-    /// As [`Self::plant`].
-    pub(crate) fn plant_to(
+    /// As [`Self::machine`].
+    pub(crate) fn inject_to(
         &self,
         precision: Precision,
         requested_fault: &RequestedFault,

@@ -52,12 +52,12 @@ fn what_is_carried_is_what_the_true_system_would_do() {
         let sweep = 4;
         let passage = &generator.passages[sweep];
         let run = |effects: &[Active]| {
-            let trace = simulate(&generator.plant, effects, passage, 7, Noise::None);
+            let trace = simulate(&generator.machine, effects, passage, 7, Noise::None);
             passage.recorded(&trace.y).to_vec()
         };
         let (without, truly) = (run(&[]), run(&[with]));
         let (before, after) = (rig.records[sweep].record.y(), injected.records[sweep].record.y());
-        let skip = generator.plant.order() + 20;
+        let skip = generator.machine.order() + 20;
         let true_change = || truly.iter().zip(&without).skip(skip).map(|(x, y)| x - y);
         let carried = after.iter().zip(before).skip(skip).map(|(x, y)| x - y);
         let off = root_mean_square(carried.zip(true_change()).map(|(x, y)| x - y));
@@ -72,18 +72,18 @@ fn sizes_are_what_survives_identification_anew() {
     let context = InjectionContext::new(&rig).expect("a model");
     for (effect, is_exact) in [("sensor_drift", true), ("gain_drift", true), ("backlash", false)] {
         let requested_fault = RequestedFault::plain(effect, 2.0).expect("an effect");
-        let InjectedRig { rig: injected, fault } = context.plant(&requested_fault, 11).expect("a fault");
+        let InjectedRig { rig: injected, fault } = context.inject(&requested_fault, 11).expect("a fault");
         assert!((fault.size / 2.0 - 1.0).abs() < 0.1 && fault.is_observable(), "{fault:?}");
         assert_eq!(fault.injection.is_exact(), is_exact, "{fault:?}");
         assert!(fault.raw > 0.5 && fault.residual > 0.0, "{fault:?}");
         // The same seed, the same fault, searched for or not; another one, another.
         let known = context.again(&requested_fault, fault.magnitude, 11).expect("a fault");
         assert!(injected.records == known.records, "{fault:?}");
-        let again = context.plant(&requested_fault, 11).expect("a fault").rig;
+        let again = context.inject(&requested_fault, 11).expect("a fault").rig;
         assert!(injected.records == again.records, "{fault:?}");
     }
     let outliers = RequestedFault::plain("outliers", 2.0).expect("an effect");
-    let of_seed = |seed| context.plant(&outliers, seed).expect("a fault").rig.records;
+    let of_seed = |seed| context.inject(&outliers, seed).expect("a fault").rig.records;
     assert!(of_seed(11) != of_seed(12));
 }
 
@@ -143,7 +143,7 @@ fn other_records_of_the_machine_are_a_context_of_their_own() {
     assert!((other.base.residual / context.base.residual / 3.0 - 1.0).abs() < 0.1);
     let requested_fault = RequestedFault::plain("backlash", 2.0).expect("an effect");
     let [small, large] =
-        [&context, &other].map(|context| context.plant(&requested_fault, 5).expect("records").fault);
+        [&context, &other].map(|context| context.inject(&requested_fault, 5).expect("records").fault);
     assert!(large.magnitude > 1.5 * small.magnitude, "{} {}", large.magnitude, small.magnitude);
 }
 
@@ -153,7 +153,7 @@ fn a_coarse_search_shows_the_size_that_it_reached() {
     let context = InjectionContext::new(&rig).expect("a model");
     let requested_fault = RequestedFault::plain("creep", 2.0).expect("an effect");
     let InjectedRig { rig: injected, fault } =
-        context.plant_to(Precision::COARSE, &requested_fault, 5).expect("records");
+        context.inject_to(Precision::COARSE, &requested_fault, 5).expect("records");
     assert!((fault.size / 2.0).ln().abs() < 0.5, "{}", fault.size);
     assert_eq!(context.base.surviving(&injected), fault.size);
 }

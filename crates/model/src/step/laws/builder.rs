@@ -62,9 +62,9 @@ impl Builder {
     }
 
     /// The program, whose last two procedures are `start` and `step`.
-    pub(super) fn finish(self, output: Variable, reported: Option<Variable>, direct: bool) -> Program {
+    pub(super) fn finish(self, output: Variable, first_direction: Option<Variable>, direct: bool) -> Program {
         let Self { variables, arrays, procedures } = self;
-        Program { variables, arrays, procedures, output, reported, direct }
+        Program { variables, arrays, procedures, output, first_direction, direct }
     }
 }
 
@@ -80,7 +80,7 @@ pub(super) fn note(text: &str) -> Statement {
     Statement::Note(text.to_owned())
 }
 
-/// One of two ways.
+/// One of two branches.
 pub(super) fn choose(
     condition: crate::step::program::Condition,
     then: Vec<Statement>,
@@ -89,7 +89,7 @@ pub(super) fn choose(
     Statement::If(condition, then, otherwise)
 }
 
-/// One way or nothing.
+/// A branch or nothing.
 pub(super) fn when(condition: crate::step::program::Condition, then: Vec<Statement>) -> Statement {
     Statement::If(condition, then, Vec::new())
 }

@@ -39,7 +39,7 @@ impl Model {
         let begins = ("start", "Begins a run at rest at `v`, as if the input had always been there.");
         b.procedure(begins, &[ends.v, ends.branch], start);
         b.procedure(("step", "The output after one more sample `v` of the input."), &[ends.v], step);
-        b.finish(ends.output, motion.reported, self.is_direct())
+        b.finish(ends.output, motion.first_direction, self.is_direct())
     }
 
     /// Whether an output depends on the input of the same sample: by the first coefficient, or by a turning sample that it reports.

@@ -26,7 +26,7 @@ pub(super) struct Motion {
     /// Samples since the last change.
     pub(super) rest: Option<Variable>,
     /// The first direction.
-    pub(super) reported: Option<Variable>,
+    pub(super) first_direction: Option<Variable>,
 }
 
 impl Motion {
@@ -67,18 +67,19 @@ fn first_move(
 ) -> (Motion, Part) {
     let last = b.state("x_last", "the last position");
     let branch = b.state("branch", "+1 on the ascending border, -1 on the descending one");
-    let reported = b.state("told", "the first direction of the input: +1, -1, or 0 while it is unknown");
+    let first_direction =
+        b.state("first_direction", "the first direction of the input: +1, -1, or 0 while it is unknown");
     let extreme = b.state("extreme", "the furthest position of this branch");
     let low = b.state("lowest", "the lowest position while the direction is unknown");
     let change = b.local("change");
     let mut start = vec![
         choose(ends.branch.get().less(0.0), vec![branch.set(-1.0)], vec![branch.set(1.0)]),
-        reported.set(0.0),
+        first_direction.set(0.0),
         extreme.set(x),
         low.set(x),
         last.set(x),
     ];
-    let turns_to = |way: f64| vec![reported.set(way), branch.set(way), extreme.set(x)];
+    let turns_to = |side: f64| vec![first_direction.set(side), branch.set(side), extreme.set(x)];
     let unknown = vec![
         extreme.set(extreme.get().greatest(x)),
         low.set(low.get().least(x)),
@@ -105,14 +106,14 @@ fn first_move(
     let mut step = vec![
         note("the direction of the input"),
         change.set(x - last),
-        choose(reported.get().equals(0.0), unknown, known),
+        choose(first_direction.get().equals(0.0), unknown, known),
     ];
     step.extend(after);
     let motion = Motion {
         branch: Some(branch),
         change: Some(change),
         push: Some(change),
-        reported: Some(reported),
+        first_direction: Some(first_direction),
         ..Motion::default()
     };
     (motion, Part { start, step })

@@ -271,7 +271,7 @@ struct Relaxing {
     still: Vec<Statement>,
 }
 
-/// At rest it goes by a share of the way from where it stopped to the middle between the borders.
+/// At rest it goes by a share of the distance from where it stopped to the middle between the borders.
 fn relax(b: &mut Builder, w: &Weights, effects: &Effects, x: Variable) -> Option<Relaxing> {
     let relaxation = effects.relaxation?;
     let stopped = b.state("stopped", "samples since the operator stopped; -1 before its first move");

@@ -13,12 +13,12 @@ pub fn c(program: &Program, heading: &Heading) -> String {
     let guard = format!("{}_H", name.to_uppercase());
     let mut text = comment(&introduction(heading));
     let _ = writeln!(text, "#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n");
-    let reported = |key: &str, what: String| format!("#define {name}_{key} {what}\n");
-    text += &reported("INPUT", quoted(&heading.input));
-    text += &reported("OUTPUT", quoted(&heading.output));
-    text += &reported("SAMPLE_TIME", format!("{:?} /* s */", heading.sample_time));
-    text += &reported("LOWEST_INPUT", format!("({:?})", heading.interval[0]));
-    text += &reported("HIGHEST_INPUT", format!("({:?})", heading.interval[1]));
+    let define = |key: &str, what: String| format!("#define {name}_{key} {what}\n");
+    text += &define("INPUT", quoted(&heading.input));
+    text += &define("OUTPUT", quoted(&heading.output));
+    text += &define("SAMPLE_TIME", format!("{:?} /* s */", heading.sample_time));
+    text += &define("LOWEST_INPUT", format!("({:?})", heading.interval[0]));
+    text += &define("HIGHEST_INPUT", format!("({:?})", heading.interval[1]));
     text.push('\n');
     for array in &program.arrays {
         if let Some(constants) = &array.constants {

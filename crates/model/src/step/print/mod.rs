@@ -5,7 +5,7 @@ mod expression;
 
 pub use c::c;
 
-/// What the reader of a written program is reported it.
+/// The heading of a written program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// A word for the program: letters, digits and underscores.

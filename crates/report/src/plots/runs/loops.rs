@@ -55,7 +55,7 @@ fn figure(shown: &Shown<'_>, record: &RecordSeries) -> String {
     })
 }
 
-/// The band by stretches on which the input moves one way, each by rising input: input, lower and upper end.
+/// The band by stretches on which the input moves in one direction, each by rising input: input, lower and upper end.
 fn stretches(v: &[f64], run: &Banded, window: &Range<usize>) -> Option<Vec<Vec<(f64, f64, f64)>>> {
     let (y, half) = (&run.y[window.clone()], &run.band.as_ref()?[window.clone()]);
     let mut stretches = Vec::new();

@@ -67,7 +67,7 @@ pub(super) struct CellDesign {
     /// Sums of the noise-free output against the input's regressors, for each regression at each checkpoint.
     input: Vec<Vec<DMatrix<f64>>>,
     /// One a checkpoint.
-    pub(super) ways: Vec<Analysis>,
+    pub(super) analyses: Vec<Analysis>,
     /// One a checkpoint.
     pub(super) specs: Vec<CellSpec>,
     /// One a checkpoint.
@@ -107,7 +107,7 @@ impl CellDesign {
             grid: grid_index,
             sigma,
             input: on.regressions.all().iter().map(|r| r.input_products(&response.z)).collect(),
-            ways: Vec::new(),
+            analyses: Vec::new(),
             specs: Vec::new(),
             theories: Vec::new(),
         };
@@ -125,7 +125,7 @@ impl CellDesign {
                 Fit::Equation | Fit::Prewhitened => true,
                 Fit::FreeRun => of.case.disturbance == Disturbance::Output,
             };
-            cell_design.ways.push(analysis);
+            cell_design.analyses.push(analysis);
             cell_design.specs.push(CellSpec {
                 series: Series {
                     case: of.case.name.clone(),

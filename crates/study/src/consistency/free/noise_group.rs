@@ -210,7 +210,7 @@ impl FreeNoiseGroup {
         let on = &self.grids[cell_design.grid];
         let regressions = on.regressions.all();
         sums.runs.replicates += 1;
-        let (estimate, first_order) = match (&cell_design.ways[checkpoint], &on.regressions) {
+        let (estimate, first_order) = match (&cell_design.analyses[checkpoint], &on.regressions) {
             (Analysis::Given(limit), _) => {
                 if let Some(output) = output {
                     (regressions[0].free_run_estimate(output, &moments(0)), None)

@@ -14,7 +14,7 @@ impl Law for EverySecondStroke {
     card!("alternating_loops", "every second cycle", Operator, "spans of u", 0.5);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let directions = directions(scene.plant, v);
+        let directions = directions(scene.machine, v);
         let mut strokes = 0_usize;
         for t in 1..v.len() {
             strokes += usize::from(directions[t] != directions[t - 1]);

@@ -13,8 +13,8 @@ impl Law for CubicDamping {
     card!("amplitude_damping", "cubic feedback", Dynamics, "gain of the cubic", 0.2);
 
     fn feedback(&self, scene: &Scene<'_>, y_before: f64) -> f64 {
-        let range = scene.plant.reach;
-        let e = ((y_before - scene.plant.y_centre()) / range).clamp(-1.5, 1.5);
+        let range = scene.machine.reach;
+        let e = ((y_before - scene.machine.y_centre()) / range).clamp(-1.5, 1.5);
         -scene.x() * range * e * e * e
     }
 }

@@ -15,7 +15,7 @@ impl Law for BreakAway {
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
         let (mut rest, mut travel, mut grip) = (0.0_f64, 0.0, 0.0);
-        for (t, step) in moves(scene.plant, v).into_iter().enumerate() {
+        for (t, step) in moves(scene.machine, v).into_iter().enumerate() {
             if step == 0.0 {
                 rest += 1.0;
                 continue;

@@ -14,7 +14,7 @@ impl Law for LostGrip {
     card!("intermittent_contact", "lost grip", Dynamics, "share of u", 1.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let centre = 0.5 * (scene.plant.hysteresis.u_low() + scene.plant.hysteresis.u_high());
+        let centre = 0.5 * (scene.machine.hysteresis.u_low() + scene.machine.hysteresis.u_high());
         let mut left = 0;
         for now in u {
             if left == 0 && scene.rng.random_bool(1.0 / 300.0) {

@@ -14,13 +14,13 @@ impl Law for ReversalMemory {
     card!("loop_size_memory", "reversal memory", Operator, "spans of u", 1.0);
 
     fn operator(&self, scene: &mut Scene<'_>, v: &[f64], u: &mut [f64]) {
-        let directions = directions(scene.plant, v);
-        let mut reversal = position(scene.plant, v[0]);
+        let directions = directions(scene.machine, v);
+        let mut reversal = position(scene.machine, v[0]);
         for t in 1..v.len() {
             if directions[t] != directions[t - 1] {
-                reversal = position(scene.plant, v[t - 1]);
+                reversal = position(scene.machine, v[t - 1]);
             }
-            let z = position(scene.plant, v[t]);
+            let z = position(scene.machine, v[t]);
             u[t] += scene.x() * (reversal - 0.5) * 4.0 * z * (1.0 - z);
         }
     }

@@ -13,7 +13,7 @@ impl Law for Bilinear {
     card!("output_gated_gain", "bilinear", Dynamics, "gain a span of u", 3.0);
 
     fn dynamics(&self, scene: &mut Scene<'_>, u: &mut [f64]) {
-        let centre = 0.5 * (scene.plant.hysteresis.u_low() + scene.plant.hysteresis.u_high());
+        let centre = 0.5 * (scene.machine.hysteresis.u_low() + scene.machine.hysteresis.u_high());
         let mut slow = u[0] - centre;
         for now in u {
             let instant = *now;

@@ -18,8 +18,8 @@ impl Law for GrowsWithDeflection {
     }
 
     fn equation_error(&self, scene: &mut Scene<'_>, u: &[f64], xi: &mut [f64]) {
-        let scale = scene.x() * scene.plant.noise_sd;
-        let low = scene.plant.hysteresis.u_low();
+        let scale = scene.x() * scene.machine.noise_sd;
+        let low = scene.machine.hysteresis.u_low();
         for (now, u) in xi.iter_mut().zip(u) {
             let normal: f64 = StandardNormal.sample(&mut scene.rng);
             *now += scale * (u - low).powi(2) * normal;

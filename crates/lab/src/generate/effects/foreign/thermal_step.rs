@@ -17,7 +17,7 @@ impl Law for OneBorderForAWhile {
         let side = scene.amount.sign(0);
         let start = scene.amount.between(1, 0.1, 0.5);
         let end = start + scene.amount.between(2, 0.2, 0.4);
-        for (t, direction) in directions(scene.plant, v).into_iter().enumerate() {
+        for (t, direction) in directions(scene.machine, v).into_iter().enumerate() {
             if direction == side && (start..end).contains(&scene.passage.clock(t)) {
                 u[t] += scene.x();
             }

@@ -1,7 +1,7 @@
 //! Drawing a nominal system.
 
 use super::shape::Shape;
-use super::{Plant, Table};
+use super::{Machine, Table};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
@@ -15,7 +15,7 @@ pub struct Family {
     pub shape: Option<Shape>,
 }
 
-impl Plant {
+impl Machine {
     /// Draws a system: order, poles, zeros, interval, levels, borders, units, noise.
     pub(crate) fn draw(family: Family, rng: &mut ChaCha8Rng) -> Self {
         Self::draw_with(family, (draw_poles, CURVED), rng)
@@ -45,7 +45,7 @@ impl Plant {
         let table = borders.table(&levels, if curved { POINTS } else { 1 });
         let hysteresis =
             SwitchedHysteresis::new(interval, Box::new(table)).expect("drawn borders span exactly one");
-        let mut plant = Self {
+        let mut machine = Self {
             a,
             b,
             hysteresis,
@@ -57,9 +57,9 @@ impl Plant {
             shape,
             curved,
         };
-        plant.reach = plant.y_half();
-        plant.noise_sd = 2.0 * plant.y_half() * noise / plant.noise_amplification();
-        plant
+        machine.reach = machine.y_half();
+        machine.noise_sd = 2.0 * machine.y_half() * noise / machine.noise_amplification();
+        machine
     }
 }
 

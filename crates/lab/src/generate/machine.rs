@@ -18,7 +18,7 @@ use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
 /// Borders are straight between the levels, so that a nominal model with hat functions there has no gap; or they are curved, so
 /// that no table has none and a fine one hardly any.
 #[derive(Debug)]
-pub struct Plant {
+pub struct Machine {
     /// `a₁…aₙ`.
     pub a: Vec<f64>,
     /// `b₁…bₙ`, output units per unit of `u`.
@@ -31,7 +31,7 @@ pub struct Plant {
     pub levels: Vec<f64>,
     /// Standard deviation of the white equation error, output units.
     pub noise_sd: f64,
-    /// Most that the noise-free output leaves [`Plant::y_centre`] during the dataset, output units.
+    /// Most that the noise-free output leaves [`Machine::y_centre`] during the dataset, output units.
     pub reach: f64,
     /// Seconds between samples.
     pub sample_time: f64,
@@ -41,7 +41,7 @@ pub struct Plant {
     pub curved: bool,
 }
 
-impl Plant {
+impl Machine {
     /// Order `n` of the linear part.
     pub(crate) fn order(&self) -> usize {
         self.a.len()
