@@ -1,6 +1,6 @@
 //! `switchback gap`: what it writes, and what it does with bad input.
 
-use crate::common::{Folder, listing, verdict_on_made};
+use crate::common::{Folder, listing};
 use serde_json::Value;
 use std::fs;
 use switchback_diagnose::Effect;
@@ -121,12 +121,6 @@ fn a_cell_shows_its_ends_its_share_and_its_exposure() {
     }
     let whole: f64 = of("branch").iter().map(|c| number(&c["exposure"])).sum();
     assert!((whole - 1.0).abs() < 0.02, "{whole}");
-}
-
-#[test]
-fn an_effect_that_rides_on_the_knots_of_curved_borders_is_no_cause() {
-    let verdict = verdict_on_made(&["--seed", "1704405990122765189", "--order", "2"]);
-    assert_eq!(verdict["status"], "none", "{verdict:#}");
 }
 
 #[test]

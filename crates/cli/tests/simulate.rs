@@ -144,14 +144,11 @@ fn gap_is_reproduced_on_rigs_made_with_effects_that_move_the_simulation() {
 }
 
 #[test]
+#[ignore = "reads shared/rigs beside the workspace"]
 fn gap_is_reproduced_on_measured_rigs() {
     for name in ["pneumatic-seal", "mr-damper"] {
         let rig =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/rigs").join(name).join("rig.toml");
-        if !rig.exists() {
-            println!("skipped: no measured rig {name} in shared/rigs beside the workspace");
-            continue;
-        }
         gap_is_reproduced(&Folder::with_good_rig(), &rig.display().to_string());
     }
 }

@@ -20,9 +20,9 @@ pub enum Method {
     Instrumental,
     /// Any record, no designed experiment.
     Free,
-    /// Yardstick: a linear ARX model.
+    /// Baseline: a linear ARX model.
     LinearArx,
-    /// Yardstick: a Hammerstein model with one static curve for both directions.
+    /// Baseline: a Hammerstein model with one static curve for both directions.
     Memoryless,
 }
 

@@ -290,24 +290,22 @@ fn what_cannot_be_identified_is_refused() {
     );
 }
 
-/// Reads `t,v,y`; `None` where the measured rigs are not at hand.
-fn measured(file: &str) -> Option<Record> {
+/// Reads `t,v,y`.
+fn measured(file: &str) -> Record {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/rigs").join(file);
-    let mut reader = csv::Reader::from_path(path).ok()?;
-    let rows: Vec<(f64, f64, f64)> = reader.deserialize().collect::<Result<_, _>>().ok()?;
-    Record::new(rows.iter().map(|r| r.1).collect(), rows.iter().map(|r| r.2).collect()).ok()
+    let mut reader = csv::Reader::from_path(path).expect("a measured rig beside the workspace");
+    let rows: Vec<(f64, f64, f64)> = reader.deserialize().collect::<Result<_, _>>().expect("numbers");
+    Record::new(rows.iter().map(|r| r.1).collect(), rows.iter().map(|r| r.2).collect()).expect("a record")
 }
 
 #[test]
+#[ignore = "reads shared/rigs beside the workspace"]
 fn on_measured_friction_two_borders_beat_a_line_and_a_curve_on_the_held_out_record() {
     for (fit, holdout, wanted) in [
         ("mr-damper/sweep_up.csv", "mr-damper/sweep_down.csv", 84.0),
         ("pneumatic-seal/first.csv", "pneumatic-seal/second.csv", 94.0),
     ] {
-        let (Some(fit), Some(holdout)) = (measured(fit), measured(holdout)) else {
-            println!("skipped: the measured rigs are not beside the workspace");
-            return;
-        };
+        let (fit, holdout) = (measured(fit), measured(holdout));
         let score =
             |map| identify(&[&fit], &Settings::new(map)).unwrap().model.free_run(&holdout).fit_percent;
         let [line, curve, borders] = [InputMap::Linear, InputMap::Static, InputMap::Borders].map(score);

@@ -183,7 +183,8 @@ fn heading(name: &str) -> Heading {
 /// The run here, from the border that the input's first move shows.
 fn here(model: &Model, v: &[f64]) -> (f64, Vec<f64>) {
     let machine = Machine::new(Arc::new(model.program())).expect("a whole program");
-    let falls = machine.first_direction().is_some() && v.iter().find(|x| **x != v[0]).is_some_and(|x| *x < v[0]);
+    let falls =
+        machine.first_direction().is_some() && v.iter().find(|x| **x != v[0]).is_some_and(|x| *x < v[0]);
     let branch = if falls { -1.0 } else { 0.0 };
     let mut run = Run::start(&machine, v[0], branch);
     (branch, v.iter().map(|v| run.step(*v)).collect())

@@ -13,9 +13,9 @@
 //! clocks, threads or ambient randomness.
 //!
 //! ```
-//! use switchback_lab::generate::{Ingredient, MakeRig};
+//! use switchback_lab::generate::{RequestedFault, MakeRig};
 //!
-//! let made = MakeRig::new(7).with(Ingredient::plain("backlash", 2.0)?).make()?;
+//! let made = MakeRig::new(7).with(RequestedFault::plain("backlash", 2.0)?).make()?;
 //! assert_eq!(made.rig.records.len(), 7);
 //! assert!((made.key.effects[0].size - 2.0).abs() < 0.1);
 //! # Ok::<(), switchback_lab::generate::MakeError>(())
