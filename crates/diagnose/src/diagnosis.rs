@@ -1,5 +1,7 @@
 //! What a diagnosis says, field by field as the JSON contract has it.
 
+use schemars::JsonSchema;
+
 use crate::effect::{Effect, Stage};
 use crate::evidence::Compared;
 use crate::export::PortableModel;
@@ -142,7 +144,8 @@ pub struct Together {
 }
 
 /// A kind of record that could be taken next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum ExperimentKind {
     /// Reversals inside reversals, of shrinking amplitude.
     NestedReversals,

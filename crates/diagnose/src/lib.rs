@@ -103,6 +103,7 @@ pub use diagnosis::Cell;
 pub use diagnosis::CellInterval;
 pub use diagnosis::CellUnit;
 pub use diagnosis::Diagnosis;
+pub use diagnosis::ExperimentKind;
 pub use diagnosis::Gap;
 pub use diagnosis::HoldoutSeries;
 pub use diagnosis::NextExperiment;

@@ -1,11 +1,12 @@
 //! The methods a sweep can compare.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use switchback_model::rig::Role;
 
 /// A method from records to a system. The serialised form is the name used in scenario files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The paper's least squares on the descendant experiment, (3.21)–(3.25).

@@ -1,13 +1,22 @@
 //! `provenance.json`: where, when and by what results were made. It lies beside them and is never compared: the results hold only what
 //! determines the numbers.
 
-use crate::output::stamped;
+use crate::output::{stamped, stamped_schema};
 use crate::platform::platform;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::time::Instant;
 
 /// Its name.
 pub const PROVENANCE_FILE: &str = "provenance.json";
+
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/provenance/1";
+
+/// The JSON Schema of the file.
+pub fn schema() -> Schema {
+    stamped_schema::<Record>(SCHEMA)
+}
 
 /// The sources that a program was built from.
 #[derive(Debug, Clone, Copy)]
@@ -27,11 +36,12 @@ pub struct Provenance {
     record: Record,
 }
 
-#[derive(Debug, Clone, Serialize)]
+/// Where, when and by what results were made: `provenance.json`. It is never compared.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 struct Record {
     /// Switchback's version.
     version: String,
-    /// The commit that the program was built from, `-dirty` if files had been changed; nothing where that is not known.
+    /// The commit that the program was built from, `-dirty` if files had been changed; empty where that is not known.
     commit: String,
     /// SHA-256 of the sources that run replicates.
     sources: String,
@@ -46,8 +56,10 @@ struct Record {
     /// The parts that were put together.
     shards: Vec<String>,
     /// When the command began, UTC.
+    #[schemars(regex(pattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}T"))]
     begun: String,
     /// How long it took.
+    #[schemars(range(min = 0))]
     seconds: f64,
 }
 
@@ -79,6 +91,6 @@ impl Provenance {
 
     /// The file.
     pub fn text(&self) -> String {
-        stamped("switchback/provenance/1", &self.record)
+        stamped(SCHEMA, &self.record)
     }
 }

@@ -1,28 +1,39 @@
 //! The records that a model was made from, and where another input stands among them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::records::dataset::Dataset;
 
 /// The dataset's clock: its records, as far as slow changes follow them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Known {
+    /// Samples of the dataset.
     pub(super) total: usize,
+    /// Its travel, strokes.
     pub(super) travel: f64,
+    /// Its records.
     pub(super) records: Vec<Placed>,
 }
 
 /// One record on the clock.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Placed {
+    /// Its name.
     pub(super) name: String,
+    /// Whether it was fitted.
     pub(super) fit: bool,
+    /// Its samples.
     pub(super) samples: usize,
+    /// Sample of the dataset at which it starts.
     pub(super) clock: usize,
+    /// Records before it.
     pub(super) before: usize,
+    /// Strokes travelled before it.
     pub(super) travelled: f64,
+    /// Print of its samples, by which it is known again.
     pub(super) print: String,
 }
 

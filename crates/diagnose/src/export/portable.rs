@@ -1,5 +1,6 @@
 //! The model as it is written and read.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -18,61 +19,66 @@ use crate::records::motion::ReversalRule;
 /// v → delay → play → borders (transition, wear, widening, relaxation) + border columns → gain → filter → B/A → + disturbances → sensor → y
 /// ```
 ///
-/// Everything is dimensionless: `(v − v_low)/v_width`, `(y − y_mean)/y_scale`, lengths in strokes (`v_width`), times in samples. Keys:
-///
-/// | key | content |
-/// |---|---|
-/// | `scales` | `v_low`, `v_width`, `y_mean`, `y_scale`: back to physical units |
-/// | `lead` | samples by which the output follows the input sooner than in `A y(t) = b₁u(t−1) + …` |
-/// | `rule` | what counts as a reversal: `threshold` in strokes, and where the new branch `begins` |
-/// | `criterion` | what it was fitted to: `one_step` predictions, or `simulation` with the `share` of independent errors |
-/// | `clock` | samples (`total`) and `travel` of the dataset, and its `records`: `name`, `fit`, `samples`, the `clock`, records `before` and strokes `travelled` at their start, and a `print` of their samples by which they are known again |
-/// | `grid` | `knots` of the descending, then of the ascending border; a knot that stands twice is a jump |
-/// | `augmented` | the effects: `delay`, `jitter`, `late`, `play`, `transition`, `wear`, `widening`, `relaxation`, `border_columns`, `gain`, the filter's `numerator` and `denominator`, `equation_columns`, the sensor's `curve` and `saturation`, the law of the `noise`, and `extra_b` coefficients of B |
-/// | `linear` | `a`; `b`; `f`, border values by knots and the coefficients of the border columns; `d`, those of the equation columns |
-/// | `variance` | of the equation error as fitted, weighted where its law weighs |
-/// | `output_noise` | variance of the noise in the output before the sensor |
-/// | `covariance` | of `a`, `b`, `f`, `d` and the nonlinear parameters of the effects: rows of the lower triangle; null where nothing was estimated |
-/// | `moved` | for each nonlinear parameter of the effects a `step`, and the `augmented` that far from the fitted one: its derivative |
+/// Everything is dimensionless: `(v − v_low)/v_width`, `(y − y_mean)/y_scale`, lengths in strokes (`v_width`), times in samples.
+/// `docs/schemas/model-1.json` says what each key holds.
 ///
 /// A model that was read has parts that fit together: [`PortableError`] says what does not.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Wire", into = "Wire")]
+#[schemars(description = "Borders with effects, dimensionless: lengths in strokes, times in samples.")]
 pub struct PortableModel(pub(super) Wire);
 
 /// What is written.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Wire {
+    /// Back to physical units: `v = v_low + v_width·v′`, `y = y_mean + y_scale·y′`.
     pub(super) scales: Scales,
+    /// Samples by which the output follows the input sooner than in `A y(t) = b₁u(t−1) + …`.
     pub(super) lead: isize,
+    /// What counts as a reversal.
     pub(super) rule: ReversalRule,
+    /// What it was fitted to.
     pub(super) criterion: Criterion,
+    /// The records that slow changes follow.
     pub(super) clock: Known,
+    /// Knots of the falling, then of the rising border.
     pub(super) grid: Grid,
+    /// The effects.
     pub(super) augmented: AugmentedModel,
+    /// Coefficients: dynamics, border values and border columns, equation columns.
     pub(super) linear: Linear,
+    /// Variance of the equation error as fitted, weighted where its law weighs.
     pub(super) variance: f64,
+    /// Variance of the noise in the output before the sensor.
     pub(super) output_noise: f64,
+    /// Covariance of `a`, `b`, `f`, `d` and the nonlinear parameters of the effects: rows of the lower triangle; null where nothing was estimated.
     pub(super) covariance: Option<Vec<Vec<f64>>>,
+    /// For each nonlinear parameter of the effects the augmented model a step away from the fitted one: its derivative.
     pub(super) moved: Vec<Moved>,
 }
 
 /// Origins and scales of input and output.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Scales {
+    /// Input at 0.
     pub(super) v_low: f64,
+    /// The stroke.
     pub(super) v_width: f64,
+    /// Output at 0.
     pub(super) y_mean: f64,
+    /// Unit of the output.
     pub(super) y_scale: f64,
 }
 
 /// What a step of a nonlinear parameter makes of the augmented model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Moved {
+    /// The step, in the parameter.
     pub(super) step: f64,
+    /// The effects there.
     pub(super) augmented: AugmentedModel,
 }
 

@@ -4,6 +4,7 @@
 //! v → delay → play → borders (transition, wear, widening, relaxation) + border columns → gain → num/den → B/A → + disturbances → sensor → y
 //! ```
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::infinite;
@@ -11,7 +12,7 @@ use crate::model::sensor::SensorCurve;
 use crate::records::motion::Play;
 
 /// How the working point passes from one border to the other.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Transition {
     /// Travel over which it passes, in strokes.
@@ -30,7 +31,7 @@ impl Transition {
 }
 
 /// What fades during a transition with envelope `φ`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum TransitionLaw {
     /// `u = C(v) + φ·(u_rev − C(v_rev))`: the distance to the border at the reversal fades.
@@ -42,7 +43,7 @@ pub(crate) enum TransitionLaw {
 }
 
 /// A clock that slow changes follow, from 0 to about 1 unless reported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Clock {
     /// Share of the samples of the whole dataset.
@@ -59,9 +60,10 @@ pub(crate) enum Clock {
 }
 
 /// A slow change `Σ_k c_k·s_k(t)` of a clock.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Slow {
+    /// What it follows.
     pub(crate) clock: Clock,
     /// Coefficients of the shifted Legendre polynomials of degree 1, 2, … of the clock.
     pub(crate) coefficients: Vec<f64>,
@@ -115,17 +117,21 @@ impl Slow {
 }
 
 /// A loop whose width depends on the speed `r` of the input, in strokes per sample: it is wider by the share `share·g(r)`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Widening {
+    /// Share by which the loop is wider.
     pub(crate) share: f64,
+    /// Power of the speed.
     pub(crate) power: f64,
+    /// Scale of the speed, strokes per sample.
     pub(crate) scale: f64,
+    /// At which speeds it is wide.
     pub(crate) speeds: Speeds,
 }
 
 /// At which speeds a loop is wide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Speeds {
     /// `g = (r/scale)^power`.
@@ -146,10 +152,12 @@ impl Widening {
 
 /// A working point that goes towards the middle between the borders while the input rests: by the share
 /// `share·(1 − e^(−rest/tau))` of its distance, `rest` in samples.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Relaxation {
+    /// Share of the distance that is gone at last.
     pub(crate) share: f64,
+    /// Time constant, samples.
     pub(crate) tau: f64,
 }
 
@@ -160,7 +168,7 @@ impl Relaxation {
 }
 
 /// A column beside the border values: its coefficient is estimated with them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum BorderColumn {
     /// `branch·r^power`, `r` the speed in strokes per sample over `scale`.
@@ -184,7 +192,7 @@ pub(crate) enum BorderColumn {
 }
 
 /// What a speed-dependent term does while the input rests.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Resting {
     /// It keeps its last value, as `u` does.
@@ -194,7 +202,7 @@ pub(crate) enum Resting {
 }
 
 /// A disturbance column of the equation, `A y = B u + Σ d·ψ`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EquationColumn {
     /// Cosine and sine at a frequency (radians per sample) on one record, or on all with the dataset's clock.
@@ -225,19 +233,23 @@ impl EquationColumn {
 }
 
 /// The sensor's range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Saturation {
+    /// Its lower end.
     #[serde(with = "infinite")]
+    #[schemars(with = "infinite::Either")]
     pub(crate) low: f64,
+    /// Its upper end.
     #[serde(with = "infinite")]
+    #[schemars(with = "infinite::Either")]
     pub(crate) high: f64,
     /// Order of the equation.
     pub(crate) order: usize,
 }
 
 /// Noise on the input that acts: its variance over that of the equation error.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InputNoise {
     /// What comes by the slope of the borders.
@@ -251,7 +263,7 @@ pub(crate) struct InputNoise {
 }
 
 /// The law of the equation error.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseLaw {
     /// `D(q⁻¹) e = w`: coefficients d₁, d₂, ….
@@ -260,6 +272,7 @@ pub(crate) struct NoiseLaw {
     pub(crate) ma: Vec<f64>,
     /// Variance of white output noise over that of the equation error.
     pub(crate) output_ratio: f64,
+    /// Noise on the input.
     pub(crate) input: Option<InputNoise>,
     /// Step of the quantisation grid that the sensor rounds to; its noise is part of `output_ratio`.
     /// Saved models know it as `lattice`.
@@ -281,7 +294,7 @@ impl NoiseLaw {
 }
 
 /// A composition of effects.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AugmentedModel {
     /// Coefficients of B beyond the nominal order.
@@ -292,22 +305,31 @@ pub(crate) struct AugmentedModel {
     pub(crate) jitter: f64,
     /// What acts lies between the last two positions, this share of a sample back.
     pub(crate) late: f64,
+    /// Play between the input and the operator.
     pub(crate) play: Play,
+    /// How the working point passes from one border to the other.
     pub(crate) transition: Option<Transition>,
     /// Narrowing of the loop.
     pub(crate) wear: Option<Slow>,
     /// How the loop widens with the speed.
     pub(crate) widening: Option<Widening>,
+    /// What a rest does.
     pub(crate) relaxation: Option<Relaxation>,
+    /// Columns beside the border values.
     pub(crate) border_columns: Vec<BorderColumn>,
     /// Relative change of the gain.
     pub(crate) gain: Option<Slow>,
-    /// Filter between `u` and `B/A`, numerator and denominator, leading ones included.
+    /// Numerator of the filter between `u` and `B/A`, leading one included.
     pub(crate) numerator: Vec<f64>,
+    /// Its denominator.
     pub(crate) denominator: Vec<f64>,
+    /// Columns of the equation: disturbances.
     pub(crate) equation_columns: Vec<EquationColumn>,
+    /// The inverse of the sensor's characteristic.
     pub(crate) curve: SensorCurve,
+    /// The range of the sensor.
     pub(crate) saturation: Option<Saturation>,
+    /// The law of the equation error.
     pub(crate) noise: NoiseLaw,
 }
 

@@ -1,11 +1,12 @@
 //! Two tabulated borders, linear between knots, with jumps where a knot stands twice.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::records::motion::Play;
 
 /// Knots of both borders on the dimensionless input axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Grid {
     /// Descending border, then ascending border; each non-decreasing, a repeated knot is a jump.

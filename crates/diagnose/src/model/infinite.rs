@@ -1,16 +1,20 @@
 //! Numbers that may be infinite, in formats that know finite ones only: ±∞ as the words `inf` and `-inf`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-#[derive(Serialize, Deserialize)]
+/// A number as it is written: JSON has no infinite ones.
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
-enum Either {
+#[schemars(inline)]
+pub(crate) enum Either {
     Finite(f64),
     Infinite(Infinity),
 }
 
-#[derive(Serialize, Deserialize)]
-enum Infinity {
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[schemars(inline)]
+pub(crate) enum Infinity {
     #[serde(rename = "inf")]
     Positive,
     #[serde(rename = "-inf")]

@@ -1,15 +1,18 @@
 //! The parameters that are linear or bilinear given the effects' nonlinear ones.
 
 use nalgebra::{Complex, DMatrix};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::augmented::AugmentedModel;
 
 /// `a`, `b`, border values and disturbance coefficients.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Linear {
+    /// `a₁…aₙ`.
     pub(crate) a: Vec<f64>,
+    /// `b₁…`.
     pub(crate) b: Vec<f64>,
     /// Border values, then the coefficients of the border columns.
     pub(crate) f: Vec<f64>,

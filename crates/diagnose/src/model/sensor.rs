@@ -1,5 +1,6 @@
 //! The sensor's characteristic, by its inverse.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::sensor_polynomial::SensorPolynomial;
@@ -8,30 +9,38 @@ use crate::model::sensor_polynomial::SensorPolynomial;
 ///
 /// Powers describe a gentle curve, bumps any smooth one, knees a range that ends softly: it is the inverse that is linear in
 /// them, and the inverse that the likelihood of `y` needs. Curves that are powers sensor polynomial have no short inverse.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SensorCurve {
     /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
+    /// A characteristic that is a polynomial sensor polynomial.
     pub(crate) sensor_polynomial: Option<SensorPolynomial>,
+    /// Bumps.
     pub(crate) bumps: Option<Bumps>,
+    /// Ends of the range that are soft.
     pub(crate) knees: Vec<Knee>,
 }
 
 /// Evenly spaced bumps `exp(−z²/2)`, `z = (y − first − j·spacing)/spacing`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Bumps {
+    /// Where the first is.
     pub(crate) first: f64,
+    /// Distance between neighbours, and their width.
     pub(crate) spacing: f64,
+    /// Their heights.
     pub(crate) heights: Vec<f64>,
 }
 
 /// Beyond `level` the sensor answers to the logarithm of what exceeds it: `x = y + w·(e^z − 1 − z)`, `z` the excess over `w`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Knee {
+    /// Where it begins.
     pub(crate) level: f64,
+    /// Its width.
     pub(crate) width: f64,
     /// +1 for the upper end of the range, −1 for the lower.
     pub(crate) sign: f64,

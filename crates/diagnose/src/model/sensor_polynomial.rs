@@ -1,10 +1,11 @@
 //! A sensor's characteristic in powers of what it senses.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// `y = z + γ₂z² + γ₃z³`, dimensionless; where its slope falls below [`FLATTEST`] it goes on straight: one that folds back is no
+/// `y = z + γ₂z² + γ₃z³`, dimensionless; where it gets too flat it goes on straight: one that folds back is no
 /// sensor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub(crate) struct SensorPolynomial {
     square: f64,

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_model::rig::{Rig, Role, Usage};
 
@@ -87,7 +88,7 @@ pub(crate) struct Dataset {
 }
 
 /// What a model is held against.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Criterion {
     /// The next sample, given the measured ones before it: efficient where the equation error is what the model says.

@@ -1,5 +1,6 @@
 //! What the input does, sample by sample, as the operator sees it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Direction of the working point.
@@ -31,7 +32,7 @@ pub(crate) struct Motion {
 }
 
 /// What counts as a reversal.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReversalRule {
     /// A move smaller than this against the branch is no reversal (noise on `v`).
@@ -41,7 +42,7 @@ pub(crate) struct ReversalRule {
 }
 
 /// Where a new branch begins, once a travel beyond the threshold has confirmed the reversal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Begins {
     /// At the sample that confirms it.
@@ -52,7 +53,7 @@ pub(crate) enum Begins {
 }
 
 /// A play whose width may change along the stroke.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Play {
     /// Full width in the middle of the stroke, in strokes.

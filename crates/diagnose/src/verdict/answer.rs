@@ -2,11 +2,14 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
+
 use crate::effect::{Effect, Stage};
 use crate::figure::Figure;
 
 /// How far the verdict goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum Status {
     /// Nothing significant, or no gap that the judged records resolve.
     None,

@@ -2,19 +2,22 @@
 
 use crate::model::{self, ModelError, UnitError};
 use miette::Diagnostic;
+use schemars::JsonSchema;
 use switchback_diagnose::Model;
 use switchback_identify::free;
 use switchback_model::rig::{Rig, RigRecord, Usage};
 use thiserror::Error;
 
 /// Whose model is diagnosed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum Source {
     /// The nominal model identified from the fit records.
     Identified,
     /// The model file of the user.
     Given,
     /// Another simulator's predictions, the columns `y_sim`.
+    #[schemars(rename = "y_sim")]
     Predicted,
 }
 

@@ -1,20 +1,22 @@
 //! The identification as one JSON object.
 
 use super::{Baseline, CausalAlternative, Flag, Identification};
-use crate::output::stamped;
+use crate::output::{stamped, stamped_schema};
+use schemars::{JsonSchema, Schema};
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
 use std::fmt;
 use switchback_identify::free::InputNoise;
-use switchback_identify::{BorderDistance, BorderPoint};
+use switchback_identify::{BorderDistance, BorderPoint, Method};
 use switchback_model::rig::Rig;
 
 /// Name and version of the layout.
 pub const SCHEMA: &str = "switchback/identify/1";
 
-/// The object that `identify --json` prints; figures that do not exist are null.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// An identification: `identify --json`, `estimate.json`. Figures that do not exist are null.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EstimateFile {
     /// The rig's name.
     pub rig: String,
@@ -24,8 +26,10 @@ pub struct EstimateFile {
     pub output: String,
     /// Seconds between samples.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sample_time: f64,
     /// The method.
+    #[schemars(with = "Method")]
     pub method: String,
     /// Order of the linear part.
     pub order: usize,
@@ -36,28 +40,34 @@ pub struct EstimateFile {
     pub a: Vec<f64>,
     /// Their standard errors.
     #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    #[schemars(with = "Vec<Option<f64>>")]
     pub a_se: Vec<f64>,
     /// `b₁…bₙ`, in output units where u_M − u_m = 1.
     #[serde(deserialize_with = "crate::input::nullable::numbers")]
     pub b: Vec<f64>,
     /// Their standard errors.
     #[serde(deserialize_with = "crate::input::nullable::numbers")]
+    #[schemars(with = "Vec<Option<f64>>")]
     pub b_se: Vec<f64>,
     /// Standard deviation of the equation error, or of the free run's error.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(range(min = 0))]
     pub noise_sd: f64,
     /// `B(1)/A(1)`, output units.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub gain: f64,
     /// Its standard error.
     pub gain_se: Option<f64>,
     /// Stationary output at the upper end.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub y_high: f64,
     /// Its standard error.
     pub y_high_se: Option<f64>,
     /// Stationary output at the lower end.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub y_low: f64,
     /// Its standard error.
     pub y_low_se: Option<f64>,
@@ -66,9 +76,11 @@ pub struct EstimateFile {
     /// Points of the rising border.
     pub ascendant: Vec<Point>,
     /// Fit in free run by record.
+    #[schemars(with = "BTreeMap<String, Option<f64>>")]
     pub fit_percent: FitByRecord,
     /// Least eigenvalue of the information matrix over one period.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub excitation: f64,
     /// Samples fitted.
     pub samples: usize,
@@ -83,7 +95,7 @@ pub struct EstimateFile {
     pub baselines: Vec<Beside>,
     /// How far the borders lie apart.
     pub r#loop: Option<Loop>,
-    /// What noise on the input does to the estimate.
+    /// What noise on the input does to the estimate; null where none was found.
     pub input_noise: Option<Moved>,
     /// Whether the one-step errors are white.
     pub innovations: Option<Innovations>,
@@ -96,7 +108,7 @@ pub struct EstimateFile {
 }
 
 /// A reason to doubt a figure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reservation {
     /// One word for programs.
@@ -108,16 +120,20 @@ pub struct Reservation {
 }
 
 /// By how much noise on the input moves the estimate.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Moved {
     /// Standard deviation of the noise, input units.
+    #[schemars(range(min = 0))]
     pub sd: f64,
     /// `sd` over the width of the working interval.
+    #[schemars(range(min = 0))]
     pub share: f64,
     /// By how much the noise moves the coefficient or point that it moves most, in standard errors of that, by simulation.
+    #[schemars(range(min = 0))]
     pub largest_shift: f64,
     /// Standard error of that by the number of simulated records, in the same unit.
+    #[schemars(range(min = 0))]
     pub largest_shift_se: f64,
 }
 
@@ -128,10 +144,11 @@ impl From<InputNoise> for Moved {
 }
 
 /// Another model on the held-out records.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Beside {
     /// The method.
+    #[schemars(with = "Method")]
     pub method: String,
     /// Its fit on held-out records.
     #[serde(deserialize_with = "crate::input::nullable::number")]
@@ -144,7 +161,7 @@ pub struct Beside {
 }
 
 /// The model that could run in real time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Causal {
     /// Order.
@@ -162,11 +179,12 @@ pub struct Causal {
 }
 
 /// The distance between the borders.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Loop {
     /// Share of the stroke over which the borders differ beyond their errors.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     #[serde(rename = "told_apart")]
     pub distinguished: f64,
     /// Where they differ most clearly.
@@ -187,7 +205,7 @@ pub struct Loop {
 }
 
 /// One-step errors of the fit records.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Innovations {
     /// Share of the variance of the innovations that their past predicts.
@@ -199,6 +217,7 @@ pub struct Innovations {
     pub ljung_box: f64,
     /// Its p-value.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub p_value: f64,
     /// Lags.
     pub lags: usize,
@@ -230,27 +249,29 @@ impl From<BorderDistance> for Loop {
 }
 
 /// A point of a border.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Point {
-    /// Range of the input in the fit records.
+    /// Position, input units.
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub v: f64,
-    /// Values at the knots without the first, which is 0.
+    /// The curve there, in the normalisation `u_M − u_m = 1`.
     #[serde(deserialize_with = "crate::input::nullable::number")]
     pub f: f64,
     /// Its standard error.
     #[serde(deserialize_with = "crate::input::nullable::number")]
+    #[schemars(with = "Option<f64>", range(min = 0))]
     pub se: f64,
 }
 
 /// The free run of a record.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordFit {
     /// Its name.
     pub name: String,
     /// What it is for.
+    #[schemars(extend("enum" = ["fit", "holdout"]))]
     pub r#use: String,
     /// Its samples.
     pub samples: usize,
@@ -352,6 +373,11 @@ impl EstimateFile {
             version: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }
+}
+
+/// The JSON Schema of [`json`].
+pub fn schema() -> Schema {
+    stamped_schema::<EstimateFile>(SCHEMA)
 }
 
 /// One JSON object, indented, with a newline at its end.

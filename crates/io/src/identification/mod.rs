@@ -33,6 +33,7 @@ pub(crate) use flag::Flag;
 pub use found::Found;
 pub use free_run::FreeRun;
 pub use json::json;
+pub use json::schema;
 pub use method::default_method;
 pub use request::Request;
 pub use result::CausalAlternative;

@@ -2,6 +2,7 @@
 
 use super::Run;
 use crate::identification::FreeRun;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::NominalModel;
 use switchback_identify::free::{Basis, Coefficients, Identified, Model, ReversalRule, Structure, Timing};
@@ -9,17 +10,7 @@ use switchback_identify::statistics::propagated;
 use switchback_model::hysteresis::Interval;
 
 /// `A(q⁻¹) y(t) = Σᵢ bᵢ u(t−delay−i) + c`, i from 1, `u` linear between knots, in output units.
-///
-/// | key | content |
-/// |---|---|
-/// | `map` | `borders`, one `curve` for both directions, or a `line` that goes on beyond its ends |
-/// | `order`, `delay` | of the linear part; a negative delay looks ahead |
-/// | `descending`, `ascending` | knots of the curves; only the first for a `curve` or a `line` |
-/// | `a`, `b`, `f`, `c` | coefficients; `f` are the knot values without the first, which is 0 |
-/// | `rule` | what counts as a reversal: `threshold` and `band` in input units, and where it takes effect: `between_samples`, or `at_confirmation` (absent for no) in real time |
-/// | `noise_sd` | standard deviation of the error of the free run on the fit records |
-/// | `covariance` | of `a`, `b`, `f`, `c`: rows of the lower triangle; null where it is unknown |
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Wire", into = "Wire")]
 pub struct Curves {
     model: Model,
@@ -27,7 +18,7 @@ pub struct Curves {
     covariance: Option<Vec<Vec<f64>>>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Map {
     Borders,
@@ -35,30 +26,49 @@ enum Map {
     Line,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rule {
+    /// A move back by less is no reversal, input units.
+    #[schemars(range(min = 0))]
     threshold: f64,
+    /// How far from the extremum the turning sample may lie, input units.
+    #[schemars(range(min = 0))]
     band: f64,
+    /// Whether it takes effect between samples.
     between_samples: bool,
+    /// Whether it takes effect where it is confirmed, in real time; absent for no.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     at_confirmation: bool,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Wire {
+    /// `borders`, one `curve` for both directions, or a `line` that goes on beyond its ends.
     map: Map,
+    /// Order of the linear part.
     order: usize,
+    /// Delay of the linear part; negative where it looks ahead.
     delay: isize,
+    /// Knots of the falling border; the only ones of a `curve` or a `line`.
     descending: Vec<f64>,
+    /// Knots of the rising border.
     ascending: Option<Vec<f64>>,
+    /// `a₁…aₙ`.
     a: Vec<f64>,
+    /// `b₁…`.
     b: Vec<f64>,
+    /// Values at the knots without the first, which is 0.
     f: Vec<f64>,
+    /// The constant.
     c: f64,
+    /// What counts as a reversal.
     rule: Rule,
+    /// Standard deviation of the error of the free run on the fit records.
+    #[schemars(range(min = 0))]
     noise_sd: f64,
+    /// Covariance of `a`, `b`, `f`, `c`: rows of the lower triangle; null where it is unknown.
     covariance: Option<Vec<Vec<f64>>>,
 }
 

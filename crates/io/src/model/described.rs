@@ -1,23 +1,24 @@
 //! The linear part and the borders of a model, for a reader.
 
 use super::{Curves, Points, System};
+use schemars::JsonSchema;
 use serde::Serialize;
 use switchback_identify::statistics::propagated;
 
 /// `A(q⁻¹) y(t) = Σ bᵢ u(t−delay−i)`, `u` on two borders given by points.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Described {
-    /// Order of A.
+    /// Order.
     pub order: usize,
-    /// Samples by which the output follows later than in the paper.
+    /// Delay, samples: the output follows so much later than in the paper.
     pub delay: isize,
-    /// a₁ … aₙ.
+    /// `a₁…aₙ`.
     pub a: Vec<f64>,
-    /// b₁ ….
+    /// `b₁…`.
     pub b: Vec<f64>,
-    /// Points of the descending border.
+    /// Points `[v, u]` of the falling border.
     pub descending: Vec<(f64, f64)>,
-    /// Points of the ascending border.
+    /// Points `[v, u]` of the rising border.
     pub ascending: Vec<(f64, f64)>,
 }
 

@@ -1,10 +1,11 @@
 //! What a model was identified on, and where an input leaves it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_model::rig::Rig;
 
 /// The inputs that a model was identified on, input units.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
     /// The working interval.
@@ -12,22 +13,25 @@ pub struct Domain {
     /// Range of the input in the fit records.
     pub v: [f64; 2],
     /// Largest change from one sample to the next.
+    #[schemars(range(min = 0))]
     pub largest_step: f64,
     /// Smallest and largest travel between two reversals.
     pub reversals: Option<[f64; 2]>,
     /// A move back by less is no reversal.
+    #[schemars(range(min = 0))]
     pub threshold: f64,
     /// The records of the rig.
     pub records: Vec<Source>,
 }
 
 /// A record of the rig.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// Its name.
     pub name: String,
     /// `fit` or `holdout`.
+    #[schemars(extend("enum" = ["fit", "holdout"]))]
     pub r#use: String,
     /// Its samples.
     pub samples: usize,

@@ -1,21 +1,7 @@
 //! Model files: what `identify --out` and `gap --out` write, `simulate` runs and `gap --model` diagnoses.
 //!
 //! One JSON object. Numbers have as many digits as they need to be read back as the same numbers.
-//!
-//! | key | content |
-//! |---|---|
-//! | `schema` | `switchback/model/1`; another number is another format |
-//! | `kind` | which form `model` has: `switched`, `curves` or `points` |
-//! | `part` | `identified`, `nominal` or `augmented` |
-//! | `rig` | name of the rig |
-//! | `method` | method of `identify`; null for models of `gap` |
-//! | `input`, `output` | labels with units, e.g. `displacement [mm]` |
-//! | `sample_time` | seconds |
-//! | `identified_on` | the working `interval`; range of the input `v`; `largest_step`, its largest change from one sample to the next; `reversals`, the smallest and the largest travel between two of them, null where there are not two; the `threshold` below which a move back is none; `records` with `name`, `use` and `samples` |
-//! | `effects` | what was added to the nominal model: `effect` and its `parameters` (`name`, `value`, `ci90`, `unit`) in the user's units |
-//! | `system` | for the reader, not read back: `order`, `delay`, `a`, `b` and the borders `descending` and `ascending` as pairs `[v, u]`, `A(q⁻¹) y(t) = Σ bᵢ u(t−delay−i)`, i from 1 |
-//! | `model` | what runs, by `kind`: [`PortableModel`] (`switched`), [`Curves`] (`curves`), [`Points`] (`points`) |
-//! | `version` | version of the program that wrote it |
+//! `docs/schemas/model-1.json` says what each key holds.
 
 mod causal;
 mod curves;
@@ -38,6 +24,7 @@ pub use domain::Domain;
 pub(crate) use file::Added;
 pub use file::Header;
 pub use file::ModelFile;
+pub use file::schema;
 pub use make::diagnosed;
 pub use make::identified;
 pub(crate) use points::Points;

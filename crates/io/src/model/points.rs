@@ -3,6 +3,7 @@
 use super::Run;
 use super::curves::check_rows;
 use crate::identification::{EstimatedSystem, FreeRun};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_identify::statistics::propagated;
 use switchback_identify::{BorderPoint, Estimate};
@@ -11,33 +12,35 @@ use switchback_model::hysteresis::Interval;
 use switchback_model::linear::autocovariance;
 
 /// `A(q⁻¹) y(t) = Σᵢ bᵢ u(t−delay−i)`, i from 1, `u` on points of the borders in the paper's normalisation `u_M − u_m = 1`.
-///
-/// | key | content |
-/// |---|---|
-/// | `a`, `b`, `delay` | the linear part, output units per normalised `u` |
-/// | `gain` | `B(1)/A(1)` |
-/// | `y_low`, `y_high` | outputs at rest at `u_m` and at `u_M` |
-/// | `interval` | ends of the working interval, to which the borders are completed |
-/// | `descending`, `ascending` | pairs `[v, F(v)]` by increasing v; a border that was not seen has none |
-/// | `noise_sd` | standard deviation of the equation error |
-/// | `covariance` | of `a`, `b`, the descending and the ascending points: rows of the lower triangle; null where it is unknown |
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Wire", into = "Wire")]
 pub struct Points(Wire);
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Wire {
+    /// `a₁…aₙ`.
     a: Vec<f64>,
+    /// `b₁…`, output units per normalised `u`.
     b: Vec<f64>,
+    /// Delay, samples; negative where it looks ahead.
     delay: isize,
+    /// `B(1)/A(1)`, output units.
     gain: f64,
+    /// Output at rest at `u_m`.
     y_low: f64,
+    /// Output at rest at `u_M`.
     y_high: f64,
+    /// Ends of the working interval, to which the borders are completed.
     interval: [f64; 2],
+    /// Points `[v, F(v)]` of the falling border by increasing `v`; none where it was not seen.
     descending: Vec<(f64, f64)>,
+    /// Points `[v, F(v)]` of the rising border.
     ascending: Vec<(f64, f64)>,
+    /// Standard deviation of the equation error.
+    #[schemars(range(min = 0))]
     noise_sd: f64,
+    /// Covariance of `a`, `b`, the falling and the rising points: rows of the lower triangle; null where it is unknown.
     covariance: Option<Vec<Vec<f64>>>,
 }
 

@@ -2,11 +2,14 @@
 
 use super::curves::Curves;
 use super::points::Points;
-use serde_json::Value;
+use schemars::JsonSchema;
+use serde::Serialize;
 use switchback_diagnose::PortableModel;
 
 /// A model that runs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
 pub enum System {
     /// Of `gap`: borders with effects.
     Switched(Box<PortableModel>),
@@ -33,14 +36,5 @@ impl System {
             Self::Curves(model) => model.covariance().is_some(),
             Self::Points(model) => model.covariance().is_some(),
         }
-    }
-
-    pub(super) fn value(&self) -> Value {
-        let value = match self {
-            Self::Switched(model) => serde_json::to_value(model),
-            Self::Curves(model) => serde_json::to_value(model),
-            Self::Points(model) => serde_json::to_value(model),
-        };
-        value.expect("finite numbers, strings and lists of them are JSON")
     }
 }

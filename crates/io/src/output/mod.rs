@@ -10,6 +10,7 @@
 //! | `verify` | the check that a folder's files are those of one run |
 //! | `disk`, `faults` | the calls that change the disk, and the means of tests to make them fail |
 //! | `text`, `terminal`, `sha256` | formats of text, standard output and error, hashes |
+//! | `schema` | JSON Schemas of what is written |
 
 mod artefacts;
 mod disk;
@@ -20,6 +21,7 @@ mod hash_list;
 mod lock;
 mod moves;
 mod replacement;
+mod schema;
 mod sha256;
 mod staging;
 mod terminal;
@@ -31,6 +33,7 @@ pub use artefacts::Artefacts;
 pub use disk::Disk;
 pub use file::{FileError, OutputFile};
 pub use folder::{FolderError, OutputFolder};
+pub use schema::{schema, schema_text, stamped_schema};
 pub use sha256::sha256;
 pub use staging::abandon;
 pub use terminal::{note, print};

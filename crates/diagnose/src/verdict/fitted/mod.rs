@@ -15,6 +15,7 @@ pub(super) mod weighed;
 
 use std::sync::LazyLock;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::calibration::CalibrateError;
@@ -35,7 +36,7 @@ use crate::verdict::answer::{Status, Verdict};
 use crate::verdict::by_fit;
 
 /// A feature with its coefficient and the range of what was met.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Coefficient {
     /// The feature.
     pub feature: String,
@@ -55,7 +56,7 @@ impl Coefficient {
 
 /// How often a cause that rules name was the right one where all readings of the records agree on it, and the fitted verdict finds it
 /// with its confounded effects likelier than all else together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Agreed {
     /// Right ones, or confounded effects of these.
@@ -94,7 +95,7 @@ impl AgreedOn {
 }
 
 /// Where a fitted verdict comes from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Provenance {
     /// The command that fitted it.
     pub command: String,
@@ -112,25 +113,25 @@ pub struct Provenance {
     pub log_loss_of_rules: f64,
 }
 
-/// A fitted verdict, as its file has it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The verdict as it was fitted: `calibrate --out`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Wire")]
 pub struct FittedVerdict {
-    /// Where it comes from.
+    /// Where it comes from, and its log-loss out of fold beside that of shares alone and of the rules.
     pub provenance: Provenance,
     /// How common causes were among the rigs fitted.
     pub shares: Shares,
-    /// What agreement is worth.
+    /// How often a cause that rules name was the right one where all readings of the records agree on it.
     pub agreed: Agreed,
-    /// Features of an effect.
+    /// What speaks for an effect.
     pub effect: Vec<Coefficient>,
     /// What speaks for nothing.
     pub none: Vec<Coefficient>,
-    /// What speaks for none of these.
+    /// What speaks for a cause that is no candidate.
     pub none_of_these: Vec<Coefficient>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 struct Wire {
     provenance: Provenance,
     shares: Shares,
