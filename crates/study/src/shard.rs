@@ -1,15 +1,18 @@
 //! `--shard`
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// Which of equal parts of a study runs: every `of`-th piece of work, from the `number`-th on, counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 pub struct Shard {
     /// Which part, from 1 to `of`.
+    #[schemars(range(min = 1))]
     pub number: usize,
     /// How many parts there are.
+    #[schemars(range(min = 1))]
     pub of: usize,
 }
 

@@ -1,47 +1,112 @@
-//! The comparison as one JSON object.
+//! The comparison as one JSON object. Keys stand in the order of the alphabet.
 
 use super::{Comparison, Difference};
 use crate::results::{Measured, Results};
-use serde_json::{Value, json};
-use switchback_io::output::stamped;
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
+use switchback_io::output::{stamped, stamped_schema};
 
 /// Name and version of the layout.
 const SCHEMA: &str = "switchback/compare/1";
 
-/// One JSON object, indented, with a newline at its end. A `z` that is infinite, both figures being exact and different, is null.
+/// Two reports in units of their Monte-Carlo errors: `compare --json`.
+#[derive(Serialize, JsonSchema)]
+struct ComparisonFile<'a> {
+    /// Whether nothing differs beyond chance.
+    agrees: bool,
+    /// The first report.
+    baseline: Origin<'a>,
+    /// Differences beyond chance.
+    beyond_chance: Vec<DifferenceFile<'a>>,
+    /// Whether every figure is the same.
+    identical: bool,
+    /// Truth, theory or bound that differ.
+    known: &'a [String],
+    /// Largest difference in standard errors; null where it is infinite, both figures being exact and different.
+    #[schemars(with = "Option<f64>", range(min = 0))]
+    largest_z: f64,
+    /// Figures in both.
+    measures: usize,
+    /// The second report.
+    new: Origin<'a>,
+    /// Figures that the second lacks.
+    only_baseline: &'a [String],
+    /// Figures that the first lacks.
+    only_new: &'a [String],
+    /// What chance stays below.
+    #[schemars(range(min = 0))]
+    threshold: f64,
+}
+
+/// What a report is.
+#[derive(Serialize, JsonSchema)]
+struct Origin<'a> {
+    /// The scenario's name.
+    name: &'a str,
+    /// The seed of every random stream.
+    seed: u64,
+    /// Switchback's version.
+    version: &'a str,
+}
+
+/// A figure that differs.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Difference")]
+struct DifferenceFile<'a> {
+    /// In the first report, with its Monte-Carlo standard error.
+    baseline: Measured,
+    /// What is measured.
+    measure: &'static str,
+    /// In the second report, with its Monte-Carlo standard error.
+    new: Measured,
+    /// Of which parameter.
+    parameter: &'a str,
+    /// Samples of each experiment.
+    samples: usize,
+    /// The curve.
+    series: String,
+    /// The difference in standard errors; null where it is infinite.
+    #[schemars(with = "Option<f64>")]
+    z: f64,
+}
+
+/// The JSON Schema of [`json`].
+pub fn schema() -> Schema {
+    stamped_schema::<ComparisonFile<'_>>(SCHEMA)
+}
+
+/// One JSON object, indented, with a newline at its end.
 pub fn json(comparison: &Comparison, baseline: &Results, new: &Results) -> String {
-    let largest = comparison.differences.iter().map(|d| d.z.abs()).fold(0.0, f64::max);
-    let page = json!({
-        "baseline": origin(baseline),
-        "new": origin(new),
-        "agrees": comparison.agrees(),
-        "identical": comparison.identical(),
-        "measures": comparison.differences.len(),
-        "largest_z": largest,
-        "threshold": comparison.threshold,
-        "beyond_chance": comparison.beyond_chance().into_iter().map(difference).collect::<Vec<_>>(),
-        "only_baseline": comparison.only_baseline,
-        "only_new": comparison.only_new,
-        "known": comparison.known,
-    });
+    let page = ComparisonFile {
+        agrees: comparison.agrees(),
+        baseline: origin(baseline),
+        beyond_chance: comparison.beyond_chance().into_iter().map(difference).collect(),
+        identical: comparison.identical(),
+        known: &comparison.known,
+        largest_z: comparison.differences.iter().map(|d| d.z.abs()).fold(0.0, f64::max),
+        measures: comparison.differences.len(),
+        new: origin(new),
+        only_baseline: &comparison.only_baseline,
+        only_new: &comparison.only_new,
+        threshold: comparison.threshold,
+    };
     stamped(SCHEMA, &page)
 }
 
-fn origin(results: &Results) -> Value {
-    json!({ "name": results.name, "seed": results.seed, "version": results.version })
+fn origin(results: &Results) -> Origin<'_> {
+    Origin { name: &results.name, seed: results.seed, version: &results.version }
 }
 
-fn difference(d: &Difference) -> Value {
-    let figure = |m: Measured| json!([m.value(), m.mcse()]);
-    json!({
-        "series": d.place.series.to_string(),
-        "samples": d.place.samples,
-        "parameter": d.place.parameter,
-        "measure": d.place.measure,
-        "baseline": figure(d.baseline),
-        "new": figure(d.new),
-        "z": d.z,
-    })
+fn difference(d: &Difference) -> DifferenceFile<'_> {
+    DifferenceFile {
+        baseline: d.baseline,
+        measure: d.place.measure,
+        new: d.new,
+        parameter: &d.place.parameter,
+        samples: d.place.samples,
+        series: d.place.series.to_string(),
+        z: d.z,
+    }
 }
 
 #[cfg(test)]
@@ -49,6 +114,7 @@ mod tests {
     use super::*;
     use crate::compare::compare;
     use crate::results::synthetic;
+    use serde_json::Value;
 
     #[test]
     fn the_object_says_whether_the_two_agree_and_what_differs() {

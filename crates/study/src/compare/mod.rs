@@ -5,6 +5,7 @@ mod pairs;
 mod text;
 
 pub use json::json;
+pub use json::schema;
 pub use pairs::Comparison;
 pub use pairs::Difference;
 pub use pairs::compare;

@@ -7,6 +7,7 @@ use super::tally::Tally;
 use super::workload::Workload;
 use super::{CellSpec, Study, StudyError};
 use crate::results::Series;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::iter;
 use std::ops::ControlFlow;
@@ -21,15 +22,17 @@ pub struct Single {
 }
 
 /// One parameter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Estimated {
     /// Its name in the results.
     pub name: String,
     /// The true value.
     pub truth: f64,
     /// The estimate less the truth.
+    #[schemars(with = "Option<f64>")]
     pub error: f64,
     /// The standard error that the method reports.
+    #[schemars(with = "Option<f64>")]
     pub se: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Standard errors against the length of a dataset.
 
 use super::{DesignError, Truth};
+use schemars::JsonSchema;
 use switchback_identify::excitation::PulseExperiment;
 use switchback_identify::simulation::{PlannedPrecision, PredictedErrors};
 
@@ -10,7 +11,8 @@ use switchback_identify::simulation::{PlannedPrecision, PredictedErrors};
 pub(crate) const RELIABLE_PERIODS: usize = 10;
 
 /// The method that will identify from the planned experiments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, JsonSchema)]
+#[schemars(rename_all = "kebab-case")]
 pub enum PlanMethod {
     /// What `identify` takes where both experiments are there; it reaches the Cramér–Rao bound.
     Efficient,

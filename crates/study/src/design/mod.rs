@@ -18,6 +18,7 @@ pub use forecast::PlanMethod;
 pub(crate) use forecast::Prediction;
 pub(crate) use forecast::RELIABLE_PERIODS;
 pub use json::json;
+pub use json::schema;
 pub use plan::DEFAULT_PERIODS;
 pub use plan::Length;
 pub use plan::Plan;

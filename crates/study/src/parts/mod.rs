@@ -17,11 +17,12 @@ use switchback_io::output::stamped;
 /// What shows that a folder holds a part.
 pub const PART_FILE: &str = "part.json";
 
-const SCHEMA: &str = "switchback/part/1";
+/// Name and version of the layout of [`PART_FILE`].
+pub const PART_SCHEMA: &str = "switchback/part/1";
 
 /// The text of [`PART_FILE`].
 pub fn label_text(label: &impl Serialize) -> String {
-    stamped(SCHEMA, label)
+    stamped(PART_SCHEMA, label)
 }
 
 /// What a folder says that it is.
@@ -41,7 +42,7 @@ pub fn label<L: DeserializeOwned>(folder: &Path) -> Result<L, MergeError> {
     }
     let text = read_text(&folder.join(PART_FILE))?;
     let written: Written<L> = serde_json::from_str(&text).map_err(|_| no_part())?;
-    if written.schema == SCHEMA { Ok(written.label) } else { Err(no_part()) }
+    if written.schema == PART_SCHEMA { Ok(written.label) } else { Err(no_part()) }
 }
 
 /// The scenario's file of a part's folder: it shows which kind of study or examination the part is of.

@@ -1,11 +1,12 @@
 //! One cell of the sweep and what came out of it.
 
 use super::{Group, Measured, Series};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_identify::statistics::CLASSES;
 
 /// What the replicates of one (case, border, method, m, noise, N) gave.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
     /// The curve this cell is a point of.
@@ -16,17 +17,18 @@ pub struct Cell {
     pub replicates: usize,
     /// Whether they are as precise as the scenario asks; absent where it does not ask.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "bool")]
     pub precise: Option<bool>,
     /// Replicates that gave no estimate; never redrawn.
     pub failures: Failures,
-    /// Where the truth lies in the 95 % intervals, one entry a group.
+    /// How far estimates lie from the truth in half widths of the 95 % interval that each replicate reports, one entry a group.
     pub intervals: Vec<Intervals>,
     /// One entry a parameter the method estimates: a, b, descending, ascending, each by increasing index.
     pub parameters: Vec<Parameter>,
 }
 
 /// Replicates that gave no estimate. A replicate is found again from the study's seed and its index.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Failures {
     /// How many.
@@ -42,14 +44,14 @@ pub struct Failures {
 
 /// How many replicates' estimates of the parameters of a group lie how far from the truth, in half widths of the 95 % interval that each
 /// reports: up to 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3, 5, and more. The truth is in the intervals of the first four classes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Intervals {
     /// The parameters.
     pub group: Group,
-    /// Estimates less than the truth, a number a class.
+    /// Estimates less than the truth: up to 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3, 5 half widths, and more.
     pub below: [u32; CLASSES],
-    /// Estimates greater than the truth, or equal to it.
+    /// The same of estimates greater than the truth, or equal to it.
     pub above: [u32; CLASSES],
 }
 
@@ -57,7 +59,7 @@ pub struct Intervals {
 ///
 /// Measures and their errors as in Morris, White, Crowther (2019), Table 6, doi 10.1002/sim.8086. A measure is
 /// `None` where it does not exist: no theory for this method, too few replicates, no finite value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
     /// `a1`, `b2`, `F_desc(V3)`, `F_asc(V2)`.
@@ -82,15 +84,17 @@ pub struct Parameter {
     pub mse: Option<Measured>,
     /// Share of the 95 % intervals that hold the truth.
     pub coverage: Option<Measured>,
-    /// The same with the coverage of the first-order term, less its expectation, taken out (control variate).
+    /// The same with the coverage of the first-order term, less its expectation, taken out (control variate); absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Measured")]
     pub coverage_controlled: Option<Measured>,
     /// Root mean square of the standard errors the method reports.
     pub model_sd: Option<Measured>,
     /// `model_sd / sd − 1`.
     pub model_sd_relative_error: Option<Measured>,
-    /// Bias of this method at this `N` by theory, to second order in the noise.
+    /// Bias of this method at this `N` by theory, to second order in the noise; absent where it is not worked out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64")]
     pub theory_bias: Option<f64>,
     /// Standard deviation of this method at this `N` by theory: from the information of the very samples, to first order in the noise.
     pub theory_sd: Option<f64>,

@@ -1,10 +1,11 @@
 //! The true borders, sampled finely enough to draw.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_model::hysteresis::{Branch, SwitchedHysteresis};
 
 /// The true borders of one case, in the normalisation `u_M − u_m = 1`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BorderCurve {
     /// Name of the case.
@@ -16,7 +17,7 @@ pub struct BorderCurve {
 }
 
 /// Both true borders at one position.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvePoint {
     /// Position, input units.

@@ -2,6 +2,7 @@
 
 use super::{Results, SCHEMA};
 use miette::Diagnostic;
+use schemars::Schema;
 use serde::Serialize;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
@@ -54,6 +55,11 @@ pub enum ResultsError {
         /// The layout found.
         found: u64,
     },
+}
+
+/// The JSON Schema of `results.json`, whose `schema` is a number.
+pub fn schema() -> Schema {
+    switchback_io::output::schema::<Results>(&format!("switchback/results/{SCHEMA}"))
 }
 
 /// Reads `results.json` from a file or from the report folder that holds it.

@@ -1,5 +1,6 @@
 //! A figure and its Monte-Carlo standard error.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A performance measure with its Monte-Carlo standard error (MCSE), both finite; serialised as `[value, mcse]`.
@@ -12,8 +13,9 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!((bias.value(), bias.mcse()), (0.123_457, 0.01));
 /// assert!(Measured::new(f64::NAN, 0.1).is_none());
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "(f64, f64)", into = "(f64, f64)")]
+#[schemars(extend("prefixItems" = [{ "type": "number" }, { "type": "number", "minimum": 0 }]))]
 pub struct Measured {
     value: f64,
     mcse: f64,

@@ -25,6 +25,7 @@ pub use curve::CurvePoint;
 pub use json::ResultsError;
 pub use json::parse;
 pub use json::read;
+pub use json::schema;
 pub use json::to_json;
 pub use measured::Measured;
 pub use measured::MeasuredError;
@@ -46,19 +47,22 @@ pub use summary::Summary;
 pub use summary::Verdict;
 
 use crate::scenario::{Coupling, Engine, Labels, Scenario, ScenarioError};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Version of the layout of `results.json`; a reader refuses any other.
 pub(crate) const SCHEMA: u32 = 1;
 
-/// All that a consistency study found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// What a consistency study found: `results.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Results {
-    /// [`SCHEMA`].
+    /// Version of this layout.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: u32,
     /// Always `consistency`.
+    #[schemars(extend("const" = "consistency"))]
     pub study: String,
     /// The scenario's name.
     pub name: String,
@@ -70,8 +74,9 @@ pub struct Results {
     pub version: String,
     /// The command that makes this file again.
     pub command: String,
-    /// How far a study came that was stopped; `None` where it has all its replicates.
+    /// How far a study came that was stopped; only of such a one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Partial")]
     pub partial: Option<Partial>,
     /// How the replicates were computed.
     pub engine: Engine,
@@ -79,24 +84,25 @@ pub struct Results {
     pub coupling: Coupling,
     /// The numbers of samples that slopes are fitted over.
     pub slope_samples: Vec<usize>,
-    /// What the axes are called.
+    /// What the axes are called: quantity and unit of input and output.
     pub labels: Labels,
     /// The scenario file as JSON.
+    #[schemars(with = "serde_json::Map<String, serde_json::Value>")]
     pub scenario: serde_json::Value,
-    /// The true borders, one entry a case and border.
+    /// The true borders, in the normalisation `u_M − u_m = 1`, one entry a case and border.
     pub curves: Vec<BorderCurve>,
     /// What must come out, and whether it did.
     pub expectations: Vec<Expectation>,
     /// One entry a curve and parameter group.
     pub summaries: Vec<Summary>,
-    /// Methods and borders against each other on the same noise; `None` where every cell has its own.
+    /// Methods and borders against each other on the same noise; null where every cell has its own.
     pub paired: Option<Pairing>,
-    /// One entry a cell.
+    /// One entry a cell: case × border × method × m × noise × N.
     pub cells: Vec<Cell>,
 }
 
 /// Not all of a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Partial {
     /// Replicates that were run.

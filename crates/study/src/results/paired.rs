@@ -2,6 +2,7 @@
 
 use super::measured::rounded;
 use super::{Cell, Group, Parameter, Series};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use switchback_identify::Method;
@@ -13,7 +14,7 @@ use switchback_identify::Method;
 /// that of the sweep's first border (same method, `m`, noise and `N`). `free` drives the system otherwise and has noise of its own, so it is
 /// compared over borders only. Where a precision is asked for, a cell that went on longer than the other keeps the noise they share, section by
 /// section, and the errors hold all the same.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pairing {
     /// One entry a case and method, then one a case and border, at the largest `N`.
@@ -23,7 +24,7 @@ pub struct Pairing {
 }
 
 /// A method or a border over all its parameters, `m` and noise levels (and over all borders, or methods), at the largest `N`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Overall {
     /// Name of the case.
@@ -40,13 +41,14 @@ pub struct Overall {
     pub variance_ratio: Paired,
     /// The same with control variates, where both sides have them in every parameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Paired")]
     pub variance_ratio_controlled: Option<Paired>,
     /// Geometric mean of the ratios of their mean squared errors.
     pub mse_ratio: Paired,
 }
 
 /// What is compared.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Subject {
     /// A method.
@@ -65,7 +67,7 @@ impl fmt::Display for Subject {
 }
 
 /// One curve over another on the same noise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Comparison {
     /// The curve that is judged.
@@ -81,7 +83,7 @@ pub struct Comparison {
 }
 
 /// A group of parameters at one `N`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairedGroup {
     /// `N`.
@@ -92,13 +94,14 @@ pub struct PairedGroup {
     pub variance_ratio: Paired,
     /// The same with control variates, where both sides have them in every parameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Paired")]
     pub variance_ratio_controlled: Option<Paired>,
     /// Geometric mean of the ratios of their mean squared errors.
     pub mse_ratio: Paired,
 }
 
 /// One parameter.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairedParameter {
     /// `a1`, `b2`, `F_desc(V3)`, `F_asc(V2)`.
@@ -107,6 +110,7 @@ pub struct PairedParameter {
     pub variance_ratio: Paired,
     /// The same with control variates, where both sides have them in every parameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Paired")]
     pub variance_ratio_controlled: Option<Paired>,
     /// Mean squared error over mean squared error: what decides where a bias stays.
     pub mse_ratio: Paired,
@@ -119,8 +123,9 @@ pub struct PairedParameter {
 ///
 /// Both errors are jackknifed over sections of the replicates: the first leaves the same noise out of both figures at once, the
 /// second adds the errors of either figure alone in squares. Stored to a thousandth of the smaller one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "(f64, f64, f64)", into = "(f64, f64, f64)")]
+#[schemars(extend("prefixItems" = [{ "type": "number" }, { "type": "number", "minimum": 0 }, { "type": "number", "minimum": 0 }]))]
 pub struct Paired {
     value: f64,
     mcse: f64,

@@ -1,11 +1,12 @@
 //! Which cells belong on one curve.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use switchback_identify::Method;
 
 /// What the cells of one curve over `N` share.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Series {
     /// Name of the case.
@@ -17,6 +18,7 @@ pub struct Series {
     /// Points `m` on each border.
     pub points: usize,
     /// Standard deviation of the noise, output units.
+    #[schemars(range(min = 0))]
     pub noise: f64,
 }
 
@@ -31,7 +33,7 @@ impl fmt::Display for Series {
 }
 
 /// A family of parameters that are judged together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Group {
     /// `a₁…aₙ`.

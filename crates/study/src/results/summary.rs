@@ -1,28 +1,31 @@
 //! What a curve over `N` amounts to.
 
 use super::{Group, Measured, Series};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// One group of parameters of one curve, over all `N`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
     /// The curve.
     pub series: Series,
     /// The parameters.
     pub group: Group,
-    /// Slope of log sd against log N, fitted over [`Results::slope_samples`](super::Results::slope_samples); −1/2 as N grows.
+    /// Slope of log sd against log N, fitted over `slope_samples`; −1/2 as N grows.
     pub sd_slope: Option<Fitted>,
     /// The same slope of the standard deviations that theory gives for these N; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64")]
     pub sd_slope_theory: Option<f64>,
     /// Slope of log |bias| against log N, fitted over those of them where it is resolved; −1 as N grows.
     pub bias_slope: Option<Fitted>,
     /// The same slope of the biases that theory gives for these N; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64")]
     pub bias_slope_theory: Option<f64>,
-    /// Where that is.
+    /// The `N` where the bias is resolved.
     pub bias_slope_samples: Vec<usize>,
     /// What the bias (root mean square over the group) tends to as `N` grows; 0 for a consistent method.
     pub plateau: Option<Fitted>,
@@ -39,7 +42,7 @@ pub struct Summary {
 }
 
 /// An estimate with its 95 % interval, all finite.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fitted {
     /// The estimate.
@@ -56,7 +59,7 @@ impl Fitted {
 }
 
 /// Whether the estimates converge to the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Bias and standard deviation fall as theory says.
@@ -85,7 +88,7 @@ impl fmt::Display for Verdict {
 }
 
 /// Something the scenario said must come out, and whether it did.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// What was expected.

@@ -21,6 +21,7 @@ pub use expect::Expect;
 pub use expect::Width;
 pub(crate) use switchback_identify::Method;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
@@ -62,7 +63,7 @@ pub(crate) struct Stopping {
 }
 
 /// Whether the cells of a sweep see the same noise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coupling {
     /// Replicate r of every cell sees the same unit noise (common random numbers).
@@ -72,7 +73,7 @@ pub enum Coupling {
 }
 
 /// How the replicates are computed; both engines see the same noise and give the same estimates to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Engine {
     /// One pass over the noise of a replicate serves every cell: their sufficient statistics follow by superposition.
@@ -101,7 +102,7 @@ impl Engine {
 }
 
 /// What the axes are called: quantity and unit.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Labels {
     /// The input `v`.
     pub input: String,
