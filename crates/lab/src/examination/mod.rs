@@ -28,6 +28,7 @@ pub use measure::Measure;
 pub use measure::Share;
 pub(crate) use measure::bounded;
 pub(crate) use measure::measures_table;
+pub use part::Label;
 pub use part::Part;
 pub use part::Whole;
 pub use part::case_lines;

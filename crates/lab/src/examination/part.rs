@@ -5,6 +5,7 @@
 
 use super::Judged;
 use super::KEY_FILE;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -15,11 +16,12 @@ use switchback_study::parts::{MergeError, PART_FILE, Piece, check_whole, label, 
 
 const CASES_FILE: &str = "cases.jsonl";
 
-/// Which part of what.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Label {
+/// The label of a part of an examination.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Label {
     /// The scenario's file name.
     scenario: String,
+    /// Which part.
     shard: Shard,
     /// SHA-256 of the sources that made and judged.
     program: String,

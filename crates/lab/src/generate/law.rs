@@ -3,13 +3,15 @@
 use crate::generate::dataset::Passage;
 use crate::generate::machine::Machine;
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use std::fmt::Debug;
 
 /// The unit of lengths along the input: shares of the working interval.
 pub(crate) const INTERVAL_WIDTHS: &str = "interval widths";
 
 /// Where in the block diagram an effect acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum Stage {
     /// Between the commanded input and the operator.
     Input,

@@ -1,9 +1,12 @@
 //! Where a rig stands.
 
+use schemars::JsonSchema;
+
 /// Where a rig stands, and by that who took its records.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum Setting {
-    /// Order and interval declared, designed experiments, white equation noise, the records of a [`Plan`](crate::generate::Plan).
+    /// Order and interval declared, designed experiments, white equation noise, the records of a plan of experiments.
     #[default]
     Laboratory,
     /// Nothing declared, records of everyday inputs, coloured equation noise; and, drawn from the seed, noise on the recorded input,

@@ -36,6 +36,7 @@ pub(crate) use finding::Answers;
 pub use finding::Finding;
 pub use finding::Outcome;
 pub use json::json;
+pub use json::schema;
 pub use plan::Plan;
 pub(crate) use psychometric::Psychometric;
 pub(crate) use search::Search;

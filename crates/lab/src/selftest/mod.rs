@@ -19,6 +19,7 @@ mod coverage;
 mod engines;
 mod figure;
 mod injected;
+mod json;
 mod known_answers;
 mod monte_carlo_errors;
 mod noise;
@@ -27,7 +28,8 @@ mod words;
 
 pub(crate) use chance::FALSE_ALARM;
 pub use figure::Figure;
-pub use words::json;
+pub use json::json;
+pub use json::schema;
 pub use words::table;
 
 /// A check: what it is called, what is wrong if it fails, and how it finds its figures from a seed.

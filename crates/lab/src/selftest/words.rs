@@ -1,8 +1,8 @@
-//! What the checks found, as a table with the reasons of failures, and as JSON.
+//! What the checks found, as a table with the reasons of failures.
 
 use super::{FALSE_ALARM, Figure, Finding};
 use std::fmt::Write as _;
-use switchback_io::output::{columns, stamped};
+use switchback_io::output::columns;
 
 /// Figures that are listed of a check that failed; the rest is counted.
 const LISTED: usize = 5;
@@ -43,41 +43,11 @@ fn row(finding: &Finding) -> [String; 6] {
     [finding.check.to_owned(), count, what, found, expected, verdict]
 }
 
-/// Name and version of the layout of what the checks found.
-const SCHEMA: &str = "switchback/selftest/1";
-
-/// Everything that was found.
-pub fn json(findings: &[Finding], seed: u64) -> String {
-    let figure = |figure: &Figure| {
-        let Figure { what, found, expected, .. } = figure;
-        serde_json::json!({ "what": what, "found": found, "expected": expected, "ok": figure.holds() })
-    };
-    let checks: Vec<serde_json::Value> = findings
-        .iter()
-        .map(|finding| {
-            let ok = finding.holds();
-            let figures: Vec<serde_json::Value> = finding.figures.iter().flatten().map(figure).collect();
-            serde_json::json!({
-                "check": finding.check,
-                "ok": ok,
-                "wrong": (!ok).then_some(finding.wrong),
-                "refused": finding.figures.as_ref().err(),
-                "figures": figures,
-            })
-        })
-        .collect();
-    let ok = findings.iter().all(Finding::holds);
-    stamped(
-        SCHEMA,
-        &serde_json::json!({ "seed": seed, "false_alarm": FALSE_ALARM, "ok": ok, "checks": checks }),
-    )
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn findings() -> Vec<Finding> {
+    pub(in crate::selftest) fn findings() -> Vec<Finding> {
         let wrong = "the noise of studies is wrong";
         let many = (0..7).map(|k| Figure::at_most(format!("figure {k}"), 2.0, 1.0)).collect();
         vec![
@@ -105,14 +75,5 @@ mod tests {
             assert!(reported.contains(words), "{words} is not in\n{reported}");
         }
         assert!(!reported.contains("engines FAILED"));
-    }
-
-    #[test]
-    fn json_holds_every_figure() {
-        let page: serde_json::Value = serde_json::from_str(&json(&findings(), 3)).expect("JSON");
-        assert_eq!(page["schema"], SCHEMA);
-        assert_eq!((&page["ok"], &page["checks"][0]["ok"]), (&false.into(), &true.into()));
-        assert_eq!(page["checks"][1]["figures"].as_array().map(Vec::len), Some(7));
-        assert_eq!(page["checks"][2]["refused"], "no estimate");
     }
 }
