@@ -1,19 +1,21 @@
 //! The diagnosis as one JSON object.
 
 use super::sentences;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::fitted::{self, Shares};
 use switchback_diagnose::{
-    Candidate, Cell, CellInterval, Diagnosis, Effect, Figure, FittedParameter, Horizon, HorizonGain, Together,
+    Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
+    HorizonGain, Stage, Status, Together,
 };
-use switchback_io::diagnosis::{Report, Units, reported};
-use switchback_io::output::stamped;
+use switchback_io::diagnosis::{Report, Source, Units, reported};
+use switchback_io::output::{stamped, stamped_schema};
 
 /// Name and version of the layout.
 pub(crate) const SCHEMA: &str = "switchback/gap/1";
 
-/// The object that `gap --json` prints and gap.json holds; figures that do not exist are null.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A diagnosis: `gap --json`, `gap.json`. Figures that do not exist are null.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct GapFile {
     /// The rig's name.
     pub rig: String,
@@ -22,6 +24,7 @@ pub(crate) struct GapFile {
     /// Label and unit of the output.
     pub output: String,
     /// What was diagnosed: `identified` from the fit records, `given`, or `y_sim`.
+    #[schemars(with = "Source")]
     pub model: String,
     /// The answer.
     pub verdict: Verdict,
@@ -44,9 +47,11 @@ pub(crate) struct GapFile {
     pub next_experiment: Option<Next>,
     /// Probability that nothing is missing.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability_none: f64,
     /// Probability that something is missing which is none of the candidates.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability_unexplained: f64,
     /// What a model says that was fitted to diagnoses of rigs whose cause is known; null where an order is declared or an experiment was designed.
     pub second_opinion: Option<SecondOpinion>,
@@ -56,31 +61,38 @@ pub(crate) struct GapFile {
     pub version: String,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Verdict {
     /// `none`: nothing significant; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
+    #[schemars(with = "Status")]
     pub status: String,
     /// The effects named; of a class its likeliest member.
+    #[schemars(with = "Vec<Effect>")]
     pub effects: Vec<String>,
     /// The rivals left standing, likeliest first.
+    #[schemars(with = "Vec<Effect>")]
     pub class: Vec<String>,
     /// The part of the machine that the gap points at, also where it is unexplained.
+    #[schemars(with = "Option<Stage>")]
     pub stage: Option<String>,
     /// Probability that the verdict holds.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability: f64,
     /// Whether that was calibrated for records like these; else it only ranks.
     pub calibrated: bool,
     /// An effect in the augmented model that is no cause of its own: it takes up what the law of the effect named leaves.
+    #[schemars(with = "Option<Effect>")]
     pub corrected_by: Option<String>,
     /// The model identified anew (status `refit`).
     pub refit: Option<Refit>,
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
+    #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SecondOpinion {
     /// Diagnoses that it was fitted to.
@@ -89,44 +101,52 @@ pub(crate) struct SecondOpinion {
     pub prior: Prior,
     /// What it would say.
     pub verdict: Verdict,
-    /// What the rules say.
+    /// What the rules say, before it is asked whether the other readings of the records agree.
     pub by_rules: Verdict,
     /// Every effect, likeliest first.
     pub effects: Vec<Weighed>,
     /// Probability that nothing is missing.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability_none: f64,
     /// Probability that something is missing which is none of the candidates.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability_unexplained: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Weighed {
     /// The effect.
+    #[schemars(with = "Effect")]
     pub effect: String,
     /// Its probability.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability: f64,
     /// Why.
     pub contributions: Vec<Contribution>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Prior {
-    /// The effect.
+    /// One of the effects.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub effect: f64,
-    /// What speaks for nothing.
+    /// Nothing is missing.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub none: f64,
+    /// A cause that is no candidate.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub unexplained: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Contribution {
     /// A feature of the evidence.
@@ -139,7 +159,7 @@ pub(crate) struct Contribution {
     pub adds: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Refit {
     /// Its order.
@@ -150,7 +170,7 @@ pub(crate) struct Refit {
     pub closure: Interval,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Gap {
     /// Mean square simulation error on held-out records beyond the noise, over the variance of `y`.
@@ -161,6 +181,7 @@ pub(crate) struct Gap {
     pub closure: Option<Interval>,
     /// Standard deviation of the noise, output units.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0))]
     pub noise_floor: f64,
     /// `before` of a model identified from the fit records, where another was diagnosed.
     pub identified_anew: Option<Interval>,
@@ -171,7 +192,7 @@ pub(crate) struct Gap {
     pub per_record: Vec<RecordGap>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Interval {
     /// The estimate.
@@ -182,7 +203,7 @@ pub(crate) struct Interval {
     pub ci90: [f64; 2],
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RecordGap {
     /// Its name.
@@ -203,7 +224,7 @@ pub(crate) struct RecordGap {
     pub closure: Option<Interval>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Place {
     /// What the map runs over.
@@ -227,32 +248,40 @@ pub(crate) struct Place {
     pub enrichment: f64,
     /// Significance of the energy beyond the noise, false discoveries controlled.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub q_value: f64,
     /// Significance of its being denser than elsewhere.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub enrichment_q_value: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Hypothesis {
     /// The effect.
+    #[schemars(with = "Effect")]
     pub effect: String,
     /// The part of the machine.
+    #[schemars(with = "Stage")]
     pub stage: String,
     /// Probability that it is the cause.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
     pub probability: f64,
     /// Its fitted parameters.
     pub parameters: Vec<Parameter>,
     /// Bayesian information criterion of the model with it.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub bic: f64,
     /// What it drops by: positive where the effect is worth its parameters.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub delta_bic: f64,
     /// Gain in one-step prediction, nats a held-out sample.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub heldout_log_score: f64,
     /// What it saves on the fit records, by how far ahead it predicts.
     pub gains: Vec<Gain>,
@@ -262,23 +291,26 @@ pub(crate) struct Hypothesis {
     pub unstable: bool,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Gain {
     /// Samples ahead; null for the whole record.
     pub samples: Option<usize>,
     /// Share of the mean square error that it saves.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub share: f64,
     /// The same in standard errors.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub certainty: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Pair {
     /// Both effects.
+    #[schemars(with = "Vec<Effect>")]
     pub effects: Vec<String>,
     /// Parameters of each, fitted beside the other.
     pub parameters: Vec<Vec<Parameter>>,
@@ -299,37 +331,48 @@ pub(crate) struct Pair {
     pub interaction: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Parameter {
     /// Its name.
     pub name: String,
     /// The estimate; null where it is no finite number.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// Ends of its 90 % interval; null where the likelihood gives none.
     #[serde(deserialize_with = "switchback_io::input::nullable::pair")]
+    #[schemars(with = "[Option<f64>; 2]")]
     pub ci90: [f64; 2],
     /// Its unit; empty for a pure number.
     pub unit: String,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Next {
     /// Its kind.
+    #[schemars(with = "ExperimentKind")]
     pub experiment: String,
     /// The rivals that it separates.
+    #[schemars(with = "Vec<Effect>")]
     pub separates: Vec<String>,
     /// Least distance between their predictions, root mean square over the noise.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0))]
     pub distance: f64,
     /// Seconds between samples.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sample_time: f64,
     /// The input to play.
     #[serde(deserialize_with = "switchback_io::input::nullable::numbers")]
     pub v: Vec<f64>,
+}
+
+/// The JSON Schema of [`json`].
+pub fn schema() -> Schema {
+    stamped_schema::<GapFile>(SCHEMA)
 }
 
 /// One JSON object, indented, with a newline at its end.

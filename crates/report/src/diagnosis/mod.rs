@@ -7,6 +7,7 @@ mod why;
 mod words;
 
 pub use json::json;
+pub use json::schema;
 pub(crate) use place::SIGNIFICANT;
 pub(crate) use sentences::probability;
 pub use why::why;
