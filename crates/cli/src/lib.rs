@@ -9,3 +9,4 @@ pub mod journal;
 pub mod launch;
 pub mod options;
 pub mod progress;
+pub mod schemas;

@@ -1,4 +1,5 @@
-//! Every JSON object that the program writes is what its schema in `docs/schemas` says, and no schema allows a key that it does not describe.
+//! The schemas in `docs/schemas` are those of the types that are serialised, every JSON object that the program writes is what its schema
+//! says, and no schema allows a key that it does not describe.
 
 use crate::common::{BLIND, Folder, STUDY};
 use jsonschema::Validator;
@@ -7,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
+use switchback_io::output::schema_text;
 use switchback_lab::selftest::{Figure, Finding, json as selftest_json};
 
 fn root() -> &'static Path {
@@ -19,11 +21,15 @@ fn schemas() -> BTreeMap<String, Value> {
     let schema = |path: PathBuf| {
         let schema = parsed(&fs::read_to_string(&path).expect("a schema"));
         let title = schema["title"].as_str().expect("a title").to_owned();
-        let name = title.replace("switchback/", "").replace('/', "-") + ".json";
-        assert!(path.ends_with(&name), "{} holds {title}", path.display());
+        assert!(path.ends_with(file_name(&title)), "{} holds {title}", path.display());
         (title, schema)
     };
     files.map(|file| schema(file.expect("a readable entry").path())).collect()
+}
+
+/// The file of a schema.
+fn file_name(title: &str) -> String {
+    title.replace("switchback/", "").replace('/', "-") + ".json"
 }
 
 fn parsed(text: &str) -> Value {
@@ -268,6 +274,22 @@ fn committed() -> Vec<Written> {
         .collect()
 }
 
+/// Set to write the schemas anew.
+const WRITE: &str = "SWITCHBACK_WRITE_SCHEMAS";
+
+#[test]
+fn schemas_are_those_of_the_types() {
+    for schema in switchback::schemas::schemas() {
+        let title = schema.get("title").and_then(Value::as_str).expect("a title");
+        let (path, text) = (root().join("docs/schemas").join(file_name(title)), schema_text(&schema));
+        if std::env::var_os(WRITE).is_some() {
+            fs::write(&path, &text).expect("it can be written");
+        }
+        let committed = fs::read_to_string(&path).unwrap_or_default();
+        assert!(committed == text, "{} differs from its type; {WRITE}=1 writes it anew", path.display());
+    }
+}
+
 #[test]
 fn whatever_is_written_is_what_its_schema_says() {
     let makers = [identifications, diagnoses, models, studies, the_rest, committed];
@@ -305,6 +327,7 @@ fn no_schema_allows_a_key_that_it_does_not_describe() {
             .filter(|object| object["additionalProperties"] != false && object.get("type").is_some());
         assert_eq!(open.count(), 0, "{title}");
         assert!(schema["description"].is_string(), "{title}");
+        assert!(!schema.to_string().contains("[`"), "{title}: a link to the source in a description");
     }
 }
 

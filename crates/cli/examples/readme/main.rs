@@ -12,7 +12,6 @@
 
 mod markers;
 mod quotes;
-mod schema;
 
 use miette::{IntoDiagnostic, WrapErr, miette};
 use std::collections::BTreeSet;

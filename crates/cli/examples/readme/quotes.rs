@@ -4,7 +4,6 @@
 #[allow(unreachable_pub, reason = "an example of its own")]
 mod corrections;
 
-use super::schema;
 use clap::Parser;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde_json::Value;
@@ -26,10 +25,6 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
     let [measures, rules] = blind.splitn(2, "\n\n").collect::<Vec<_>>()[..] else {
         return Err(miette!("reports/blind-sample/summary.txt holds no two tables"));
     };
-    let schemas = TABLES.map(|name| {
-        let schema = json(&format!("docs/schemas/{name}.json"))?;
-        Ok((format!("schema {name}"), schema::table(&schema)))
-    });
     let quotes = [
         ("inferred", inferred("scenarios/data/bench.csv")?),
         ("bench", verdict("reports/bench/verdict.txt")?),
@@ -46,12 +41,8 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("speed-short", ratios()?),
         ("speed", without_title(&text("reports/speed/table.md")?).to_owned()),
     ];
-    let quotes = quotes.map(|(name, text)| Ok((name.to_owned(), text)));
-    quotes.into_iter().chain(schemas).collect()
+    Ok(quotes.map(|(name, text)| (name.to_owned(), text)).into())
 }
-
-/// The layouts that a page shows key by key.
-const TABLES: [&str; 6] = ["results-1", "gap-1", "identify-1", "model-1", "power-1", "provenance-1"];
 
 /// The rows of the blind examination that the README shows.
 const BLIND_SHORT: [&str; 7] = [

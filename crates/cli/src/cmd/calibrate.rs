@@ -3,9 +3,10 @@
 use crate::failure::{CommandResult, Outcome};
 use crate::options::Output;
 use miette::Diagnostic;
+use schemars::Schema;
 use std::path::{Path, PathBuf};
-use switchback_diagnose::fitted::CalibrateError;
-use switchback_io::output::stamped;
+use switchback_diagnose::fitted::{CalibrateError, FittedVerdict};
+use switchback_io::output::{stamped, stamped_schema};
 use switchback_lab::examination::{Part, read_cases};
 use switchback_lab::field::{self, Case};
 use switchback_lab::training::calibrated;
@@ -31,6 +32,11 @@ pub struct Args {
 
 /// Name and version of the layout of a fitted verdict.
 const SCHEMA: &str = "switchback/verdict/1";
+
+/// The JSON Schema of a fitted verdict.
+pub fn schema() -> Schema {
+    stamped_schema::<FittedVerdict>(SCHEMA)
+}
 
 /// Rigs that no verdict can be fitted to.
 #[derive(Debug, Error, Diagnostic)]

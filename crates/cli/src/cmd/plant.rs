@@ -5,12 +5,15 @@ use super::rig::RigCommandError;
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Output, number, whole};
 use miette::Diagnostic;
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use switchback_diagnose::Stage;
 use switchback_identify::free::Model;
 use switchback_io::diagnosis::Units;
 use switchback_io::model::{self, ModelFile, System};
-use switchback_io::output::stamped;
+use switchback_io::output::{stamped, stamped_schema};
 use switchback_io::rig;
 use switchback_lab::generate::{
     InjectedFault, InjectedRig, InjectionContext, InjectionError, OBSERVABLE, RequestedFault,
@@ -214,13 +217,62 @@ pub fn reported(fault: &InjectedFault, unit: &str) -> String {
     text
 }
 
+/// A fault planted into measured records: `plant --json`.
+///
+/// Keys stand in the order of the alphabet.
+#[derive(Serialize, JsonSchema)]
+struct Page {
+    /// The effect's name.
+    effect: &'static str,
+    /// Whether the records themselves were changed; else a model carried it.
+    exact: bool,
+    /// Its law.
+    law: &'static str,
+    /// Its magnitude.
+    magnitude: f64,
+    /// Whether the records can show it at all.
+    observable: bool,
+    /// How it came in.
+    injection: &'static str,
+    /// What a model given beforehand misses.
+    #[schemars(range(min = 0))]
+    raw_size: f64,
+    /// The residual without the fault, output units.
+    #[schemars(range(min = 0))]
+    residual: f64,
+    /// What survives identification anew, over the residual.
+    #[schemars(range(min = 0))]
+    size: f64,
+    /// Where it acts.
+    #[schemars(with = "Stage")]
+    stage: &'static str,
+    /// Its unit.
+    unit: &'static str,
+    /// Size asked for.
+    #[schemars(range(min = 0))]
+    wanted_size: f64,
+}
+
+/// The JSON Schema of [`page`].
+pub fn schema() -> Schema {
+    stamped_schema::<Page>(SCHEMA)
+}
+
 /// The same as one JSON object.
 pub fn page(fault: &InjectedFault) -> String {
-    let page = serde_json::json!({
-        "effect": fault.effect, "law": fault.law, "stage": fault.stage.name(), "planting": fault.injection.name(),
-        "exact": fault.injection.is_exact(), "magnitude": fault.magnitude, "unit": fault.unit,
-        "wanted_size": fault.wanted, "size": fault.size, "raw_size": fault.raw, "residual": fault.residual,
-        "observable": fault.is_observable(),
-    });
+    let page = Page {
+        effect: fault.effect,
+        exact: fault.injection.is_exact(),
+        law: fault.law,
+        magnitude: fault.magnitude,
+        observable: fault.is_observable(),
+        injection: fault.injection.name(),
+        raw_size: fault.raw,
+        residual: fault.residual,
+        size: fault.size,
+        stage: fault.stage.name(),
+        unit: fault.unit,
+        wanted_size: fault.wanted,
+    };
     stamped(SCHEMA, &page)
 }

@@ -3,11 +3,12 @@
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Output, Threads};
 use miette::{Diagnostic, IntoDiagnostic};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use switchback_io::output::{Artefacts, columns, stamped};
+use switchback_io::output::{Artefacts, columns, stamped, stamped_schema};
 use switchback_study::consistency::{Estimated, Single, SingleRecord, Study};
 use switchback_study::results::{self, Cell, Results, Series};
 use thiserror::Error;
@@ -192,22 +193,36 @@ fn all_cells(id: Id, cells: &[(usize, &Cell, &Single)]) -> String {
     text
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
+/// Name and version of the layout.
+const SCHEMA: &str = "switchback/replay/1";
+
+/// One replicate alone: `replay --json`.
+#[derive(Serialize, JsonSchema)]
 struct Page<'a> {
+    /// Its number.
     replicate: u32,
+    /// The cells.
     cells: Vec<PageCell<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Cell")]
 struct PageCell<'a> {
+    /// Its number in results.json.
     cell: usize,
     #[serde(flatten)]
     series: &'a Series,
+    /// `N`: regression samples of each experiment.
     samples: usize,
     /// Why there are no estimates.
     failed: Option<&'a str>,
+    /// Estimates with their errors: estimate less truth.
     parameters: &'a [Estimated],
+}
+
+/// The JSON Schema of what `--json` prints.
+pub fn schema() -> Schema {
+    stamped_schema::<Page<'_>>(SCHEMA)
 }
 
 fn json(id: Id, cells: &[(usize, &Cell, &Single)]) -> String {
@@ -218,7 +233,7 @@ fn json(id: Id, cells: &[(usize, &Cell, &Single)]) -> String {
         failed: single.estimates.as_ref().err().map(String::as_str),
         parameters: single.estimates.as_deref().unwrap_or_default(),
     });
-    stamped("switchback/replay/1", &Page { replicate: id.replicate, cells: cells.collect() })
+    stamped(SCHEMA, &Page { replicate: id.replicate, cells: cells.collect() })
 }
 
 /// Each record as the data that every verb reads.

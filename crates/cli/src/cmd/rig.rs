@@ -3,11 +3,14 @@
 use crate::failure::{CommandResult, Outcome};
 use crate::options::{Output, number, whole};
 use miette::Diagnostic;
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use switchback_diagnose::Stage;
 use switchback_io::diagnosis::Units;
 use switchback_io::input::closest;
-use switchback_io::output::{print, stamped};
+use switchback_io::output::{print, stamped, stamped_schema};
 use switchback_io::rig;
 use switchback_lab::generate::{
     EFFECTS, FOREIGN, Family, Key, MadeRig, MakeError, MakeRig, RequestedFault, Setting, TrueEffect, laws_of,
@@ -85,7 +88,7 @@ impl From<MakeError> for RigCommandError {
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
     if args.list {
-        print(&if args.json { stamped(LIST_SCHEMA, &list_json()) } else { list() })?;
+        print(&if args.json { stamped(LIST_SCHEMA, &list_file()) } else { list() })?;
         return Ok(Outcome::Done);
     }
     let recipe = recipe(args).map_err(RigCommandError::from)?;
@@ -94,7 +97,7 @@ pub fn run(args: &Args) -> CommandResult {
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }
-    args.output.quiet.describe_or(args.json, || stamped(SCHEMA, &key_json(&made)), || reported(&made))?;
+    args.output.quiet.describe_or(args.json, || stamped(SCHEMA, &key_file(&made)), || reported(&made))?;
     Ok(Outcome::Done)
 }
 
@@ -160,24 +163,115 @@ fn in_a_row(names: &[&str]) -> String {
     }
 }
 
-/// What was put in as JSON.
-fn key_json(MadeRig { rig, key, .. }: &MadeRig) -> serde_json::Value {
-    let effects: Vec<_> = key
-        .effects
-        .iter()
-        .map(|e| {
-            let (magnitude, unit) = measured(e, (rig, key));
-            serde_json::json!({
-                "effect": e.effect, "law": e.law, "plain": e.plain, "stage": e.stage.name(),
-                "quantity": e.quantity, "magnitude": magnitude, "unit": unit, "wanted_size": e.wanted, "size": e.size,
-            })
-        })
-        .collect();
-    serde_json::json!({
-        "seed": key.seed, "order": key.order, "a": key.a, "b": key.b, "borders": key.borders,
-        "curved": key.curved, "noise_sd": key.noise_sd, "size": key.size, "effects": effects,
-        "setting": key.setting.name(), "base": key.base,
-    })
+/// What was put into a made rig: `rig --json`.
+///
+/// Keys stand in the order of the alphabet.
+#[derive(Serialize, JsonSchema)]
+struct KeyFile<'a> {
+    /// `a₁…aₙ`.
+    a: &'a [f64],
+    /// `b₁…bₙ`.
+    b: &'a [f64],
+    /// Effects that the machine has by itself.
+    base: &'a [&'static str],
+    /// Shape of the borders.
+    borders: &'static str,
+    /// Whether they are curved between the levels.
+    curved: bool,
+    /// The effects.
+    effects: Vec<EffectFile>,
+    /// Standard deviation of the noise.
+    #[schemars(range(min = 0))]
+    noise_sd: f64,
+    /// Order of the linear part.
+    order: usize,
+    /// Its seed.
+    seed: u64,
+    /// Where the rig stands.
+    #[schemars(with = "Setting")]
+    setting: &'static str,
+    /// Size of all effects together.
+    #[schemars(range(min = 0))]
+    size: f64,
+}
+
+/// An effect that was put in.
+#[derive(Serialize, JsonSchema)]
+struct EffectFile {
+    /// The effect's name.
+    effect: &'static str,
+    /// Its law.
+    law: &'static str,
+    /// Its magnitude.
+    magnitude: f64,
+    /// Whether the law is the plain one.
+    plain: bool,
+    /// What the magnitude is.
+    quantity: Option<&'static str>,
+    /// Size reached.
+    #[schemars(range(min = 0))]
+    size: f64,
+    /// Where it acts.
+    #[schemars(with = "Stage")]
+    stage: &'static str,
+    /// Its unit.
+    unit: String,
+    /// Size asked for.
+    #[schemars(range(min = 0))]
+    wanted_size: f64,
+}
+
+/// Effects that rigs can be made with: `rig --list --json`.
+#[derive(Serialize, JsonSchema)]
+struct ListFile {
+    /// Effects that the diagnosis knows.
+    effects: Vec<LawsFile>,
+    /// Effects that it does not know.
+    foreign: Vec<LawsFile>,
+}
+
+/// The laws of an effect.
+#[derive(Serialize, JsonSchema)]
+struct LawsFile {
+    /// The effect's name.
+    effect: &'static str,
+    /// Names of its laws, the plain one first.
+    laws: Vec<&'static str>,
+}
+
+/// The JSON Schemas of what was put in and of the list of effects.
+pub fn schemas() -> [Schema; 2] {
+    [stamped_schema::<KeyFile<'_>>(SCHEMA), stamped_schema::<ListFile>(LIST_SCHEMA)]
+}
+
+fn key_file(MadeRig { rig, key, .. }: &MadeRig) -> KeyFile<'_> {
+    let effect = |e: &TrueEffect| {
+        let (magnitude, unit) = measured(e, (rig, key));
+        EffectFile {
+            effect: e.effect,
+            law: e.law,
+            magnitude,
+            plain: e.plain,
+            quantity: e.quantity,
+            size: e.size,
+            stage: e.stage.name(),
+            unit,
+            wanted_size: e.wanted,
+        }
+    };
+    KeyFile {
+        a: &key.a,
+        b: &key.b,
+        base: &key.base,
+        borders: key.borders,
+        curved: key.curved,
+        effects: key.effects.iter().map(effect).collect(),
+        noise_sd: key.noise_sd,
+        order: key.order,
+        seed: key.seed,
+        setting: key.setting.name(),
+        size: key.size,
+    }
 }
 
 fn list() -> String {
@@ -196,10 +290,10 @@ fn list() -> String {
     text
 }
 
-fn list_json() -> serde_json::Value {
-    let laws = |names: &[&'static str]| -> Vec<serde_json::Value> {
-        let laws = |name| laws_of(name).iter().map(|law| law.name()).collect::<Vec<_>>();
-        names.iter().map(|name| serde_json::json!({ "effect": name, "laws": laws(name) })).collect()
+fn list_file() -> ListFile {
+    let laws = |names: &[&'static str]| -> Vec<LawsFile> {
+        let laws = |name| laws_of(name).iter().map(|law| law.name()).collect();
+        names.iter().map(|name| LawsFile { effect: name, laws: laws(name) }).collect()
     };
-    serde_json::json!({ "effects": laws(&EFFECTS), "foreign": laws(&FOREIGN) })
+    ListFile { effects: laws(&EFFECTS), foreign: laws(&FOREIGN) }
 }

@@ -16,6 +16,7 @@ use crate::options::{Quiet, Threads};
 use crate::progress::Meter;
 use miette::IntoDiagnostic;
 use part::Part;
+use schemars::Schema;
 use std::path::Path;
 use switchback_io::output::{Artefacts, OutputFolder, note};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
@@ -25,6 +26,11 @@ use switchback_study::checkpoint::{CHECKPOINT_FILE, Checkpoint, Found};
 use switchback_study::consistency::{self, Ended, Progress, RunState, Study};
 use switchback_study::results::{Results, to_json};
 use switchback_study::scenario::Scenario;
+
+/// The JSON Schema of the label of a part.
+pub fn part_schema() -> Schema {
+    part::schema()
+}
 
 /// What the folder of a report gets.
 const FILES: [&str; report::FILES.len() + 2] = {

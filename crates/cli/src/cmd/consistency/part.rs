@@ -2,19 +2,22 @@
 
 use super::order::Order;
 use crate::build::BUILD;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use switchback_io::input::{FileError, read_text, stream};
-use switchback_io::output::Artefacts;
+use switchback_io::output::{Artefacts, stamped_schema};
 use switchback_io::provenance::PROVENANCE_FILE;
+use switchback_lab::examination;
 use switchback_study::Shard;
 use switchback_study::checkpoint::CHECKPOINT_FILE;
 use switchback_study::consistency::{RunState, Study};
-use switchback_study::parts::{MergeError, PART_FILE, Piece, label, label_text};
+use switchback_study::parts::{MergeError, PART_FILE, PART_SCHEMA, Piece, label, label_text};
 use switchback_study::scenario::{Engine, Scenario, ScenarioError};
 
-/// What shows which part it is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The label of a part of a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(super) struct Label {
     /// The scenario's file name.
     pub(super) scenario: String,
@@ -22,8 +25,27 @@ pub(super) struct Label {
     pub(super) command: String,
     /// The engine that runs it.
     pub(super) engine: Engine,
-    /// Which part; none for the rounds before, put together.
+    /// Which part; null for the rounds before, put together.
     pub(super) shard: Option<Shard>,
+}
+
+/// What `part.json` holds: the label of a part of a study, or of an examination.
+enum AnyLabel {}
+
+impl JsonSchema for AnyLabel {
+    fn schema_name() -> Cow<'static, str> {
+        "Label".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let forms = [Label::json_schema(generator), examination::Label::json_schema(generator)];
+        json_schema!({ "description": "A part of a study or examination: `part.json`.", "anyOf": forms })
+    }
+}
+
+/// The JSON Schema of `part.json`.
+pub(super) fn schema() -> Schema {
+    stamped_schema::<AnyLabel>(PART_SCHEMA)
 }
 
 /// A part of a study.
