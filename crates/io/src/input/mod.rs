@@ -2,6 +2,7 @@
 
 mod closest;
 mod file_error;
+pub mod gzip;
 pub mod json_file;
 mod kinds;
 mod mat;
