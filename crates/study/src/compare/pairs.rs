@@ -54,10 +54,11 @@ const LEVEL: f64 = 0.01;
 /// then errs towards calling a change chance.
 pub fn compare(baseline: &Results, new: &Results) -> Comparison {
     let (mut differences, mut known) = (Vec::new(), Vec::new());
+    let rounding = rounding(baseline, new);
     for cell in &baseline.cells {
         for (parameter, other) in twins(cell, new) {
-            differences.extend(pair(cell, parameter, other));
-            known.extend(changed(cell, parameter, other));
+            differences.extend(pair(cell, (parameter, other), rounding));
+            known.extend(changed(cell, (parameter, other), rounding));
         }
     }
     let (only_baseline, only_new) = (lacking(baseline, new), lacking(new, baseline));
@@ -107,7 +108,7 @@ fn twins<'r>(cell: &'r Cell, other: &'r Results) -> impl Iterator<Item = (&'r Pa
     cell.parameters.iter().filter_map(of)
 }
 
-/// Cells, parameters and measures of one table that the other lacks.
+/// Cells, parameters and measures of one table that the other lacks; a condensed one has fewer measures by design.
 fn lacking(one: &Results, other: &Results) -> Vec<String> {
     let mut names = Vec::new();
     for cell in &one.cells {
@@ -118,7 +119,7 @@ fn lacking(one: &Results, other: &Results) -> Vec<String> {
         let has = |p: &&Parameter| twin.parameters.iter().any(|q| q.name == p.name);
         let missing = cell.parameters.iter().filter(|p| !has(p));
         names.extend(missing.map(|p| format!("{}: {}", name(cell), p.name)));
-        for (p, q) in twins(cell, other) {
+        for (p, q) in twins(cell, other).filter(|_| other.digits.is_none()) {
             let lost = MEASURES.iter().filter(|(_, get)| get(p).is_some() && get(q).is_none());
             names.extend(lost.map(|(measure, _)| format!("{}: {measure} of {}", name(cell), p.name)));
         }
@@ -137,12 +138,12 @@ const KNOWN: [(&str, Known); 5] = [
 ];
 
 /// What is known of a parameter without any noise and is not the same.
-fn changed(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<String> {
+fn changed(cell: &Cell, (baseline, new): (&Parameter, &Parameter), rounding: f64) -> Vec<String> {
     let differs = |(what, get): (&str, Known)| {
         let reported = |x: Option<f64>| x.map_or_else(|| "none".to_owned(), |x| x.to_string());
         let (one, other) = (get(baseline), get(new));
         let is_same = match (one, other) {
-            (Some(one), Some(other)) => is_rounding(one, other),
+            (Some(one), Some(other)) => is_rounding(one, other, rounding),
             (one, other) => one == other,
         };
         let (place, name) = (name(cell), &baseline.name);
@@ -164,7 +165,7 @@ const MEASURES: [(&str, Getter); 8] = [
     ("model_sd", |p| p.model_sd),
 ];
 
-fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
+fn pair(cell: &Cell, (baseline, new): (&Parameter, &Parameter), rounding: f64) -> Vec<Difference> {
     MEASURES
         .into_iter()
         .filter_map(|(measure, get)| {
@@ -175,7 +176,7 @@ fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
                 parameter: baseline.name.clone(),
                 measure,
             };
-            let z = distance(baseline_figure, new_figure);
+            let z = distance(baseline_figure, new_figure, rounding);
             Some(Difference { place, baseline: baseline_figure, new: new_figure, z })
         })
         .collect()
@@ -185,15 +186,22 @@ fn pair(cell: &Cell, baseline: &Parameter, new: &Parameter) -> Vec<Difference> {
 /// matters where a figure hardly varies, so that its own error is lost in rounding.
 const ROUNDING: f64 = 1e-8;
 
-fn distance(baseline: Measured, new: Measured) -> f64 {
-    if is_rounding(baseline.value(), new.value()) {
+/// The share of themselves that two tables' equal figures may differ by: more where one has figures of few digits.
+fn rounding(baseline: &Results, new: &Results) -> f64 {
+    let half_a_digit = |digits: u32| 5.0 * 10f64.powi(-(digits as i32));
+    let digits = [baseline.digits, new.digits].into_iter().flatten();
+    digits.map(half_a_digit).fold(ROUNDING, f64::max)
+}
+
+fn distance(baseline: Measured, new: Measured, rounding: f64) -> f64 {
+    if is_rounding(baseline.value(), new.value(), rounding) {
         return 0.0;
     }
     (new.value() - baseline.value()) / baseline.mcse().hypot(new.mcse())
 }
 
-fn is_rounding(one: f64, other: f64) -> bool {
-    (other - one).abs() <= ROUNDING * one.abs().max(other.abs())
+fn is_rounding(one: f64, other: f64, rounding: f64) -> bool {
+    (other - one).abs() <= rounding * one.abs().max(other.abs())
 }
 
 /// Šidák's threshold for `count` differences; infinite for none.
@@ -283,9 +291,9 @@ mod tests {
     #[test]
     fn exact_figures_that_differ_are_beyond_any_chance() {
         let exact = |x| Measured::new(x, 0.0).expect("finite");
-        assert_eq!(distance(exact(1.0), exact(1.0)), 0.0);
-        assert_eq!(distance(exact(1.0), exact(1.0 + 1e-10)), 0.0);
-        assert_eq!(distance(exact(1.0), exact(2.0)), f64::INFINITY);
+        assert_eq!(distance(exact(1.0), exact(1.0), ROUNDING), 0.0);
+        assert_eq!(distance(exact(1.0), exact(1.0 + 1e-10), ROUNDING), 0.0);
+        assert_eq!(distance(exact(1.0), exact(2.0), ROUNDING), f64::INFINITY);
     }
 
     #[test]

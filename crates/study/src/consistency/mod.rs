@@ -194,6 +194,7 @@ impl<'s> Study<'s> {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             command,
             partial,
+            digits: None,
             engine: scenario.engine(),
             coupling: scenario.coupling(),
             slope_samples: scenario.sweep().slope_samples().to_vec(),

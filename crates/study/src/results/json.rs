@@ -1,12 +1,13 @@
 //! `results.json`: writing it byte for byte the same, and refusing what is not one.
 
-use super::{Results, SCHEMA};
+use super::{Results, SCHEMA, condensed};
 use miette::Diagnostic;
 use schemars::Schema;
 use serde::Serialize;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use switchback_io::input::gzip::{self, GzipError};
 use switchback_io::input::json_file::{self, JsonError};
 use switchback_io::output::{NotWhole, verify};
 use thiserror::Error;
@@ -24,6 +25,10 @@ pub enum ResultsError {
         /// What the system said.
         source: io::Error,
     },
+    /// The compressed file gives no text.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Gzip(#[from] GzipError),
     /// The folder is not as one run wrote it.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -62,7 +67,13 @@ pub fn schema() -> Schema {
     switchback_io::output::schema::<Results>(&format!("switchback/results/{SCHEMA}"))
 }
 
-/// Reads `results.json` from a file or from the report folder that holds it.
+/// The file of the results in a report folder.
+const NAME: &str = "results.json";
+
+/// The same in a folder of the repository, [condensed] and compressed.
+pub const COMPRESSED: &str = "results.json.gz";
+
+/// Reads `results.json` from a file or from the report folder that holds it; a folder without it may hold [`COMPRESSED`] instead.
 ///
 /// # Errors
 /// [`ResultsError`] if it is missing, no result table, of another layout, or in a folder that is not as one run wrote it.
@@ -71,10 +82,20 @@ pub fn read(path: &Path) -> Result<Results, ResultsError> {
     if is_folder {
         verify(path, |_| true)?;
     }
-    let path = if is_folder { path.join("results.json") } else { path.to_owned() };
-    let text = std::fs::read_to_string(&path)
-        .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?;
+    let path = if is_folder { in_folder(path) } else { path.to_owned() };
+    let text = if gzip::is_gzip(&path) {
+        gzip::read(&path)?
+    } else {
+        std::fs::read_to_string(&path)
+            .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?
+    };
     parse(&path, &text)
+}
+
+fn in_folder(folder: &Path) -> PathBuf {
+    let compressed = folder.join(COMPRESSED);
+    let plain = folder.join(NAME);
+    if plain.exists() || !compressed.exists() { plain } else { compressed }
 }
 
 /// The results that a text holds; `path` is what messages call it.
@@ -91,8 +112,16 @@ pub fn parse(path: &Path, text: &str) -> Result<Results, ResultsError> {
         Some(found) if found != u64::from(SCHEMA) => {
             Err(ResultsError::OtherSchema { path: path.to_owned(), found })
         }
+        _ if value.get("parameters").is_some() => parse_condensed(path, value),
         _ => json_file::parse(path, text).map_err(refuse),
     }
+}
+
+fn parse_condensed(path: &Path, value: serde_json::Value) -> Result<Results, ResultsError> {
+    let refuse = |message| ResultsError::NotResults { place: path.display().to_string(), message };
+    let restored = condensed::restored(value)
+        .ok_or_else(|| refuse("its columns and its cells have different numbers of parameters".to_owned()))?;
+    serde_json::from_value(restored).map_err(|error| refuse(error.to_string()))
 }
 
 /// The bytes of `results.json`: one parameter a line, so that changes of a committed report can be read.
@@ -188,6 +217,27 @@ mod tests {
         let back = read(folder.path()).expect("it reads back");
         assert_eq!(back, results);
         assert_eq!(to_json(&back), text);
+    }
+
+    #[test]
+    fn a_folder_with_a_compressed_table_alone_is_read_from_it() {
+        let mut results = synthetic::results();
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let place = folder.path().join(COMPRESSED);
+        let compressed = gzip::compressed(&condensed::to_json(&results));
+        std::fs::write(&place, &compressed).expect("it can be written");
+        assert!(read(folder.path()).expect("results").digits.is_some());
+        assert!(read(&place).expect("results").digits.is_some());
+        std::fs::write(&place, &compressed[..compressed.len() / 2]).expect("it can be written");
+        let reported = read(folder.path()).expect_err("cut off").to_string();
+        assert!(reported.contains(COMPRESSED) && reported.contains("cut off"), "{reported}");
+        results.seed = 99;
+        std::fs::write(folder.path().join(NAME), to_json(&results)).expect("it can be written");
+        assert_eq!(
+            read(folder.path()).expect("results").seed,
+            99,
+            "where both are there the plain one counts"
+        );
     }
 
     #[test]

@@ -39,6 +39,12 @@ impl Measured {
         })
     }
 
+    /// The figure with so many significant digits at most and no more than a tenth of its error asks for, the error with two.
+    pub(super) fn shortened(self, digits: u32) -> Self {
+        let value = rounded(significant(self.value, digits), 0.1 * self.mcse);
+        Self { value, mcse: significant(self.mcse, 2) }
+    }
+
     /// The figure.
     pub fn value(&self) -> f64 {
         self.value
@@ -72,6 +78,11 @@ impl From<Measured> for (f64, f64) {
     fn from(m: Measured) -> Self {
         (m.value, m.mcse)
     }
+}
+
+/// The number rounded to so many significant digits.
+pub(super) fn significant(x: f64, digits: u32) -> f64 {
+    format!("{x:.*e}", digits.saturating_sub(1) as usize).parse().unwrap_or(x)
 }
 
 /// The decimal number with fewest digits within `resolution` of `x`; `x` itself where the resolution is zero.

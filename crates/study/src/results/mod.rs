@@ -4,6 +4,7 @@
 //! of `results.json` depend on the values alone; numbers that are not finite cannot occur in it.
 
 mod cell;
+pub mod condensed;
 mod csv;
 mod curve;
 mod json;
@@ -22,6 +23,7 @@ pub use cell::Parameter;
 pub use csv::to_csv;
 pub use curve::BorderCurve;
 pub use curve::CurvePoint;
+pub use json::COMPRESSED;
 pub use json::ResultsError;
 pub use json::parse;
 pub use json::read;
@@ -78,6 +80,9 @@ pub struct Results {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Partial")]
     pub partial: Option<Partial>,
+    /// Significant digits that the figures of cells are rounded to in a [condensed] table; `None` where none is rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub digits: Option<u32>,
     /// How the replicates were computed.
     pub engine: Engine,
     /// Whether the cells of a case share their noise (all pulse methods' do; those of `free` share another).
@@ -125,6 +130,17 @@ impl Results {
     pub fn to_scenario(&self) -> Result<Scenario, ScenarioError> {
         let text = toml::to_string(&self.scenario).unwrap_or_default();
         Ok(Scenario::parse(&format!("{}.toml", self.name), &text)?.on(self.engine))
+    }
+
+    /// What readers of a [condensed] table must know; `None` where nothing is rounded.
+    pub fn rounding(&self) -> Option<String> {
+        let reported = |digits| {
+            format!(
+                "ROUNDED: figures have {digits} significant digits, and comparisons of single parameters are left out. `{}` gives all of them.",
+                self.command
+            )
+        };
+        self.digits.map(reported)
     }
 
     /// Whether everything the scenario expects came out.

@@ -29,6 +29,7 @@ pub fn results() -> Results {
         version: "0.1.0".to_owned(),
         command: "switchback scenarios/synthetic.toml".to_owned(),
         partial: None,
+        digits: None,
         engine: Engine::Superposed,
         coupling: Coupling::Shared,
         slope_samples: vec![1_000, 3_000, 10_000, 30_000, 100_000],
