@@ -11,7 +11,7 @@ use switchback_study::results::{self, Results};
 /// Compare two results in units of their Monte-Carlo errors; exit code 1 where they differ beyond chance.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The results to compare with: a results.json or the report folder that holds one.
+    /// The results to compare with: a results.json, a results.json.gz, or the report folder that holds one.
     baseline: PathBuf,
 
     /// The results to judge.

@@ -16,7 +16,7 @@ use thiserror::Error;
 /// Run one replicate of a study again, alone: why it has no estimate, or how far off one is.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The results of the study: a results.json or the report folder that holds one.
+    /// The results of the study: a results.json, a results.json.gz, or the report folder that holds one.
     results: PathBuf,
 
     /// CELL:REPLICATE, both as in results.json and counted from 0; or REPLICATE alone, for every cell

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use switchback_io::input::json_file;
+use switchback_io::input::{gzip, json_file};
 use switchback_io::output::{Artefacts, verify};
+use switchback_study::results::{COMPRESSED, ResultsError};
 
 /// Texts by their names, and the folder that messages name.
 #[derive(Debug, Clone)]
@@ -42,10 +43,13 @@ impl Kind {
     }
 }
 
+const RESULTS: &str = "results.json";
+
 /// Whether a page may show a file.
 fn is_shown(name: &str) -> bool {
     let named = [
-        "results.json",
+        RESULTS,
+        COMPRESSED,
         "gap.json",
         "estimate.json",
         "model.json",
@@ -90,9 +94,13 @@ impl Files {
         for entry in fs::read_dir(folder).map_err(unreadable(folder))? {
             let path = entry.map_err(unreadable(folder))?.path();
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
-            if is_shown(&name) && path.is_file() {
+            if is_shown(&name) && name != COMPRESSED && path.is_file() {
                 texts.insert(name, fs::read_to_string(&path).map_err(unreadable(&path))?);
             }
+        }
+        let compressed = folder.join(COMPRESSED);
+        if !texts.contains_key(RESULTS) && compressed.is_file() {
+            texts.insert(COMPRESSED.to_owned(), gzip::read(&compressed).map_err(ResultsError::from)?);
         }
         let files = Self { folder: folder.to_owned(), texts };
         // Whatever is drawn again may be missing: of a study all but its results.
@@ -106,7 +114,7 @@ impl Files {
     /// # Errors
     /// [`PageError`] if they are none, or more than one.
     pub fn kind(&self) -> Result<Kind, PageError> {
-        let results = self.text("results.json").map(|text| match serde_json::from_str(text) {
+        let results = self.results().map(|(_, text)| match serde_json::from_str(text) {
             Ok(Peek { schema: Some(Value::String(_)) }) => Kind::Examination,
             _ => Kind::Study,
         });
@@ -121,6 +129,11 @@ impl Files {
                 Err(PageError::Mixture { folder: self.folder.clone(), kinds: reported.join(" and ") })
             }
         }
+    }
+
+    /// The name and text of the results of a study or an examination.
+    pub(super) fn results(&self) -> Option<(&'static str, &str)> {
+        [RESULTS, COMPRESSED].into_iter().find_map(|name| Some((name, self.text(name)?)))
     }
 
     /// The text of a file.

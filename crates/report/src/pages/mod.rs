@@ -40,7 +40,11 @@ pub const INDEX: &str = "index.html";
 /// # Errors
 /// [`PageError`] if they are not there or cannot be read.
 pub fn results(files: &Files) -> Result<Results, PageError> {
-    Ok(results::parse(&files.place("results.json"), files.needed("results.json")?)?)
+    let (name, text) = match files.results() {
+        Some(found) => found,
+        None => ("results.json", files.needed("results.json")?),
+    };
+    Ok(results::parse(&files.place(name), text)?)
 }
 
 /// The files of a report with the page that is drawn from them.

@@ -8,7 +8,7 @@ use super::sheet::{Grid, Sheet};
 use super::spread::ERRORS;
 use super::style::{ASCENDING, DESCENDING, PALE, Pen, RADIUS, count, plain, tint};
 use plotters::style::RGBColor;
-use switchback_study::results::{BorderCurve, Cell, CurvePoint, Group, Results};
+use switchback_study::results::{BorderCurve, Cell, CurvePoint, Group, Parameter, Results};
 
 /// The borders, and how far the bars of each stand beside their place, pixels, so that neither hides the other.
 const BORDERS: [(Group, RGBColor, f64); 2] =
@@ -77,8 +77,15 @@ fn estimates(cell: &Cell, group: Group) -> Vec<(f64, f64, f64)> {
     cell.parameters
         .iter()
         .filter(|p| p.group == group)
-        .filter_map(|p| Some((p.v?, p.mean_estimate?, p.sd.map_or(0.0, |sd| ERRORS * sd.value()))))
+        .filter_map(|p| {
+            Some((p.v?, mean(p)?, p.sd.or(p.sd_controlled).map_or(0.0, |sd| ERRORS * sd.value())))
+        })
         .collect()
+}
+
+/// The mean estimate; a condensed table shows it by the bias.
+fn mean(parameter: &Parameter) -> Option<f64> {
+    parameter.mean_estimate.or_else(|| Some(parameter.truth + parameter.best_bias()?.value()))
 }
 
 /// The truth and the estimates at the largest `N` set the scale. Bars of the smallest `N` widen it by half its height to

@@ -23,6 +23,9 @@ pub(super) fn page(results: &Results, figures: &[Figure]) -> String {
         },
         table(results)
     );
+    if let Some(rounding) = results.rounding() {
+        let _ = writeln!(text, "\n{}", markdown_text(&rounding));
+    }
     for figure in figures {
         let _ = writeln!(text, "\n![{0}]({0})", figure.name);
     }

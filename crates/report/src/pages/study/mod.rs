@@ -23,6 +23,7 @@ pub(crate) fn study(results: &Results, figures: &[Figure]) -> Result<String, Pag
         p class="lead" { (results.question) }
         div class="box" {
             @if let Some(partial) = results.partial { p class="bad" { strong { (partial) } } }
+            @if let Some(rounding) = results.rounding() { p class="bad" { strong { (rounding) } } }
             (answer::answer(results))
         }
     };
