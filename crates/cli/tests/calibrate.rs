@@ -3,16 +3,11 @@
 use crate::common::Folder;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Output;
 
-fn report() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/field-slice")
-}
-
 fn calibrated(folder: &Folder, words: &[&str]) -> Output {
-    let from = report().display().to_string();
-    folder.switchback(&[&["calibrate", &from], words].concat()).output().expect("it runs")
+    let from = folder.judged_slice();
+    folder.switchback(&[&["calibrate", from], words].concat()).output().expect("it runs")
 }
 
 /// The committed examination is small: what is fitted to it is a check of the command, and no verdict of use.
@@ -62,7 +57,7 @@ fn folders_that_hold_no_judged_rigs_are_refused() {
     assert_eq!(output.status.code(), Some(2));
     let words = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(words.contains("holds no judged rigs of a field examination"), "{words}");
-    let twice = calibrated(&folder, &[&report().display().to_string()]);
+    let twice = calibrated(&folder, &["field-slice"]);
     assert_eq!(twice.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&twice.stderr).contains("`field-slice` is among the folders already"));
     // Nothing is written over.

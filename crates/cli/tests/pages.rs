@@ -3,7 +3,9 @@
 use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;
 use std::path::Path;
+use switchback_io::input::gzip;
 use switchback_io::output::sha256;
+use switchback_study::results::{self, COMPRESSED, condensed};
 
 /// Runs a command that must do its work.
 fn done(folder: &Folder, arguments: &[&str]) {
@@ -200,6 +202,48 @@ fn other_formats_and_foreign_figures_are_refused() {
     folder.write("study/index.html", "mine");
     refused(&folder, &["report", "study"], &["index.html"]);
     assert_eq!(fs::read_to_string(folder.path("study/index.html")).expect("it is there"), "mine");
+}
+
+/// A folder `kept` with nothing but the condensed table of a study in it; the bytes of that.
+fn condensed_study(folder: &Folder) -> Vec<u8> {
+    folder.write("study.toml", STUDY);
+    done(folder, &["study.toml", "--out", "study"]);
+    let results = results::read(&folder.path("study")).expect("results");
+    let compressed = gzip::compressed(&condensed::to_json(&results));
+    fs::create_dir(folder.path("kept")).expect("a folder");
+    fs::write(folder.path("kept").join(COMPRESSED), &compressed).expect("it can be written");
+    compressed
+}
+
+#[test]
+fn a_condensed_study_is_compared_replayed_and_drawn_into_another_folder() {
+    let folder = Folder::with_good_rig();
+    condensed_study(&folder);
+    done(&folder, &["compare", "kept", "study"]);
+    done(&folder, &["compare", "study", "kept/results.json.gz"]);
+    done(&folder, &["replay", "kept", "0:3"]);
+    refused(&folder, &["report", "kept"], &["kept: holds figures rounded to 3 significant digits", "--out"]);
+    assert_eq!(listing(&folder.path("kept")), [COMPRESSED], "nothing is written");
+    done(&folder, &["report", "kept", "--out", "drawn"]);
+    let text = fs::read_to_string(folder.path("drawn/report.md")).expect("a report");
+    assert!(text.contains("ROUNDED: figures have 3 significant digits"), "{text}");
+    assert!(page(&folder, "drawn").contains("ROUNDED: figures have 3 significant digits"));
+    for file in ["results.json", "table.csv", "bias-efficient.svg", "borders-efficient.svg", "zip.svg"] {
+        assert!(folder.path("drawn").join(file).is_file(), "{file}");
+    }
+    done(&folder, &["compare", "drawn", "study"]);
+}
+
+#[test]
+fn a_condensed_study_that_is_cut_off_is_refused() {
+    let folder = Folder::with_good_rig();
+    let whole = condensed_study(&folder);
+    fs::write(folder.path("kept").join(COMPRESSED), &whole[..whole.len() / 2]).expect("it can be written");
+    let words = ["results.json.gz: is cut off or damaged", "beyond byte", "copy the file again"];
+    refused(&folder, &["compare", "kept", "study"], &words);
+    refused(&folder, &["replay", "kept", "0:3"], &words);
+    refused(&folder, &["report", "kept", "--out", "drawn"], &words);
+    assert!(!folder.path("drawn").exists());
 }
 
 #[test]

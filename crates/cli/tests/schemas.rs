@@ -232,8 +232,7 @@ fn the_rest() -> Vec<Written> {
         "plan",
         "--json",
     ];
-    let judged = root().join("reports/field-slice").display().to_string();
-    let calibrate = ["calibrate", &judged, "--out", "verdict.json", "--quiet"];
+    let calibrate = ["calibrate", folder.judged_slice(), "--out", "verdict.json", "--quiet"];
     assert_eq!(folder.switchback(&calibrate).output().expect("it runs").status.code(), Some(0));
     let failed = Finding {
         check: "noise",
