@@ -2,7 +2,7 @@
 //!
 //! FOLDER is as the program wrote it; what is kept goes to `reports/NAME`, NAME its last part:
 //!
-//! - every file that the README or a page of `docs/` links, and the FILEs named;
+//! - every file that the README or a page of `docs/` links, and the FILEs named; `answers.csv.gz` is `answers.csv`, compressed;
 //! - of a study `results.json.gz`, the condensed table of results;
 //! - of a study and of a diagnosis `hashes.txt`: SHA-256 and name of every file of the folder, for `sha256sum --check`.
 
@@ -23,7 +23,11 @@ fn main() -> miette::Result<()> {
     kept.extend(arguments);
     let mut artefacts = Artefacts::default();
     for file in &kept {
-        artefacts.add(file, read(&folder.join(file))?);
+        let contents = match file.strip_suffix(".gz") {
+            Some(plain) => gzip::compressed(&String::from_utf8_lossy(&read(&folder.join(plain))?)),
+            None => read(&folder.join(file))?,
+        };
+        artefacts.add(file, contents);
     }
     let kind = Files::read(folder).and_then(|files| files.kind()).ok();
     if kind == Some(Kind::Study) {

@@ -82,6 +82,7 @@ pub struct Results {
     pub partial: Option<Partial>,
     /// Significant digits that the figures of cells are rounded to in a [condensed] table; `None` where none is rounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
     pub digits: Option<u32>,
     /// How the replicates were computed.
     pub engine: Engine,
