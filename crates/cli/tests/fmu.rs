@@ -157,7 +157,7 @@ fn by_hand(folder: &Folder, failure: u8, description: &str) -> Option<PathBuf> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmu/simulator.c");
     let library = folder.path(&format!("hand{failure}{DLL_SUFFIX}"));
     let made = Command::new("cc")
-        .args(["-shared", "-fPIC", "-O1", &format!("-DWAY={failure}")])
+        .args(["-shared", "-fPIC", "-O1", &format!("-DFAILURE={failure}")])
         .arg(source)
         .arg("-o")
         .arg(&library)

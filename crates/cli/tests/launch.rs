@@ -112,7 +112,7 @@ fn a_part_reported_twice_that_its_time_is_up_goes_back_into_the_queue() {
     };
     wait_for("part-begun");
     describe();
-    wait_for("part-told");
+    wait_for("part-reported");
     describe();
     wait_for("asked");
     describe();

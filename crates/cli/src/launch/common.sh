@@ -17,40 +17,40 @@ missing() {
   for ((number = 1; number <= count && first + number <= parts; number++)); do
     [ -e "$place/part-$((first + number))/part.json" ] || echo "$number"
   done | awk '
-    function tell() { if (NR > 0) printf "%s%s", (told++ ? "," : ""), (first == last ? first : first "-" last) }
+    function show() { if (NR > 0) printf "%s%s", (signalled++ ? "," : ""), (first == last ? first : first "-" last) }
     NR > 1 && $1 == last + 1 { last = $1; next }
-    NR > 1 { tell() }
+    NR > 1 { show() }
     { first = last = $1 }
-    END { tell() }'
+    END { show() }'
 }
 
 # Runs a part on so many threads. Told that its time is up, it keeps what is finished and returns 3; it goes on when it is run again.
-# With SECONDS, it is told after them.
+# With SECONDS, it is reported after them.
 run_part() {
   local number=$1 threads=$2 seconds=${3:-} from=() with=() clock='' code=0 status
   [ "$round" -eq 1 ] || from=(--from "$before")
   # Where only this shell is killed, the part must not go on: it is run elsewhere.
   ! command -v setpriv > /dev/null || with=(setpriv --pdeathsig KILL --)
   echo "part $number of $parts on $(hostname) at $(date +%FT%T)"
-  running='' told=''
-  trap 'told=yes; [ -z "$running" ] || kill -TERM "$running" 2> /dev/null || true' TERM
+  running='' signalled=''
+  trap 'signalled=yes; [ -z "$running" ] || kill -TERM "$running" 2> /dev/null || true' TERM
   "${with[@]}" "$switchback" "$scenario" --shard "$number/$parts" "${from[@]}" --threads "$threads" --yes --quiet \
     --out "$place/part-$number" &
   running=$!
   # Told before it ran.
-  [ -z "$told" ] || kill -TERM "$running" 2> /dev/null || true
+  [ -z "$signalled" ] || kill -TERM "$running" 2> /dev/null || true
   if [ -n "$seconds" ]; then
     (trap 'kill "$!"' TERM; sleep "$seconds" & wait "$!" && kill -TERM "$running") > /dev/null 2>&1 &
     clock=$!
   fi
   # A signal ends the wait, not the part: it is waited for once more, and may be known to have ended by then (127).
   while
-    told='' status=0
+    signalled='' status=0
     wait "$running" || status=$?
     [ "$status" -eq 127 ] || code=$status
-    [ -n "$told" ]
+    [ -n "$signalled" ]
   do :; done
-  # What is told from here on must not cut off what follows: that the part goes on in another turn.
+  # A signal from here on must not cut off what follows: that the part goes on in another turn.
   trap '' TERM
   [ -z "$clock" ] || kill "$clock" 2> /dev/null || true
   return "$code"

@@ -1,4 +1,4 @@
-//! The borders have more refinement than the grid they are tabulated on.
+//! The borders have more detail than the grid they are tabulated on.
 //!
 //! The nominal model already places its knots from the data ([`crate::nominal::knots`]); what remains for this effect is refinement finer than
 //! that placement resolves. A jump is finer than a table only where designed experiments tabulate the borders at levels; without them

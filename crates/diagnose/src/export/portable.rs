@@ -45,6 +45,7 @@ pub(super) struct Wire {
     /// Knots of the falling, then of the rising border.
     pub(super) grid: Grid,
     /// The effects.
+    #[serde(rename = "assembly")]
     pub(super) augmented: AugmentedModel,
     /// Coefficients: dynamics, border values and border columns, equation columns.
     pub(super) linear: Linear,
@@ -79,6 +80,7 @@ pub(super) struct Moved {
     /// The step, in the parameter.
     pub(super) step: f64,
     /// The effects there.
+    #[serde(rename = "assembly")]
     pub(super) augmented: AugmentedModel,
 }
 

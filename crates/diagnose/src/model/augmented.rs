@@ -186,7 +186,10 @@ pub(crate) enum BorderColumn {
     /// `branch·s(clock)`.
     BranchSlow { clock: Clock },
     /// What `u` differs at the start of one record from the middle between the borders; it fades as the transition does.
-    Start { scaled: usize },
+    Start {
+        #[serde(rename = "track")]
+        scaled: usize,
+    },
     /// `s(clock)` on the ascending (+1) or the descending (−1) border, 0 on the other.
     SideSlow { clock: Clock, branch: f64 },
 }
@@ -206,17 +209,37 @@ pub(crate) enum Resting {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EquationColumn {
     /// Cosine and sine at a frequency (radians per sample) on one record, or on all with the dataset's clock.
-    Line { frequency: f64, scaled: Option<usize>, sine: bool },
+    Line {
+        frequency: f64,
+        #[serde(rename = "track")]
+        scaled: Option<usize>,
+        sine: bool,
+    },
     /// A polynomial of a clock, of the given degree.
     Trend { clock: Clock, degree: usize },
     /// The change of the gain itself: what it does to a part of `u` that the borders do not show, because the output's zero is unknown.
     Gain,
     /// `radiusᵗ cos(frequency·t)` (or sine) on one record: the unknown initial state of a slow filter.
-    Decay { scaled: usize, radius: f64, frequency: f64, sine: bool },
+    Decay {
+        #[serde(rename = "track")]
+        scaled: usize,
+        radius: f64,
+        frequency: f64,
+        sine: bool,
+    },
     /// A bump function of a record: linear interpolation between `pieces` equal pieces.
-    Local { scaled: usize, piece: usize, pieces: usize },
+    Local {
+        #[serde(rename = "track")]
+        scaled: usize,
+        piece: usize,
+        pieces: usize,
+    },
     /// A constant: 1 on one record and −1 on the one it is reported against, if any.
-    Offset { scaled: usize, against: Option<usize> },
+    Offset {
+        #[serde(rename = "track")]
+        scaled: usize,
+        against: Option<usize>,
+    },
 }
 
 impl EquationColumn {

@@ -15,6 +15,7 @@ pub(crate) struct SensorCurve {
     /// Coefficients `θ` of the inverse: of `y²`, `y³`, ….
     pub(crate) powers: Vec<f64>,
     /// A characteristic that is a polynomial sensor polynomial.
+    #[serde(rename = "forwards")]
     pub(crate) sensor_polynomial: Option<SensorPolynomial>,
     /// Bumps.
     pub(crate) bumps: Option<Bumps>,
