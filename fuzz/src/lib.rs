@@ -56,7 +56,7 @@ impl Drop for Scratch {
 
 /// Shows a refusal as a terminal and a file would have it, so that messages are fuzzed too.
 pub fn reported(refusal: &dyn miette::Diagnostic) {
-    let words = switchback::failure::plain(refusal);
+    let words = switchback_io::output::plain(refusal);
     assert!(words.starts_with("error: ") && words.len() < 1 << 16, "a refusal of {} bytes", words.len());
 }
 

@@ -27,7 +27,7 @@ fn is_the_record(loaded: &Loaded, labels: [&str; 2]) {
 fn reads(contents: impl AsRef<[u8]>, flags: &[&str], labels: [&str; 2]) -> Loaded {
     let bench = Bench::new().with("bench.csv", contents);
     let loaded = bench.load(&[&["bench.csv"], flags].concat()).unwrap_or_else(|error| {
-        panic!("{}", switchback::failure::plain(&error));
+        panic!("{}", switchback_io::output::plain(&error));
     });
     is_the_record(&loaded, labels);
     loaded

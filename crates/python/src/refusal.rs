@@ -3,7 +3,7 @@
 use miette::Diagnostic;
 use pyo3::exceptions::PyValueError;
 use pyo3::{PyErr, create_exception};
-use switchback::failure::plain;
+use switchback_io::output::plain;
 
 create_exception!(
     switchback,

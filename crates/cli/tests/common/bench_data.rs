@@ -96,7 +96,7 @@ impl Bench {
     /// The message of an error, as it is reported, with the folder left out.
     pub(crate) fn refusal(&self, words: &[&str]) -> String {
         let error = self.load(words).expect_err("bad input");
-        let reported = switchback::failure::plain(&error);
+        let reported = switchback_io::output::plain(&error);
         reported.replace(&format!("{}/", self.root.path().display()), "")
     }
 

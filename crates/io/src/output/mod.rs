@@ -9,8 +9,8 @@
 //! | `replacement`, `moves` | the replacement of a folder by another, its undoing after a failure, its end after a kill |
 //! | `verify` | the check that a folder's files are those of one run |
 //! | `disk`, `faults` | the calls that change the disk, and the means of tests to make them fail |
-//! | `text`, `terminal`, `sha256` | formats of text, standard output and error, hashes |
 //! | `schema` | JSON Schemas of what is written |
+//! | `text`, `plain`, `terminal`, `sha256` | formats of text, failures as text, standard output and error, hashes |
 
 mod artefacts;
 mod disk;
@@ -20,6 +20,7 @@ mod folder;
 mod hash_list;
 mod lock;
 mod moves;
+mod plain;
 mod replacement;
 mod schema;
 mod sha256;
@@ -34,6 +35,7 @@ pub use disk::Disk;
 pub use file::{FileError, OutputFile};
 pub use folder::{FolderError, OutputFolder};
 pub use schema::{schema, schema_text, stamped_schema};
+pub use plain::{Diagnostic, plain};
 pub use sha256::sha256;
 pub use staging::abandon;
 pub use terminal::{note, print};
