@@ -5,7 +5,6 @@ pub mod cli;
 pub mod cmd;
 pub mod failure;
 pub mod interrupt;
-pub mod journal;
 pub mod launch;
 pub mod options;
 pub mod progress;

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use switchback::journal::{Journal, SEALED_FILE};
 use switchback_diagnose::{
     DiagnoseError, Diagnosis, Effect, Figure, Gap, ResidualPicture, Settings, Status, Verdict,
 };
@@ -12,6 +11,7 @@ use switchback_lab::examination::{KEY_FILE, Sealed as _, key_file};
 use switchback_lab::generate::Plan;
 use switchback_model::rig::Rig;
 use switchback_report::plots;
+use switchback_study::journal::{Journal, SEALED_FILE};
 
 /// Effects put in.
 const FIRST: [&str; 20] = [

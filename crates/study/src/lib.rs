@@ -4,6 +4,7 @@ pub mod checkpoint;
 pub mod compare;
 pub mod consistency;
 pub mod design;
+pub mod journal;
 pub mod parts;
 pub mod results;
 pub mod scenario;

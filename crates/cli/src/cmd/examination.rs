@@ -4,7 +4,6 @@ use super::partial;
 use crate::build::{BUILD, JUDGING_SOURCES};
 use crate::failure::{CommandResult, Outcome};
 use crate::interrupt::{self, SignalGuard};
-use crate::journal::{Journal, SEALED_FILE};
 use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
 use rayon::prelude::*;
@@ -20,6 +19,7 @@ use switchback_report::examination::{Drawn, report};
 use switchback_report::pages;
 use switchback_study::Shard;
 use switchback_study::consistency::Progress;
+use switchback_study::journal::{Journal, SEALED_FILE};
 use switchback_study::parts::PART_FILE;
 
 /// Where the report goes, and how it is made and reported.

@@ -12,7 +12,6 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use switchback_io::output::sha256;
-use switchback_lab::examination::Judged;
 use thiserror::Error;
 
 /// Judged rigs, in memory and on disk.
@@ -57,7 +56,7 @@ const KEYS: &[u8] = b",\"keys\":";
 /// The same while the examination runs.
 pub const SEALED_FILE: &str = "unfinished-key.jsonl";
 
-impl<C: Judged> Journal<C> {
+impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
     /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` shows the sources that judge apart.
     ///
     /// # Errors
