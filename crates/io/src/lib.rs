@@ -11,6 +11,8 @@ pub mod platform;
 pub mod progress;
 pub mod provenance;
 pub mod rig;
+pub mod threads;
+pub mod values;
 
 /// The page of a folder of results.
 pub const INDEX: &str = "index.html";
