@@ -11,6 +11,7 @@ pub mod platform;
 pub mod progress;
 pub mod provenance;
 pub mod rig;
+pub mod simulation;
 pub mod threads;
 pub mod values;
 

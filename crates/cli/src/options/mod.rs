@@ -3,7 +3,6 @@
 mod force;
 mod output;
 mod positive;
-mod prior;
 mod quiet;
 mod threads;
 mod whole;
@@ -12,8 +11,8 @@ mod yes;
 pub use force::Force;
 pub use output::Output;
 pub use positive::{number, positive};
-pub use prior::prior;
 pub use quiet::Quiet;
+pub use switchback_io::diagnosis::prior;
 pub use threads::Threads;
 pub use whole::whole;
 pub use yes::{TooLong, Yes};

@@ -11,6 +11,8 @@ mod given;
 mod model_file;
 mod number;
 mod parameter;
+mod prior;
+mod request;
 mod subject;
 mod units;
 
@@ -32,6 +34,9 @@ pub use number::whole_percent;
 pub use number::with_interval;
 pub use parameter::Reported;
 pub use parameter::reported;
+pub use prior::NoPrior;
+pub use prior::prior;
+pub use request::Request;
 pub use subject::Source;
 pub use subject::Subject;
 pub use subject::SubjectError;

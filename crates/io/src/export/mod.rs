@@ -2,6 +2,7 @@
 
 mod fmu;
 mod heading;
+mod request;
 mod target;
 
 pub use fmu::fmu;
@@ -9,4 +10,6 @@ pub use fmu::library;
 pub use fmu::platform;
 pub use heading::heading;
 pub use heading::name_from;
+pub use request::ExportError;
+pub use request::Request;
 pub use target::Target;

@@ -17,6 +17,7 @@ mod simulate;
 mod system;
 mod units;
 
+pub use causal::NotCausal;
 pub use curves::Curves;
 pub(crate) use curves::plain;
 pub use described::Described;
@@ -39,5 +40,5 @@ pub use series::diagnosed_series;
 pub use series::identified_series;
 pub(crate) use switchback_diagnose::PortableModel;
 pub use system::System;
-pub(crate) use units::UnitError;
+pub use units::UnitError;
 pub(crate) use units::same_unit;

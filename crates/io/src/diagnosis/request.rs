@@ -1,0 +1,28 @@
+//! What is asked of a diagnosis.
+
+use switchback_diagnose::fitted::Shares;
+use switchback_diagnose::{Effect, Settings};
+
+/// What the user knows of the rig and wants of its models.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Request {
+    /// Effects that the rig is known not to have.
+    pub without: Vec<Effect>,
+    /// Effects to show as a cause where else they belong to the model.
+    pub ask: Vec<Effect>,
+    /// Whether nominal models must be able to run in real time.
+    pub causal: bool,
+    /// How common causes are on machines like this one.
+    pub prior: Option<Shares>,
+}
+
+impl Request {
+    /// How the records are diagnosed.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            prior: self.prior,
+            causal: self.causal,
+            ..Settings::default().without(&self.without).asking(&self.ask)
+        }
+    }
+}
