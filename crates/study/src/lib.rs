@@ -4,10 +4,15 @@ pub mod checkpoint;
 pub mod compare;
 pub mod consistency;
 pub mod design;
+pub mod estimate;
 pub mod journal;
+mod other_kind;
 pub mod parts;
+mod request;
 pub mod results;
 pub mod scenario;
 mod shard;
 
+pub use other_kind::{OtherKind, refuse_other_kinds};
+pub use request::Request;
 pub use shard::Shard;

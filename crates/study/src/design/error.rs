@@ -11,6 +11,27 @@ use thiserror::Error;
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum DesignError {
+    /// Neither the experiments nor a rig are given.
+    #[error("give --order, --interval and --rate, or --from RIG.toml")]
+    Incomplete,
+    /// A precision was asked for without a rig.
+    #[error("`--precision` needs `--from RIG.toml`: how long to measure depends on the system and its noise")]
+    #[diagnostic(help("measure a first plan without it, then `switchback design --from` that rig"))]
+    PrecisionOfWhat,
+    /// A number is none above zero.
+    #[error("`{option}` is no positive number")]
+    NotPositive {
+        /// The option.
+        option: &'static str,
+    },
+    /// Two options do not go together.
+    #[error("the argument '{option}' cannot be used with '{other}'")]
+    Exclusive {
+        /// One.
+        option: &'static str,
+        /// The other.
+        other: &'static str,
+    },
     /// The rig to plan from cannot be read.
     #[error(transparent)]
     #[diagnostic(transparent)]

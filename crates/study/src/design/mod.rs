@@ -4,14 +4,17 @@
 //! lets a [`Forecast`] predict the standard errors of any such dataset.
 
 mod artefacts;
+mod draft;
 mod error;
 mod forecast;
 mod json;
+mod options;
 mod plan;
 mod truth;
 mod words;
 
 pub use artefacts::artefacts;
+pub use draft::Draft;
 pub use error::DesignError;
 pub use forecast::Forecast;
 pub use forecast::PlanMethod;
@@ -19,6 +22,7 @@ pub(crate) use forecast::Prediction;
 pub(crate) use forecast::RELIABLE_PERIODS;
 pub use json::json;
 pub use json::schema;
+pub use options::Options;
 pub use plan::DEFAULT_PERIODS;
 pub use plan::Length;
 pub use plan::Plan;
