@@ -4,6 +4,7 @@ pub mod blind;
 pub mod examination;
 pub mod field;
 pub mod generate;
+pub mod machine;
 pub mod power;
 pub mod selftest;
 pub mod training;

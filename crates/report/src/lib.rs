@@ -2,6 +2,8 @@
 
 pub mod diagnosis;
 pub mod examination;
+pub mod identification;
 pub mod pages;
 pub mod plots;
+pub mod power;
 pub mod study;

@@ -39,6 +39,10 @@ pub enum PowerError {
         /// What is wrong.
         reason: String,
     },
+    /// Too many faults an effect, or none.
+    #[error("{0} faults an effect cannot be put in")]
+    #[diagnostic(help("give `--draws` from 1 to 1000"))]
+    Draws(usize),
     /// All effects are left out.
     #[error("--power has no effect left to put in")]
     #[diagnostic(help("name some with `--effects`, or leave fewer out with `--without`"))]

@@ -1,11 +1,13 @@
-//! A diagnosis as one JSON object and in words.
+//! A diagnosis as one JSON object, in words, and as the files of its report.
 
+mod artefacts;
 pub mod json;
 mod place;
 mod sentences;
 mod why;
 mod words;
 
+pub use artefacts::artefacts;
 pub use json::json;
 pub use json::schema;
 pub(crate) use place::SIGNIFICANT;
