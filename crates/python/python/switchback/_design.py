@@ -20,7 +20,7 @@ from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Row, Table
-from ._words import pair, several, words
+from ._options import pair, several, words
 
 
 class Design(Result):

@@ -16,7 +16,7 @@ from ._progress import shown
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Estimate, Row, Table
-from ._words import number, several, words
+from ._options import number, several, words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

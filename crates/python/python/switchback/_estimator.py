@@ -13,7 +13,7 @@ from . import _native
 from ._arrays import Floats
 from ._model import Model
 from ._native import SwitchbackError
-from ._words import number
+from ._options import number
 
 
 class SwitchedHysteresis(RegressorMixin, BaseEstimator):  # type: ignore[misc]

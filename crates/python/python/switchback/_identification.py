@@ -17,7 +17,7 @@ from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Row, Table
-from ._words import words
+from ._options import words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -17,7 +17,7 @@ from ._arrays import Floats, finite, floats, series
 from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._table import Estimate, Row, Table
-from ._words import words
+from ._options import words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

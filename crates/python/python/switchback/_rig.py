@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ._arrays import Column, Floats, column, columns_of, finite, floats
 from ._native import Records, SwitchbackError
 from ._result import PathLike
-from ._words import number, pair, real, whole, words
+from ._options import number, pair, real, whole, words
 
 #: What drove the input of a record.
 Role = Literal["free", "descendant", "ascendant", "step_high", "step_low"]

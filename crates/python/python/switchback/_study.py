@@ -14,7 +14,7 @@ from ._native import SwitchbackError
 from ._progress import shown
 from ._result import PathLike, Result
 from ._table import Estimate, Row, Table
-from ._words import words
+from ._options import words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
