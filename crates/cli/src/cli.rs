@@ -89,25 +89,6 @@ fn valued(argument: clap::Arg) -> clap::Arg {
     if takes_value { argument.allow_negative_numbers(true) } else { argument }
 }
 
-/// Options of a verb from words, for those who call the library: what they may be, and what is reported where they may not, is as on the command
-/// line.
-///
-/// ```
-/// # use switchback::cmd::identify::Asked;
-/// let words = |words: &[&str]| words.iter().map(Into::into).collect();
-/// assert!(switchback::cli::options::<Asked>(words(&["--method", "free"])).is_ok());
-/// let refused = switchback::cli::options::<Asked>(words(&["--method", "best"])).unwrap_err();
-/// assert!(refused.to_string().contains("invalid value 'best' for '--method <METHOD>'"));
-/// ```
-///
-/// # Errors
-/// What the command line would show.
-pub fn options<A: clap::Args>(words: Vec<OsString>) -> Result<A, clap::Error> {
-    let options = A::augment_args(clap::Command::new("switchback").no_binary_name(true)).mut_args(valued);
-    let parsed = options.try_get_matches_from(words).and_then(|matches| A::from_arg_matches(&matches));
-    parsed.map_err(without_tip)
-}
-
 /// The first word is neither a verb nor a file.
 #[derive(Debug, Error, Diagnostic)]
 #[error("`{word}` is no verb, and no scenario file has that name")]

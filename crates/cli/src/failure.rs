@@ -23,14 +23,9 @@ pub const STOPPED: u8 = 3;
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
 pub type CommandResult = Result<Outcome, miette::Report>;
 
-/// Shows a failure on stderr and turns the result into the process's exit code.
+/// Shows a failure on stderr and turns the result into the process's exit code: 0, 1, 2 or 3.
 pub fn exit_code(result: CommandResult) -> ExitCode {
-    code(result).into()
-}
-
-/// The same as a number: 0, 1, 2 or 3.
-pub fn code(result: CommandResult) -> u8 {
-    match result {
+    let code = match result {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::Unmet) => 1,
         Ok(Outcome::Stopped) => STOPPED,
@@ -39,5 +34,6 @@ pub fn code(result: CommandResult) -> u8 {
             let _nobody_listens = writeln!(std::io::stderr(), "{}", plain(diagnostic).trim_end());
             2
         }
-    }
+    };
+    code.into()
 }

@@ -1,9 +1,9 @@
 //! The JSON Schemas of all that the program writes.
 
-use crate::cmd::{calibrate, consistency, plant, replay, rig, simulate};
+use crate::cmd::{calibrate, consistency, replay, rig};
 use schemars::Schema;
-use switchback_io::{identification, model, provenance};
-use switchback_lab::{power, selftest};
+use switchback_io::{identification, model, provenance, simulation};
+use switchback_lab::{plant, power, selftest};
 use switchback_report::diagnosis;
 use switchback_study::{compare, design, results};
 
@@ -26,6 +26,6 @@ pub fn schemas() -> Vec<Schema> {
         rig,
         rig_list,
         selftest::schema(),
-        simulate::schema(),
+        simulation::schema(),
     ]
 }

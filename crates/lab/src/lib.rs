@@ -4,7 +4,7 @@ pub mod blind;
 pub mod examination;
 pub mod field;
 pub mod generate;
-pub mod machine;
+pub mod plant;
 pub mod power;
 pub mod selftest;
 pub mod training;

@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use switchback::options::Force;
-use switchback_io::output::Artefacts;
+use switchback_io::output::{Artefacts, OutputFolder};
 
 /// What a verb has to say, made when it is asked for.
 pub(crate) trait Page: fmt::Debug + Send + Sync {
@@ -23,7 +22,7 @@ pub(crate) trait Page: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// A file that cannot be made.
-    fn files(&self) -> miette::Result<Artefacts>;
+    fn files(&self) -> Result<Artefacts, Refusal>;
 
     /// Other texts by their names.
     fn texts(&self) -> BTreeMap<String, String> {
@@ -85,7 +84,7 @@ impl Answer {
 
     /// The files that `--out` writes, by their names.
     fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let files = py.detach(|| self.0.files()).map_err(Refusal::from)?;
+        let files = py.detach(|| self.0.files())?;
         let by_name = PyDict::new(py);
         for (name, contents) in files.iter() {
             by_name.set_item(name, PyBytes::new(py, contents))?;
@@ -99,7 +98,7 @@ impl Answer {
             let files = self.0.files()?;
             let names: Vec<&str> = files.iter().map(|(name, _)| name).collect();
             let inputs = self.0.inputs().iter().map(PathBuf::as_path);
-            Force { force }.claim(&folder, &names)?.sparing(inputs)?.commit(&files)?;
+            OutputFolder::claim(&folder, force)?.expecting(&names)?.sparing(inputs)?.commit(&files)?;
             Ok::<_, Refusal>(())
         })?;
         Ok(())
@@ -147,7 +146,7 @@ impl Page for Stored {
         self.words.clone()
     }
 
-    fn files(&self) -> miette::Result<Artefacts> {
+    fn files(&self) -> Result<Artefacts, Refusal> {
         Ok(self.files.clone())
     }
 

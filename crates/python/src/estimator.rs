@@ -2,12 +2,12 @@
 
 use crate::call::{Call, Heard};
 use crate::numbers::numbers;
-use miette::miette;
+use crate::refusal::Refusal;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use switchback::options::Threads;
-use switchback_identify::free::{FreeError, InputMap, Settings, identify_watched};
+use switchback_identify::free::{InputMap, Settings, identify_watched};
 use switchback_io::model::{Curves, Domain, Header, ModelFile, System};
+use switchback_io::threads::Threads;
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
@@ -43,7 +43,7 @@ pub(crate) fn fit(
         .collect::<PyResult<_>>()?;
     Call::run(py, &heard, move |call| {
         let records = pieces.into_iter().map(|(v, y)| Record::new(v, y)).collect::<Result<Vec<_>, _>>();
-        let records = records.map_err(|error| miette!("{error}"))?;
+        let records = records.map_err(Refusal::new)?;
         let settings = Settings {
             order: fixed.order,
             knots: fixed.points,
@@ -54,12 +54,12 @@ pub(crate) fn fit(
             input_noise: false,
             ..Settings::new(InputMap::Borders)
         };
-        let threads = Threads { threads: fixed.threads };
+        let threads = Threads(fixed.threads);
         let identified = threads.install(|| {
             let records: Vec<&Record> = records.iter().collect();
             identify_watched(&records, &settings, &*call)
         })?;
-        let curves = Curves::of(&identified.map_err(|error: FreeError| miette!("{error}"))?);
+        let curves = Curves::of(&identified.map_err(Refusal::new)?);
         Ok(file(rig(records, fixed.sample_time), curves).text())
     })
 }

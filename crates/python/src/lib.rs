@@ -9,28 +9,18 @@
 //! | `answer` | what a verb found: JSON, words, files |
 //! | `verbs` | the verbs |
 //! | `estimator` | the fit behind `SwitchedHysteresis` |
-//! | `numbers`, `refusal` | arrays and exceptions |
+//! | `numbers`, `options`, `refusal` | arrays, arguments and exceptions |
 
 mod answer;
 mod call;
 mod estimator;
 mod numbers;
+mod options;
 mod records;
 mod refusal;
 mod verbs;
 
 use pyo3::prelude::*;
-use std::ffi::OsString;
-use switchback::{cli, failure, interrupt};
-
-/// Runs the command line; gives the exit code of the program. From here on signals are the program's.
-#[pyfunction]
-fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
-    py.detach(|| {
-        interrupt::install();
-        failure::code(cli::run(words))
-    })
-}
 
 /// The native part of the package `switchback`.
 #[pymodule]
@@ -50,7 +40,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(verbs::export::export, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::study::study, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::study::study_of_json, module)?)?;
-    module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(estimator::fit, module)?)?;
     Ok(())
 }

@@ -2,20 +2,18 @@
 
 use crate::call::{Call, Heard};
 use crate::numbers::{bytes, numbers};
+use crate::options::Options;
 use crate::refusal::Refusal;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 use serde::{Deserialize, Serialize};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use switchback::cli;
-use switchback::cmd::data_args::DataArgs;
-use switchback::options::Quiet;
 use switchback_io::rig::{
     self, Cells, ColumnNames, Frame, InputForm, Loaded, Plan, PlannedRecord, RigError, RigProblem, Sampling,
 };
+use switchback_io::values::positive;
 use switchback_model::Record;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
@@ -82,15 +80,27 @@ type Arrays<'py> = (Bound<'py, PyBytes>, Bound<'py, PyBytes>, Option<Bound<'py, 
 
 #[pymethods]
 impl Records {
-    /// Reads files, or a rig file, as the command line does: `words` are those after the verb.
+    /// Reads files, or a rig file, as the command line does.
     #[staticmethod]
-    #[pyo3(signature = (words, verb, heard=None))]
-    fn read(py: Python<'_>, words: Vec<OsString>, verb: String, heard: Heard<'_>) -> PyResult<Self> {
+    #[pyo3(signature = (data, options, heard=None))]
+    fn read(py: Python<'_>, data: Vec<PathBuf>, mut options: Options, heard: Heard<'_>) -> PyResult<Self> {
         Call::run(py, &heard, move |_| {
-            let data: DataArgs = cli::options(words).map_err(|error| Refusal::of_words(&error))?;
-            let loaded = data.load(&verb, Quiet { quiet: true })?;
-            let inputs = data.inputs(&loaded).into_iter().map(Path::to_owned).collect();
-            Ok(Self::of(loaded, data.path().to_owned(), inputs))
+            let request = rig::Request {
+                data,
+                columns: ColumnNames {
+                    time: options.text("--time <COLUMN>")?,
+                    input: options.text("--input <COLUMN>")?,
+                    output: options.text("--output <COLUMN>")?,
+                },
+                sample_time: options.value("--sample-time <SECONDS>", positive)?,
+                rate: options.value("--rate <HZ>", positive)?,
+                holdout: options.text("--holdout <SHARE|FILE>")?,
+                resample: options.switch("--resample")?,
+            };
+            options.finish()?;
+            let loaded = request.load("gap")?;
+            let inputs = request.inputs(&loaded).into_iter().map(Path::to_owned).collect();
+            Ok(Self::of(loaded, request.place().to_owned(), inputs))
         })
     }
 

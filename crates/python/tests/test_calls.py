@@ -5,9 +5,7 @@ from __future__ import annotations
 import concurrent.futures
 import io
 import os
-import shutil
 import signal
-import subprocess
 import sys
 import threading
 import time
@@ -102,7 +100,7 @@ def test_an_error_in_a_thread_is_raised_there(frame: dict[str, np.ndarray]) -> N
 
 def test_progress_is_told_by_stage(bench: sb.Rig) -> None:
     heard: list[tuple[str, int, int]] = []
-    _native.identify(bench._records, [], lambda *step: heard.append(step))
+    _native.identify(bench._records, {}, lambda *step: heard.append(step))
     assert {stage for stage, _, _ in heard} & {"identifying", "comparing with other models"}
     assert all(0 <= done <= found for _, done, found in heard)
 
@@ -123,18 +121,9 @@ def test_what_a_listener_raises_stops_the_call(bench: sb.Rig) -> None:
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        _native.identify(bench._records, [], refuse)
+        _native.identify(bench._records, {}, refuse)
 
 
 def test_a_call_costs_no_more_than_the_program(program: Program) -> None:
     ours, theirs = overhead.measure(program, 3)
     assert overhead.is_little(ours, theirs), (ours, theirs)
-
-
-def test_the_package_brings_the_command_line(program: Program, tmp_path: Path) -> None:
-    words = ["design", "--order", "1", "--points", "4", "--interval", "-1,1", "--rate", "10", "--out", "x", "--json"]
-    ours = subprocess.run([sys.executable, "-m", "switchback", *words], cwd=tmp_path, capture_output=True, text=True, check=True)
-    shutil.rmtree(tmp_path / "x")
-    assert ours.stdout == program.json(*words[:-1])
-    refused = subprocess.run([sys.executable, "-m", "switchback", "gap", "missing.csv"], cwd=tmp_path, capture_output=True, text=True)
-    assert (refused.returncode, refused.stderr) == (2, program.run("gap", "missing.csv").stderr)

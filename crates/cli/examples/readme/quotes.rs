@@ -4,14 +4,12 @@
 #[allow(unreachable_pub, reason = "an example of its own")]
 mod corrections;
 
-use clap::Parser;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
-use switchback::cmd::data_args::DataArgs;
-use switchback::options::Quiet;
+use switchback_io::rig::Request;
 use switchback_report::study as report;
 use switchback_study::results;
 use switchback_study::results::Results;
@@ -87,13 +85,7 @@ pub(crate) fn values() -> miette::Result<Quotes> {
 
 /// What the program says that it took from a file of measurements.
 fn inferred(file: &str) -> miette::Result<String> {
-    /// The command line of a verb that reads measurements.
-    #[derive(clap::Parser)]
-    struct Line {
-        #[command(flatten)]
-        data: DataArgs,
-    }
-    let loaded = Line::parse_from(["switchback", file]).data.load("gap", Quiet { quiet: true })?;
+    let loaded = Request { data: vec![file.into()], ..Request::default() }.load("gap")?;
     Ok(block(&loaded.reported.to_string()))
 }
 

@@ -1,14 +1,9 @@
 //! The data a verb works on: files of measurements and how to read them, or one rig file.
 
-use crate::options::{Quiet, positive};
-use std::path::{Component, Path, PathBuf};
-use switchback_io::input::{FileKind, stream};
-use switchback_io::output::note;
-use switchback_io::rig::{
-    self, ColumnNames, HELD_OUT, InputForm, Loaded, NO_TIME, Plan, PlannedRecord, RigError, RigProblem,
-    Sampling, in_shell,
-};
-use switchback_model::rig::{Role, Usage};
+use crate::options::Quiet;
+use std::path::PathBuf;
+use switchback_io::rig::{ColumnNames, Loaded, Request, RigError};
+use switchback_io::values::positive;
 
 /// Files of measurements and how to read them, or one rig file.
 #[derive(Debug, Clone, clap::Args)]
@@ -52,193 +47,16 @@ impl DataArgs {
     ///
     /// # Errors
     /// [`RigError`] with all that is wrong.
-    pub fn load(&self, verb: &str, quiet: Quiet) -> Result<Loaded, RigError> {
-        let loaded = match self.source()? {
-            Source::RigFile(path) => {
-                self.refuse_flags(path)?;
-                rig::load(path)?
-            }
-            Source::Files => rig::load_plan(&self.plan(verb)?)?,
-        };
-        if !quiet.quiet {
-            note(&loaded.reported.to_string());
-        }
-        Ok(loaded)
+    pub fn load(&self, verb: &str, quiet: Quiet) -> Result<(Request, Loaded), RigError> {
+        let request = self.request();
+        let loaded = request.load(verb)?;
+        quiet.note(&loaded.reported.to_string());
+        Ok((request, loaded))
     }
 
-    /// What messages that concern the whole rig should lead to.
-    pub fn path(&self) -> &Path {
-        &self.data[0]
+    fn request(&self) -> Request {
+        let Self { data, input, output, time, sample_time, rate, holdout, resample } = self.clone();
+        let columns = ColumnNames { time, input, output };
+        Request { data, columns, sample_time, rate, holdout, resample }
     }
-
-    /// Every file that was read.
-    pub fn inputs<'a>(&'a self, loaded: &'a Loaded) -> Vec<&'a Path> {
-        let records = loaded.plan.records.iter().map(|record| &record.path);
-        self.data.iter().chain(records).map(PathBuf::as_path).collect()
-    }
-
-    fn source(&self) -> Result<Source<'_>, RigError> {
-        let is_rig_file = |path: &&PathBuf| {
-            let is_ending =
-                |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
-            // A stream's name says nothing.
-            let is_rig = || stream::is_stream(path) && FileKind::of(path) == Some(FileKind::Rig);
-            is_ending("toml") || is_ending("json") || path.is_dir() || is_rig()
-        };
-        match (self.data.iter().find(is_rig_file), &self.data[..]) {
-            (None, _) => Ok(Source::Files),
-            (Some(path), [_]) => Ok(Source::RigFile(path)),
-            (Some(path), _) => Err(asked(
-                format!("{} cannot be given together with other files", path.display()),
-                "give either one rig file, which names its records, or the files of measurements themselves",
-            )),
-        }
-    }
-
-    /// A rig file says for itself what the flags would.
-    fn refuse_flags(&self, path: &Path) -> Result<(), RigError> {
-        let flags = [
-            (self.input.is_some(), "--input", "columns = { input = \"…\" }"),
-            (self.output.is_some(), "--output", "columns = { output = \"…\" }"),
-            (self.time.is_some(), "--time", "columns = { time = \"…\" }"),
-            (self.sample_time.is_some(), "--sample-time", "sample_time = …"),
-            (self.rate.is_some(), "--rate", "sample_time = …"),
-            (self.holdout.is_some(), "--holdout", "use = \"holdout\"` or `holdout = 0.3"),
-            (self.resample, "--resample", "resample = true"),
-        ];
-        match flags.into_iter().find(|(is_given, ..)| *is_given) {
-            None => Ok(()),
-            Some((_, flag, key)) => Err(asked(
-                format!("{flag} belongs to files of measurements, but {} is a rig file", path.display()),
-                &format!("write `{key}` in the rig file"),
-            )),
-        }
-    }
-
-    fn plan(&self, verb: &str) -> Result<Plan, RigError> {
-        let hold = self.hold()?;
-        let mut problems = Vec::new();
-        for (k, path) in self.data.iter().enumerate() {
-            if self.data[..k].iter().any(|other| is_same(other, path)) {
-                problems.push(RigProblem::Asked {
-                    message: format!("{} is given twice", path.display()),
-                    remedy: "give each file once; a hold-out that is also fitted proves nothing".to_owned(),
-                });
-            }
-        }
-        let records = self.records(&hold);
-        if records.iter().all(|record| record.usage == Usage::Holdout) {
-            problems.push(RigProblem::Asked {
-                message: "all is held out, so there is nothing to identify from".to_owned(),
-                remedy: "give more files, or hold out a share, for instance `--holdout 0.3`".to_owned(),
-            });
-        }
-        if !problems.is_empty() {
-            return Err(RigError::new(problems));
-        }
-        let stem = stream::stem(&self.data[0]);
-        Ok(Plan {
-            name: stem.filter(|stem| !stem.trim().is_empty()).unwrap_or_else(|| "rig".to_owned()),
-            columns: ColumnNames {
-                time: self.time.clone(),
-                input: self.input.clone(),
-                output: self.output.clone(),
-            },
-            sampling: Sampling {
-                sample_time: self.sample_time.or(self.rate.map(|rate| 1.0 / rate)),
-                resample: self.resample,
-            },
-            order: None,
-            interval: None,
-            input_label: None,
-            output_label: None,
-            records,
-            input_form: InputForm::CommandLine(self.command(verb)),
-        })
-    }
-
-    fn hold(&self) -> Result<Hold, RigError> {
-        let Some(holdout) = &self.holdout else {
-            return Ok(if self.data.len() == 1 { Hold::Share(HELD_OUT) } else { Hold::Last });
-        };
-        match holdout.parse::<f64>() {
-            Ok(share) if share > 0.0 && share < 1.0 => Ok(Hold::Share(share)),
-            Ok(share) => Err(asked(
-                format!("--holdout {share} is no share of a record"),
-                "give a number between 0 and 1, the share of every record that is held out, or a file",
-            )),
-            Err(_) => Ok(Hold::File(PathBuf::from(holdout))),
-        }
-    }
-
-    /// A file that is held out may be among the others or not.
-    fn records(&self, hold: &Hold) -> Vec<PlannedRecord> {
-        let mut files = self.data.clone();
-        if let Hold::File(file) = hold
-            && !files.iter().any(|other| is_same(other, file))
-        {
-            files.push(file.clone());
-        }
-        let count = files.len();
-        let record = |(k, path): (usize, PathBuf)| {
-            let is_held = match hold {
-                Hold::Share(_) => false,
-                Hold::Last => k + 1 == count,
-                Hold::File(file) => is_same(file, &path),
-            };
-            PlannedRecord {
-                named: path.display().to_string(),
-                path,
-                columns: ColumnNames::default(),
-                role: Role::Free,
-                usage: if is_held { Usage::Holdout } else { Usage::Fit },
-                held_out: match hold {
-                    Hold::Share(share) => Some(*share),
-                    _ => None,
-                },
-            }
-        };
-        files.into_iter().enumerate().map(record).collect()
-    }
-
-    /// The command line as given, so that a remedy can be typed as it stands.
-    fn command(&self, verb: &str) -> String {
-        let mut words = vec!["switchback".to_owned(), verb.to_owned()];
-        words.extend(self.data.iter().map(|path| in_shell(&path.display().to_string())));
-        let number = |x: Option<f64>| x.map(|x| x.to_string());
-        let flags = [
-            ("--time", self.time.clone().filter(|name| name == NO_TIME)),
-            ("--sample-time", number(self.sample_time)),
-            ("--rate", number(self.rate)),
-            ("--holdout", self.holdout.clone()),
-        ];
-        for (flag, value) in flags {
-            words.extend(value.into_iter().flat_map(|value| [flag.to_owned(), in_shell(&value)]));
-        }
-        if self.resample {
-            words.push("--resample".to_owned());
-        }
-        words.join(" ")
-    }
-}
-
-enum Source<'a> {
-    RigFile(&'a Path),
-    Files,
-}
-
-enum Hold {
-    Share(f64),
-    Last,
-    File(PathBuf),
-}
-
-fn asked(message: String, remedy: &str) -> RigError {
-    RigProblem::Asked { message, remedy: remedy.to_owned() }.into()
-}
-
-fn is_same(a: &Path, b: &Path) -> bool {
-    let parts =
-        |path: &Path| -> PathBuf { path.components().filter(|part| *part != Component::CurDir).collect() };
-    parts(a) == parts(b)
 }

@@ -1,25 +1,25 @@
 //! `switchback gap DATA.csv …` or `switchback gap RIG.toml`
 
 use super::data_args::DataArgs;
-use super::power::{self, DataPlace, PowerArgs};
+use super::power::{self, PowerArgs};
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Output, Threads, prior};
+use crate::options::{Output, Threads};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
+use switchback_diagnose::Effect;
 use switchback_diagnose::fitted::Shares;
-use switchback_diagnose::{Effect, Settings};
-use switchback_io::diagnosis::{self, Checked, Expectation, Report, Subject};
+use switchback_io::diagnosis::{
+    self, Checked, Expectation, Report, Request, Subject, examine_watched, prior,
+};
 use switchback_io::fmu::{self, FmuError, Map, Simulator};
-use switchback_io::model;
-use switchback_io::output::{Artefacts, note};
-use switchback_io::progress::Stages;
-use switchback_io::rig::Loaded;
+use switchback_io::output::note;
+use switchback_io::rig::{self, Loaded};
 use switchback_model::rig::Rig;
 use switchback_report::diagnosis as text;
-use switchback_report::pages::{self, INDEX, PageError};
-use switchback_report::plots;
+use switchback_report::diagnosis::artefacts;
+use switchback_report::pages::INDEX;
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
@@ -27,8 +27,29 @@ pub struct Args {
     #[command(flatten)]
     data: DataArgs,
 
-    #[command(flatten)]
-    asked: Asked,
+    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
+    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
+    #[arg(long, value_name = "MODEL.json")]
+    model: Option<PathBuf>,
+
+    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    without: Vec<Effect>,
+
+    /// Show this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
+    /// than once.
+    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
+    ask: Vec<Effect>,
+
+    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
+    /// confirmed.
+    #[arg(long)]
+    causal: bool,
+
+    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
+    /// none=0.2,unexplained=0.1: for records that nobody designed.
+    #[arg(long, value_name = "SHARES", value_parser = prior)]
+    prior: Option<Shares>,
 
     /// Diagnose a simulator: run this co-simulation FMU (FMI 2.0) over the records, and take its outputs for y_sim.
     #[arg(long, value_name = "MODEL.fmu", conflicts_with_all = ["model", "power"])]
@@ -71,50 +92,6 @@ pub struct Args {
     output: Output,
 }
 
-/// What is asked of the records.
-#[derive(Debug, clap::Args)]
-pub struct Asked {
-    /// Diagnose this model: model.json of `identify --out`, nominal.json or augmented.json of `gap --out`, or the output of
-    /// `identify --json` [default: the columns y_sim if the records have them, else the model identified from the fit records]
-    #[arg(long, value_name = "MODEL.json")]
-    model: Option<PathBuf>,
-
-    /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    without: Vec<Effect>,
-
-    /// Show this effect as a cause where else it belongs to the model: coloured_noise, in records that nobody designed; may be given more
-    /// than once.
-    #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
-    ask: Vec<Effect>,
-
-    /// Only nominal models that could run in real time, so that they can be exported: no look ahead, and a reversal takes effect once it is
-    /// confirmed.
-    #[arg(long)]
-    causal: bool,
-
-    /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
-    /// none=0.2,unexplained=0.1: for records that nobody designed.
-    #[arg(long, value_name = "SHARES", value_parser = prior)]
-    prior: Option<Shares>,
-}
-
-impl Asked {
-    /// The file of the model under diagnosis, where one is given.
-    pub fn model(&self) -> Option<&Path> {
-        self.model.as_deref()
-    }
-
-    /// How the records are diagnosed.
-    pub fn settings(&self) -> Settings {
-        Settings {
-            prior: self.prior,
-            causal: self.causal,
-            ..Settings::default().without(&self.without).asking(&self.ask)
-        }
-    }
-}
-
 /// What the folder gets.
 const FILES: [&str; 11] = [
     "gap.json",
@@ -135,16 +112,18 @@ const FILES: [&str; 11] = [
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
 pub fn run(args: &Args) -> CommandResult {
-    let loaded = args.data.load("gap", args.output.quiet)?;
+    let (data, loaded) = args.data.load("gap", args.output.quiet)?;
     if args.power.power {
-        return run_power(args, &loaded);
+        return run_power(args, &data, &loaded);
     }
-    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &args.data.inputs(&loaded))?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.reported.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
-    let subject = Subject::choose(rig, args.asked.model())?.noting(notes);
+    let subject = Subject::choose(rig, args.model.as_deref())?.noting(notes);
     let watch = Watch::new(args.output.quiet);
-    let report = diagnosed(subject, &args.asked, (args.data.path(), args.threads, &watch))?;
+    let settings = request(args).settings();
+    let report = args.threads.install(|| examine_watched(subject, &settings, &watch))?;
+    let report = report.map_err(|error| error.in_file(data.place()))?;
     watch.finish();
     if let Some(folder) = folder {
         folder.commit(&artefacts(&report)?)?;
@@ -182,53 +161,24 @@ fn patience(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64).ok_or_else(|| "give a positive number of seconds".to_owned())
 }
 
-/// The diagnosis alone: nothing is read, printed or written. `place` is what messages call the records.
-///
-/// # Errors
-/// Records that cannot be diagnosed.
-pub fn diagnosed(
-    subject: Subject,
-    asked: &Asked,
-    (place, threads, progress): (&Path, Threads, &dyn Stages),
-) -> miette::Result<Report> {
-    let report = threads.install(|| diagnosis::examine_watched(subject, &asked.settings(), progress))?;
-    Ok(report.map_err(|error| error.in_file(place))?)
+/// What is asked of a diagnosis.
+fn request(args: &Args) -> Request {
+    let Args { without, ask, causal, prior, .. } = args;
+    Request { without: without.clone(), ask: ask.clone(), causal: *causal, prior: *prior }
 }
 
-fn run_power(args: &Args, loaded: &Loaded) -> CommandResult {
+fn run_power(args: &Args, data: &rig::Request, loaded: &Loaded) -> CommandResult {
     let asked = power::Order {
-        model: args.asked.model(),
-        settings: args.asked.settings(),
+        model: args.model.as_deref(),
+        settings: request(args).settings(),
         out: args.out.as_ref(),
         json: args.json,
         options: (args.threads, args.output.quiet, args.output.force),
     };
-    let inputs = args.data.inputs(loaded);
-    power::run(&args.power, asked, (loaded, &DataPlace { path: args.data.path(), inputs: &inputs }))
+    power::run(&args.power, asked, (data, loaded))
 }
 
 fn effect() -> impl TypedValueParser<Value = Effect> {
     PossibleValuesParser::new(Effect::ALL.map(Effect::name))
         .map(|name| Effect::from_name(&name).expect("only names of effects are possible values"))
-}
-
-/// The files of a diagnosis.
-///
-/// # Errors
-/// A page that cannot be made.
-pub fn artefacts(report: &Report) -> Result<Artefacts, PageError> {
-    let mut artefacts = Artefacts::default();
-    artefacts.add("gap.json", text::json(report));
-    for (name, file) in model::diagnosed(report) {
-        artefacts.add(name, file.text());
-    }
-    artefacts.add("series.csv", model::diagnosed_series(report).text());
-    artefacts.add("verdict.txt", text::verdict(report));
-    for figure in plots::gap::figures(report) {
-        artefacts.add(figure.name, figure.svg);
-    }
-    if let Some(csv) = diagnosis::next_experiment(report) {
-        artefacts.add(diagnosis::NEXT_EXPERIMENT, csv);
-    }
-    pages::bound(artefacts)
 }

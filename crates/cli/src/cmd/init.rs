@@ -27,8 +27,8 @@ pub struct Args {
 /// Files that cannot be read, or a rig file that is there already.
 pub fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
-    let loaded = args.data.load("init", args.output.quiet)?;
-    let file = args.output.force.claim_file(target, &args.data.inputs(&loaded))?;
+    let (data, loaded) = args.data.load("init", args.output.quiet)?;
+    let file = args.output.force.claim_file(target, &data.inputs(&loaded))?;
     let manifest = rig::manifest(&loaded, target.map(folder));
     match file {
         Some(file) => file.commit(manifest)?,

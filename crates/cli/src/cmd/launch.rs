@@ -1,9 +1,8 @@
 //! `switchback launch SCENARIO.toml --slurm` or `--hq`
 
-use super::study::refuse_other_kinds;
 use crate::failure::{CommandResult, Outcome};
 use crate::launch::{Engine, Launch, TimeLimit};
-use crate::options::{Force, whole};
+use crate::options::Force;
 use clap::ArgGroup;
 use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::io;
@@ -12,7 +11,9 @@ use std::process::Command;
 use switchback_io::input::stream;
 use switchback_io::output::print;
 use switchback_io::rig::in_shell;
+use switchback_io::values::whole;
 use switchback_lab::{blind, field};
+use switchback_study::refuse_other_kinds;
 use switchback_study::scenario::Scenario;
 use thiserror::Error;
 

@@ -1,18 +1,18 @@
 //! `switchback gap … --power`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Force, Quiet, Threads, whole};
+use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use switchback_diagnose::Settings;
 use switchback_io::diagnosis::GivenModel;
-use switchback_io::output::Artefacts;
-use switchback_io::rig::Loaded;
+use switchback_io::rig::{self, Loaded};
+use switchback_io::values::whole;
 use switchback_lab::generate::EFFECTS;
-use switchback_lab::power::{self, Context, Plan, Power, PowerError};
-use switchback_report::plots;
+use switchback_lab::power::{self, Context, Plan, PowerError, Request};
+use switchback_report::power::artefacts;
 
 /// What `--power` takes.
 #[derive(Debug, clap::Args)]
@@ -27,11 +27,11 @@ pub struct PowerArgs {
     effects: Vec<&'static str>,
 
     /// Faults an effect, on average: an effect that is settled earlier leaves its draws to the others.
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole::<usize>(1..=1000), requires = "power", help_heading = "Power")]
+    #[arg(long, value_name = "N", default_value_t = Request::default().draws, value_parser = whole::<usize>(Request::DRAWS), requires = "power", help_heading = "Power")]
     draws: usize,
 
     /// Laws, parameters and noise are drawn from this.
-    #[arg(long, value_name = "SEED", default_value_t = 1, value_parser = whole::<u64>(0..=u64::MAX), requires = "power", help_heading = "Power")]
+    #[arg(long, value_name = "SEED", default_value_t = Request::default().seed, value_parser = whole::<u64>(0..=u64::MAX), requires = "power", help_heading = "Power")]
     seed: u64,
 }
 
@@ -61,13 +61,14 @@ const FILES: [&str; 4] = ["power.json", "power.csv", "power.txt", "power.svg"];
 pub(super) fn run(
     args: &PowerArgs,
     order: Order<'_>,
-    (loaded, data): (&Loaded, &DataPlace<'_>),
+    (data, loaded): (&rig::Request, &Loaded),
 ) -> CommandResult {
     let (threads, quiet, force) = order.options;
-    let plan = plan(args, &order.settings)?;
-    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, data.inputs)?;
+    let request = Request { effects: args.effects.clone(), draws: args.draws, seed: args.seed };
+    let plan = request.plan(&order.settings)?;
+    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, &data.inputs(loaded))?;
     let model = order.model.map(GivenModel::read).transpose()?;
-    let name = data.path.display().to_string();
+    let name = data.place().display().to_string();
     let meter = Meter::counting("diagnoses", quiet);
     let (context, power) = threads.install(|| {
         let context = Context::new(&loaded.rig, model, order.settings, &name)?;
@@ -81,34 +82,6 @@ pub(super) fn run(
     }
     quiet.describe_or(order.json, || power::json(&power, &context), || power::words(&power, &context))?;
     Ok(Outcome::Done)
-}
-
-/// The data in messages, and every file that was read.
-pub(super) struct DataPlace<'a> {
-    pub(super) path: &'a Path,
-    pub(super) inputs: &'a [&'a Path],
-}
-
-/// Which effects are put in how often, where the candidates are those of the settings.
-///
-/// # Errors
-/// [`PowerError::NoEffect`] where none is left.
-pub fn plan(args: &PowerArgs, settings: &Settings) -> Result<Plan, PowerError> {
-    let is_candidate = |name: &&'static str| settings.effects.iter().any(|effect| effect.name() == *name);
-    let mut effects: Vec<&'static str> = match &args.effects[..] {
-        [] => EFFECTS.into_iter().filter(is_candidate).collect(),
-        some => some.to_vec(),
-    };
-    let mut seen = Vec::new();
-    effects.retain(|effect| {
-        let is_new = !seen.contains(effect);
-        seen.push(*effect);
-        is_new
-    });
-    if effects.is_empty() {
-        return Err(PowerError::NoEffect);
-    }
-    Ok(Plan { effects, draws: args.draws, seed: args.seed })
 }
 
 /// A diagnosis of records with a fault takes about so many times as long as one of those without: there is a cause to be looked at, and pairs.
@@ -126,14 +99,4 @@ fn announce(plan: &Plan, first: Duration, quiet: Quiet) {
         "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {reported} in all (less with `--draws` or `--effects`)",
         plan.diagnoses()
     );
-}
-
-/// The files of what was found.
-pub fn artefacts(power: &Power, context: &Context<'_>) -> Artefacts {
-    let mut artefacts = Artefacts::default();
-    artefacts.add("power.json", power::json(power, context));
-    artefacts.add("power.csv", power::csv(power));
-    artefacts.add("power.txt", power::words(power, context));
-    artefacts.add("power.svg", plots::power::figure(power, &context.rig().name));
-    artefacts
 }

@@ -1,22 +1,21 @@
 //! `switchback rig [--field] --effect EFFECT --size 2 --seed 7 --out DIR`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Output, number, whole};
-use miette::Diagnostic;
+use crate::options::Output;
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use switchback_diagnose::Stage;
 use switchback_io::diagnosis::Units;
-use switchback_io::input::closest;
 use switchback_io::output::{print, stamped, stamped_schema};
 use switchback_io::rig;
+use switchback_io::values::{number, whole};
 use switchback_lab::generate::{
-    EFFECTS, FOREIGN, Family, Key, MadeRig, MakeError, MakeRig, RequestedFault, Setting, TrueEffect, laws_of,
+    EFFECTS, FOREIGN, Family, Key, MadeRig, MakeError, MakeRig, RecipeError, RequestedFault, Setting,
+    TrueEffect, laws_of,
 };
 use switchback_model::rig::Rig;
-use thiserror::Error;
 
 /// Make a rig with a chosen effect: records as a user would take them, and on stdout what was put in.
 #[derive(Debug, clap::Args)]
@@ -62,26 +61,6 @@ pub struct Args {
     output: Output,
 }
 
-/// Why no rig was made.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{error}")]
-#[diagnostic(help("{guess}`switchback rig --list` shows every effect with its laws"))]
-pub struct RigCommandError {
-    error: MakeError,
-    guess: String,
-}
-
-impl From<MakeError> for RigCommandError {
-    fn from(error: MakeError) -> Self {
-        let meant = match &error {
-            MakeError::UnknownEffect { name, .. } => closest(name, EFFECTS.into_iter().chain(FOREIGN)),
-            _ => None,
-        };
-        let guess = meant.map_or_else(String::new, |effect| format!("did you mean `{effect}`? "));
-        Self { error, guess }
-    }
-}
-
 /// Makes the rig, writes its folder, prints its key.
 ///
 /// # Errors
@@ -91,9 +70,9 @@ pub fn run(args: &Args) -> CommandResult {
         print(&if args.json { stamped(LIST_SCHEMA, &list_file()) } else { list() })?;
         return Ok(Outcome::Done);
     }
-    let recipe = recipe(args).map_err(RigCommandError::from)?;
+    let recipe = recipe(args).map_err(RecipeError::from)?;
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &[rig::RIG_FILE], &[])?;
-    let made = recipe.make().map_err(RigCommandError::from)?;
+    let made = recipe.make().map_err(RecipeError::from)?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&made.rig))?;
     }

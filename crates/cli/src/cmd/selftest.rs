@@ -1,8 +1,9 @@
 //! `switchback selftest`
 
 use crate::failure::{CommandResult, Outcome};
-use crate::options::{Quiet, Threads, whole};
+use crate::options::{Quiet, Threads};
 use switchback_io::output::note;
+use switchback_io::values::whole;
 use switchback_lab::selftest::{CHECKS, Finding, json, table};
 
 /// Check in a minute that the program computes on this machine what it should; exit code 1 where it does not.

@@ -5,17 +5,14 @@ use super::examination::{self, Page, run_part};
 use crate::failure::CommandResult;
 use crate::options::{Output, Threads, Yes};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use miette::{Diagnostic, miette};
+use miette::miette;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{FileKind, stream};
-use switchback_io::rig::in_shell;
 use switchback_lab::blind::{self, Blind};
 use switchback_lab::field::{self, Field};
 use switchback_report::examination::Drawn;
-use switchback_study::Shard;
 use switchback_study::consistency::least_seconds;
 use switchback_study::scenario::{Engine, Scenario};
-use thiserror::Error;
+use switchback_study::{Request, Shard, refuse_other_kinds};
 
 /// Run the study that a scenario file describes, and write its report.
 #[derive(Debug, clap::Args)]
@@ -29,8 +26,9 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    #[command(flatten)]
-    engine: EngineArgs,
+    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
+    engine: Option<Engine>,
 
     /// Run one of N equal parts, counted from 1; `switchback merge` makes the report of all of them
     #[arg(long, value_name = "K/N")]
@@ -54,47 +52,6 @@ pub struct Args {
     output: Output,
 }
 
-/// By which engine.
-#[derive(Debug, Clone, Copy, clap::Args)]
-pub struct EngineArgs {
-    /// How replicates are computed, whatever the scenario says: `direct` simulates every cell, slowly, to check `superposed`
-    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(Engine::ALL.map(Engine::name)).map(engine))]
-    engine: Option<Engine>,
-}
-
-impl EngineArgs {
-    /// A scenario on the engine asked for.
-    pub fn of(self, scenario: Scenario) -> Scenario {
-        match self.engine {
-            Some(engine) => scenario.on(engine),
-            None => scenario,
-        }
-    }
-
-    /// The command that makes the results of a scenario file again, without the place where this machine keeps it.
-    pub fn command(self, file: &Path) -> String {
-        let name = stream::file_name(file);
-        let engine = self.engine.map_or_else(String::new, |engine| format!(" --engine {}", engine.name()));
-        format!("switchback {name}{engine}")
-    }
-}
-
-/// Refuses a file that describes no consistency study, for those who call the library: examinations keep their rigs sealed in a folder.
-///
-/// # Errors
-/// What it is, and the command that takes it.
-pub fn refuse_all_but_consistency(file: &Path) -> miette::Result<()> {
-    refuse_other_kinds(file)?;
-    let kind = match (blind::is_blind(file), field::is_field(file)) {
-        (true, _) => "a blind study",
-        (_, true) => "a field examination",
-        _ => return Ok(()),
-    };
-    let path = file.display().to_string();
-    let remedy = format!("it seals its rigs in a folder: run it with `switchback {}`", in_shell(&path));
-    Err(miette!(help = remedy, "{path}: this is {kind}, which only the command line runs"))
-}
-
 /// Reads, claims the folder, runs, writes, prints.
 ///
 /// # Errors
@@ -114,12 +71,13 @@ pub fn run(args: &Args) -> CommandResult {
         let bases = field::Bases::load(&study, args.output.quiet.quiet)?;
         return examined(args, file, &Field::new(study, &bases));
     }
-    let scenario = args.engine.of(Scenario::read(file)?);
+    let request = Request { engine: args.engine };
+    let scenario = request.of(Scenario::read(file)?);
     let parts = args.shard.map_or(1.0, |shard| shard.of as f64);
     args.yes.permit(least_seconds(&scenario) / parts, args.threads, args.output.quiet)?;
     let order = Order {
         file,
-        command: &args.engine.command(file),
+        command: &request.command(file),
         out: args.out.as_deref(),
         shard: args.shard,
         from: args.from.as_deref(),
@@ -150,38 +108,13 @@ fn examined<E: Drawn>(args: &Args, file: &Path, examination: &E) -> CommandResul
 
 /// Only a consistency study has engines and rounds.
 fn refuse_engine_and_rounds(args: &Args, kind: &str) -> miette::Result<()> {
-    let given =
-        [(args.engine.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
+    let given = [(args.engine.is_some(), "engines", "--engine"), (args.from.is_some(), "rounds", "--from")];
     match (&args.scenario, given.into_iter().find(|(is_given, ..)| *is_given)) {
         (Some(path), Some((_, what, option))) => {
             Err(miette!("{} is {kind}, which has no {what}; leave out {option}", path.display()))
         }
         _ => Ok(()),
     }
-}
-
-/// A file of another kind was given.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{path}: this is {kind}, but a scenario is wanted")]
-#[diagnostic(help("{remedy}"))]
-pub(super) struct OtherKind {
-    path: String,
-    kind: &'static str,
-    remedy: String,
-}
-
-/// Data, rigs and what verbs wrote are reported as such, with the verb that takes them.
-pub(super) fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
-    let path = file.display().to_string();
-    let shown = in_shell(&path);
-    let (kind, remedy) = match FileKind::of(file) {
-        Some(FileKind::Data) => ("data", format!("`switchback gap {shown}`")),
-        Some(FileKind::Rig) => ("a rig", format!("`switchback gap {shown}`")),
-        Some(FileKind::Json(kind @ "a model")) => (kind, format!("`switchback simulate {shown} INPUT.csv`")),
-        Some(FileKind::Json(kind)) => (kind, "name a scenario file, or see `switchback --help`".to_owned()),
-        Some(FileKind::Scenario) | None => return Ok(()),
-    };
-    Err(OtherKind { path, kind, remedy })
 }
 
 /// The engine of a name that is one of them.

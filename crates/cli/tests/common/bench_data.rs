@@ -1,10 +1,8 @@
 //! One measured record, to be written in many dialects.
 
-use clap::Parser;
 use std::fs;
 use std::path::PathBuf;
-use switchback::cmd::data_args::DataArgs;
-use switchback_io::rig::{Loaded, RigError};
+use switchback_io::rig::{Loaded, Request, RigError};
 use tempfile::TempDir;
 
 pub(crate) const SAMPLES: usize = 600;
@@ -51,10 +49,25 @@ pub(crate) fn comma(x: f64) -> String {
     x.to_string().replace('.', ",")
 }
 
-#[derive(Parser)]
-struct Line {
-    #[command(flatten)]
-    data: DataArgs,
+/// What the words after a verb ask for: files, and options with their values.
+fn request(words: impl IntoIterator<Item = String>) -> Request {
+    let mut request = Request::default();
+    let mut words = words.into_iter();
+    while let Some(word) = words.next() {
+        let mut value = || words.next().expect("a value");
+        let number = |text: String| text.parse().expect("a number");
+        match word.as_str() {
+            "--time" => request.columns.time = Some(value()),
+            "--input" => request.columns.input = Some(value()),
+            "--output" => request.columns.output = Some(value()),
+            "--sample-time" => request.sample_time = Some(number(value())),
+            "--rate" => request.rate = Some(number(value())),
+            "--holdout" => request.holdout = Some(value()),
+            "--resample" => request.resample = true,
+            file => request.data.push(file.into()),
+        }
+    }
+    request
 }
 
 /// A folder with files of measurements.
@@ -86,11 +99,7 @@ impl Bench {
                 (*word).to_owned()
             }
         };
-        let line = std::iter::once("gap".to_owned()).chain(words.iter().map(word));
-        Line::try_parse_from(line)
-            .expect("flags that exist")
-            .data
-            .load("gap", switchback::options::Quiet { quiet: true })
+        request(words.iter().map(word)).load("gap")
     }
 
     /// The message of an error, as it is reported, with the folder left out.

@@ -1,6 +1,6 @@
 //! The archive of an FMU.
 
-use super::heading::effect;
+use super::heading::{effect, name_from};
 use crate::identification::unit;
 use crate::model::ModelFile;
 use miette::Diagnostic;
@@ -59,7 +59,7 @@ pub fn platform() -> String {
 ///
 /// # Errors
 /// [`LibraryError`] where it is not there.
-pub fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
+pub(super) fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
     let path = match named {
         Some(path) => path.to_owned(),
         None => beside_program(),
@@ -86,7 +86,7 @@ fn beside_program() -> PathBuf {
 ///
 /// # Errors
 /// [`LibraryError::Archive`] where the archive cannot be made.
-pub fn fmu(
+pub(super) fn fmu(
     file: &ModelFile,
     (program, heading): (Program, &Heading),
     library: &[u8],
@@ -149,7 +149,7 @@ fn constants(file: &ModelFile) -> Vec<Constant> {
         for parameter in &added.parameters {
             let Some(value) = parameter.value else { continue };
             all.push(Constant {
-                name: format!("{}.{}", added.effect, super::name_from(&parameter.name)),
+                name: format!("{}.{}", added.effect, name_from(&parameter.name)),
                 unit: parameter.unit.clone(),
                 says: effect(added),
                 value,

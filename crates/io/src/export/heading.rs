@@ -6,7 +6,7 @@ use crate::model::{Added, Header, ModelFile};
 use switchback_model::step::Heading;
 
 /// What the reader of an exported model is reported; `name` is what it is called there.
-pub fn heading(file: &ModelFile, name: &str) -> Heading {
+pub(super) fn heading(file: &ModelFile, name: &str) -> Heading {
     let Header { part, rig, input, output, sample_time, identified_on, .. } = &file.header;
     let version = env!("CARGO_PKG_VERSION");
     let mut says = vec![format!("The {part} model of {rig}, exported by Switchback {version}.")];
@@ -53,7 +53,7 @@ fn sentence(text: &str) -> String {
 }
 
 /// A word of letters, digits and underscores for a name in C: `leaf spring, 2` becomes `leaf_spring_2`.
-pub fn name_from(text: &str) -> String {
+pub(super) fn name_from(text: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     let word: String = text.chars().map(letter).collect();
     let words: Vec<&str> = word.split('_').filter(|word| !word.is_empty()).collect();

@@ -5,11 +5,7 @@ mod heading;
 mod request;
 mod target;
 
-pub use fmu::fmu;
-pub use fmu::library;
 pub use fmu::platform;
-pub use heading::heading;
-pub use heading::name_from;
 pub use request::ExportError;
 pub use request::Request;
 pub use target::Target;

@@ -7,6 +7,7 @@ mod request;
 mod table;
 
 pub use error::SimulateError;
+pub use page::schema;
 pub use request::Request;
 
 use crate::model::{ModelFile, Run};

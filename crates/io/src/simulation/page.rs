@@ -1,34 +1,54 @@
 //! What ran and how well.
 
 use crate::identification::unit;
-use crate::model::{ModelFile, Run};
+use crate::model::{Header, ModelFile, Run};
+use crate::output::{stamped, stamped_schema};
 use crate::rig::InputSeries;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::Write;
+use switchback_diagnose::Effect;
 
-/// What ran, how well, and what to beware of.
-#[derive(Serialize)]
+/// Name and version of the layout of a run.
+const SCHEMA: &str = "switchback/simulate/1";
+
+/// A run of a model: `simulate --json`.
+#[derive(Serialize, JsonSchema)]
 pub(super) struct Page<'a> {
-    schema: &'static str,
+    /// The model's part.
+    #[schemars(extend("enum" = Header::PARTS))]
     model: &'a str,
+    /// The model's rig.
     rig: &'a str,
+    /// Effects in the model.
+    #[schemars(with = "Vec<Effect>")]
     effects: Vec<&'a str>,
-    /// First simulated sample, and samples from there on.
+    /// First simulated sample.
     start: usize,
+    /// Samples simulated.
     samples: usize,
+    /// Fit to the measured output, where there is one.
     fit_percent: Option<f64>,
-    /// Share of the measured outputs within the band.
+    /// Share of the measured outputs within the 95 % band.
+    #[schemars(range(min = 0, max = 1))]
     covered: Option<f64>,
+    /// Where the input leaves what the model was identified on.
     warnings: Vec<String>,
+    /// How the input was read.
     notes: Vec<String>,
+    /// Version of Switchback that wrote it.
     version: &'static str,
+}
+
+/// The JSON Schema of what `--json` prints.
+pub fn schema() -> Schema {
+    stamped_schema::<Page<'_>>(SCHEMA)
 }
 
 impl<'a> Page<'a> {
     pub(super) fn of(file: &'a ModelFile, input: &InputSeries, run: &'a Run) -> Self {
         let header = &file.header;
         Self {
-            schema: "switchback/simulate/1",
             model: &header.part,
             rig: &header.rig,
             effects: header.effects.iter().map(|added| added.effect.as_str()).collect(),
@@ -47,7 +67,7 @@ impl<'a> Page<'a> {
     }
 
     pub(super) fn json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("numbers, strings and lists of them are JSON") + "\n"
+        stamped(SCHEMA, self)
     }
 
     pub(super) fn words(&self) -> String {

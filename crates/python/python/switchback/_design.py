@@ -20,7 +20,7 @@ from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Row, Table
-from ._options import pair, several, words
+from ._options import pair, several, texts
 
 
 class Design(Result):
@@ -135,12 +135,11 @@ def design(
     for option, value in (("order", order), ("interval", interval), ("rate", rate)):
         if value is None and rig is None:
             raise SwitchbackError(f'`{option}` is missing; give order, interval and rate, or rig="rig.toml"')
-    options = words(
+    options = texts(
         order=order,
         points=points,
         interval=pair(interval, "interval"),
         rate=rate,
-        from_=None if rig is None else os.fspath(rig),
         precision=precision,
         method=method,
         periods=periods,
@@ -153,7 +152,8 @@ def design(
         output=output,
         name=name,
     )
-    return Design(_native.design(options, None if out is None else os.fspath(out)))
+    from_, to = (None if path is None else os.fspath(path) for path in (rig, out))
+    return Design(_native.design(options, from_, to))
 
 
 class Planted(Result):
@@ -244,7 +244,7 @@ def plant(
     SwitchbackError
         In the words of ``switchback plant``.
     """
-    options = words(effect=effect, size=size, law=law, seed=seed)
+    options = texts(effect=effect, size=size, law=law, seed=seed)
     given = None if model is None else model_of(model)
     with shown(progress) as heard:
         answer, records = _native.plant(records_of(rig_of(rig)), options, given, heard)
@@ -315,8 +315,15 @@ def power(
     SwitchbackError
         In the words of ``switchback gap --power``.
     """
-    options = words(without=several(without), ask=several(ask), prior=shares(prior), threads=threads)
-    more = words(power=True, effects=several(effects), draws=draws, seed=seed)
+    options = texts(
+        effects=several(effects),
+        draws=draws,
+        seed=seed,
+        without=several(without),
+        ask=several(ask),
+        prior=shares(prior),
+        threads=threads,
+    )
     given = None if model is None else model_of(model)
     with shown(progress) as heard:
-        return Power(_native.power(records_of(rig_of(rig)), options, more, given, heard))
+        return Power(_native.power(records_of(rig_of(rig)), options, given, heard))

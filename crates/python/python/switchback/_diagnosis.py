@@ -16,7 +16,7 @@ from ._progress import shown
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Estimate, Row, Table
-from ._options import number, several, words
+from ._options import number, several, texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -258,7 +258,7 @@ def diagnose(
     rig = rig_of(rig)
     if y_sim is not None:
         rig = rig.with_y_sim(y_sim)
-    options = words(without=several(without), ask=several(ask), causal=causal, prior=shares(prior), threads=threads)
+    options = texts(without=several(without), ask=several(ask), causal=causal, prior=shares(prior), threads=threads)
     given = None if model is None else model_of(model)
     with shown(progress) as heard:
         return Diagnosis(_native.diagnose(records_of(rig), options, given, heard))

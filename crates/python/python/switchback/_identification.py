@@ -17,7 +17,7 @@ from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._rig import Rig, records_of, rig_of
 from ._table import Row, Table
-from ._options import words
+from ._options import texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -201,7 +201,7 @@ def identify(
     ----------
     Y. Rochdi, F. Giri, F.Z. Chaoui, 15th IFAC SYSID, 2009, doi 10.3182/20090706-3-FR-2004.0370.
     """
-    options = words(method=method, causal=causal, threads=threads)
+    options = texts(method=method, causal=causal, threads=threads)
     with shown(progress) as heard:
         return Identification(_native.identify(records_of(rig_of(rig)), options, heard))
 

@@ -17,7 +17,7 @@ from ._arrays import Floats, finite, floats, series
 from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._table import Estimate, Row, Table
-from ._options import words
+from ._options import texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -253,8 +253,8 @@ class Model:
         if isinstance(v, (str, os.PathLike)):
             if y is not None:
                 raise SwitchbackError("`y` belongs to an input in memory; a file holds its own")
-            options = words(input=input, output=output, time=time, resample=resample)
-            return Simulation(*_native.simulate_file(model, [*options, "--", os.fspath(v)]))
+            options = texts(input=input, output=output, time=time, resample=resample)
+            return Simulation(*_native.simulate_file(model, os.fspath(v), options))
         given = {"input": input, "output": output, "time": time, "resample": resample}
         for name, value in given.items():
             if value:
@@ -312,8 +312,8 @@ class Model:
         SwitchbackError
             For a model that looks ahead: identify with ``causal=True``. In the words of ``switchback export``.
         """
-        options = words(to=to, name=name, library=library)
-        made = _native.export(model_of(self), options, None if file is None else os.fspath(file))
+        library, out = (None if path is None else os.fspath(path) for path in (library, file))
+        made = _native.export(model_of(self), texts(to=to, name=name), library, out)
         if file is not None:
             Path(file).write_bytes(made)
         return made

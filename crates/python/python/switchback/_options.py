@@ -1,4 +1,4 @@
-"""Options as the words of the command line, so that they are understood, and refused, as they are there."""
+"""Options as texts by their names, for the library to parse: they are understood, and refused, as on the command line."""
 
 from __future__ import annotations
 
@@ -14,21 +14,20 @@ from ._native import SwitchbackError
 Option = Union[None, bool, str, int, float, "os.PathLike[str]", Iterable[str]]
 
 
-def words(**options: Option) -> list[str]:
-    """``sample_time=0.01`` becomes ``--sample-time=0.01``; ``None`` and ``False`` are left out."""
-    found: list[str] = []
+def texts(**options: Option) -> dict[str, list[str]]:
+    """``sample_time=0.01`` becomes ``{"sample_time": ["0.01"]}``; a switch has no text; ``None``, ``False`` and no values are left out."""
+    found: dict[str, list[str]] = {}
     for name, value in options.items():
-        flag = "--" + name.rstrip("_").replace("_", "-")
         if value is None or value is False:
             continue
         if value is True:
-            found.append(flag)
+            found[name] = []
         elif isinstance(value, (str, os.PathLike)):
-            found.append(f"{flag}={os.fspath(value)}")
-        elif isinstance(value, Iterable):
-            found.extend(f"{flag}={one}" for one in value)
-        else:
-            found.append(f"{flag}={number(value)}")
+            found[name] = [os.fspath(value)]
+        elif not isinstance(value, Iterable):
+            found[name] = [number(value)]
+        elif several := [str(one) for one in value]:
+            found[name] = several
     return found
 
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ._arrays import Column, Floats, column, columns_of, finite, floats
 from ._native import Records, SwitchbackError
 from ._result import PathLike
-from ._options import number, pair, real, whole, words
+from ._options import number, pair, real, whole, texts
 
 #: What drove the input of a record.
 Role = Literal["free", "descendant", "ascendant", "step_high", "step_low"]
@@ -92,8 +92,7 @@ class Rig:
         SwitchbackError
             With all that is wrong, in the words of ``switchback gap``: file, place, remedy.
         """
-        names = [os.fspath(file) for file in files]
-        options = words(
+        options = texts(
             input=_named(input),
             output=_named(output),
             time=_named(time),
@@ -102,7 +101,7 @@ class Rig:
             holdout=holdout,
             resample=resample,
         )
-        return cls(Records.read([*options, "--", *names], "gap"))
+        return cls(Records.read([os.fspath(file) for file in files], options))
 
     @classmethod
     def from_frame(

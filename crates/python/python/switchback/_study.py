@@ -14,7 +14,7 @@ from ._native import SwitchbackError
 from ._progress import shown
 from ._result import PathLike, Result
 from ._table import Estimate, Row, Table
-from ._options import words
+from ._options import texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -180,7 +180,7 @@ def study(
     SwitchbackError
         In the words of the command line; for a mapping, places are those of its TOML.
     """
-    options = words(engine=engine, threads=threads, yes=yes)
+    options = texts(engine=engine, threads=threads, yes=yes)
     with shown(progress) as heard:
         if isinstance(scenario, Mapping):
             text = _json_of(scenario)

@@ -1,41 +1,52 @@
 //! `switchback gap`
 
-use super::{Model, Options, options};
+use super::Model;
 use crate::answer::{Answer, Page};
 use crate::call::{Call, Heard};
+use crate::options::Options;
 use crate::records::Records;
+use crate::refusal::Refusal;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
-use switchback::cmd::gap;
-use switchback_io::diagnosis::{GivenModel, Report, Subject};
+use switchback_diagnose::Effect;
+use switchback_io::diagnosis::{GivenModel, Report, Request, Subject, examine_watched, prior};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
 use switchback_report::diagnosis as text;
 
 /// Diagnoses the gap between a model and the records.
 #[pyfunction]
-#[pyo3(signature = (records, words, model=None, heard=None))]
+#[pyo3(signature = (records, options, model=None, heard=None))]
 pub(crate) fn diagnose(
     py: Python<'_>,
     records: &Records,
-    words: Vec<OsString>,
+    mut options: Options,
     model: Option<Model>,
     heard: Heard<'_>,
 ) -> PyResult<Answer> {
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
     Call::run(py, &heard, move |call| {
-        let Options::<gap::Asked> { asked, threads } = options(words)?;
-        let rig = Arc::unwrap_or_clone(rig);
-        let subject = match model {
-            Some((path, text)) => Subject::of(rig, Some(&GivenModel::of_text(&path, &text)?))?,
-            None => Subject::choose(rig, asked.model())?,
-        };
-        let subject = subject.noting(about.warnings);
-        let report = gap::diagnosed(subject, &asked, (&about.place, threads, &*call))?;
+        let settings = request(&mut options)?.settings();
+        let threads = options.threads()?;
+        options.finish()?;
+        let model = model.map(|(path, text)| GivenModel::of_text(&path, &text)).transpose()?;
+        let subject = Subject::of(Arc::unwrap_or_clone(rig), model.as_ref())?.noting(about.warnings);
+        let report = threads.install(|| examine_watched(subject, &settings, &*call))?;
+        let report = report.map_err(|error| error.in_file(&about.place))?;
         Ok(Answer::new(Diagnosed { report, inputs: about.inputs }))
+    })
+}
+
+/// What is asked of a diagnosis.
+pub(super) fn request(options: &mut Options) -> Result<Request, Refusal> {
+    let name = |effect: &Effect| effect.name();
+    Ok(Request {
+        without: options.names("--without <EFFECT>", &Effect::ALL, name)?,
+        ask: options.names("--ask <EFFECT>", &Effect::ALL, name)?,
+        causal: options.switch("--causal")?,
+        prior: options.value("--prior <SHARES>", prior)?,
     })
 }
 
@@ -54,8 +65,8 @@ impl Page for Diagnosed {
         text::words(&self.report, None)
     }
 
-    fn files(&self) -> miette::Result<Artefacts> {
-        Ok(gap::artefacts(&self.report)?)
+    fn files(&self) -> Result<Artefacts, Refusal> {
+        Ok(text::artefacts(&self.report)?)
     }
 
     fn texts(&self) -> BTreeMap<String, String> {

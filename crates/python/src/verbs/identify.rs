@@ -1,33 +1,37 @@
 //! `switchback identify`
 
-use super::{Options, options};
 use crate::answer::{Answer, Page};
 use crate::call::{Call, Heard};
+use crate::options::Options;
 use crate::records::Records;
+use crate::refusal::Refusal;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
-use switchback::cmd;
-use switchback_io::identification::{self, Identification};
+use switchback_io::identification::{self, Identification, Method, Request, examined_watched};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
 use switchback_model::rig::Rig;
+use switchback_report::identification::artefacts;
 
 /// Identifies the linear part and both borders.
 #[pyfunction]
-#[pyo3(signature = (records, words, heard=None))]
+#[pyo3(signature = (records, options, heard=None))]
 pub(crate) fn identify(
     py: Python<'_>,
     records: &Records,
-    words: Vec<OsString>,
+    mut options: Options,
     heard: Heard<'_>,
 ) -> PyResult<Answer> {
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
     Call::run(py, &heard, move |call| {
-        let Options { asked, threads } = options(words)?;
-        let identification = cmd::identify::identified(&rig, &asked, (&about.place, threads, &*call))?;
+        let method = options.name("--method <METHOD>", &Method::ALL, |method| method.name())?;
+        let request = Request::new(&rig, method, options.switch("--causal")?);
+        let threads = options.threads()?;
+        options.finish()?;
+        let identification = threads.install(|| examined_watched(&rig, request, &*call))?;
+        let identification = identification.map_err(|error| error.in_file(&about.place))?;
         Ok(Answer::new(Identified { rig, identification, inputs: about.inputs }))
     })
 }
@@ -48,8 +52,8 @@ impl Page for Identified {
         identification::table(&self.rig, &self.identification)
     }
 
-    fn files(&self) -> miette::Result<Artefacts> {
-        cmd::identify::artefacts(&self.rig, &self.identification)
+    fn files(&self) -> Result<Artefacts, Refusal> {
+        Ok(artefacts(&self.rig, &self.identification)?)
     }
 
     fn texts(&self) -> BTreeMap<String, String> {

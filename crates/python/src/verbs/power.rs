@@ -1,46 +1,55 @@
 //! `switchback gap --power`
 
-use super::{Model, Options, options};
+use super::Model;
+use super::diagnose::request;
 use crate::answer::{Answer, Stored};
 use crate::call::{Call, Heard, Stoppable};
+use crate::options::Options;
 use crate::records::Records;
 use crate::refusal::Refusal;
 use pyo3::prelude::*;
-use std::ffi::OsString;
 use std::sync::Arc;
-use switchback::cmd::gap;
-use switchback::cmd::power::{PowerArgs, artefacts, plan};
 use switchback_io::diagnosis::GivenModel;
-use switchback_lab::power::{Context, json, measure, words};
+use switchback_io::values::whole;
+use switchback_lab::generate::EFFECTS;
+use switchback_lab::power::{Context, Request, json, measure, words};
+use switchback_report::power::artefacts;
 
-/// Which effects these records would have shown. `asked` are words of a diagnosis, `more` are those of `--power`.
+/// Which effects these records would have shown.
 #[pyfunction]
-#[pyo3(signature = (records, asked, more, model=None, heard=None))]
+#[pyo3(signature = (records, options, model=None, heard=None))]
 pub(crate) fn power(
     py: Python<'_>,
     records: &Records,
-    asked: Vec<OsString>,
-    more: Vec<OsString>,
+    mut options: Options,
     model: Option<Model>,
     heard: Heard<'_>,
 ) -> PyResult<Answer> {
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
     Call::run(py, &heard, move |call| {
-        let Options::<gap::Asked> { asked, threads } = options(asked)?;
-        let power: PowerArgs = options(more)?;
-        let plan = plan(&power, &asked.settings())?;
-        let model = match (&model, asked.model()) {
-            (Some((path, text)), _) => Some(GivenModel::of_text(path, text)?),
-            (None, path) => path.map(GivenModel::read).transpose()?,
-        };
+        let settings = request(&mut options)?.settings();
+        let plan = faults(&mut options)?.plan(&settings)?;
+        let threads = options.threads()?;
+        options.finish()?;
+        let model = model.map(|(path, text)| GivenModel::of_text(&path, &text)).transpose()?;
         let place = about.place.display().to_string();
         // What is found is reported with the ground that it was found on, which borrows the rig.
         let measured = threads.install(|| {
-            let context = Context::new(&rig, model, asked.settings(), &place)?;
+            let context = Context::new(&rig, model, settings, &place)?;
             let power = measure(&context, &plan, &Stoppable(call), || {})?;
             let (json, words) = (json(&power, &context), words(&power, &context));
             Ok::<_, Refusal>(Stored::new(json, words, artefacts(&power, &context)).reading(about.inputs))
         });
         Ok(Answer::new(measured??))
+    })
+}
+
+/// What is asked of the measurement.
+fn faults(options: &mut Options) -> Result<Request, Refusal> {
+    let plain = Request::default();
+    Ok(Request {
+        effects: options.names("--effects <EFFECT,…>", &EFFECTS, |effect| *effect)?,
+        draws: options.value("--draws <N>", whole(Request::DRAWS))?.unwrap_or(plain.draws),
+        seed: options.value("--seed <SEED>", whole(0..=u64::MAX))?.unwrap_or(plain.seed),
     })
 }

@@ -1,17 +1,18 @@
 //! `switchback simulate`
 
-use super::{Model, options};
+use super::Model;
 use crate::answer::{Answer, Page};
 use crate::call::{Call, Heard};
 use crate::numbers::{bytes, numbers};
+use crate::options::Options;
+use crate::refusal::Refusal;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use std::ffi::OsString;
-use std::path::Path;
-use switchback::cmd::simulate::{Asked, Simulation, played};
+use std::path::{Path, PathBuf};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
-use switchback_io::rig::InputSeries;
+use switchback_io::rig::{ColumnNames, InputSeries};
+use switchback_io::simulation::{Request, Simulation};
 
 /// A free run: the answer, then the outputs, both ends of the band, and the first simulated sample.
 type Simulated<'py> = (Answer, [Bound<'py, PyBytes>; 4], usize);
@@ -49,21 +50,31 @@ pub(crate) fn simulate<'py>(
     Ok(simulated(py, run))
 }
 
-/// The same on an input in a file: `words` are those after the model on the command line.
+/// The same on an input in a file.
 #[pyfunction]
-#[pyo3(signature = (model, words, heard=None))]
+#[pyo3(signature = (model, file, options, heard=None))]
 pub(crate) fn simulate_file<'py>(
     py: Python<'py>,
     model: Model,
-    words: Vec<OsString>,
+    file: PathBuf,
+    mut options: Options,
     heard: Heard<'py>,
 ) -> PyResult<Simulated<'py>> {
     let run = Call::run(py, &heard, move |_| {
         let (path, text) = model;
-        let asked: Asked = options(words)?;
+        let request = Request {
+            file,
+            columns: ColumnNames {
+                time: options.text("--time <COLUMN>")?,
+                input: options.text("--input <COLUMN>")?,
+                output: options.text("--output <COLUMN>")?,
+            },
+            resample: options.switch("--resample")?,
+        };
+        options.finish()?;
         let file = model::of_text(&path, &text)?;
-        let input = played(&asked, (&file, &path))?;
-        Ok(Simulation::new(file, input, asked.file())?)
+        let input = request.read((&file, &path))?;
+        Ok(Simulation::new(file, input, &request.file)?)
     })?;
     Ok(simulated(py, run))
 }
@@ -87,7 +98,7 @@ impl Page for Ran {
         self.0.words()
     }
 
-    fn files(&self) -> miette::Result<Artefacts> {
+    fn files(&self) -> Result<Artefacts, Refusal> {
         let mut files = Artefacts::default();
         files.add("simulated.csv", self.0.csv());
         Ok(files)

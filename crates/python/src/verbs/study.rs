@@ -1,86 +1,86 @@
 //! `switchback SCENARIO.toml`
 
-use super::options;
 use crate::answer::{Answer, Page};
 use crate::call::{Call, Heard, Stoppable};
+use crate::options::Options;
 use crate::refusal::Refusal;
-use clap::Args;
-use miette::miette;
 use pyo3::prelude::*;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use switchback::cmd::study::{EngineArgs, refuse_all_but_consistency};
-use switchback::options::{Quiet, Threads, Yes};
 use switchback_io::output::Artefacts;
+use switchback_io::rig::in_shell;
+use switchback_io::threads::Threads;
+use switchback_lab::{blind, field};
 use switchback_report::study as report;
 use switchback_study::consistency::{Ended, Progress, Study, least_seconds};
+use switchback_study::estimate::permit;
 use switchback_study::results::{Results, to_json};
-use switchback_study::scenario::Scenario;
+use switchback_study::scenario::{Engine, Scenario};
+use switchback_study::{Request, refuse_other_kinds};
 
 /// Runs the consistency study of a scenario file.
 #[pyfunction]
-#[pyo3(signature = (file, words, heard=None))]
-pub(crate) fn study(
-    py: Python<'_>,
-    file: PathBuf,
-    words: Vec<OsString>,
-    heard: Heard<'_>,
-) -> PyResult<Answer> {
+#[pyo3(signature = (file, options, heard=None))]
+pub(crate) fn study(py: Python<'_>, file: PathBuf, options: Options, heard: Heard<'_>) -> PyResult<Answer> {
     Call::run(py, &heard, move |call| {
-        refuse_all_but_consistency(&file)?;
+        refuse_other_kinds(&file)?;
+        refuse_examinations(&file)?;
         let scenario = Scenario::read(&file)?;
-        studied(scenario, (&file, words), call)
+        studied(scenario, (&file, options), call)
     })
 }
 
 /// The same of a scenario as JSON; `file` is what messages call it.
 #[pyfunction]
-#[pyo3(signature = (file, json, words, heard=None))]
+#[pyo3(signature = (file, json, options, heard=None))]
 pub(crate) fn study_of_json(
     py: Python<'_>,
     file: PathBuf,
     json: String,
-    words: Vec<OsString>,
+    options: Options,
     heard: Heard<'_>,
 ) -> PyResult<(Answer, String)> {
     Call::run(py, &heard, move |call| {
-        let value: toml::Value = serde_json::from_str(&json).map_err(|error| miette!("{error}"))?;
-        let text = toml::to_string_pretty(&value).map_err(|error| miette!("{error}"))?;
+        let value: toml::Value = serde_json::from_str(&json).map_err(Refusal::new)?;
+        let text = toml::to_string_pretty(&value).map_err(Refusal::new)?;
         let scenario = Scenario::parse(&file.display().to_string(), &text)?;
-        Ok((studied(scenario, (&file, words), call)?, text))
+        Ok((studied(scenario, (&file, options), call)?, text))
     })
 }
 
-/// What a study takes.
-#[derive(Debug, Args)]
-struct StudyOptions {
-    #[command(flatten)]
-    engine: EngineArgs,
-
-    #[command(flatten)]
-    threads: Threads,
-
-    #[command(flatten)]
-    yes: Yes,
+/// Examinations keep their rigs sealed in a folder.
+fn refuse_examinations(file: &Path) -> Result<(), Refusal> {
+    let kind = match (blind::is_blind(file), field::is_field(file)) {
+        (true, _) => "a blind study",
+        (_, true) => "a field examination",
+        _ => return Ok(()),
+    };
+    let path = file.display().to_string();
+    Err(Refusal::new(format!(
+        "{path}: this is {kind}, which only the command line runs\nhelp: it seals its rigs in a folder: run it with `switchback {}`",
+        in_shell(&path)
+    )))
 }
 
 fn studied(
     scenario: Scenario,
-    (file, words): (&Path, Vec<OsString>),
+    (file, mut options): (&Path, Options),
     call: Arc<Call>,
 ) -> Result<Answer, Refusal> {
-    let StudyOptions { engine, threads, yes } = options(words)?;
-    let scenario = &engine.of(scenario);
-    yes.permit(least_seconds(scenario), threads, Quiet { quiet: true })?;
+    let request =
+        Request { engine: options.name("--engine <ENGINE>", &Engine::ALL, |engine| engine.name())? };
+    let (threads, is_allowed) = (options.threads()?, options.switch("--yes")?);
+    options.finish()?;
+    let scenario = &request.of(scenario);
+    permit(least_seconds(scenario), threads, is_allowed)?;
     let results = threads.install(|| {
-        let study = Study::plan(scenario).map_err(|error| miette!("{error}"))?;
+        let study = Study::plan(scenario).map_err(Refusal::new)?;
         let mut run_state = study.begin();
         Progress::planned(&*call, study.forecast().max(run_state.target()) as u64);
         match study.run(&mut run_state, &*call, &mut Stoppable(Arc::clone(&call))) {
-            Ended::Finished => Ok(study.results(&run_state, engine.command(file))),
+            Ended::Finished => Ok(study.results(&run_state, request.command(file))),
             // Whoever stopped it does not wait for what it amounts to.
-            Ended::Stopped => Err(miette!("stopped")),
+            Ended::Stopped => Err(Refusal::new("stopped")),
         }
     })??;
     Ok(Answer::new(Studied { results, threads, file: file.to_owned() }))
@@ -102,7 +102,7 @@ impl Page for Studied {
         report::table(&self.results)
     }
 
-    fn files(&self) -> miette::Result<Artefacts> {
+    fn files(&self) -> Result<Artefacts, Refusal> {
         Ok(self.threads.install(|| report::artefacts(&self.results))??)
     }
 

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why nothing was planted.
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
-pub enum MachineError {
+pub enum PlantError {
     /// The records are no ground for a fault.
     #[error("{data}: {error}")]
     #[diagnostic(help(

@@ -5,8 +5,8 @@ mod json;
 mod request;
 mod words;
 
-pub use error::MachineError;
-pub use json::json;
+pub use error::PlantError;
+pub use json::{json, schema};
 pub use request::Request;
 pub use words::words;
 
@@ -19,14 +19,14 @@ use switchback_model::rig::Rig;
 /// The records with the fault. `place` is what messages call the records; the host model is a model and what messages call that.
 ///
 /// # Errors
-/// [`MachineError`] for an unknown effect or law, or records or a model that cannot carry it.
-pub fn machine(
+/// [`PlantError`] for an unknown effect or law, or records or a model that cannot carry it.
+pub fn plant(
     rig: &Rig,
     request: &Request,
     (place, host_model): (&Path, Option<(&ModelFile, &Path)>),
-) -> Result<InjectedRig, MachineError> {
+) -> Result<InjectedRig, PlantError> {
     let requested_fault = request.requested_fault()?;
-    let refused = |error| MachineError::Context { data: name(place), error };
+    let refused = |error| PlantError::Context { data: name(place), error };
     let context = match host_model {
         Some((file, path)) => InjectionContext::carried_by(rig, carrying(rig, file, path)?),
         None => InjectionContext::new(rig),
@@ -35,17 +35,17 @@ pub fn machine(
 }
 
 /// The model of a file, where it can carry a fault into the records of a rig.
-fn carrying<'f>(rig: &Rig, file: &'f ModelFile, path: &Path) -> Result<&'f Model, MachineError> {
+fn carrying<'f>(rig: &Rig, file: &'f ModelFile, path: &Path) -> Result<&'f Model, PlantError> {
     file.header.check_units([&rig.input_label, &rig.output_label], (path, "rig"))?;
     let model = name(path);
     if !file.header.runs_at(rig.sample_time) {
         let at = file.header.sample_time;
-        return Err(MachineError::SampleTime { model, at, rig: rig.sample_time });
+        return Err(PlantError::SampleTime { model, at, rig: rig.sample_time });
     }
     match &file.system {
         System::Curves(curves) => Ok(curves.model()),
         other @ (System::Switched(_) | System::Points(_)) => {
-            Err(MachineError::Model { model, kind: other.kind() })
+            Err(PlantError::Model { model, kind: other.kind() })
         }
     }
 }
