@@ -3,7 +3,7 @@
 use switchback_io::provenance::Build;
 
 /// As the build script found them.
-pub const BUILD: Build =
+pub(crate) const BUILD: Build =
     Build { commit: env!("COMMIT"), study_sources: env!("STUDY_SOURCES"), lock: env!("LOCK") };
 
 /// SHA-256 of the sources that make, diagnose and judge rigs.

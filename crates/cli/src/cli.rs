@@ -24,7 +24,7 @@ use thiserror::Error;
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true
 )]
-pub struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
     verb: Option<Verb>,
 
@@ -51,6 +51,8 @@ enum Verb {
     Replay(cmd::replay::Args),
     Report(cmd::report::Args),
     Rig(cmd::rig::Args),
+    #[command(hide = true)]
+    Schemas(cmd::schemas::Args),
     Selftest(cmd::selftest::Args),
     Simulate(cmd::simulate::Args),
 }
@@ -60,7 +62,7 @@ enum Verb {
 ///
 /// # Errors
 /// The report of an input that could not be used.
-pub fn run(words: Vec<OsString>) -> CommandResult {
+pub(crate) fn run(words: Vec<OsString>) -> CommandResult {
     if let Some(word) = words.get(1).and_then(|word| word.to_str()) {
         refuse_misspelt_verb(word)?;
     }
@@ -120,7 +122,7 @@ impl Cli {
     ///
     /// # Errors
     /// The report of an input that could not be used.
-    pub fn run(self) -> CommandResult {
+    pub(crate) fn run(self) -> CommandResult {
         match self.verb {
             Some(Verb::Calibrate(args)) => cmd::calibrate::run(&args),
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
@@ -138,6 +140,7 @@ impl Cli {
             Some(Verb::Replay(args)) => cmd::replay::run(&args),
             Some(Verb::Report(args)) => cmd::report::run(&args),
             Some(Verb::Rig(args)) => cmd::rig::run(&args),
+            Some(Verb::Schemas(args)) => cmd::schemas::run(&args),
             Some(Verb::Selftest(args)) => cmd::selftest::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
             None => cmd::study::run(&self.study),

@@ -8,7 +8,7 @@ use switchback_io::output::plain;
 /// How a command ended that was given good input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[must_use]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// All done; exit code 0.
     Done,
     /// What was expected did not come out, or what was compared differs; exit code 1.
@@ -18,13 +18,13 @@ pub enum Outcome {
 }
 
 /// Exit code of a process that a signal stopped: what was finished is kept.
-pub const STOPPED: u8 = 3;
+pub(crate) const STOPPED: u8 = 3;
 
 /// What every command returns: an outcome, or the report of an input that could not be used (exit code 2).
-pub type CommandResult = Result<Outcome, miette::Report>;
+pub(crate) type CommandResult = Result<Outcome, miette::Report>;
 
 /// Shows a failure on stderr and turns the result into the process's exit code: 0, 1, 2 or 3.
-pub fn exit_code(result: CommandResult) -> ExitCode {
+pub(crate) fn exit_code(result: CommandResult) -> ExitCode {
     let code = match result {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::Unmet) => 1,

@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 ///
 /// # Panics
 /// If called twice.
-pub fn install() {
+pub(crate) fn install() {
     let stop = || {
         if SIGNAL_GUARD.load(Ordering::SeqCst) == 0 || WISHED.swap(true, Ordering::SeqCst) {
             end();
@@ -41,19 +41,18 @@ fn end() -> ! {
 }
 
 /// Whether someone wished the process to stop. Who asks [heeds](SignalGuard) it.
-pub fn is_wished() -> bool {
+pub(crate) fn is_wished() -> bool {
     WISHED.load(Ordering::Relaxed)
 }
 
 /// While it lives, a signal is left to the work at hand, which asks [`is_wished`] often.
 #[derive(Debug)]
-pub struct SignalGuard(());
+pub(crate) struct SignalGuard(());
 
 impl SignalGuard {
     /// From here on.
     #[must_use]
-    #[expect(clippy::new_without_default, reason = "it does something")]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         SIGNAL_GUARD.fetch_add(1, Ordering::SeqCst);
         Self(())
     }

@@ -1,7 +1,15 @@
-//! The `switchback` binary.
+//! The `switchback` program: the command line.
+
+mod build;
+mod cli;
+mod cmd;
+mod failure;
+mod interrupt;
+mod launch;
+mod options;
+mod progress;
 
 use std::process::ExitCode;
-use switchback::{cli, failure, interrupt};
 use switchback_io::platform;
 
 fn main() -> ExitCode {

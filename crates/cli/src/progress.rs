@@ -2,7 +2,7 @@
 
 mod watch;
 
-pub use watch::Watch;
+pub(crate) use watch::Watch;
 
 use crate::options::Quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -13,7 +13,7 @@ use switchback_study::consistency::Progress;
 
 /// Counts units of work and shows them on stderr.
 #[derive(Debug)]
-pub struct Meter {
+pub(crate) struct Meter {
     bar: ProgressBar,
     plain: bool,
     what: &'static str,
@@ -26,12 +26,12 @@ const LINES: u64 = 10;
 
 impl Meter {
     /// A meter of replicates at zero.
-    pub fn new(quiet: Quiet) -> Self {
+    pub(crate) fn new(quiet: Quiet) -> Self {
         Self::counting("replicates", quiet)
     }
 
     /// A meter of anything else.
-    pub fn counting(what: &'static str, quiet: Quiet) -> Self {
+    pub(crate) fn counting(what: &'static str, quiet: Quiet) -> Self {
         let quiet = quiet.quiet;
         let terminal = std::io::stderr().is_terminal();
         let target =
@@ -44,7 +44,7 @@ impl Meter {
     }
 
     /// So many units are to be done, of which a former run did some.
-    pub fn begin(&self, planned: usize, done: usize) {
+    pub(crate) fn begin(&self, planned: usize, done: usize) {
         self.planned(planned as u64);
         self.bar.set_position(done as u64);
         self.bar.reset_eta();
@@ -52,7 +52,7 @@ impl Meter {
     }
 
     /// Takes the bar off the screen.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

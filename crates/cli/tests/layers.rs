@@ -56,6 +56,12 @@ fn a_crate_uses_only_crates_below_it() {
     assert!(upwards.is_empty(), "{upwards:?}");
 }
 
+/// The file of a crate that names its modules: of a library, or of the program.
+fn root_file(source: &Path) -> PathBuf {
+    let library = source.join("lib.rs");
+    if library.exists() { library } else { source.join("main.rs") }
+}
+
 /// The files of a crate as modules: by its path within the crate, what a module defines, what it takes from where, and what it names.
 #[derive(Default)]
 struct Modules(BTreeMap<Vec<String>, Module>);
@@ -74,7 +80,7 @@ struct Module {
 impl Modules {
     fn of(source: &Path) -> Self {
         let mut modules = Self::default();
-        modules.read(&source.join("lib.rs"), source, Vec::new());
+        modules.read(&root_file(source), source, Vec::new());
         modules
     }
 
@@ -332,7 +338,7 @@ fn a_circle_through_a_re_export_is_found() {
 fn a_crate_has_one_sentence_of_purpose_and_no_more_lines_than_one_can_know() {
     for entry in fs::read_dir(root().join("crates")).expect("crates") {
         let crate_folder = entry.expect("an entry").path();
-        let text = fs::read_to_string(crate_folder.join("src/lib.rs")).expect("a library");
+        let text = fs::read_to_string(root_file(&crate_folder.join("src"))).expect("a crate");
         let first = text.lines().next().unwrap_or_default();
         assert!(first.starts_with("//! ") && first.ends_with('.'), "{}: {first}", crate_folder.display());
         let lines = source_lines(&crate_folder.join("src"));

@@ -17,7 +17,7 @@ use thiserror::Error;
 ///
 /// What it reaches is reported beside what rules reach: every rig is predicted from rigs with another base and another law.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Folders of field examinations, or of parts of them: `switchback SCENARIO.toml --shard K/N --out DIR`.
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
@@ -34,7 +34,7 @@ pub struct Args {
 const SCHEMA: &str = "switchback/verdict/1";
 
 /// The JSON Schema of a fitted verdict.
-pub fn schema() -> Schema {
+pub(crate) fn schema() -> Schema {
     stamped_schema::<FittedVerdict>(SCHEMA)
 }
 
@@ -85,7 +85,7 @@ fn judged(folder: &Path) -> miette::Result<(String, Vec<Case>)> {
 ///
 /// # Errors
 /// Folders without judged rigs, too few of these, or a file that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let out = args.output.force.claim_file(args.out.as_deref(), &[])?;
     let (mut cases, mut studies) = (Vec::new(), Vec::new());
     for folder in &args.folders {

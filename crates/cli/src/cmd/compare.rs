@@ -10,7 +10,7 @@ use switchback_study::results::{self, Results};
 
 /// Compare two results in units of their Monte-Carlo errors; exit code 1 where they differ beyond chance.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results to compare with: a results.json, a results.json.gz, or the report folder that holds one.
     baseline: PathBuf,
 
@@ -36,7 +36,7 @@ const FILES: [&str; 3] = ["comparison.txt", "comparison.svg", "overlay-*.svg"];
 ///
 /// # Errors
 /// Files that are no results, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let baseline = results::read(&args.baseline)?;
     let new = results::read(&args.new)?;
     let folder =

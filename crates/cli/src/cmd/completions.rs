@@ -9,7 +9,7 @@ use switchback_io::output::print;
 /// Where it goes: `switchback completions bash > ~/.local/share/bash-completion/completions/switchback`,
 /// `… zsh > DIR/_switchback` with DIR in $fpath, `… fish > ~/.config/fish/completions/switchback.fish`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// bash, elvish, fish, powershell or zsh
     #[arg(hide_possible_values = true)]
     shell: Shell,
@@ -19,7 +19,7 @@ pub struct Args {
 ///
 /// # Errors
 /// If stdout cannot be written.
-pub fn run(args: &Args, mut program: clap::Command) -> CommandResult {
+pub(crate) fn run(args: &Args, mut program: clap::Command) -> CommandResult {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "switchback", &mut script);
     print(&String::from_utf8_lossy(&script))?;

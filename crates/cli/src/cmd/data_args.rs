@@ -7,7 +7,7 @@ use switchback_io::values::positive;
 
 /// Files of measurements and how to read them, or one rig file.
 #[derive(Debug, Clone, clap::Args)]
-pub struct DataArgs {
+pub(crate) struct DataArgs {
     /// Files of measurements (CSV in any dialect; .mat if built with the feature `matlab`), one a record; or one rig file (rig.toml).
     #[arg(required = true, value_name = "DATA")]
     data: Vec<PathBuf>,
@@ -47,7 +47,7 @@ impl DataArgs {
     ///
     /// # Errors
     /// [`RigError`] with all that is wrong.
-    pub fn load(&self, verb: &str, quiet: Quiet) -> Result<(Request, Loaded), RigError> {
+    pub(crate) fn load(&self, verb: &str, quiet: Quiet) -> Result<(Request, Loaded), RigError> {
         let request = self.request();
         let loaded = request.load(verb)?;
         quiet.note(&loaded.reported.to_string());

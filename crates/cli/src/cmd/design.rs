@@ -14,7 +14,7 @@ use switchback_study::design::{self, Draft, Options, PlanMethod};
 /// With `--from RIG`, show how long to measure: every parameter's standard error against the number of samples, predicted for
 /// the system and the noise found on that rig.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Order of the linear part [default with --from: that of the rig].
     #[arg(long, value_name = "N", required_unless_present = "from", value_parser = whole::<u8>(Options::ORDERS))]
     order: Option<u8>,
@@ -95,7 +95,7 @@ pub struct Args {
 ///
 /// # Errors
 /// Experiments that cannot be, a rig that cannot be planned from, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let out = args.out.as_deref();
     let draft = Draft::new(options(args), out)?;
     let folder = args.common.force.claim_if_asked(out, &[rig::RIG_FILE], &draft.inputs())?;

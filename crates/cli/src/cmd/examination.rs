@@ -24,15 +24,15 @@ use switchback_study::parts::PART_FILE;
 
 /// Where the report goes, and how it is made and reported.
 #[derive(Debug, Clone, Copy)]
-pub struct Order<'a> {
+pub(crate) struct Order<'a> {
     /// The folder asked for.
-    pub out: Option<&'a Path>,
+    pub(crate) out: Option<&'a Path>,
     /// Whether files of others may be replaced there.
-    pub force: Force,
+    pub(crate) force: Force,
     /// Worker threads.
-    pub threads: Threads,
+    pub(crate) threads: Threads,
     /// What is printed.
-    pub page: Page,
+    pub(crate) page: Page,
 }
 
 impl Order<'_> {
@@ -40,7 +40,7 @@ impl Order<'_> {
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, FolderError> {
+    pub(crate) fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, FolderError> {
         let default = || Path::new("reports").join(examination.name());
         self.force.claim(&self.out.map_or_else(default, Path::to_owned), E::FILES)
     }
@@ -53,7 +53,7 @@ impl Order<'_> {
 ///
 /// # Errors
 /// A design that cannot be made, or a folder that cannot be written.
-pub fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
+pub(crate) fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
     let Order { threads, page, .. } = order;
     let provenance = Provenance::begin(BUILD, threads.at_once());
     // What a former run left stays until there is another report, the key with it.
@@ -88,7 +88,7 @@ pub fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_part<E: Drawn>(
+pub(crate) fn run_part<E: Drawn>(
     examination: &E,
     (scenario, shard): (&Path, Shard),
     order: Order<'_>,
@@ -222,7 +222,7 @@ fn examine<E: Drawn>(
 ///
 /// # Errors
 /// A folder that cannot be written.
-pub fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page) -> CommandResult {
+pub(crate) fn conclude(mut report: Report, keys: &str, folder: OutputFolder, page: Page) -> CommandResult {
     let out = folder.path().to_owned();
     report.files.add(KEY_FILE, keys);
     report.files = pages::bound(report.files)?;
@@ -238,11 +238,11 @@ fn describe(report: &Report, out: &Path, page: Page) -> miette::Result<()> {
 
 /// What is printed: words as the work goes on, nothing but results.json at its end, or nothing.
 #[derive(Debug, Clone, Copy)]
-pub struct Page {
+pub(crate) struct Page {
     /// Whether results.json is printed.
-    pub json: bool,
+    pub(crate) json: bool,
     /// Whether words are not.
-    pub quiet: Quiet,
+    pub(crate) quiet: Quiet,
 }
 
 impl Page {

@@ -9,7 +9,7 @@ use switchback_io::model;
 
 /// Take a model with you: as a C header or an FMU that simulators open.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
@@ -42,7 +42,7 @@ fn target() -> impl TypedValueParser<Value = Target> {
 ///
 /// # Errors
 /// A file that is no model, a model that looks ahead, or a file that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let request = Request { to: args.to, name: args.name.clone(), library: args.library.clone() };
     let name = request.name(&file, args.out.as_deref());

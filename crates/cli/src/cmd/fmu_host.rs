@@ -6,7 +6,7 @@ use switchback_io::fmu;
 
 /// Run the library of an FMU over the inputs of a job, and report it in a file beside that.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     job: PathBuf,
 }
 
@@ -14,7 +14,7 @@ pub struct Args {
 ///
 /// # Errors
 /// A job that is none, or a file that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     fmu::host(&args.job)?;
     Ok(Outcome::Done)
 }

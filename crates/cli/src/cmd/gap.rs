@@ -23,7 +23,7 @@ use switchback_report::pages::INDEX;
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     data: DataArgs,
 
@@ -111,7 +111,7 @@ const FILES: [&str; 11] = [
 ///
 /// # Errors
 /// A rig or model that cannot be read or diagnosed, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let (data, loaded) = args.data.load("gap", args.output.quiet)?;
     if args.power.power {
         return run_power(args, &data, &loaded);

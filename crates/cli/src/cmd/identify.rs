@@ -12,7 +12,7 @@ use switchback_report::pages::INDEX;
 
 /// Identify the linear part and both borders from a rig's records.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     data: DataArgs,
 
@@ -48,7 +48,7 @@ const FILES: [&str; 6] =
 ///
 /// # Errors
 /// A rig that cannot be read or identified, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let (data, loaded) = args.data.load("identify", args.output.quiet)?;
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded))?;
     let rig = loaded.rig;

@@ -9,7 +9,7 @@ use switchback_io::rig;
 
 /// Write the rig file that `gap` and `identify` would use for these files, with comments, to be changed at will.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     data: DataArgs,
 
@@ -25,7 +25,7 @@ pub struct Args {
 ///
 /// # Errors
 /// Files that cannot be read, or a rig file that is there already.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
     let (data, loaded) = args.data.load("init", args.output.quiet)?;
     let file = args.output.force.claim_file(target, &data.inputs(&loaded))?;

@@ -20,7 +20,7 @@ use thiserror::Error;
 /// Write the script by which a scheduler runs a study or an examination in parts and merges them, and submit it if asked to.
 #[derive(Debug, clap::Args)]
 #[command(group(ArgGroup::new("scheduler").required(true)))]
-pub struct Args {
+pub(crate) struct Args {
     /// The scenario file, where every node of the cluster finds it.
     scenario: PathBuf,
 
@@ -85,7 +85,7 @@ const LEAST_OF_SLURM: u64 = 180;
 ///
 /// # Errors
 /// A scenario that cannot be run, a folder that cannot be written, a scheduler that refuses.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     check(args)?;
     let launch = launch(args)?;
     let script = launch.script();

@@ -10,7 +10,7 @@ use switchback_io::output::{Artefacts, print};
 
 /// Print the manual page, or write one for every verb.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Write switchback.1, switchback-gap.1, … into this folder instead, as `man1` below a folder of $MANPATH
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -23,7 +23,7 @@ pub struct Args {
 ///
 /// # Errors
 /// A folder that cannot be written.
-pub fn run(args: &Args, program: Command) -> CommandResult {
+pub(crate) fn run(args: &Args, program: Command) -> CommandResult {
     // `help` explains itself.
     let mut program = program.disable_help_subcommand(true);
     program.build();

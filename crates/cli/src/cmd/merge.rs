@@ -19,7 +19,7 @@ use thiserror::Error;
 
 /// Make one report of all parts of a study or an examination, the bytes of one run.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Folders that `switchback SCENARIO.toml --shard K/N --out DIR` has written.
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
@@ -44,7 +44,7 @@ pub struct Args {
 #[derive(Debug, Error, Diagnostic)]
 #[error("{folder}: was judged by another version of the program")]
 #[diagnostic(help("merge with the version that judged, or run the parts again with this one"))]
-pub struct OtherProgram {
+pub(crate) struct OtherProgram {
     folder: String,
 }
 
@@ -52,7 +52,7 @@ pub struct OtherProgram {
 ///
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     args.folders.iter().try_for_each(|folder| verify(folder, |name| name != CHECKPOINT_FILE))?;
     let first = scenario_of(&args.folders[0])?;
     if field::is_field(&first) {

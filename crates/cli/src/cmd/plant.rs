@@ -14,7 +14,7 @@ use switchback_lab::plant::{Request, json, plant, words};
 /// What the sensor makes of the output, a gain, and what the record of the input shows are changed in the records themselves. Any other
 /// effect is carried by a model of the machine: its simulation with the effect less the one without is added to the measured output.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     data: DataArgs,
 
@@ -58,7 +58,7 @@ const FILES: [&str; 2] = [rig::RIG_FILE, "*.csv"];
 ///
 /// # Errors
 /// Data that cannot be read or carry nothing, an unknown effect or law, a size that is none, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let Args { effect, law, size, seed, .. } = args;
     let request = Request { effect: effect.clone(), law: *law, size: *size, seed: *seed };
     request.check()?;

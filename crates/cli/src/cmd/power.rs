@@ -16,11 +16,11 @@ use switchback_report::power::artefacts;
 
 /// What `--power` takes.
 #[derive(Debug, clap::Args)]
-pub struct PowerArgs {
+pub(crate) struct PowerArgs {
     /// Instead of a diagnosis: put known faults of every effect into these records, diagnose each, and show from which size on nine in ten are
     /// found. Takes about ten minutes on two cores for a few thousand samples.
     #[arg(long, help_heading = "Power")]
-    pub power: bool,
+    pub(crate) power: bool,
 
     /// Put in only these effects [default: all, but those of --without]
     #[arg(long, value_name = "EFFECT,…", value_delimiter = ',', value_parser = effect(), hide_possible_values = true, requires = "power", help_heading = "Power")]

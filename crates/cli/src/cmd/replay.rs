@@ -15,7 +15,7 @@ use thiserror::Error;
 
 /// Run one replicate of a study again, alone: why it has no estimate, or how far off one is.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of the study: a results.json, a results.json.gz, or the report folder that holds one.
     results: PathBuf,
 
@@ -92,7 +92,7 @@ enum ReplayError {
 ///
 /// # Errors
 /// Results that are none or of another version, a cell that is not there, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let results = results::read(&args.results)?;
     let id = args.id;
     let cells = results.cells.len();
@@ -221,7 +221,7 @@ struct PageCell<'a> {
 }
 
 /// The JSON Schema of what `--json` prints.
-pub fn schema() -> Schema {
+pub(crate) fn schema() -> Schema {
     stamped_schema::<Page<'_>>(SCHEMA)
 }
 

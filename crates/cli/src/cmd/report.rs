@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// Draw the page index.html of a report again, from the files in its folder alone: of a study the figures, too. Nothing is simulated.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The folder of a report, as a study, an examination, `gap --out` or `identify --out` wrote it.
     folder: PathBuf,
 
@@ -39,7 +39,7 @@ struct Rounded {
 ///
 /// # Errors
 /// A folder without a report, with more than one, or of another format; rounded figures without `--out`; or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let files = Files::read(&args.folder)?;
     let (names, artefacts): (&[&str], Artefacts) = match files.kind()? {
         Kind::Study => {

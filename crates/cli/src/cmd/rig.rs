@@ -19,7 +19,7 @@ use switchback_model::rig::Rig;
 
 /// Make a rig with a chosen effect: records as a user would take them, and on stdout what was put in.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Effect to put in; may be given more than once; none makes a rig without a gap.
     #[arg(long, value_name = "EFFECT")]
     effect: Vec<String>,
@@ -65,7 +65,7 @@ pub struct Args {
 ///
 /// # Errors
 /// An unknown effect or law, a size that is none, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     if args.list {
         print(&if args.json { stamped(LIST_SCHEMA, &list_file()) } else { list() })?;
         return Ok(Outcome::Done);
@@ -219,7 +219,7 @@ struct LawsFile {
 }
 
 /// The JSON Schemas of what was put in and of the list of effects.
-pub fn schemas() -> [Schema; 2] {
+pub(crate) fn schemas() -> [Schema; 2] {
     [stamped_schema::<KeyFile<'_>>(SCHEMA), stamped_schema::<ListFile>(LIST_SCHEMA)]
 }
 

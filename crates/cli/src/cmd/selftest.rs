@@ -10,7 +10,7 @@ use switchback_lab::selftest::{CHECKS, Finding, json, table};
 ///
 /// Noise, both engines, known answers, coverage, Monte-Carlo errors, a planted effect: a row each, with what was found and what must be.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Of all noise that is drawn; the checks pass on every seed but one in a hundred thousand.
     #[arg(long, default_value_t = 1, value_parser = whole::<u32>(0..=u64::from(u32::MAX)))]
     seed: u32,
@@ -30,7 +30,7 @@ pub struct Args {
 ///
 /// # Errors
 /// If the system gives no threads, or stdout cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let seed = u64::from(args.seed);
     let one = |(k, check): (usize, &switchback_lab::selftest::Check)| {
         if !args.quiet.quiet {

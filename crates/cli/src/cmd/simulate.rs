@@ -10,7 +10,7 @@ use switchback_io::simulation::{Request, Simulation};
 
 /// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// model.json of `identify --out`, or nominal.json or augmented.json of `gap --out`.
     model: PathBuf,
 
@@ -51,7 +51,7 @@ pub struct Args {
 ///
 /// # Errors
 /// A file that is no model or no input, an input that cannot be run, or an output that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let file = model::read(&args.model)?;
     let place = args.file.as_path();
     let input = request(args).read((&file, &args.model))?;

@@ -16,7 +16,7 @@ use switchback_study::{Request, Shard, refuse_other_kinds};
 
 /// Run the study that a scenario file describes, and write its report.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The scenario file.
     // There is none where a verb is named.
     #[arg(required = true)]
@@ -56,7 +56,7 @@ pub struct Args {
 ///
 /// # Errors
 /// A scenario that cannot be read or run, or a folder that cannot be written.
-pub fn run(args: &Args) -> CommandResult {
+pub(crate) fn run(args: &Args) -> CommandResult {
     let Some(file) = args.scenario.as_deref() else {
         return Err(miette!("nothing to do; name a scenario file, or see `switchback --help`"));
     };

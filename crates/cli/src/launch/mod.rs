@@ -6,7 +6,7 @@
 
 mod time_limit;
 
-pub use time_limit::TimeLimit;
+pub(crate) use time_limit::TimeLimit;
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use switchback_io::rig::in_shell;
 
 /// What runs the parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Engine {
+pub(crate) enum Engine {
     /// Slurm: job arrays, and a merge job behind them.
     Slurm,
     /// HyperQueue: a task array, which the script waits for.
@@ -44,36 +44,36 @@ const NOTICE: u64 = 60;
 
 /// What a scheduler is to run.
 #[derive(Debug, Clone)]
-pub struct Launch {
+pub(crate) struct Launch {
     /// What runs it.
-    pub engine: Engine,
+    pub(crate) engine: Engine,
     /// The command that makes the script again, for its first line.
-    pub command: String,
+    pub(crate) command: String,
     /// This program.
-    pub program: PathBuf,
+    pub(crate) program: PathBuf,
     /// The scenario's file, absolute.
-    pub scenario: PathBuf,
+    pub(crate) scenario: PathBuf,
     /// The scenario's name, that of the jobs.
-    pub name: String,
+    pub(crate) name: String,
     /// In how many parts.
-    pub parts: usize,
+    pub(crate) parts: usize,
     /// Threads of each.
-    pub threads: usize,
+    pub(crate) threads: usize,
     /// How long a part runs before it makes room for another.
-    pub time: Option<TimeLimit>,
+    pub(crate) time: Option<TimeLimit>,
     /// Options of each job, as the scheduler takes them, besides threads and time.
-    pub options: Vec<String>,
+    pub(crate) options: Vec<String>,
     /// Whether a verdict is fitted to what was judged, once it is merged.
-    pub calibrate: bool,
+    pub(crate) calibrate: bool,
     /// Where the parts go, absolute.
-    pub work: PathBuf,
+    pub(crate) work: PathBuf,
     /// Where the report goes, absolute.
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
 }
 
 impl Launch {
     /// A script of bash that gives the work to the engine.
-    pub fn script(&self) -> String {
+    pub(crate) fn script(&self) -> String {
         self.header() + include_str!("common.sh") + self.engine.text()
     }
 

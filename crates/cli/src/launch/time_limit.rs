@@ -4,24 +4,15 @@ use std::fmt;
 use std::str::FromStr;
 
 /// A time limit, written as `M`, `M:S`, `H:M:S`, `D-H`, `D-H:M` or `D-H:M:S`.
-///
-/// ```
-/// use switchback::launch::TimeLimit;
-/// let seconds = |text: &str| text.parse::<TimeLimit>().map(|limit| limit.seconds());
-/// assert_eq!(seconds("90"), Ok(5400));
-/// assert_eq!(seconds("0:20"), Ok(20));
-/// assert_eq!(seconds("1-12"), Ok(129_600));
-/// assert!(seconds("an hour").is_err());
-/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TimeLimit {
+pub(crate) struct TimeLimit {
     text: String,
     seconds: u64,
 }
 
 impl TimeLimit {
     /// In seconds, at least one.
-    pub fn seconds(&self) -> u64 {
+    pub(crate) fn seconds(&self) -> u64 {
         self.seconds
     }
 }

@@ -5,10 +5,10 @@ use switchback_io::output::{FileError, FolderError, OutputFile, OutputFolder};
 
 /// Whether files that someone else wrote may be replaced.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
-pub struct Force {
+pub(crate) struct Force {
     /// Replace files even if something else wrote or changed them
     #[arg(long)]
-    pub force: bool,
+    pub(crate) force: bool,
 }
 
 impl Force {
@@ -16,7 +16,7 @@ impl Force {
     ///
     /// # Errors
     /// [`FolderError`] if the folder cannot be written, or one of those files is someone else's, unless forced.
-    pub fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, FolderError> {
+    pub(crate) fn claim(self, folder: &Path, names: &[&str]) -> Result<OutputFolder, FolderError> {
         OutputFolder::claim(folder, self.force)?.expecting(names)
     }
 
@@ -24,7 +24,11 @@ impl Force {
     ///
     /// # Errors
     /// [`FileError`] if something is there, unless forced, or the file cannot be written.
-    pub fn claim_file(self, path: Option<&Path>, inputs: &[&Path]) -> Result<Option<OutputFile>, FileError> {
+    pub(crate) fn claim_file(
+        self,
+        path: Option<&Path>,
+        inputs: &[&Path],
+    ) -> Result<Option<OutputFile>, FileError> {
         path.map(|path| OutputFile::claim(path, self.force, inputs)).transpose()
     }
 
@@ -32,7 +36,7 @@ impl Force {
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
-    pub fn claim_if_asked(
+    pub(crate) fn claim_if_asked(
         self,
         folder: Option<&Path>,
         names: &[&str],

@@ -6,8 +6,8 @@ mod quiet;
 mod threads;
 mod yes;
 
-pub use force::Force;
-pub use output::Output;
-pub use quiet::Quiet;
-pub use threads::Threads;
-pub use yes::Yes;
+pub(crate) use force::Force;
+pub(crate) use output::Output;
+pub(crate) use quiet::Quiet;
+pub(crate) use threads::Threads;
+pub(crate) use yes::Yes;

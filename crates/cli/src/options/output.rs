@@ -4,12 +4,12 @@ use super::{Force, Quiet};
 
 /// The options of a verb that shows words and writes files.
 #[derive(Debug, Clone, Copy, clap::Args)]
-pub struct Output {
+pub(crate) struct Output {
     /// Whether anything but errors is reported.
     #[command(flatten)]
-    pub quiet: Quiet,
+    pub(crate) quiet: Quiet,
 
     /// Whether files that someone else wrote may be replaced.
     #[command(flatten)]
-    pub force: Force,
+    pub(crate) force: Force,
 }

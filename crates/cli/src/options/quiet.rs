@@ -4,10 +4,10 @@ use switchback_io::output::{note, print, visible};
 
 /// Whether anything but errors is reported.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
-pub struct Quiet {
+pub(crate) struct Quiet {
     /// Neither progress nor words or tables, only errors and what --json asks for
     #[arg(long)]
-    pub quiet: bool,
+    pub(crate) quiet: bool,
 }
 
 impl Quiet {
@@ -15,12 +15,12 @@ impl Quiet {
     ///
     /// # Errors
     /// If stdout cannot be written.
-    pub fn describe(self, words: &str) -> miette::Result<()> {
+    pub(crate) fn describe(self, words: &str) -> miette::Result<()> {
         if self.quiet { Ok(()) } else { print(&visible(words)) }
     }
 
     /// Shows on the standard error how the work goes, or keeps silent.
-    pub fn note(self, words: &str) {
+    pub(crate) fn note(self, words: &str) {
         if !self.quiet {
             note(words);
         }
@@ -30,7 +30,7 @@ impl Quiet {
     ///
     /// # Errors
     /// If stdout cannot be written.
-    pub fn describe_or(
+    pub(crate) fn describe_or(
         self,
         is_json: bool,
         json: impl FnOnce() -> String,

@@ -5,7 +5,7 @@ use switchback_io::values::whole;
 
 /// How many threads work.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
-pub struct Threads {
+pub(crate) struct Threads {
     /// Worker threads [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=threads::Threads::MOST.into()))]
     threads: Option<u16>,
@@ -13,12 +13,12 @@ pub struct Threads {
 
 impl Threads {
     /// The same for a library.
-    pub fn get(self) -> threads::Threads {
+    pub(crate) fn get(self) -> threads::Threads {
         threads::Threads(self.threads)
     }
 
     /// How many work at the same time: as many as are asked for, but no more than there are cores.
-    pub fn at_once(self) -> usize {
+    pub(crate) fn at_once(self) -> usize {
         self.get().at_once()
     }
 
@@ -26,7 +26,7 @@ impl Threads {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn install<R: Send>(self, work: impl FnOnce() -> R + Send) -> Result<R, ThreadsError> {
+    pub(crate) fn install<R: Send>(self, work: impl FnOnce() -> R + Send) -> Result<R, ThreadsError> {
         self.get().install(work)
     }
 }

@@ -5,7 +5,7 @@ use switchback_study::estimate::{TooLong, permit};
 
 /// Whether what takes days is run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
-pub struct Yes {
+pub(crate) struct Yes {
     /// Run it even if it is estimated to take longer than a day
     #[arg(long)]
     yes: bool,
@@ -17,7 +17,7 @@ impl Yes {
     ///
     /// # Errors
     /// [`TooLong`] with the estimate.
-    pub fn permit(self, seconds: f64, threads: Threads, quiet: Quiet) -> Result<(), TooLong> {
+    pub(crate) fn permit(self, seconds: f64, threads: Threads, quiet: Quiet) -> Result<(), TooLong> {
         if let Some(estimate) = permit(seconds, threads.get(), self.yes)? {
             quiet.note(&format!("this takes about {estimate}\n"));
         }

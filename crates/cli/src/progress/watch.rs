@@ -16,7 +16,7 @@ use switchback_io::progress::Stages;
 /// Pieces become known as the work goes on, so that the bar may fall back when a stage finds more to do. A stage that is one piece
 /// has no bar.
 #[derive(Debug)]
-pub struct Watch {
+pub(crate) struct Watch {
     bar: ProgressBar,
 }
 
@@ -27,7 +27,7 @@ const MANY_PIECES: &str = "{spinner} {msg} {bar:20} {pos}/{len}, {elapsed}";
 
 impl Watch {
     /// A line without a stage yet; none where stderr is no terminal.
-    pub fn new(quiet: Quiet) -> Self {
+    pub(crate) fn new(quiet: Quiet) -> Self {
         let hidden = quiet.quiet || !std::io::stderr().is_terminal();
         let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(0), target).with_style(style(ONE_PIECE));
@@ -38,7 +38,7 @@ impl Watch {
     }
 
     /// Takes the line off the screen.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

@@ -19,7 +19,7 @@ use switchback_study::parts::{MergeError, check_whole};
 ///
 /// # Errors
 /// Folders that make no whole, or one that cannot be written.
-pub fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> CommandResult {
+pub(crate) fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) -> CommandResult {
     let provenance = Provenance::begin(BUILD, Threads::default().at_once());
     let mut parts: Vec<Part> = folders.iter().map(|folder| Part::read(folder)).collect::<Result<_, _>>()?;
     parts.sort_by_key(|part| part.label.shard);

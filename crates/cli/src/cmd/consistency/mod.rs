@@ -4,10 +4,10 @@ mod merge;
 mod order;
 mod part;
 
-pub use crate::build::BUILD;
+pub(crate) use crate::build::BUILD;
 use crate::interrupt;
-pub use merge::merge;
-pub use order::Order;
+pub(crate) use merge::merge;
+pub(crate) use order::Order;
 
 use super::partial;
 use crate::failure::{CommandResult, Outcome};
@@ -28,7 +28,7 @@ use switchback_study::results::{Results, to_json};
 use switchback_study::scenario::Scenario;
 
 /// The JSON Schema of the label of a part.
-pub fn part_schema() -> Schema {
+pub(crate) fn part_schema() -> Schema {
     part::schema()
 }
 
@@ -45,7 +45,7 @@ const FILES: [&str; report::FILES.len() + 2] = {
 ///
 /// # Errors
 /// A study that cannot be run, or a folder that cannot be written.
-pub fn run(scenario: &Scenario, order: Order<'_>) -> CommandResult {
+pub(crate) fn run(scenario: &Scenario, order: Order<'_>) -> CommandResult {
     match order.shard {
         Some(shard) => run_part(scenario, shard, order),
         None => run_whole(scenario, order),

@@ -6,23 +6,23 @@ use switchback_study::Shard;
 
 /// What is to be run, and how it is reported.
 #[derive(Debug, Clone, Copy)]
-pub struct Order<'a> {
+pub(crate) struct Order<'a> {
     /// The scenario's file.
-    pub file: &'a Path,
+    pub(crate) file: &'a Path,
     /// The command that makes the results again.
-    pub command: &'a str,
+    pub(crate) command: &'a str,
     /// The folder asked for.
-    pub out: Option<&'a Path>,
+    pub(crate) out: Option<&'a Path>,
     /// The part asked for.
-    pub shard: Option<Shard>,
+    pub(crate) shard: Option<Shard>,
     /// The folder of the rounds before.
-    pub from: Option<&'a Path>,
+    pub(crate) from: Option<&'a Path>,
     /// Worker threads.
-    pub threads: Threads,
+    pub(crate) threads: Threads,
     /// Whether results.json is printed.
-    pub json: bool,
+    pub(crate) json: bool,
     /// Whether words are not.
-    pub quiet: Quiet,
+    pub(crate) quiet: Quiet,
     /// Whether files of others may be replaced.
-    pub force: Force,
+    pub(crate) force: Force,
 }

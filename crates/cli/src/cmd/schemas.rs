@@ -1,14 +1,31 @@
-//! The JSON Schemas of all that the program writes.
+//! `switchback schemas`
 
-use crate::cmd::{calibrate, consistency, replay, rig};
+use super::{calibrate, consistency, replay, rig};
+use crate::failure::{CommandResult, Outcome};
+use serde_json::Value;
 use schemars::Schema;
+use switchback_io::output::print;
 use switchback_io::{identification, model, provenance, simulation};
 use switchback_lab::{plant, power, selftest};
 use switchback_report::diagnosis;
 use switchback_study::{compare, design, results};
 
+/// Print the JSON Schemas of all that the program writes, as one list.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args;
+
+/// Prints them.
+///
+/// # Errors
+/// Standard output that cannot be written.
+pub(crate) fn run(_: &Args) -> CommandResult {
+    let all: Vec<Value> = schemas().into_iter().map(Value::from).collect();
+    print(&format!("{}\n", Value::from(all)))?;
+    Ok(Outcome::Done)
+}
+
 /// Every schema; its title is the name and version of the layout.
-pub fn schemas() -> Vec<Schema> {
+fn schemas() -> Vec<Schema> {
     let [rig, rig_list] = rig::schemas();
     vec![
         calibrate::schema(),
