@@ -96,6 +96,31 @@ fn what_is_depended_on_is_allowed() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Libraries with the features that a build of some packages gives them.
+fn features(of: &[&str]) -> BTreeSet<String> {
+    let edges = ["--edges", "normal,build,dev", "--prefix", "none", "--format", "{p}|{f}"];
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--locked", "--offline"])
+        .args(edges)
+        .args(of)
+        .current_dir(root())
+        .output()
+        .expect("cargo");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let lines = text.lines().filter(|line| !line.starts_with("switchback"));
+    lines.map(|line| line.replace(" (*)", "").replace(" (proc-macro)", "")).collect()
+}
+
+#[test]
+fn the_wheel_is_built_from_the_libraries_of_the_workspace() {
+    let workspace = features(&["--workspace", "--features", "switchback/matlab"]);
+    let wheel = features(&["--package", "switchback-python", "--features", "matlab"]);
+    assert!(wheel.len() > 100, "{} libraries", wheel.len());
+    let others: Vec<&String> = wheel.difference(&workspace).collect();
+    assert!(others.is_empty(), "crates/python/Cargo.toml has not all features of {others:#?}");
+}
+
 #[test]
 fn what_is_not_allowed_is_reported() {
     let crates_io = "registry+https://github.com/rust-lang/crates.io-index";
