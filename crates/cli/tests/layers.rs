@@ -19,8 +19,8 @@ const FLOORS: [&str; 11] = [
     "switchback-study",
     "switchback-lab",
     "switchback-report",
-    "switchback",
     "switchback-python",
+    "switchback",
 ];
 
 /// Most source lines of a crate, tests apart.
