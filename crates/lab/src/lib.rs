@@ -1,10 +1,11 @@
 //! Rigs made by laws of their own, faults put into measured records, and examinations of the diagnosis on both.
 
-pub mod blind;
 pub mod examination;
-pub mod field;
 pub mod generate;
 pub mod plant;
 pub mod power;
 pub mod selftest;
 pub mod training;
+
+pub use examination::field;
+pub use examination::laboratory as blind;

@@ -8,7 +8,9 @@
 //! [`Examination`] is what one of them must show; the command line runs any of them.
 
 mod calibration;
+pub mod field;
 mod json;
+pub mod laboratory;
 mod measure;
 mod part;
 mod random;

@@ -78,7 +78,6 @@ pub struct Expect {
     /// Largest share of foreign faults for which a cause is named.
     pub outside_named: Option<f64>,
     /// Largest share of effects named alone that harm a held-out record beyond its error.
-    #[serde(rename = "harms")]
     pub degrades_validation: Option<f64>,
     /// Largest calibration error over what perfect calibration would show on as many rigs.
     pub calibration: Option<f64>,

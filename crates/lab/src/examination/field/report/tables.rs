@@ -33,7 +33,7 @@ const ANSWERS: [&str; 25] = [
 ];
 
 /// One row a diagnosis: what was put in, what was said, and what that is worth.
-pub(in crate::field) fn answers(cases: &[Case]) -> String {
+pub(in crate::examination::field) fn answers(cases: &[Case]) -> String {
     let verdicts = BaseVerdicts::of(cases);
     csv(&ANSWERS, verdicts.asked(cases).iter().map(row))
 }

@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Kind {
     /// A base with a fault of the library.
-    #[serde(rename = "Planted")]
     Injected,
     /// A base with a fault that no library knows.
     Outside,
