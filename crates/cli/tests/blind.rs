@@ -2,15 +2,17 @@
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use switchback_diagnose::{
-    DiagnoseError, Diagnosis, Effect, Figure, Gap, ResidualPicture, Settings, Status, Verdict,
+    DiagnoseError, Diagnosis, Effect, Figure, Gap, Model, ResidualPicture, Settings, Status, Verdict,
 };
 use switchback_io::output::sha256;
-use switchback_lab::blind::{self, Case, Examiner, Expect, Kind, Sealed, Study, WrittenKeys};
-use switchback_lab::examination::{KEY_FILE, Sealed as _, key_file};
+use switchback_lab::examination::{
+    Bases, Case, Design, Examination, Examiner, Expect, KEY_FILE, Kind, Sealed, Study, key_file, read,
+};
 use switchback_lab::generate::Plan;
 use switchback_model::rig::Rig;
-use switchback_report::plots;
+use switchback_report::examination::report;
 use switchback_study::journal::{Journal, SEALED_FILE};
 
 /// Effects put in.
@@ -41,6 +43,7 @@ fn study() -> Study {
     Study {
         name: "small".to_owned(),
         question: "?".to_owned(),
+        design: Design::Laboratory,
         seed: 5,
         systems: 2,
         sizes: vec![1.0],
@@ -51,12 +54,22 @@ fn study() -> Study {
         pairs: 3,
         slice: Some(30),
         plan: Plan { step: 120, periods: 8, sweep: 400, drive: 200, repeat_periods: 3 },
-        expect: Expect::default(),
+        expect: Expect::new(),
+        rigs: None,
+        folder: PathBuf::new(),
+        made: 0,
+        resampled: 0,
     }
 }
 
+/// The study by the program's own diagnosis.
+fn examination(study: &Study) -> Examination<'static> {
+    Examination::without_bases(study.clone())
+}
+
 fn sealed(study: &Study) -> Vec<Sealed> {
-    blind::seal(blind::design(study).unwrap(), &WrittenKeys::default(), &|| ()).unwrap()
+    let examination = examination(study);
+    examination.seal(examination.tickets(), "", &|| ()).unwrap()
 }
 
 fn silent(status: Status) -> Diagnosis {
@@ -101,12 +114,14 @@ fn silent(status: Status) -> Diagnosis {
     }
 }
 
-fn quiet(_: &Rig, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
+fn quiet(_: &Rig, _: Model, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
     Ok(silent(Status::None))
 }
 
-fn examined(sealed: &[Sealed], examiner: Examiner<'_>) -> Vec<Case> {
-    sealed.par_iter().map(|rig| blind::examine(rig, examiner).unwrap()).collect()
+fn examined(study: &Study, sealed: &[Sealed], examiner: Examiner) -> Vec<Case> {
+    let bases = Bases::default();
+    let examination = Examination::of(examiner, study.clone(), &bases);
+    sealed.par_iter().map(|rig| examination.judge(rig).unwrap()).collect()
 }
 
 fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
@@ -115,13 +130,9 @@ fn run(threads: usize) -> (String, BTreeMap<String, Vec<u8>>) {
         let study = study();
         let sealed = sealed(&study);
         let key = key_file(&sealed);
-        let cases = examined(&sealed, &quiet);
-        let scores = blind::score(&cases, &study.expect);
-        let files = blind::artefacts(&study, &sha256(&key), &cases, &scores);
-        let tables = files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec()));
-        let figures = plots::blind::figures(&cases, &scores);
-        let figures = figures.into_iter().map(|figure| (figure.name, figure.svg.into_bytes()));
-        (key, tables.chain(figures).collect())
+        let cases = examined(&study, &sealed, quiet);
+        let files = report(&examination(&study), &sha256(&key), &cases).files;
+        (key, files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect())
     })
 }
 
@@ -156,23 +167,21 @@ fn an_examiner_sees_what_a_users_folder_holds_and_never_the_withheld_effect() {
     study.slice = None;
     study.seeds = 0;
     let sealed = sealed(&study);
-    for one in &sealed {
-        let rig = one.rig().unwrap();
-        assert_eq!(rig, one.open().unwrap().rig);
-        assert!(rig.records.iter().all(|r| r.predicted.is_none()));
-        assert!(!format!("{} {} {}", rig.name, rig.input_label, rig.output_label).contains('_'));
-    }
     let withheld: Vec<_> = sealed.iter().filter_map(|s| s.ticket().withheld).collect();
     assert_eq!(withheld.len(), 3);
-    let all = Effect::ALL.len();
-    let watched = |_: &Rig, settings: &Settings| {
+    let watched = |rig: &Rig, model: Model, settings: &Settings| {
+        assert!(rig.records.iter().all(|r| r.predicted.is_none()));
+        assert!(!format!("{} {} {}", rig.name, rig.input_label, rig.output_label).contains('_'));
+        assert!(matches!(model, Model::Identify));
+        let all = Effect::ALL.len();
         assert!(settings.effects.len() >= all - 1);
         Ok(silent(if settings.effects.len() < all { Status::Unexplained } else { Status::None }))
     };
-    let cases = examined(&sealed, &watched);
-    let unexplained = cases.iter().filter(|c| c.reply.status == "unexplained").count();
-    assert_eq!(unexplained, 3);
-    assert!(cases.iter().filter(|c| c.reply.status == "unexplained").all(|c| c.kind == Kind::Outside));
+    let cases = examined(&study, &sealed, watched);
+    let status = |case: &Case| case.answers[0].reply.status;
+    let unexplained: Vec<&Case> = cases.iter().filter(|case| status(case) == "unexplained").collect();
+    assert_eq!(unexplained.len(), 3);
+    assert!(unexplained.iter().all(|case| case.kind == Kind::Outside));
 }
 
 #[test]
@@ -180,9 +189,12 @@ fn a_refused_rig_counts_as_failed() {
     let mut study = study();
     study.slice = Some(3);
     let sealed = sealed(&study);
-    let refuse = |_: &Rig, _: &Settings| Err(DiagnoseError::ConstantInput);
-    let cases = examined(&sealed, &refuse);
-    assert!(cases.iter().all(|c| c.reply.status == "failed" && !c.exact() && !c.verdict_holds()));
+    let refuse = |_: &Rig, _: Model, _: &Settings| Err(DiagnoseError::ConstantInput);
+    let cases = examined(&study, &sealed, refuse);
+    assert!(cases.iter().all(|case| case.answers[0].reply.status == "failed"));
+    let scores = examination(&study).score(&cases);
+    let reached = |key: &str| scores.measures.iter().find(|m| m.key == key).unwrap().reached;
+    assert_eq!((scores.claims.count, reached("false_alarm").unwrap_or(0.0)), (0, 0.0));
 }
 
 fn keep(journal: &mut Journal<Case>, rigs: &[Sealed], cases: &[Case]) {
@@ -195,7 +207,7 @@ fn what_was_judged_is_taken_up_by_the_same_program_and_by_no_other() {
     let mut study = study();
     study.slice = Some(4);
     let sealed = sealed(&study);
-    let cases = examined(&sealed, &quiet);
+    let cases = examined(&study, &sealed, quiet);
     let mut journal = Journal::<Case>::open(folder.path(), "one").unwrap();
     assert!(sealed.iter().all(|rig| journal.recall(&rig.key_line()).is_none()));
     keep(&mut journal, &sealed[..2], &cases[..2]);
@@ -237,8 +249,9 @@ fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
     let is_known = |program: &str| !Journal::<Case>::open(&folder, program).unwrap().keys().is_empty();
     Journal::<Case>::open(&folder, "one").unwrap().keep_keys(&file).unwrap();
     assert_eq!([is_known("one"), is_known("another")], [true, false]);
-    let keys = WrittenKeys::read(&Journal::<Case>::open(&folder, "one").unwrap().keys());
-    let again = blind::seal(blind::design(&study).unwrap(), &keys, &|| ()).unwrap();
+    let keys = Journal::<Case>::open(&folder, "one").unwrap().keys();
+    let examination = examination(&study);
+    let again = examination.seal(examination.tickets(), &keys, &|| ()).unwrap();
     assert_eq!(key_file(&again), file);
     // A file that was changed since.
     std::fs::write(folder.join(SEALED_FILE), file.replacen("size", "sice", 1)).unwrap();
@@ -251,7 +264,7 @@ fn keys_are_taken_up_by_the_program_that_sealed_them_and_by_no_other() {
 fn a_sample_is_the_beginning_of_a_larger_one() {
     let ids = |slice: usize| {
         let study = Study { slice: Some(slice), ..study() };
-        blind::design(&study).unwrap().iter().map(|t| t.id).collect::<Vec<_>>()
+        examination(&study).tickets().iter().map(|t| t.id).collect::<Vec<_>>()
     };
     assert_eq!(ids(9), ids(20)[..9]);
     assert!(!ids(20).is_sorted());
@@ -260,10 +273,10 @@ fn a_sample_is_the_beginning_of_a_larger_one() {
 #[test]
 fn the_shipped_scenarios_can_be_read_and_the_full_one_is_as_large_as_it_must_be() {
     let scenarios = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    let full = blind::design(&blind::read(&scenarios.join("blind.toml")).unwrap()).unwrap();
+    let tickets = |name: &str| examination(&read(&scenarios.join(name)).unwrap()).tickets();
+    let full = tickets("blind.toml");
     let count = |kind: Kind| full.iter().filter(|t| t.kind == kind).count();
-    assert_eq!(count(Kind::Single), 20 * 3 * 4 * 20);
-    assert_eq!([Kind::None, Kind::Outside, Kind::Pair].map(count), [300, 300, 200]);
-    let slice = blind::design(&blind::read(&scenarios.join("blind-slice.toml")).unwrap()).unwrap();
-    assert_eq!(slice.len(), 100);
+    assert_eq!(count(Kind::Injected), 20 * 3 * 4 * 20);
+    assert_eq!([Kind::Bare, Kind::Outside, Kind::Pair].map(count), [300, 300, 200]);
+    assert_eq!(tickets("blind-slice.toml").len(), 100);
 }

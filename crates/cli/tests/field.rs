@@ -7,8 +7,9 @@ use std::fs;
 use std::path::Path;
 use switchback_diagnose::{DiagnoseError, Diagnosis, Model, Settings};
 use switchback_io::output::sha256;
-use switchback_lab::examination::{Examination, Part, Sealed as _, key_file, merged};
-use switchback_lab::field::{self, Bases, Case, Field, Kind};
+use switchback_lab::examination::{
+    Bases, Case, Examination, Kind, Part, Ticket, answers, key_file, merged, read,
+};
 use switchback_model::rig::Rig;
 use switchback_study::Shard;
 
@@ -32,7 +33,7 @@ fn folder() -> Folder {
 }
 
 fn bases(scenario: &Path) -> Bases {
-    Bases::load(&field::read(scenario).expect("a scenario"), true).expect("bases")
+    Bases::load(&read(scenario).expect("a scenario"), true).expect("bases")
 }
 
 /// Refuses every rig: of what is judged only the replies differ then.
@@ -40,13 +41,13 @@ fn refuse(_: &Rig, _: Model, _: &Settings) -> Result<Diagnosis, DiagnoseError> {
     Err(DiagnoseError::ConstantInput)
 }
 
-fn field<'b>(scenario: &Path, bases: &'b Bases) -> Field<'b> {
-    Field::of(refuse, field::read(scenario).expect("a scenario"), bases)
+fn field<'b>(scenario: &Path, bases: &'b Bases) -> Examination<'b> {
+    Examination::of(refuse, read(scenario).expect("a scenario"), bases)
 }
 
 /// Makes and judges the rigs of a part: key file and cases.
-fn judged(field: &Field<'_>, shard: Shard) -> (String, Vec<Case>) {
-    let tickets = field.design().expect("a design").into_iter().enumerate();
+fn judged(field: &Examination<'_>, shard: Shard) -> (String, Vec<Case>) {
+    let tickets = field.tickets().into_iter().enumerate();
     let tickets = tickets.filter(|(k, _)| shard.holds(*k)).map(|(_, ticket)| ticket).collect();
     let sealed = field.seal(tickets, "", &|| ()).expect("rigs");
     let mut cases: Vec<Case> = sealed.par_iter().map(|rig| field.judge(rig).expect("a case")).collect();
@@ -55,8 +56,8 @@ fn judged(field: &Field<'_>, shard: Shard) -> (String, Vec<Case>) {
 }
 
 fn report(scenario: &Path, keys: &str, cases: &[Case]) -> BTreeMap<String, Vec<u8>> {
-    let field = Field::scored_only(field::read(scenario).expect("a scenario"));
-    let report = switchback_report::examination::report(&field, &sha256(keys), cases).expect("a report");
+    let field = Examination::without_bases(read(scenario).expect("a scenario"));
+    let report = switchback_report::examination::report(&field, &sha256(keys), cases);
     report.files.iter().map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).collect()
 }
 
@@ -71,15 +72,16 @@ fn parts_merged_are_the_bytes_of_one_run_at_any_thread_count() {
     let parts = [2, 1].map(|number| {
         let shard = Shard { number, of: 2 };
         let (keys, cases) = pool(1).install(|| judged(&parted, shard));
+        let answers = answers(parted.study().design, &cases);
         let part = Part::new(&scenario, FIELD.to_owned(), (shard, "program"), keys, cases);
         let place = folder.path(&number.to_string());
         fs::create_dir(&place).expect("a folder");
-        for (name, bytes) in part.artefacts().iter() {
+        for (name, bytes) in part.artefacts(answers).iter() {
             fs::write(place.join(name), bytes).expect("a file");
         }
         Part::read(&place).expect("a part")
     });
-    let whole = merged::<Case>(parts.into()).expect("a whole");
+    let whole = merged(parts.into()).expect("a whole");
     assert_eq!((whole.keys.as_str(), whole.cases.as_slice()), (keys.as_str(), cases.as_slice()));
     let files = report(&scenario, &keys, &cases);
     assert_eq!(report(&whole.scenario, &whole.keys, &whole.cases), files);
@@ -103,7 +105,7 @@ fn keys_that_were_written_are_taken_up_and_give_the_same_rigs() {
     let bases = bases(&scenario);
     let field = field(&scenario, &bases);
     let tickets = || -> Vec<_> {
-        let all = field.design().expect("a design").into_iter();
+        let all = field.tickets().into_iter();
         all.filter(|ticket| ticket.kind == Kind::Injected).take(1).collect()
     };
     let keys = key_file(&field.seal(tickets(), "", &|| ()).expect("rigs"));
@@ -155,8 +157,8 @@ fn a_slice_is_the_beginning_of_a_larger_one_and_has_the_measured_bases_it_needs(
             "field.toml",
             &FIELD.replace("made = 2", "rigs = \"rigs\"\nmade = 2").replace("slice = 4", slice),
         );
-        let study = field::read(&folder.path("field.toml")).expect("a scenario");
-        field::design(&study, &bases(&folder.path("field.toml")))
+        let study = read(&folder.path("field.toml")).expect("a scenario");
+        Examination::new(study, &bases(&folder.path("field.toml"))).tickets()
     };
     let ids = |slice: &str| designed(slice).iter().map(|ticket| ticket.id).collect::<Vec<_>>();
     let whole = ids("");
@@ -166,7 +168,7 @@ fn a_slice_is_the_beginning_of_a_larger_one_and_has_the_measured_bases_it_needs(
     for slice in 1..=whole.len() {
         let tickets = designed(&format!("slice = {}", 2 * slice));
         assert!(ids(&format!("slice = {}", 2 * slice)).starts_with(&whole[..slice]));
-        let has = |of: &dyn Fn(&field::Ticket) -> bool| tickets.iter().any(of);
+        let has = |of: &dyn Fn(&Ticket) -> bool| tickets.iter().any(of);
         assert!(
             !has(&|ticket| ticket.base == 0) || has(&|ticket| ticket.base == 0 && ticket.kind == Kind::Bare)
         );
@@ -176,8 +178,8 @@ fn a_slice_is_the_beginning_of_a_larger_one_and_has_the_measured_bases_it_needs(
 #[test]
 fn the_shipped_scenarios_can_be_read() {
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    let full = field::read(&scenarios.join("field.toml")).expect("a scenario");
-    let slice = field::read(&scenarios.join("field-slice.toml")).expect("a scenario");
+    let full = read(&scenarios.join("field.toml")).expect("a scenario");
+    let slice = read(&scenarios.join("field-slice.toml")).expect("a scenario");
     assert_eq!((full.slice, slice.slice, &full.effects), (None, Some(20), &slice.effects));
     assert!(!full.effects.contains(&"coloured_noise"));
 }

@@ -99,9 +99,9 @@ impl Written {
             .iter()
             .find_map(|w| w.object["study"].as_str().map(str::to_owned))
             .unwrap_or("blind".to_owned());
-        for (file, of) in [("key.jsonl", "key"), ("cases.jsonl", "case")] {
+        for (file, layout) in [("key.jsonl", format!("{kind}-key")), ("cases.jsonl", "case".to_owned())] {
             if folder.join(file).is_file() {
-                written.extend(Self::lines(&folder.join(file), &format!("switchback/{kind}-{of}/1")));
+                written.extend(Self::lines(&folder.join(file), &format!("switchback/{layout}/1")));
             }
         }
         written

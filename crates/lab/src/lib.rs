@@ -6,6 +6,3 @@ pub mod plant;
 pub mod power;
 pub mod selftest;
 pub mod training;
-
-pub use examination::field;
-pub use examination::laboratory as blind;

@@ -1,7 +1,7 @@
 //! Scenario files of all three kinds: a text is a scenario, or refused in words.
 
 use super::{Scratch, reported, text_of};
-use switchback_lab::{blind, field};
+use switchback_lab::examination::{design_of, read};
 use switchback_study::scenario::Scenario;
 
 thread_local!(static FOLDER: Scratch = Scratch::new());
@@ -13,13 +13,8 @@ pub fn run(bytes: &[u8]) {
         reported(&refusal);
     }
     let path = FOLDER.with(|folder| folder.write("fuzz.toml", bytes));
-    if blind::is_blind(&path)
-        && let Err(refusal) = blind::read(&path)
-    {
-        reported(&refusal);
-    }
-    if field::is_field(&path)
-        && let Err(refusal) = field::read(&path)
+    if design_of(&path).is_some()
+        && let Err(refusal) = read(&path)
     {
         reported(&refusal);
     }

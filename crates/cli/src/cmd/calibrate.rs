@@ -7,8 +7,7 @@ use schemars::Schema;
 use std::path::{Path, PathBuf};
 use switchback_diagnose::fitted::{CalibrateError, FittedVerdict};
 use switchback_io::output::{stamped, stamped_schema};
-use switchback_lab::examination::{Part, read_cases};
-use switchback_lab::field::{self, Case};
+use switchback_lab::examination::{Case, Design, Part, design_of, read_cases};
 use switchback_lab::training::calibrated;
 use switchback_study::parts::{PART_FILE, scenario_of};
 use thiserror::Error;
@@ -68,10 +67,10 @@ enum FolderError {
 fn judged(folder: &Path) -> miette::Result<(String, Vec<Case>)> {
     let no_field = || FolderError::NoField(folder.display().to_string());
     if folder.join(PART_FILE).is_file() {
-        if !field::is_field(&scenario_of(folder)?) {
+        if design_of(&scenario_of(folder)?) != Some(Design::Field) {
             return Err(no_field().into());
         }
-        let part: Part<Case> = Part::read(folder)?;
+        let part = Part::read(folder)?;
         return Ok((part.title(), part.cases().to_vec()));
     }
     if !folder.join("cases.jsonl").is_file() {

@@ -14,8 +14,10 @@ use std::time::{Duration, Instant};
 use switchback_io::input::{read_text, stream};
 use switchback_io::output::{FolderError, OutputFolder, note, sha256};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
-use switchback_lab::examination::{Judged, KEY_FILE, Part, Partial, Report, Sealed, key_file};
-use switchback_report::examination::{Drawn, report};
+use switchback_lab::examination::{
+    Case, Examination, KEY_FILE, Part, Partial, Report, Sealed, Study, Ticket, answers, key_file,
+};
+use switchback_report::examination::report;
 use switchback_report::pages;
 use switchback_study::Shard;
 use switchback_study::consistency::Progress;
@@ -40,9 +42,9 @@ impl Order<'_> {
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub(crate) fn claim<E: Drawn>(self, examination: &E) -> Result<OutputFolder, FolderError> {
-        let default = || Path::new("reports").join(examination.name());
-        self.force.claim(&self.out.map_or_else(default, Path::to_owned), E::FILES)
+    pub(crate) fn claim(self, study: &Study) -> Result<OutputFolder, FolderError> {
+        let default = || Path::new("reports").join(&study.name);
+        self.force.claim(&self.out.map_or_else(default, Path::to_owned), study.design.files())
     }
 }
 
@@ -53,33 +55,33 @@ impl Order<'_> {
 ///
 /// # Errors
 /// A design that cannot be made, or a folder that cannot be written.
-pub(crate) fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult {
+pub(crate) fn run(examination: &Examination<'_>, order: Order<'_>) -> CommandResult {
     let Order { threads, page, .. } = order;
     let provenance = Provenance::begin(BUILD, threads.at_once());
     // What a former run left stays until there is another report, the key with it.
-    let folder = order.claim(examination)?;
+    let files = examination.study().design.files();
+    let folder = order.claim(examination.study())?;
     let place = folder.path().to_owned();
-    let Begun { mut journal, sealed } =
-        seal(examination, threads.install(|| examination.design())??, &place, order)?;
+    let Begun { mut journal, sealed } = seal(examination, examination.tickets(), &place, order)?;
     let keys = key_file(&sealed);
     let of = sealed.len();
-    let partial = |cases: &[E::Case]| {
+    let partial = |cases: &[Case]| {
         let partial = Partial { rigs: cases.len(), of };
-        let report = threads.install(|| report(examination, &sha256(&keys), cases))??.of_part(partial);
-        let files = pages::bound(report.files.clone())?;
-        order.force.claim(&partial::place(&place), E::FILES)?.commit(&files)?;
+        let report = threads.install(|| report(examination, &sha256(&keys), cases))?.of_part(partial);
+        let bound = pages::bound(report.files.clone())?;
+        order.force.claim(&partial::place(&place), files)?.commit(&bound)?;
         describe(&report, &partial::place(&place), page)
     };
     let Some(cases) = examine(examination, sealed, (&mut journal, &partial), order)? else {
         return Ok(Outcome::Stopped);
     };
     let outcome = threads.install(|| {
-        let mut report = report(examination, &sha256(&keys), &cases)?;
+        let mut report = report(examination, &sha256(&keys), &cases);
         report.files.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
         conclude(report, &keys, folder, page)
     })??;
     journal.close()?;
-    partial::forget(&place, E::FILES, order.force);
+    partial::forget(&place, files, order.force);
     Ok(outcome)
 }
 
@@ -88,32 +90,33 @@ pub(crate) fn run<E: Drawn>(examination: &E, order: Order<'_>) -> CommandResult 
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn run_part<E: Drawn>(
-    examination: &E,
+pub(crate) fn run_part(
+    examination: &Examination<'_>,
     (scenario, shard): (&Path, Shard),
     order: Order<'_>,
 ) -> CommandResult {
     let provenance = Provenance::begin(BUILD, order.threads.at_once());
     let text = read_text(scenario)?;
-    let default =
-        Path::new("reports").join(format!("{}-part-{}-of-{}", examination.name(), shard.number, shard.of));
+    let study = examination.study();
+    let default = Path::new("reports").join(format!("{}-part-{}-of-{}", study.name, shard.number, shard.of));
     let out = order.out.unwrap_or(&default);
     let name = stream::copy_name(scenario);
     let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name, PROVENANCE_FILE];
     let folder = order.force.claim(out, &files)?;
-    let tickets = order.threads.install(|| examination.design())??.into_iter().enumerate();
+    let tickets = examination.tickets().into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
     let Begun { mut journal, sealed } = seal(examination, tickets, folder.path(), order)?;
     let keys = key_file(&sealed);
     let of = sealed.len();
-    let reported = |cases: &[E::Case]| {
+    let reported = |cases: &[Case]| {
         order.page.say(&format!("stopped: {} of {of} rigs of part {shard} are judged and kept", cases.len()))
     };
     let Some(cases) = examine(examination, sealed, (&mut journal, &reported), order)? else {
         return Ok(Outcome::Stopped);
     };
+    let answers = answers(study.design, &cases);
     let part = Part::new(scenario, text, (shard, JUDGING_SOURCES), keys, cases);
-    let mut artefacts = part.artefacts();
+    let mut artefacts = part.artefacts(answers);
     artefacts.add_beside(PROVENANCE_FILE, provenance.end(Vec::new()).text());
     folder.commit(&artefacts)?;
     journal.close()?;
@@ -122,20 +125,20 @@ pub(crate) fn run_part<E: Drawn>(
 }
 
 /// An examination whose rigs are made.
-struct Begun<E: Drawn> {
-    journal: Journal<E::Case>,
-    sealed: Vec<E::Sealed>,
+struct Begun {
+    journal: Journal<Case>,
+    sealed: Vec<Sealed>,
 }
 
 /// Makes and seals the rigs, and writes the key.
-fn seal<E: Drawn>(
-    examination: &E,
-    tickets: Vec<E::Ticket>,
+fn seal(
+    examination: &Examination<'_>,
+    tickets: Vec<Ticket>,
     folder: &Path,
     order: Order<'_>,
-) -> miette::Result<Begun<E>> {
+) -> miette::Result<Begun> {
     let Order { threads, page, .. } = order;
-    page.say(&format!("{}: {}", examination.name(), examination.question()))?;
+    page.say(&format!("{}: {}", examination.study().name, examination.study().question))?;
     let meter = Meter::counting("rigs made", page.quiet);
     meter.planned(tickets.len() as u64);
     let mut journal = Journal::open(folder, JUDGING_SOURCES)?;
@@ -152,19 +155,19 @@ fn seal<E: Drawn>(
 }
 
 /// Reported of what is judged where an examination is stopped.
-type Stopped<'a, C> = &'a dyn Fn(&[C]) -> miette::Result<()>;
+type Stopped<'a> = &'a dyn Fn(&[Case]) -> miette::Result<()>;
 
 /// How often it is asked whether someone wished the examination to stop.
 const MOMENT: Duration = Duration::from_millis(100);
 
 /// Judges what the journal does not know, in parallel, and keeps each rig as soon as it is judged. Cases come by their number in the design;
 /// `None` if someone wished it to stop, after `stopped` has been reported.
-fn examine<E: Drawn>(
-    examination: &E,
-    sealed: Vec<E::Sealed>,
-    (journal, stopped): (&mut Journal<E::Case>, Stopped<'_, E::Case>),
+fn examine(
+    examination: &Examination<'_>,
+    sealed: Vec<Sealed>,
+    (journal, stopped): (&mut Journal<Case>, Stopped<'_>),
     order: Order<'_>,
-) -> miette::Result<Option<Vec<E::Case>>> {
+) -> miette::Result<Option<Vec<Case>>> {
     let Order { threads, page, .. } = order;
     let (mut cases, mut new) = (Vec::new(), Vec::new());
     for rig in sealed {
@@ -181,7 +184,7 @@ fn examine<E: Drawn>(
     let start = Instant::now();
     let _signal_guard = SignalGuard::new();
     let (describe, reported) = mpsc::channel();
-    let judge = |describe: &mut mpsc::Sender<_>, rig: &E::Sealed| {
+    let judge = |describe: &mut mpsc::Sender<_>, rig: &Sealed| {
         let judged = examination.judge(rig).map(|case| (rig.key_line(), case));
         // Nobody listens any more once the examination is stopped, or something has failed.
         describe.send(judged).map_err(|_| ())
@@ -203,7 +206,7 @@ fn examine<E: Drawn>(
                 Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(true),
             }
             if interrupt::is_wished() {
-                cases.sort_by_key(Judged::id);
+                cases.sort_by_key(|case: &Case| case.id);
                 if !cases.is_empty() {
                     stopped(&cases)?;
                 }
@@ -214,7 +217,7 @@ fn examine<E: Drawn>(
     })?;
     meter.finish();
     page.say(&format!("diagnosed in {:.0} s\n", start.elapsed().as_secs_f64()))?;
-    cases.sort_by_key(Judged::id);
+    cases.sort_by_key(|case: &Case| case.id);
     Ok(is_done.then_some(cases))
 }
 

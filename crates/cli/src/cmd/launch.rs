@@ -12,7 +12,7 @@ use switchback_io::input::stream;
 use switchback_io::output::print;
 use switchback_io::rig::in_shell;
 use switchback_io::values::whole;
-use switchback_lab::{blind, field};
+use switchback_lab::examination::{self, Design, design_of};
 use switchback_study::refuse_other_kinds;
 use switchback_study::scenario::Scenario;
 use thiserror::Error;
@@ -113,15 +113,12 @@ pub(crate) fn run(args: &Args) -> CommandResult {
 fn check(args: &Args) -> miette::Result<()> {
     let file = &args.scenario;
     refuse_other_kinds(file)?;
-    let is_field = field::is_field(file);
-    if is_field {
-        field::read(file)?;
-    } else if blind::is_blind(file) {
-        blind::read(file)?;
-    } else {
-        Scenario::read(file)?;
+    let design = design_of(file);
+    match design {
+        Some(_) => drop(examination::read(file)?),
+        None => drop(Scenario::read(file)?),
     }
-    if args.calibrate && !is_field {
+    if args.calibrate && design != Some(Design::Field) {
         let reported =
             "is no field examination, the only kind that a verdict is fitted to; leave out --calibrate";
         return Err(miette!("{} {reported}", file.display()));

@@ -6,13 +6,11 @@ use crate::build::{BUILD, JUDGING_SOURCES};
 use crate::failure::CommandResult;
 use crate::options::{Output, Threads};
 use miette::Diagnostic;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use switchback_io::output::{sha256, verify};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
-use switchback_lab::blind::{self, Blind};
-use switchback_lab::examination::{Part, Whole, merged};
-use switchback_lab::field::{self, Field};
-use switchback_report::examination::{Drawn, report};
+use switchback_lab::examination::{Examination, Part, Whole, design_of, merged, read};
+use switchback_report::examination::report;
 use switchback_study::checkpoint::CHECKPOINT_FILE;
 use switchback_study::parts::scenario_of;
 use thiserror::Error;
@@ -55,11 +53,8 @@ pub(crate) struct OtherProgram {
 pub(crate) fn run(args: &Args) -> CommandResult {
     args.folders.iter().try_for_each(|folder| verify(folder, |name| name != CHECKPOINT_FILE))?;
     let first = scenario_of(&args.folders[0])?;
-    if field::is_field(&first) {
-        return merge(args, |scenario| Ok(Field::scored_only(field::read(scenario)?)));
-    }
-    if blind::is_blind(&first) {
-        return merge(args, |scenario| Ok(Blind(blind::read(scenario)?)));
+    if design_of(&first).is_some() {
+        return merge(args);
     }
     let order = Order {
         file: &first,
@@ -75,11 +70,11 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     consistency::merge(&args.folders, args.next.as_deref(), order)
 }
 
-/// The same once the kind of examination is known; `read` makes it from its scenario.
-fn merge<E: Drawn>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>) -> CommandResult {
+/// The same of an examination.
+fn merge(args: &Args) -> CommandResult {
     let threads = Threads::default();
     let provenance = Provenance::begin(BUILD, threads.at_once());
-    let mut parts: Vec<Part<E::Case>> = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     for folder in &args.folders {
         let part = Part::read(folder)?;
         if part.program() != JUDGING_SOURCES {
@@ -89,11 +84,11 @@ fn merge<E: Drawn>(args: &Args, read: impl Fn(&Path) -> miette::Result<E>) -> Co
     }
     let shards = parts.iter().map(|part| part.shard().to_string()).collect();
     let Whole { scenario, keys, cases } = merged(parts)?;
-    let examination = read(&scenario)?;
+    let examination = Examination::without_bases(read(&scenario)?);
     let page = Page { json: args.json, quiet: args.output.quiet };
     let folder = examination::Order { out: Some(&args.out), force: args.output.force, threads, page }
-        .claim(&examination)?;
-    let mut report = report(&examination, &sha256(&keys), &cases)?;
+        .claim(examination.study())?;
+    let mut report = report(&examination, &sha256(&keys), &cases);
     report.files.add_beside(PROVENANCE_FILE, provenance.end(shards).text());
     conclude(report, &keys, folder, page)
 }

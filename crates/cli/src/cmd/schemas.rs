@@ -2,8 +2,8 @@
 
 use super::{calibrate, consistency, replay, rig};
 use crate::failure::{CommandResult, Outcome};
-use serde_json::Value;
 use schemars::Schema;
+use serde_json::Value;
 use switchback_io::output::print;
 use switchback_io::{identification, model, provenance, simulation};
 use switchback_lab::{plant, power, selftest};

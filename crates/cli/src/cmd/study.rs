@@ -7,9 +7,7 @@ use crate::options::{Output, Threads, Yes};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::miette;
 use std::path::{Path, PathBuf};
-use switchback_lab::blind::{self, Blind};
-use switchback_lab::field::{self, Field};
-use switchback_report::examination::Drawn;
+use switchback_lab::examination::{Bases, Examination, design_of, read};
 use switchback_study::consistency::least_seconds;
 use switchback_study::scenario::{Engine, Scenario};
 use switchback_study::{Request, Shard, refuse_other_kinds};
@@ -61,15 +59,11 @@ pub(crate) fn run(args: &Args) -> CommandResult {
         return Err(miette!("nothing to do; name a scenario file, or see `switchback --help`"));
     };
     refuse_other_kinds(file)?;
-    if blind::is_blind(file) {
-        refuse_engine_and_rounds(args, "a blind study")?;
-        return examined(args, file, &Blind(blind::read(file)?));
-    }
-    if field::is_field(file) {
-        refuse_engine_and_rounds(args, "a field examination")?;
-        let study = field::read(file)?;
-        let bases = field::Bases::load(&study, args.output.quiet.quiet)?;
-        return examined(args, file, &Field::new(study, &bases));
+    if let Some(design) = design_of(file) {
+        refuse_engine_and_rounds(args, design.article_and_name())?;
+        let study = read(file)?;
+        let bases = Bases::load(&study, args.output.quiet.quiet)?;
+        return examined(args, file, &Examination::new(study, &bases));
     }
     let request = Request { engine: args.engine };
     let scenario = request.of(Scenario::read(file)?);
@@ -90,9 +84,9 @@ pub(crate) fn run(args: &Args) -> CommandResult {
 }
 
 /// Runs an examination, or the part of it that is asked for.
-fn examined<E: Drawn>(args: &Args, file: &Path, examination: &E) -> CommandResult {
-    let rigs = examination.design()?.len().div_ceil(args.shard.map_or(1, |shard| shard.of));
-    args.yes.permit(rigs as f64 * E::SECONDS, args.threads, args.output.quiet)?;
+fn examined(args: &Args, file: &Path, examination: &Examination<'_>) -> CommandResult {
+    let rigs = examination.tickets().len().div_ceil(args.shard.map_or(1, |shard| shard.of));
+    args.yes.permit(rigs as f64 * examination.study().design.seconds(), args.threads, args.output.quiet)?;
     let page = Page { json: args.json, quiet: args.output.quiet };
     let order = examination::Order {
         out: args.out.as_deref(),

@@ -1,38 +1,9 @@
-//! Shares with their intervals, and the lines of a summary: what must be reached, what was.
+//! The lines of a summary: what must be reached, what was.
 
+use super::share::Share;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// A share of counted rigs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Share {
-    /// Rigs for which it holds.
-    pub count: usize,
-    /// Rigs counted.
-    pub of: usize,
-}
-
-impl Share {
-    /// Counts over some cases.
-    pub(crate) fn over<'a, C: 'a>(cases: impl Iterator<Item = &'a C>, holds: impl Fn(&C) -> bool) -> Self {
-        cases.fold(Self::default(), |s, c| Self { count: s.count + usize::from(holds(c)), of: s.of + 1 })
-    }
-
-    /// The share; none of nothing.
-    pub fn value(self) -> Option<f64> {
-        (self.of > 0).then(|| self.count as f64 / self.of as f64)
-    }
-
-    /// Its 95 % interval (Wilson, J. Am. Stat. Assoc. 22, 1927): what other rigs drawn alike may say.
-    pub fn interval(self) -> Option<[f64; 2]> {
-        const Z: f64 = 1.96;
-        let (p, n) = (self.value()?, self.of as f64);
-        let centre = p + Z * Z / (2.0 * n);
-        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        let scale = 1.0 + Z * Z / n;
-        Some([((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0)])
-    }
-}
 
 /// What a figure must be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -57,14 +28,43 @@ impl Bound {
     }
 }
 
-/// One line of the summary.
-#[derive(Debug, Clone, PartialEq)]
+/// What a scenario expects, by the keys of the measures.
+pub type Expect = BTreeMap<String, Bound>;
+
+/// What a measure must reach, and how a scenario may bound it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Target {
+    /// This must be reached; a scenario may bound it on the same side.
+    Must(Bound),
+    /// Nothing must be reached; a scenario may bound it from above.
+    BoundedAbove,
+    /// It is only reported.
+    Reported,
+}
+
+/// What was reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Reached {
+    /// A share of rigs.
+    Share(Share),
+    /// Another figure, none where no rig shows, and how many rigs or cells do.
+    Figure(Option<f64>, usize),
+}
+
+/// A measure of what is known of type `S`: its key, what is measured, its target, and how it is computed.
+pub(crate) type Line<S> = (&'static str, &'static str, Target, fn(&S) -> Reached);
+
+/// One line of the summary; the same type writes and reads it in results.json.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Measure {
     /// The key in `[expect]`.
-    pub key: &'static str,
+    pub key: String,
     /// What is measured.
-    pub text: &'static str,
+    #[serde(rename = "measure")]
+    pub text: String,
     /// What must be reached.
+    #[serde(rename = "must_reach")]
     pub target: Option<Bound>,
     /// What the scenario expects.
     pub expected: Option<Bound>,
@@ -74,49 +74,48 @@ pub struct Measure {
     pub interval: Option<[f64; 2]>,
     /// Rigs that show, or cells for *where*.
     pub rigs: usize,
+    /// Whether the target is met, where a rig shows.
+    pub meets: Option<bool>,
     /// Whether it is a share, reported in percent.
+    #[serde(default = "in_percent")]
     pub in_percent: bool,
 }
 
-/// What was reached, its interval, and how many rigs show.
-pub(crate) type Reached = (Option<f64>, Option<[f64; 2]>, usize);
+fn in_percent() -> bool {
+    true
+}
 
-/// A measure of an examination whose expectations are `E`: its key, what is measured, where its bound stands among expectations, and what was
-/// reached.
-pub(crate) type Line<E> = (&'static str, &'static str, fn(&E) -> Option<Bound>, Reached);
-
-/// Lines with what must be reached and what a scenario expects; all are shares but those whose keys are given.
-pub(crate) fn bounded<E, const N: usize>(
-    lines: [Line<E>; N],
-    (targets, expect): (&E, &E),
-    no_shares: &[&str],
-) -> Vec<Measure> {
-    let measure = |(key, text, bound, (reached, interval, rigs)): Line<E>| Measure {
-        key,
-        text,
-        target: bound(targets),
-        expected: bound(expect),
-        reached,
-        interval,
-        rigs,
-        in_percent: !no_shares.contains(&key),
+/// Every line with what was reached and what the scenario expects.
+pub(crate) fn measures<S>(lines: &[Line<S>], known: &S, expect: &Expect) -> Vec<Measure> {
+    let measure = |(key, text, target, compute): &Line<S>| {
+        let (reached, interval, rigs, in_percent) = match compute(known) {
+            Reached::Share(share) => (share.value(), share.interval(), share.of, true),
+            Reached::Figure(figure, rigs) => (figure, None, rigs, false),
+        };
+        let target = if let Target::Must(bound) = target { Some(*bound) } else { None };
+        Measure {
+            key: (*key).to_owned(),
+            text: (*text).to_owned(),
+            target,
+            expected: expect.get(*key).copied(),
+            meets: target.zip(reached).map(|(bound, x)| bound.holds(x)),
+            reached,
+            interval,
+            rigs,
+            in_percent,
+        }
     };
-    lines.into_iter().map(measure).collect()
+    lines.iter().map(measure).collect()
 }
 
 impl Measure {
-    /// Whether the target is met, where a rig shows.
-    pub(crate) fn meets_target(&self) -> Option<bool> {
-        Some(self.target?.holds(self.reached?))
-    }
-
     /// Whether the scenario's expectation is broken. A figure that no rig shows breaks it, too.
     pub(crate) fn is_unexpected(&self) -> bool {
         self.expected.is_some_and(|bound| !self.reached.is_some_and(|x| bound.holds(x)))
     }
 
     /// Shares in percent, everything else as it is.
-    fn figure(&self, x: f64) -> String {
+    pub fn figure(&self, x: f64) -> String {
         if self.in_percent { format!("{:.1} %", 100.0 * x) } else { format!("{x:.3}") }
     }
 
@@ -145,7 +144,7 @@ pub(crate) fn measures_table(measures: &[Measure]) -> String {
     );
     for measure in measures {
         let reached = measure.reached.map_or_else(|| "—".to_owned(), |x| measure.figure(x));
-        let mark = match (measure.reached, measure.meets_target()) {
+        let mark = match (measure.reached, measure.meets) {
             (None, _) => "  not reported",
             (_, Some(false)) => "  short",
             _ => "",
@@ -154,7 +153,7 @@ pub(crate) fn measures_table(measures: &[Measure]) -> String {
             .interval
             .map_or_else(String::new, |[low, high]| format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high));
         let target = measure.target.map_or_else(String::new, |bound| measure.reported(bound));
-        let (what, rigs, broken) = (measure.text, measure.rigs, measure.unexpected());
+        let (what, rigs, broken) = (&measure.text, measure.rigs, measure.unexpected());
         let _ = writeln!(text, "{what:51} {target:>11} {reached:>9} {interval:>15} {rigs:>6}{mark}{broken}");
     }
     text

@@ -3,8 +3,8 @@
 //! The folder of a part holds `part.json` (which part of which scenario, and what made and judged it), the scenario as it was, the keys of
 //! its rigs, its answers, and `cases.jsonl`, a line a rig with all that a report is made of.
 
-use super::Judged;
-use super::KEY_FILE;
+use super::case::Case;
+use super::sealed::{KEY_FILE, id_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -31,46 +31,46 @@ pub struct Label {
 
 /// A part of an examination that was judged.
 #[derive(Debug, Clone)]
-pub struct Part<C> {
+pub struct Part {
     folder: PathBuf,
     label: Label,
     scenario: String,
     keys: String,
-    cases: Vec<C>,
+    cases: Vec<Case>,
 }
 
 /// Parts put together.
 #[derive(Debug, Clone)]
-pub struct Whole<C> {
+pub struct Whole {
     /// The scenario's file, in the folder of one of the parts.
     pub scenario: PathBuf,
     /// The key file.
     pub keys: String,
     /// All cases, by their number in the design.
-    pub cases: Vec<C>,
+    pub cases: Vec<Case>,
 }
 
-impl<C: Judged> Part<C> {
+impl Part {
     /// A part that was just judged: the scenario's file and text, which part, the sources that judged, its keys and cases.
     pub fn new(
         file: &Path,
         text: String,
         (shard, program): (Shard, &str),
         keys: String,
-        cases: Vec<C>,
+        cases: Vec<Case>,
     ) -> Self {
         let scenario = stream::copy_name(file);
         let label = Label { scenario, shard, program: program.to_owned(), key_sha256: sha256(&keys) };
         Self { folder: PathBuf::new(), label, scenario: text, keys, cases }
     }
 
-    /// All files of its folder.
-    pub fn artefacts(&self) -> Artefacts {
+    /// All files of its folder; `answers` is its table of answers.
+    pub fn artefacts(&self, answers: String) -> Artefacts {
         let mut artefacts = Artefacts::default();
         artefacts.add(PART_FILE, label_text(&self.label));
         artefacts.add(self.label.scenario.as_str(), self.scenario.as_str());
         artefacts.add(KEY_FILE, self.keys.as_str());
-        artefacts.add("answers.csv", C::answers(&self.cases));
+        artefacts.add("answers.csv", answers);
         artefacts.add(CASES_FILE, case_lines(&self.cases));
         artefacts
     }
@@ -88,8 +88,8 @@ impl<C: Judged> Part<C> {
         if sha256(&keys) != label.key_sha256 {
             return Err(changed(KEY_FILE));
         }
-        let cases: Vec<C> = read_cases(folder)?;
-        let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id())).collect();
+        let cases = read_cases(folder)?;
+        let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id)).collect();
         let sealed: Vec<Option<usize>> = keys.lines().map(id_of).collect();
         if judged != sealed {
             return Err(changed(CASES_FILE));
@@ -103,7 +103,7 @@ impl<C: Judged> Part<C> {
     }
 
     /// What was judged, by its number in the design.
-    pub fn cases(&self) -> &[C] {
+    pub fn cases(&self) -> &[Case] {
         &self.cases
     }
 
@@ -131,7 +131,7 @@ impl<C: Judged> Part<C> {
 ///
 /// # Errors
 /// [`MergeError`] if there are none, or they are not as they were written.
-pub fn read_cases<C: Judged>(folder: &Path) -> Result<Vec<C>, MergeError> {
+pub fn read_cases(folder: &Path) -> Result<Vec<Case>, MergeError> {
     // Cases hold names, which live as long as the program: so does the text, which is read once.
     let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
     let cases = text.lines().map(serde_json::from_str).collect::<Result<_, _>>();
@@ -139,7 +139,7 @@ pub fn read_cases<C: Judged>(folder: &Path) -> Result<Vec<C>, MergeError> {
 }
 
 /// Cases as lines of JSON, all that a report is made of.
-pub fn case_lines<C: Judged>(cases: &[C]) -> String {
+pub(crate) fn case_lines(cases: &[Case]) -> String {
     cases.iter().fold(String::new(), |mut lines, case| {
         let line = serde_json::to_string(case).expect("names and numbers are JSON");
         let _ = writeln!(lines, "{line}");
@@ -147,17 +147,11 @@ pub fn case_lines<C: Judged>(cases: &[C]) -> String {
     })
 }
 
-/// The number of the rig of a line of a key file.
-fn id_of(line: &str) -> Option<usize> {
-    let value: serde_json::Value = serde_json::from_str(line).ok()?;
-    value["id"].as_u64().map(|id| id as usize)
-}
-
 /// The whole that parts make.
 ///
 /// # Errors
 /// [`MergeError`] if they are parts of different wholes, one of them is there twice, or some are missing.
-pub fn merged<C: Judged>(mut parts: Vec<Part<C>>) -> Result<Whole<C>, MergeError> {
+pub fn merged(mut parts: Vec<Part>) -> Result<Whole, MergeError> {
     parts.sort_by_key(|part| part.label.shard);
     let Some(first) = parts.first() else {
         return Err(MergeError::NoPart { folder: ".".to_owned() });
@@ -167,7 +161,7 @@ pub fn merged<C: Judged>(mut parts: Vec<Part<C>>) -> Result<Whole<C>, MergeError
     let mut lines: Vec<&str> = parts.iter().flat_map(|part| part.keys.lines()).collect();
     lines.sort_by_key(|line| id_of(line));
     let keys = lines.iter().fold(String::new(), |text, line| text + line + "\n");
-    let mut cases: Vec<C> = parts.iter().flat_map(|part| part.cases.clone()).collect();
-    cases.sort_by_key(|case| case.id());
+    let mut cases: Vec<Case> = parts.iter().flat_map(|part| part.cases.clone()).collect();
+    cases.sort_by_key(|case| case.id);
     Ok(Whole { scenario, keys, cases })
 }

@@ -1,7 +1,6 @@
 //! What a diagnosis says of a fault that was put in.
 
-use crate::examination::Reply;
-use crate::field::WIDEST_CLASS;
+use crate::examination::{Reply, WIDEST_CLASS};
 
 /// The worth of an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The records that faults are put into.
 
 use super::{Answer, PowerError};
-use crate::examination::{Reply, scramble};
-use crate::field::{law, resampled, runs_of};
+use crate::examination::field::{resampled, runs_of};
+use crate::examination::{Reply, law, scramble};
 use crate::generate::{InjectedFault, InjectedRig, InjectionContext, OBSERVABLE, Precision, RequestedFault};
 use switchback_diagnose::Settings;
 use switchback_io::diagnosis::{self, DiagnosisError, GivenModel, Source, Subject, SubjectError};

@@ -1,7 +1,6 @@
 //! From judged rigs to examples that a verdict is fitted to.
 
-use crate::examination::Reply;
-use crate::field::{Answered, Case, Kind};
+use crate::examination::{Answered, Case, Kind, Reply};
 use switchback_diagnose::fitted::{Example, Holds};
 use switchback_diagnose::{Effect, Status, Verdict};
 

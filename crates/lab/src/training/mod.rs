@@ -4,8 +4,8 @@ mod examples;
 
 use examples::examples;
 
-use crate::examination::{Measure, Reply, measures_table};
-use crate::field::{BaseVerdicts, Case, Expect, Rating, score};
+use crate::examination::field::score;
+use crate::examination::{BaseVerdicts, Case, Expect, Measure, Rating, Reply, measures_table};
 use crate::training::examples::Place;
 use std::collections::HashSet;
 use switchback_diagnose::Settings;
@@ -58,7 +58,7 @@ pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrate
     };
     let places = predicted.iter().filter(likely).map(|(place, _)| *place).collect();
     verdict.agreed = agreed(&reported(most), &places);
-    let measures = |cases: &[Case]| score(cases, &Expect::default()).measures;
+    let measures = |cases: &[Case]| score(cases, &Expect::new()).measures;
     Ok(Calibrated {
         by_rules: measures(&by_rules),
         out_of_fold: measures(&by_fit),

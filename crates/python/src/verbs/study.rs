@@ -10,7 +10,7 @@ use std::sync::Arc;
 use switchback_io::output::Artefacts;
 use switchback_io::rig::in_shell;
 use switchback_io::threads::Threads;
-use switchback_lab::{blind, field};
+use switchback_lab::examination::design_of;
 use switchback_report::study as report;
 use switchback_study::consistency::{Ended, Progress, Study, least_seconds};
 use switchback_study::estimate::permit;
@@ -50,11 +50,8 @@ pub(crate) fn study_of_json(
 
 /// Examinations keep their rigs sealed in a folder.
 fn refuse_examinations(file: &Path) -> Result<(), Refusal> {
-    let kind = match (blind::is_blind(file), field::is_field(file)) {
-        (true, _) => "a blind study",
-        (_, true) => "a field examination",
-        _ => return Ok(()),
-    };
+    let Some(design) = design_of(file) else { return Ok(()) };
+    let kind = design.article_and_name();
     let path = file.display().to_string();
     Err(Refusal::new(format!(
         "{path}: this is {kind}, which only the command line runs\nhelp: it seals its rigs in a folder: run it with `switchback {}`",

@@ -43,7 +43,13 @@ pub(super) struct Table {
 impl Table {
     /// An empty table.
     pub(super) fn new<const N: usize>(caption: impl Into<String>, head: [&str; N]) -> Self {
-        Self { caption: caption.into(), head: head.map(str::to_owned).to_vec(), rows: Vec::new() }
+        Self::of(caption, &head)
+    }
+
+    /// The same of as many columns as there are.
+    pub(super) fn of(caption: impl Into<String>, head: &[&str]) -> Self {
+        let head = head.iter().map(|name| (*name).to_owned()).collect();
+        Self { caption: caption.into(), head, rows: Vec::new() }
     }
 
     /// Another row.

@@ -6,12 +6,11 @@
 
 mod against;
 pub(crate) mod axis;
-pub mod blind;
 mod borders;
 pub(crate) mod canvas;
 mod convergence;
 mod efficiency;
-pub(crate) mod field;
+pub(crate) mod examination;
 mod forest;
 pub mod gap;
 pub mod identify;

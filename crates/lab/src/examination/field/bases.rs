@@ -1,8 +1,9 @@
 //! The bases: measured rigs in a folder, and made ones.
 
 use super::made;
-use super::scenario::Study;
-use crate::examination::scramble;
+use crate::examination::design::Design;
+use crate::examination::random::scramble;
+use crate::examination::scenario::Study;
 use crate::generate::MakeError;
 use miette::Diagnostic;
 use rayon::prelude::*;
@@ -68,11 +69,14 @@ pub(crate) enum BaseError {
 const BASES: u64 = 0x4649_454C_4442_4153;
 
 impl Bases {
-    /// Reads the measured ones and makes the others; a folder that is not there is reported on stderr.
+    /// Reads the measured ones and makes the others; a folder that is not there is reported on stderr. The laboratory has none.
     ///
     /// # Errors
     /// A rig that cannot be read, or no base at all.
     pub fn load(study: &Study, quiet: bool) -> miette::Result<Self> {
+        if study.design == Design::Laboratory {
+            return Ok(Self::default());
+        }
         let mut all = Vec::new();
         match study.rigs.as_deref().map(|rigs| (rigs, folder(study, rigs))) {
             Some((_, Some(folder))) => all = measured(&folder)?,

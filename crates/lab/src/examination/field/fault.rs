@@ -1,8 +1,9 @@
 //! A fault as it is put in, and what the base's model makes of it.
 
+use super::key::PutIn;
 use super::made;
-use super::seal::{How, PutIn};
-use super::wanted::Wanted;
+use crate::examination::how::How;
+use crate::examination::wanted::Wanted;
 use crate::generate::InjectedFault;
 use switchback_identify::free::{FreeError, Identified, InputMap, Model, Settings, identify};
 use switchback_model::Record;

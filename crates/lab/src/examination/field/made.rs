@@ -1,6 +1,6 @@
 //! Made bases, as the field has them.
 
-use super::wanted::Wanted;
+use crate::examination::wanted::Wanted;
 use crate::generate::{Key, MadeRig, MakeError, MakeRig, Setting};
 use switchback_model::rig::Rig;
 

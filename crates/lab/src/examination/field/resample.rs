@@ -1,6 +1,6 @@
 //! A measured base as its model would have it: the simulation, and residuals in another order.
 
-use crate::examination::scramble;
+use crate::examination::random::scramble;
 use switchback_identify::free::Model;
 use switchback_identify::statistics::MeanInterval;
 use switchback_model::Record;

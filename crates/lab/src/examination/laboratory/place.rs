@@ -3,23 +3,10 @@
 //! A cell is understood from its axis, its name and its ends, as a reader of `gap.json` would; its samples are found in the
 //! rig here, without the diagnosis' own code.
 
+use crate::examination::place_check::PlaceCheck;
 use crate::generate::Truth;
-use serde::{Deserialize, Serialize};
 use switchback_diagnose::Cell;
 use switchback_model::rig::Rig;
-
-/// Cells of one axis, flagged and true.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PlaceCheck {
-    /// The axis.
-    pub axis: &'static str,
-    /// Flagged, and the effect acts there.
-    pub hits: usize,
-    /// Flagged, but it does not.
-    pub false_flags: usize,
-    /// Not flagged, but it does.
-    pub misses: usize,
-}
 
 /// A cell is flagged at this q-value.
 const FLAGGED: f64 = 0.05;

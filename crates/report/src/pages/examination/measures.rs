@@ -2,15 +2,14 @@
 
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
-use switchback_lab::examination::{Bound, MeasureFile};
+use switchback_lab::examination::{Bound, Measure};
 
 /// The answer in a sentence.
-pub(super) fn answer(measures: &[MeasureFile]) -> Markup {
-    let judged: Vec<&MeasureFile> =
-        measures.iter().filter(|m| m.must_reach.is_some() && m.meets.is_some()).collect();
+pub(super) fn answer(measures: &[Measure]) -> Markup {
+    let judged: Vec<&Measure> = measures.iter().filter(|m| m.target.is_some() && m.meets.is_some()).collect();
     let short: Vec<&str> =
-        judged.iter().filter(|m| m.meets == Some(false)).map(|m| m.measure.as_str()).collect();
-    let open = measures.iter().filter(|m| m.must_reach.is_some() && m.meets.is_none()).count();
+        judged.iter().filter(|m| m.meets == Some(false)).map(|m| m.text.as_str()).collect();
+    let open = measures.iter().filter(|m| m.target.is_some() && m.meets.is_none()).count();
     html! {
         p class="lead" {
             (judged.len() - short.len()) " of " (judged.len()) " measures reach what they must."
@@ -21,28 +20,27 @@ pub(super) fn answer(measures: &[MeasureFile]) -> Markup {
 }
 
 /// A row a measure.
-pub(super) fn table(measures: &[MeasureFile]) -> Markup {
+pub(super) fn table(measures: &[Measure]) -> Markup {
     let mut table = Table::new(
         "What must be reached, and what was",
         ["measure", "must reach", "reached", "95 % interval", "rigs", "verdict"],
     );
     for measure in measures {
-        let figure =
-            |x: f64| if measure.in_percent { format!("{:.1} %", 100.0 * x) } else { format!("{x:.3}") };
+        let figure = |x| measure.figure(x);
         let bound = |bound: Bound| match bound {
             Bound::AtLeast(x) => format!("≥ {}", figure(x)),
             Bound::AtMost(x) => format!("≤ {}", figure(x)),
             Bound::Within(low, high) => format!("{} to {}", figure(low), figure(high)),
         };
-        let verdict = match (measure.must_reach, measure.meets) {
+        let verdict = match (measure.target, measure.meets) {
             (None, _) => "",
             (_, None) => "not reported",
             (_, Some(true)) => "reached",
             (_, Some(false)) => "short",
         };
         table.row([
-            Cell::word(measure.measure.clone()),
-            Cell::word(measure.must_reach.map_or_else(String::new, bound)),
+            Cell::word(measure.text.clone()),
+            Cell::word(measure.target.map_or_else(String::new, bound)),
             Cell::number(measure.reached.map_or_else(|| "–".to_owned(), figure), measure.reached),
             Cell::word(
                 measure.interval.map_or_else(String::new, |[low, high]| {
