@@ -173,26 +173,11 @@ fn measured(v: &[f64], seed: u64) -> String {
     text
 }
 
-/// The verdict on a rig made with the arguments given.
-pub(crate) fn verdict_on_made(what: &[&str]) -> serde_json::Value {
-    verdict_on_changed(what, str::to_owned)
-}
-
-/// The same once its `rig.toml` was changed.
-pub(crate) fn verdict_on_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
-    diagnosis_of_changed(what, change)["verdict"].clone()
-}
-
-/// The whole diagnosis.
+/// The diagnosis of a rig made with the arguments given.
 pub(crate) fn diagnosis_of_made(what: &[&str]) -> serde_json::Value {
-    diagnosis_of_changed(what, str::to_owned)
-}
-
-fn diagnosis_of_changed(what: &[&str], change: impl Fn(&str) -> String) -> serde_json::Value {
     let folder = Folder::with_good_rig();
     let made = folder.switchback(&[&["rig", "--out", "made"], what].concat()).output().expect("it runs");
     assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
-    folder.edit("made/rig.toml", change);
     let reported = folder.switchback(&["gap", "made/rig.toml", "--json"]).output().expect("it runs");
     serde_json::from_slice(&reported.stdout).expect("one JSON object on stdout")
 }

@@ -35,7 +35,7 @@ impl Whiteness {
     /// use switchback_identify::statistics::Whiteness;
     /// // A ramp's next value is known from its last ones.
     /// let ramp: Vec<f64> = (0..400).map(|t| f64::from(t) - 200.0).collect();
-    /// assert!(Whiteness::of(&[&ramp]).unwrap().predicted > 0.95);
+    /// assert!(Whiteness::of(&[&ramp]).unwrap().forecast > 0.95);
     /// ```
     pub fn of(residuals: &[&[f64]]) -> Option<Self> {
         let count: usize = residuals.iter().map(|r| r.len()).sum();
