@@ -11,7 +11,6 @@ pub mod platform;
 pub mod progress;
 pub mod provenance;
 pub mod rig;
-pub mod simulation;
 pub mod threads;
 pub mod values;
 

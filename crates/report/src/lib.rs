@@ -6,4 +6,5 @@ pub mod identification;
 pub mod pages;
 pub mod plots;
 pub mod power;
+pub mod simulation;
 pub mod study;

@@ -5,9 +5,9 @@ use crate::failure::{CommandResult, Outcome};
 use schemars::Schema;
 use serde_json::Value;
 use switchback_io::output::print;
-use switchback_io::{identification, model, provenance, simulation};
+use switchback_io::{identification, model, provenance};
 use switchback_lab::{plant, power, selftest};
-use switchback_report::diagnosis;
+use switchback_report::{diagnosis, simulation};
 use switchback_study::{compare, design, results};
 
 /// Print the JSON Schemas of all that the program writes, as one list.

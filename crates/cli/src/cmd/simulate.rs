@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use switchback_io::model;
 use switchback_io::output::{note, print};
 use switchback_io::rig::ColumnNames;
-use switchback_io::simulation::{Request, Simulation};
+use switchback_report::simulation::{Request, Simulation};
 
 /// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
 #[derive(Debug, clap::Args)]

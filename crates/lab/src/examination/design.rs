@@ -15,6 +15,7 @@ pub enum Design {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Kind {
     /// It has one effect of the library.
+    #[serde(rename = "Planted")]
     Injected,
     /// It has an effect that no library knows, or one that is taken out of the library for this rig.
     Outside,

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
 use switchback_io::rig::{ColumnNames, InputSeries};
-use switchback_io::simulation::{Request, Simulation};
+use switchback_report::simulation::{Request, Simulation};
 
 /// A free run: the answer, then the outputs, both ends of the band, and the first simulated sample.
 type Simulated<'py> = (Answer, [Bound<'py, PyBytes>; 4], usize);

@@ -1,10 +1,10 @@
 //! The input that a model is to run on.
 
 use super::SimulateError;
-use crate::input::{DataError, DataProblem};
-use crate::model::ModelFile;
-use crate::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
 use std::path::{Path, PathBuf};
+use switchback_io::input::{DataError, DataProblem};
+use switchback_io::model::ModelFile;
+use switchback_io::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
 
 /// A file that holds the input, and how to read it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Why a model did not run.
 
-use crate::model::UnitError;
-use crate::rig::RigError;
 use miette::Diagnostic;
+use switchback_io::model::UnitError;
+use switchback_io::rig::RigError;
 use thiserror::Error;
 
 /// Why a model did not run.

@@ -1,7 +1,7 @@
 //! The free run on an input with or without measured outputs.
 
-use crate::model::{ModelFile, Run};
-use crate::rig::InputSeries;
+use switchback_io::model::{ModelFile, Run};
+use switchback_io::rig::InputSeries;
 
 /// The run from the measured initial state, or from rest where none was measured or the input begins with nothing to simulate.
 pub(super) fn free_run(file: &ModelFile, input: &InputSeries) -> Option<Run> {

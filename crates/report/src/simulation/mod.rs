@@ -10,11 +10,11 @@ pub use error::SimulateError;
 pub use page::schema;
 pub use request::Request;
 
-use crate::model::{ModelFile, Run};
-use crate::rig::InputSeries;
 use free_run::free_run;
 use page::Page;
 use std::path::Path;
+use switchback_io::model::{ModelFile, Run};
+use switchback_io::rig::InputSeries;
 
 /// A model that ran on an input.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! The columns `t,v,y,y_low,y_high`.
 
-use crate::model::Run;
-use crate::rig::InputSeries;
 use std::fmt::Write;
+use switchback_io::model::Run;
+use switchback_io::rig::InputSeries;
 
 pub(super) fn table(input: &InputSeries, run: &Run) -> String {
     let unit = input.time_unit.iter().filter(|_| input.times.is_some());

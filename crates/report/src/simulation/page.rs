@@ -1,13 +1,13 @@
 //! What ran and how well.
 
-use crate::identification::unit;
-use crate::model::{Header, ModelFile, Run};
-use crate::output::{stamped, stamped_schema};
-use crate::rig::InputSeries;
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::Write;
 use switchback_diagnose::Effect;
+use switchback_io::identification::unit;
+use switchback_io::model::{Header, ModelFile, Run};
+use switchback_io::output::{stamped, stamped_schema};
+use switchback_io::rig::InputSeries;
 
 /// Name and version of the layout of a run.
 const SCHEMA: &str = "switchback/simulate/1";
