@@ -38,7 +38,7 @@ impl Error for UnknownName {}
 /// use switchback_io::values::named;
 /// let named = |text| named(text, &[1, 2], |number| if *number == 1 { "one" } else { "two" });
 /// assert_eq!(named("two"), Ok(2));
-/// assert!(named("tow").unwrap_err().to_string().ends_with("tip: a similar value exists: 'two'"));
+/// assert!(named("twoo").unwrap_err().to_string().ends_with("tip: a similar value exists: 'two'"));
 /// ```
 ///
 /// # Errors

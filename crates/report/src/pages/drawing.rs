@@ -218,7 +218,7 @@ mod tests {
             assert_eq!(redrawn(&svg, "a name").map(drop), Ok(()), "{}", path.display());
             count += 1;
         }
-        assert!(count > 100);
+        assert!(count >= 12, "a dozen figures stand in the documents: {count}");
     }
 
     fn pieces() -> impl Strategy<Value = String> {
