@@ -32,11 +32,9 @@ fn judged(number: u64) -> (Option<&'static str>, Verdict) {
     (effect, diagnose(&rig, Model::Identify, &Settings::default()).expect("a diagnosis").verdict)
 }
 
-/// Asserts that `successes` of `trials` do not contradict a rate of at least `wanted`.
-fn not_below(wanted: f64, successes: usize, trials: usize, what: &str) {
-    let chance = Binomial::new(wanted, trials as u64).expect("a rate").cdf(successes as u64);
-    println!("{what}: {successes} of {trials}, probability {chance:.3} under a rate of {wanted}");
-    assert!(chance > LEVEL, "{what}: {successes} of {trials} contradict a rate of {wanted}");
+/// The probability of `successes` or fewer of `trials` under a rate.
+fn chance(rate: f64, successes: usize, trials: usize) -> f64 {
+    Binomial::new(rate, trials as u64).expect("a rate").cdf(successes as u64)
 }
 
 #[test]
@@ -46,9 +44,16 @@ fn most_single_effects_are_named_and_hardly_any_other_is() {
     let named: Vec<_> = judged.iter().filter(|(_, verdict)| verdict.status == Status::Named).collect();
     let right =
         named.iter().filter(|(effect, verdict)| effect.is_some_and(|e| names(verdict) == [e])).count();
-    for (effect, verdict) in judged.iter().filter(|(e, v)| e.is_none_or(|e| names(v) != [e])) {
-        println!("{}: {:?} {:?}", effect.unwrap_or("none"), verdict.status, names(verdict));
-    }
-    not_below(0.93, right, WITH_ONE as usize, "effects of size 2 that are named exactly");
-    not_below(0.98, right, named.len(), "right ones among the causes named");
+    let others: Vec<_> = judged
+        .iter()
+        .filter(|(effect, verdict)| effect.is_none_or(|e| names(verdict) != [e]))
+        .map(|(effect, verdict)| (effect, verdict.status, names(verdict)))
+        .collect();
+    let exact = chance(0.93, right, WITH_ONE as usize);
+    assert!(
+        exact > LEVEL,
+        "{right} of {WITH_ONE} effects of size 2 are named exactly; the others: {others:?}"
+    );
+    let precise = chance(0.98, right, named.len());
+    assert!(precise > LEVEL, "{right} of {} causes named are right; the others: {others:?}", named.len());
 }
