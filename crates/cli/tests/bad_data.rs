@@ -135,7 +135,7 @@ fn columns_in_doubt_are_listed_with_the_line_to_type() {
         &text,
         &[],
         &[
-            "which column is the input and which the output cannot be reported",
+            "which column is the input and which the output is ambiguous",
             "1 `time [s]`, 2 `s1 [mm]`, 3 `s2 [N]`, 4 `s3`",
             "bench.csv --input s1 --output s2",
         ],

@@ -221,7 +221,7 @@ fn a_simulator_by_hand_is_run_and_what_it_fails_at_is_reported() {
     refused(
         &folder,
         &["gap", "rig.toml", "--fmu", "hand.fmu"],
-        &["which input is `v` cannot be reported", "--map v=NAME"],
+        &["which input is `v` is ambiguous", "--map v=NAME"],
     );
     let failures: [(u8, &[&str]); 5] = [
         (1, &["crashed", "the record descendant"]),

@@ -70,7 +70,7 @@ fn a_script_for_hyperqueue_is_printed_for_a_person_to_read() {
     missing("2-3,5\n");
 }
 
-/// Slurm shows a part of its end, then again with all others of the job; what stands in for programs takes its time.
+/// Slurm signals a part its end, then again with all others of the job; what stands in for programs takes its time.
 #[test]
 fn a_part_reported_twice_that_its_time_is_up_goes_back_into_the_queue() {
     let folder = Folder::with_good_rig();

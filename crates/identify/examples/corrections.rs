@@ -186,6 +186,6 @@ fn shift(spring: &SwitchedHysteresis) -> Outcome<[String; 3]> {
     Ok([
         format!("borders raised by {by}, and an offset of the output against it: difference of the records"),
         format!("{:.0}", if apart < 1e-12 { 0.0 } else { apart }),
-        "said: no record shows them apart".to_owned(),
+        "said: no record separates them".to_owned(),
     ])
 }

@@ -57,7 +57,7 @@ def test_what_is_no_column(v: np.ndarray, y: np.ndarray) -> None:
 
 
 def test_which_column_is_what_must_be_clear(v: np.ndarray, y: np.ndarray) -> None:
-    reported = refused("cannot be reported", sb.Rig.from_frame, {"alpha": v, "beta": y, "gamma": y + 1}, sample_time=0.01)
+    reported = refused("is ambiguous", sb.Rig.from_frame, {"alpha": v, "beta": y, "gamma": y + 1}, sample_time=0.01)
     assert 'input="' in reported and "--input" not in reported
 
 

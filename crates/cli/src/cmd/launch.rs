@@ -74,11 +74,11 @@ enum SubmitError {
     #[diagnostic(help("submit it by hand where the scheduler is: bash {script}"))]
     NotRun { script: String, source: io::Error },
     #[error("{script}: did not get through")]
-    #[diagnostic(help("why is reported above; once that is mended, go on with: bash {script}"))]
+    #[diagnostic(help("the reason stands above; once it is mended, continue with: bash {script}"))]
     Failed { script: String },
 }
 
-/// Slurm shows a part that its time is up a minute before, or up to two.
+/// Slurm signals a part one to two minutes before its time limit.
 const LEAST_OF_SLURM: u64 = 180;
 
 /// Prints the script, or writes and submits it.
@@ -125,7 +125,7 @@ fn check(args: &Args) -> miette::Result<()> {
     }
     if let Some(time) = args.time.as_ref().filter(|time| args.slurm && time.seconds() < LEAST_OF_SLURM) {
         return Err(miette!(
-            "--time {time}: Slurm shows a part up to two minutes before; give 3 minutes at least"
+            "--time {time}: Slurm signals a part up to two minutes early; give 3 minutes at least"
         ));
     }
     Ok(())

@@ -39,7 +39,7 @@ impl Engine {
     }
 }
 
-/// Seconds before its time limit at which Slurm shows a part; it may do so a minute earlier.
+/// Seconds before its time limit at which Slurm signals a part; it may do so a minute earlier.
 const NOTICE: u64 = 60;
 
 /// What a scheduler is to run.

@@ -92,7 +92,7 @@ fn find(
         (None, [only]) => Ok(only.clone()),
         (None, _) => by_name(key).ok_or_else(|| {
             let remedy = format!("name it: `--map {key}=NAME`");
-            FmuError::new(fmu, format!("which {what} is `{key}` cannot be reported: {has}"), remedy)
+            FmuError::new(fmu, format!("which {what} is `{key}` is ambiguous: {has}"), remedy)
         }),
     }
 }

@@ -163,7 +163,7 @@ class Diagnosis(Result):
 
     @property
     def next_experiment(self) -> Optional[dict[str, Any]]:
-        """What to measure to show the explanations apart; none where that is not needed."""
+        """The measurement that separates the candidates; none where none is needed."""
         experiment: Optional[dict[str, Any]] = self._data["next_experiment"]
         return experiment
 

@@ -130,7 +130,7 @@ fn lead(first: &Candidate, second: Option<&Candidate>) -> String {
     let Some((one, other)) = ahead.max_by(|x, y| (x.0.share - x.1.share).total_cmp(&(y.0.share - y.1.share)))
     else {
         return format!(
-            "{} saves no more than {} at any horizon: what shows them apart is in the penalty for parameters and on held-out records. ",
+            "{} saves no more than {} at any horizon: they differ in the penalty for parameters and on held-out records. ",
             first.effect, second.effect
         );
     };

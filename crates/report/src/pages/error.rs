@@ -44,7 +44,7 @@ pub enum PageError {
         folder: PathBuf,
     },
     /// There is more than one report in it.
-    #[error("{}: holds {kinds}: which of them is the report cannot be reported", folder.display())]
+    #[error("{}: holds {kinds}: which of them is the report is ambiguous", folder.display())]
     #[diagnostic(help("write each report into a folder of its own with `--out`"))]
     Mixture {
         /// The folder asked for.

@@ -108,7 +108,7 @@ pub enum DesignError {
     },
     /// The free records end before the actuator has crossed the interval.
     #[error(
-        "at `--max-speed {limit}` one stroke over the interval takes {stroke} s, but holdout.csv lasts {record} s and is to show both borders from end to end"
+        "at `--max-speed {limit}` one stroke over the interval takes {stroke} s, but holdout.csv lasts {record} s and must run both borders from end to end"
     )]
     #[diagnostic(help("measure longer: give `--periods {periods}` or more"))]
     TooSlow {

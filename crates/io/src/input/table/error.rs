@@ -51,7 +51,7 @@ pub enum DataProblem {
     SameColumn { column: String, first: &'static str, second: &'static str },
     #[error("the column `{found}` is not known, but looks like `{meant}`")]
     LookAlike { found: String, meant: &'static str },
-    #[error("which column is {role} cannot be reported; the columns are {known}")]
+    #[error("which column is {role} is ambiguous; the columns are {known}")]
     Doubtful { role: String, known: String, remedy: String },
     #[error("column y is missing: play {input} and add the measured y")]
     NotMeasured { input: String },

@@ -14,7 +14,7 @@ use switchback_io::diagnosis::digits;
 pub(super) fn experiment(gap: &GapFile) -> Result<Markup, PageError> {
     let Some(next) = &gap.next_experiment else {
         return Ok(
-            html! { p { "None is needed to show causes apart: the records leave no rivals that another record would separate." } },
+            html! { p { "None is needed: the records leave no rivals that another record would separate." } },
         );
     };
     let rivals = next.separates.iter().map(|e| e.replace('_', " ")).collect::<Vec<_>>().join(" and ");

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use switchback_io::diagnosis::digits;
 use switchback_study::results::{Results, Summary, Verdict};
 
-/// One sentence a case: which methods converge to the truth, which do not, which cannot be reported; then what was expected.
+/// One sentence a case: which methods converge to the truth, which do not, which remain undecided; then what was expected.
 pub(super) fn answer(results: &Results) -> Markup {
     let cases = distinct(results.summaries.iter().map(|s| s.series.case.as_str()));
     let broken = results.expectations.iter().filter(|e| !e.held).count();
