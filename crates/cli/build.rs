@@ -22,20 +22,20 @@ const STUDIES: [&str; 6] = [
 ];
 
 fn main() -> io::Result<()> {
-    describe("JUDGING_SOURCES", &hash(&JUDGES)?);
-    describe("STUDY_SOURCES", &hash(&STUDIES)?);
-    describe("LOCK", &hash(&["../../Cargo.lock"])?);
-    describe("COMMIT", &commit());
+    define("JUDGING_SOURCES", &hash(&JUDGES)?);
+    define("STUDY_SOURCES", &hash(&STUDIES)?);
+    define("LOCK", &hash(&["../../Cargo.lock"])?);
+    define("COMMIT", &commit());
     Ok(())
 }
 
-fn describe(name: &str, value: &str) {
+fn define(name: &str, value: &str) {
     println!("cargo::rustc-env={name}={value}");
 }
 
 /// The commit that was checked out when this was built last, with `-dirty` where files were changed since; nothing where there is none.
 ///
-/// A new commit alone is no reason to build anew: the hashes show the sources apart.
+/// A new commit alone is no reason to build anew: the hashes distinguish the sources.
 fn commit() -> String {
     let reported =
         Command::new("git").args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]).output();

@@ -96,7 +96,7 @@ pub enum CellUnit {
     ShareOfDataset,
 }
 
-/// One effect as an candidate.
+/// One effect as a candidate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// The effect.

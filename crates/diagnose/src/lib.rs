@@ -58,7 +58,7 @@
 //! | `likelihood` | rows, derivatives, weights and whitening of an augmented model, and its maximum likelihood |
 //! | `least_squares` | the normal equations beneath |
 //! | `attribution` | effects looked at, fitted, composed: candidates, best first |
-//! | `residuals` | tests of what an candidate leaves: in general, by frequency, by parameter |
+//! | `residuals` | tests of what a candidate leaves: in general, by frequency, by parameter |
 //! | `simulation` | free runs of what is fitted |
 //! | `verdict` | calibrated odds of the candidates, and what is reported |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |

@@ -66,7 +66,7 @@ impl BorderDistance {
         Some(Self { clearest, z: clearest.z(), limit, places: gaps.len(), distinguished })
     }
 
-    /// Whether no place shows the borders apart.
+    /// Whether the borders differ nowhere.
     pub fn has_vanished(&self) -> bool {
         self.z <= self.limit
     }

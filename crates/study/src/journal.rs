@@ -57,7 +57,7 @@ const KEYS: &[u8] = b",\"keys\":";
 pub const SEALED_FILE: &str = "unfinished-key.jsonl";
 
 impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
-    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` shows the sources that judge apart.
+    /// Opens the journal of a report folder, an empty one if there is none, and the folder too; `program` identifies the sources that judge.
     ///
     /// # Errors
     /// [`JournalError`] if the system refuses.

@@ -69,7 +69,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
     expect: Vec<Expectation>,
 
-    /// Also say why the first explanation comes first: the errors that each saves, by how far ahead it predicts.
+    /// Also say why the first candidate comes first: the errors that each saves, by how far ahead it predicts.
     #[arg(long, conflicts_with = "power")]
     explain: bool,
 

@@ -19,7 +19,7 @@ submit() {
       --open-mode=append --signal="B:TERM@$notice" --output="$place/log/part-%A_%a.txt" \
       "$SWITCHBACK_SCRIPT" part "$round" "$first")")
   done
-  # Behind all of them, whether or not they succeed: merge itself tells what is missing.
+  # Behind all of them, whether or not they succeed: merge itself reports what is missing.
   [ ${#arrays[@]} -eq 0 ] || behind=(--dependency="afterany:$(IFS=:; echo "${arrays[*]}")")
   merge=$(sbatch --parsable "${options[@]}" --job-name="$name-merge" --comment="$place" "${behind[@]}" --requeue \
     --open-mode=append --output="$place/log/merge.txt" "$SWITCHBACK_SCRIPT" merge "$round")

@@ -1,4 +1,4 @@
-//! Effects as an candidate: the best of their variants, fitted together with the nominal model.
+//! Effects as a candidate: the best of their variants, fitted together with the nominal model.
 
 use std::fmt;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use crate::likelihood::engine::{Fit, FitContext, NonlinearParameter, fit};
 use crate::model::augmented::AugmentedModel;
 use crate::records::dataset::Dataset;
 
-/// One effect of an candidate: which, and how its nonlinear parameters change the augmented model.
+/// One effect of a candidate: which, and how its nonlinear parameters change the augmented model.
 #[derive(Clone)]
 pub(crate) struct EffectTerm {
     pub(crate) effect: Effect,

@@ -41,7 +41,7 @@ pub(crate) enum PairEffort {
 }
 
 impl<W> Attribution<'_, W> {
-    /// Whether all effects of an candidate are to be considered, each once: signs may have given a law the name of another.
+    /// Whether all effects of a candidate are to be considered, each once: signs may have given a law the name of another.
     pub(crate) fn considers(&self, hypothesis: &Hypothesis) -> bool {
         let effects = hypothesis.effects();
         let is_new = |(number, effect): (usize, &Effect)| !effects[..number].contains(effect);

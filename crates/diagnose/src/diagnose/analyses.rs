@@ -1,4 +1,4 @@
-//! The comparisons of candidates, and what is reported every effect in the end.
+//! The comparisons of candidates, and the final report of every effect.
 
 use super::parameters::parameters;
 use super::plan::Plan;
@@ -22,7 +22,7 @@ pub(super) struct Analysis {
 
 impl Analysis {
     /// Runs an analysis.
-    pub(super) fn analysed(workers: &impl Workers, mut plan: Plan) -> Self {
+    pub(super) fn run(workers: &impl Workers, mut plan: Plan) -> Self {
         let conclusion = plan.attribute(workers);
         Self { plan, conclusion }
     }
@@ -189,7 +189,7 @@ impl Analyses {
 }
 
 impl Analysis {
-    /// Explanations by one effect as candidates with a probability; those that the verdict shows with profiled intervals.
+    /// Hypotheses of one effect as candidates with a probability; those that the verdict shows with profiled intervals.
     fn candidates(
         &self,
         workers: &impl Workers,

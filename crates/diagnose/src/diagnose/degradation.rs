@@ -1,4 +1,4 @@
-//! What an candidate saves or spoils on the held-out records, beyond its error.
+//! What a candidate saves or spoils on the held-out records, beyond its error.
 //!
 //! The error is that of the mean over a record whose errors hang together: a block bootstrap, 95 %. A block is as long as the errors'
 //! own correlation asks for, and as the model takes to settle at least.
@@ -18,7 +18,7 @@ use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
 
 impl Plan {
-    /// Whether an candidate makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
+    /// Whether a candidate makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are
     /// compared by that.
     ///
     /// What is all noise, or rounds, moves no simulation but by fitting the rest anew: of that the error counts, too, which no held-out record shows.

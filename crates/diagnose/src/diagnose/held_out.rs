@@ -19,7 +19,7 @@ use crate::workers::Workers;
 
 /// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
 const RUNAWAY: f64 = 20.0;
-/// Share of the simulation error that may repeat with the input under an candidate by noise.
+/// Share of the simulation error that may repeat with the input under a candidate by noise.
 const REPEATS: f64 = 0.12;
 /// Share of the simulation error that another effect must leave for noise to remain a cause, and of the noise's gain that
 /// it must gain to be heard.
@@ -36,11 +36,11 @@ pub(super) fn reported_by_rounding(fit: &Fit) -> f64 {
     fit.augmented.noise.quantisation.map_or(0.0, |_| 0.5 * worth(1))
 }
 
-/// Share of the gap that an candidate closes which is its cause: the upper end of the interval lies above.
+/// Share of the gap that a candidate closes which is its cause: the upper end of the interval lies above.
 const MATERIAL: f64 = 0.5;
 
 impl Plan {
-    /// The held-out records have their say: what an candidate loses on them in log score counts like a loss in
+    /// The held-out records have their say: what a candidate loses on them in log score counts like a loss in
     /// deviance. Slow changes may be followed where they were fitted and still lead nowhere beyond.
     pub(super) fn validation_penalty(&self, workers: &impl Workers, singles: &mut [Hypothesis]) {
         let Some(nominal) = self.score(&self.nominal.plain.fit) else { return };
@@ -133,7 +133,7 @@ impl Plan {
         (before > noise).then(|| (before - after) / (before - noise))
     }
 
-    /// Whether there is a gap on the judged records that an candidate does not close, though a cause would.
+    /// Whether there is a gap on the judged records that a candidate does not close, though a cause would.
     ///
     /// Effects that depend on time, or on a phase that differs from record to record, need not close it. Nor do random effects whose errors last, and
     /// noise that leaves no deviance (`left`): coloured noise alone makes a simulation differ from the record.
@@ -148,7 +148,7 @@ impl Plan {
         gap.closure.is_some_and(|closure| closure.ci90[1] < MATERIAL)
     }
 
-    /// Whether an candidate makes the simulation of the held-out records worse beyond chance. Explanations that consist of noise are exempt, and so
+    /// Whether a candidate makes the simulation of the held-out records worse beyond chance. Candidates that consist of noise are exempt, and so
     /// are effects that depend on time beside others that do not.
     pub(super) fn worsens(&self, hypothesis: &Hypothesis) -> bool {
         let effects = hypothesis.effects();

@@ -58,13 +58,13 @@ pub fn diagnose_with(
     let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings)?;
-    let fixed = changed::plan(workers, (rig, &model), &records, settings)?
-        .map(|plan| Analysis::analysed(workers, plan));
+    let fixed =
+        changed::plan(workers, (rig, &model), &records, settings)?.map(|plan| Analysis::run(workers, plan));
     // Where parameters are all that has changed nothing is missing.
     let counts = fixed
         .as_ref()
         .is_some_and(|analysis| analysis.shows_a_cause() && !analysis.does_the_same(chosen.first()));
-    let (mut reported, mut others) = analysed(workers, chosen, &plan)?;
+    let (mut reported, mut others) = analyse(workers, chosen, &plan)?;
     if declared.is_none() {
         reported = with_room_for_dynamics(workers, reported, (&records, &plan))?;
     }
@@ -78,18 +78,18 @@ pub fn diagnose_with(
 }
 
 /// The analysis of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed. Behind it the other analysis,
-/// where that was gone, too.
-fn analysed(
+/// where that was run, too.
+fn analyse(
     workers: &impl Workers,
     choice: Choice,
     plan: &impl Fn(Chosen) -> Result<Plan, DiagnoseError>,
 ) -> Result<(Analysis, Vec<Analysis>), DiagnoseError> {
     let (mut steps, simulator) = match choice {
-        Choice::One(chosen) => return Ok((Analysis::analysed(workers, plan(chosen)?), Vec::new())),
+        Choice::One(chosen) => return Ok((Analysis::run(workers, plan(chosen)?), Vec::new())),
         Choice::Either(steps, simulator) => (plan(steps)?, simulator),
     };
     steps.pair_effort = PairEffort::WhileHopeful;
-    let steps = Analysis::analysed(workers, steps);
+    let steps = Analysis::run(workers, steps);
     let verdict = &steps.conclusion.verdict;
     let reported = matches!(verdict.status, Status::Named | Status::Class);
     // No simulator sees noise that is asked for.
@@ -99,7 +99,7 @@ fn analysed(
     {
         return Ok((steps, Vec::new()));
     }
-    let runs = Analysis::analysed(workers, plan(simulator.chosen())?);
+    let runs = Analysis::run(workers, plan(simulator.chosen())?);
     // What a simulator leaves alone may be what it cannot see.
     Ok(match (verdict.status, runs.conclusion.verdict.status) {
         (Status::Unexplained, Status::None) => (steps, vec![runs]),
@@ -124,7 +124,7 @@ fn with_room_for_dynamics(
     let Some(chosen) = fitted.into_iter().flatten().find(|chosen| first.does_the_same(chosen)) else {
         return Ok(first);
     };
-    let again = Analysis::analysed(workers, plan(chosen)?);
+    let again = Analysis::run(workers, plan(chosen)?);
     let verdict = &again.conclusion.verdict;
     if refit::shows_dynamics(verdict) || verdict.status == Status::Unexplained {
         let conclusion = first.plan.refitted(first.conclusion, &again.plan);

@@ -5,7 +5,7 @@ use crate::effects::Reading;
 use crate::fitted_parameter::FittedParameter;
 use crate::records::dataset::Dataset;
 
-/// The parameters of one effect of an candidate, given by its number, as fitted beside the others; `intervals` are those of all nonlinear
+/// The parameters of one effect of a candidate, given by its number, as fitted beside the others; `intervals` are those of all nonlinear
 /// parameters of the candidate.
 ///
 /// What a user would measure comes first: the step of a quantisation grid, the limits of a sensor, the share of outliers and their size, the

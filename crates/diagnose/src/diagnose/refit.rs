@@ -50,19 +50,19 @@ impl Plan {
         gap.before.ci90[0] > 0.0 && saves && suffices
     }
 
-    /// Whether a nominal model of another structure does as well on the judged records as an candidate, but for the error of the
+    /// Whether a nominal model of another structure does as well on the judged records as a candidate, but for the error of the
     /// difference.
     pub(super) fn does_the_same(&self, chosen: &Chosen, explained: &Fit) -> bool {
         self.mean(&self.saved_over((&chosen.dataset, &chosen.fit), explained), explained)
             .is_some_and(|saved| saved.low <= 0.0)
     }
 
-    /// Whether a model does better on the judged records than an candidate, beyond the error of the difference.
+    /// Whether a model does better on the judged records than a candidate, beyond the error of the difference.
     pub(super) fn is_outdone_by(&self, other: (&Dataset, &Fit), explained: &Fit) -> bool {
         self.mean(&self.saved_over(other, explained), explained).is_some_and(|saved| saved.high < 0.0)
     }
 
-    /// Squared error that simulating the judged records with an candidate saves over another model, which sees them as a dataset of its
+    /// Squared error that simulating the judged records with a candidate saves over another model, which sees them as a dataset of its
     /// own.
     fn saved_over(&self, (dataset, fit): (&Dataset, &Fit), explained: &Fit) -> Vec<Vec<f64>> {
         let run = |dataset: &Dataset, fit: &Fit, number: usize| {

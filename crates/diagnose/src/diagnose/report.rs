@@ -155,7 +155,7 @@ impl Plan {
         let all: Vec<_> = (0..effects.len()).map(fitted).collect();
         let values =
             |all: &[Vec<FittedParameter>]| -> Vec<f64> { all.iter().flatten().map(|p| p.value).collect() };
-        // An candidate on other knots has other estimates.
+        // A candidate on other knots has other estimates.
         let reported = reported.filter(|reported| values(reported) == values(&all));
         effects.into_iter().zip(reported.unwrap_or(all)).collect()
     }
@@ -186,7 +186,7 @@ impl Plan {
         }
     }
 
-    /// What is reported a pair; `gains` are those of the single effects over the nominal model, the best first.
+    /// The report of a pair; `gains` are those of the single effects over the nominal model, the best first.
     pub(super) fn together(&self, workers: &impl Workers, pair: &Pair, gains: &[(Effect, f64)]) -> Together {
         let (dataset, both) = (&self.dataset, &pair.hypothesis);
         let intervals = profiled(workers, dataset, both);

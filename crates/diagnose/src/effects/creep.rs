@@ -41,7 +41,7 @@ fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let linear = Variant::conditional(starts, move |p, augmented| {
         let pole = pole(p[1]);
         augmented.filter(&[1.0 + p[0] * (1.0 - pole), -pole], &[1.0, -pole]);
-        // How far the creep had gone when a record began is unknown.
+        // How far the creep had proceeded when a record began is unknown.
         for &scaled in &scaled_records {
             let decay = EquationColumn::Decay { scaled, radius: pole, frequency: 0.0, sine: false };
             augmented.equation_columns.push(decay);

@@ -115,7 +115,7 @@ fn fitted_scaled_records(dataset: &Dataset) -> Vec<usize> {
     dataset.scaled_records.iter().enumerate().filter(|(_, t)| t.is_fit()).map(|(i, _)| i).collect()
 }
 
-/// A parameter with its bounds; the derivative step is a thousandth of the range unless reported.
+/// A parameter with its bounds; the derivative step is a thousandth of the range unless given.
 fn parameter(
     name: &'static str,
     unit: &'static str,

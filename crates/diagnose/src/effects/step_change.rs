@@ -188,7 +188,7 @@ mod tests {
     use crate::effects::tests::{HALF, explained, loop_of, measured};
     use crate::records::dataset::ScaledRecord;
 
-    /// What is reported a change of a known kind, by the laws of the effect.
+    /// The parameters reported for a change of a known kind, by the laws of the effect.
     fn reported(augmented: &AugmentedModel) -> Vec<FittedParameter> {
         let dataset = measured(augmented, &loop_of(HALF, &[]));
         let (best, gain) = explained(&dataset, Effect::StepChange).expect("a fit");

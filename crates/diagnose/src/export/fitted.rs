@@ -22,7 +22,7 @@ impl Exporter {
         Self { prints: rig.records.iter().map(|r| print(r.record.v(), r.record.y())).collect() }
     }
 
-    /// An candidate with the covariance of all that it estimates.
+    /// A candidate with the covariance of all that it estimates.
     pub(crate) fn fitted(&self, dataset: &Dataset, hypothesis: &Hypothesis) -> PortableModel {
         let fit = &hypothesis.fit;
         let context = FitContext { dataset, grid: &fit.grid, known: Some(fit.near()) };

@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn a_play_is_waited_for_until_it_was_crossed_but_not_for_long() {
         let (dataset, _) = small_dataset();
-        let scaled = dataset.fit().next().expect("a track");
+        let scaled = dataset.fit().next().expect("a record");
         let of = |width: f64, v: &[f64]| {
             let augmented = AugmentedModel { play: Play { width, taper: 0.0 }, ..AugmentedModel::default() };
             masked(&ScaledRecord { v: v.to_vec().into(), ..scaled.clone() }, &augmented, dataset.rule).out
@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn errors_near_a_limit_are_known_where_their_past_is_not() {
         let (dataset, _) = small_dataset();
-        let mut scaled = dataset.fit().next().expect("a track").clone();
+        let mut scaled = dataset.fit().next().expect("a record").clone();
         let at = scaled.from + 100;
         scaled.y.fill(0.0);
         scaled.y[at] = 9.0;

@@ -193,7 +193,7 @@ impl Map {
     }
 }
 
-/// Cells by their edges, with as many decimals as show the closest edges apart.
+/// Cells by their edges, with as many decimals as distinguish the closest edges.
 fn labels(edges: &[f64], unit: CellUnit) -> Vec<(String, Option<CellInterval>)> {
     let widths = edges.windows(2).map(|w| w[1] - w[0]);
     let narrowest = widths.filter(|x| *x > 0.0 && x.is_finite()).fold(f64::INFINITY, f64::min);

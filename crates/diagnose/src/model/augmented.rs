@@ -42,7 +42,7 @@ pub(crate) enum TransitionLaw {
     Crossing,
 }
 
-/// A clock that slow changes follow, from 0 to about 1 unless reported.
+/// A clock that slow changes follow, from 0 to about 1 where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Clock {
@@ -155,7 +155,7 @@ impl Widening {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Relaxation {
-    /// Share of the distance that is gone at last.
+    /// Share of the distance that is lost in the end.
     pub(crate) share: f64,
     /// Time constant, samples.
     pub(crate) tau: f64,

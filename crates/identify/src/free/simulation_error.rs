@@ -136,7 +136,7 @@ pub(super) fn linearise_whitened(
     sums
 }
 
-/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor is reported the first sample.
+/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor receives the first sample.
 /// The Jacobian follows the same recursion as `ŷ` itself:
 ///
 /// ```text

@@ -55,7 +55,7 @@ impl GridFit {
 pub(super) struct Undersmoothed {
     pub(super) estimate: Estimate,
     pub(super) level_errors: LevelErrors,
-    /// The fit that it was reported by.
+    /// The fit that it comes from.
     pub(super) fit: GridFit,
     /// The first grid, at whose knots it is reported.
     coarsest: Basis,
@@ -127,7 +127,7 @@ fn set_errors(estimate: &mut Estimate, bias: &GridBias, rises: &[f64]) {
 
 impl Undersmoothed {
     /// Whether an efficient estimate of the same system differs from this one by no more than this one's errors allow, all parameters at once: the
-    /// variance of the difference is this one's less the other's. Both are reported the centred output.
+    /// variance of the difference is this one's less the other's. Both see the centred output.
     pub(super) fn is_compatible_with(
         &self,
         efficient: &Self,

@@ -10,7 +10,7 @@ const MORE_LAGS: usize = 5;
 /// V_k  = Σ_t (y(t) − ȳ_p(t)) (y(t−k) − Σ_{s ≡ p(t)} y(s−k)/K_p(t))    k = 0…L
 /// ```
 ///
-/// The response to a periodic input is the same in every period, so that it is gone from `V`: `V_k/(N − T)` estimates the autocovariance of the
+/// The response to a periodic input is the same in every period, so that it drops out of `V`: `V_k/(N − T)` estimates the autocovariance of the
 /// output's noise, whatever its colour. `y` is taken about the reference of the [`PulseData`](super::PulseData) that holds the folds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Folds {

@@ -82,7 +82,7 @@ impl NoiseMoments {
     /// ```
     ///
     /// with `F` the plain fold: exact, both edges of the sum moved by `l`. The pass must have recorded as many lags as the order, or more: all of
-    /// them are reported what the folds leave.
+    /// them enter what the folds leave.
     ///
     /// # Panics
     /// If it recorded fewer.

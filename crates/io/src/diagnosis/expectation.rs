@@ -75,7 +75,7 @@ const STAGES: [Stage; 5] =
 pub struct Checked {
     /// Whether it holds.
     pub holds: bool,
-    /// What is reported it.
+    /// The figures that decide.
     pub says: String,
 }
 

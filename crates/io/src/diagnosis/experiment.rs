@@ -7,7 +7,7 @@ use switchback_diagnose::NextExperiment;
 /// Name of the file.
 pub const NEXT_EXPERIMENT: &str = "next_experiment.csv";
 
-/// Whether a record would show the rivals apart: their predictions differ by [`TELLING`] standard errors over all of it.
+/// Whether a record would distinguish the rivals: their predictions differ by [`TELLING`] standard errors over all of it.
 pub fn separates(next: &NextExperiment) -> bool {
     next.distance * (next.v.len() as f64).sqrt() >= TELLING
 }

@@ -222,11 +222,11 @@ fn free(ahead: usize) -> Rig {
 fn a_model_that_looks_ahead_is_reported_with_the_price_of_real_time() {
     let request = |causal| Request { method: Method::Free, causal };
     let best = examined(&free(2), request(false)).expect("identified");
-    let price = best.flags.iter().find(|flag| flag.kind == "not_causal").expect("told");
+    let price = best.flags.iter().find(|flag| flag.kind == "not_causal").expect("a flag");
     assert!(price.figure.expect("points") > 1.0 && price.text.contains("a price of"), "{}", price.text);
     let causal = examined(&free(2), request(true)).expect("identified");
     assert!(causal.obstacles.is_empty() && !kinds(&causal).contains(&"not_causal"));
-    // What was reported is what `--causal` gives.
+    // The alternative is what `--causal` gives.
     let reported = best.examination.causal.as_ref().expect("an alternative");
     assert_eq!(reported.identification.estimate, causal.estimate);
     let at_samples = examined(&free(0), request(false)).expect("identified");

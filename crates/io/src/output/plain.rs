@@ -35,7 +35,7 @@ const AROUND: usize = 60;
 /// Letters of a word that are reported in full; a path may be long.
 const LONG_WORD: usize = 500;
 
-/// What is reported a message: its long words without their middle, and then all of it.
+/// A message as it is printed: its long words without their middle, and then all of it.
 fn reported_of(message: &str) -> String {
     let words = message.split_inclusive(' ');
     let word = |word: &str| {

@@ -77,7 +77,7 @@ impl InputForm {
     pub(super) fn not_increasing(&self) -> String {
         format!(
             "sort the rows by time and remove repeated ones; give runs that start anew files of their own; where stamps are too coarse to \
-             show the rows apart, use {}",
+             distinguish the rows, use {}",
             self.without_time()
         )
     }

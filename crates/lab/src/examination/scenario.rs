@@ -271,7 +271,8 @@ impl Check<'_> {
         let any_pair =
             effects.iter().any(|one| effects.iter().any(|other| !laboratory::same_class(one, other)));
         if let Some(pairs) = self.wire.pairs.as_ref().filter(|pairs| *pairs.get_ref() > 0 && !any_pair) {
-            let message = "no two of the effects listed may be put in together: all are twins";
+            let message =
+                "no two of the effects listed may be put in together: all are confounded with each other";
             self.refuse(pairs.span(), message, "set pairs = 0, or list more effects")?;
         }
         Ok(effects)
@@ -407,8 +408,8 @@ mod tests {
         assert!(blind("pairs = 2", "pairs = 2\nmade = 2").contains(":10:8: unknown key `made`"));
         assert!(blind("pairs = 2\n", "").contains("missing key `pairs`"));
         let listing = |list: &str| blind("seeds = 2", &format!("seeds = 2\neffects = {list}"));
-        assert!(listing("[\"creep\"]").contains("all are twins"));
-        assert!(listing("[]").contains("all are twins"));
+        assert!(listing("[\"creep\"]").contains("all are confounded with each other"));
+        assert!(listing("[]").contains("all are confounded with each other"));
         let field = |from: &str, to: &str| refused(Design::Field, (from, to));
         assert!(field("made = 2", "made = 0").contains(":8:8: made = 0 without `rigs`"));
         assert!(field("made = 2", "systems = 2\nmade = 2").contains(":8:11: unknown key `systems`"));

@@ -17,7 +17,7 @@ use switchback_model::hysteresis::Interval;
 use switchback_model::record::{Record, RecordError};
 use switchback_model::rig::{Rig, RigRecord, Usage};
 
-/// What is reported a machine, openly and in the key.
+/// The description of a machine: the public part and that of the key.
 pub(crate) struct Description {
     pub setting: Setting,
     /// Order and interval, where they are declared.

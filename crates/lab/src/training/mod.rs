@@ -51,7 +51,7 @@ pub fn calibrated(cases: &[Case], origin: (&str, &[String])) -> Result<Calibrate
         }
         reported
     };
-    // What a measured base shows by itself is what is reported it, if agreement is worth what it may be at most.
+    // The verdict on a measured base is its own answer, if agreement is worth what it may be at most.
     let most = Agreed { right: examples.len(), of: examples.len() };
     let likely = |(_, (example, p)): &&(Place, (&Example, &OutOfFold))| {
         p.agreed_on(example).is_some_and(AgreedOn::counts)

@@ -11,7 +11,7 @@ use crate::{BLOCK, StreamId, WhiteNoise, Width, white_samples};
 fn pair_by_definition(radius: u64, angle: u64) -> (f64, f64) {
     let uniform = |word: u64| ((word >> 12) as f64 + 0.5) / 2f64.powi(52);
     let u = uniform(radius);
-    // Near one, ln loses no digit when it is reported the distance from one.
+    // Near one, ln loses no digit where its argument is the distance from one.
     let ln = if u > 0.5 { (-(1.0 - u)).ln_1p() } else { u.ln() };
     let r = (-2.0 * ln).sqrt();
     let (sin, cos) = (FRAC_PI_4 * uniform(angle)).sin_cos();

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 class Verdict(Row):
     """What causes the gap."""
 
-    #: ``none``, ``refit``, ``named``, ``class`` (twins that no record here separates), ``ambiguous``, or ``unexplained``.
+    #: ``none``, ``refit``, ``named``, ``class`` (effects that no record here separates), ``ambiguous``, or ``unexplained``.
     status: str
     #: The effects found.
     effects: list[str]
-    #: The twins, one of which it is.
+    #: The effects, one of which it is.
     class_: list[str]
     #: ``input``, ``operator``, ``dynamics``, ``disturbance`` or ``sensor``.
     stage: Optional[str]
@@ -148,7 +148,7 @@ class Diagnosis(Result):
 
     @cached_property
     def candidates(self) -> Table[Candidate]:
-        """The explanations, best first."""
+        """The candidates, best first."""
         return Table(Candidate.of(candidate) for candidate in self._data["candidates"])
 
     @cached_property
@@ -182,7 +182,7 @@ class Diagnosis(Result):
         return None if text is None else Model(text, name)
 
     def explain(self) -> str:
-        """Why the first explanation comes first: the errors that each saves, by how far ahead it predicts."""
+        """Why the first candidate comes first: the errors that each saves, by how far ahead it predicts."""
         return self._texts["why"]
 
     def plot(self, kind: Literal["where", "candidates", "loop", "borders"] = "where", ax: Optional[Axes] = None) -> Axes:

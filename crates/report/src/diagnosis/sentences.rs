@@ -165,7 +165,7 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             next_best(diagnosis)
         ),
         Status::Class => format!(
-            "Cause: one of {}, together {p}; no record here separates these twins.",
+            "Cause: one of {}, together {p}; no record here separates them.",
             rivals(&verdict.class, diagnosis, units)
         ),
         Status::Ambiguous => {

@@ -16,12 +16,12 @@ const COMPARED: usize = 3;
 /// What adds less to a logarithm of the odds is not shown.
 const LEAST: f64 = 0.05;
 
-/// A table of the gains and, where there is a first candidate, what shows it from the next.
+/// A table of the gains and, where there is a first candidate, its difference from the next.
 pub fn why(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let listed = &diagnosis.candidates[..diagnosis.candidates.len().min(LISTED)];
     let Some(first) = listed.first() else {
-        return "\nwhy: no effect was left as an candidate\n".to_owned();
+        return "\nwhy: no effect was left as a candidate\n".to_owned();
     };
     let head = "why: share of the nominal model's mean square error on the fit records that each candidate saves, predicting so far ahead; \
                 in brackets the same in its standard errors, which come from the errors themselves";
@@ -82,7 +82,7 @@ fn table(listed: &[Candidate]) -> Vec<[String; 6]> {
     let horizons = [Some(Horizon::Step), near, far, Some(Horizon::FreeRun)];
     let name = |horizon: &Option<Horizon>| horizon.map_or_else(String::new, ahead);
     let [one, two, three, four] = horizons.each_ref().map(name);
-    let mut rows = vec![["explanation".to_owned(), one, two, three, four, "closure % held out".to_owned()]];
+    let mut rows = vec![["candidate".to_owned(), one, two, three, four, "closure % held out".to_owned()]];
     for candidate in listed {
         let [one, two, three, four] =
             horizons.map(|horizon| horizon.map_or_else(String::new, |h| share(at(candidate, h))));

@@ -10,7 +10,7 @@ use switchback_io::diagnosis::{NEXT_EXPERIMENT, Report, Units};
 use switchback_io::diagnosis::{closed_percent, digits, fit_percent};
 use switchback_io::output::{columns, wrapped};
 
-/// Explanations listed; the rest is in the JSON.
+/// Candidates listed; the rest is in the JSON.
 pub(super) const LISTED: usize = 6;
 
 /// What is left when all candidates are ruled out, and when there is nothing to explain.
@@ -75,7 +75,7 @@ fn records(report: &Report) -> String {
 
 fn hypotheses(report: &Report, units: &Units) -> String {
     let diagnosis = &report.diagnosis;
-    let head = ["explanation", "probability", "BIC drop", "nats/sample", "closure %"];
+    let head = ["candidate", "probability", "BIC drop", "nats/sample", "closure %"];
     let mut rows = vec![head.map(str::to_owned)];
     let listed = || diagnosis.candidates.iter().take(LISTED);
     for candidate in listed() {

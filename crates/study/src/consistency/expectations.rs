@@ -10,7 +10,7 @@ use switchback_identify::Method;
 const FALSE_ALARM: f64 = 0.01;
 
 /// A slope this far from that of theory is as good as the same: theory is exact to the second order in the noise only, so that enough
-/// replicates show any two slopes apart.
+/// replicates distinguish any two slopes.
 const SAME_SLOPE: f64 = 0.01;
 
 /// Degrees of freedom behind the errors of summaries (sections of replicates less one).

@@ -158,7 +158,7 @@ impl RunState {
     }
 }
 
-/// Passes on what is reported the tally.
+/// Passes on the news of the tally.
 struct Reported<'a> {
     round: &'a Round,
     progress: &'a dyn Progress,

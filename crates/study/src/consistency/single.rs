@@ -110,7 +110,7 @@ impl Single {
     }
 }
 
-/// Nobody is reported it.
+/// No listener.
 struct Nobody;
 
 impl Overseer for Nobody {

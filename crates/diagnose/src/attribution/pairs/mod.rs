@@ -92,7 +92,7 @@ const RIVALS: usize = 6;
 const WORTH_A_LOOK: f64 = 0.03;
 
 impl<W: Workers> Attribution<'_, W> {
-    /// Whether a deviance that an candidate leaves is worth a second look.
+    /// Whether a deviance that a candidate leaves is worth a second look.
     fn is_worth_a_look(&self, left: f64) -> bool {
         left > WORTH_A_LOOK * self.dataset.fit_samples() as f64
     }

@@ -1,4 +1,4 @@
-//! Border knots of an candidate placed anew, and everything fitted together on them.
+//! Border knots of a candidate placed anew, and everything fitted together on them.
 
 use super::finish;
 use crate::attribution::explain::{EffectTerm, Hypothesis, assembled};

@@ -52,7 +52,7 @@ pub(crate) fn finish(dataset: &Dataset, fixed: usize, sketch: &Hypothesis) -> Hy
     })
 }
 
-/// An candidate fitted to convergence beside a nominal model whose own parameters stay as they are.
+/// A candidate fitted to convergence beside a nominal model whose own parameters stay as they are.
 pub(crate) fn beside_the_model(dataset: &Dataset, nominal: &Hypothesis, single: &Hypothesis) -> Hypothesis {
     let known = &nominal.fit;
     let start = Fit { linear: known.linear.clone(), grid: known.grid.clone(), ..single.fit.clone() };

@@ -1,6 +1,6 @@
 //! Features of the alternatives: every effect, nothing, and none of these.
 //!
-//! All are of the order of one, without unit, and the same whatever the effect's name. Explanations are compared one step `ahead`, as
+//! All are of the order of one, without unit, and the same whatever the effect's name. Candidates are compared one step `ahead`, as
 //! simulators identified anew (`simulated`), and as simulators on top of a given model (`fixed`); what was not compared is 0. How much an
 //! effect gains in deviance depends on how wrong the model is, which differs from rig to rig; where it stands among the others does not.
 //!

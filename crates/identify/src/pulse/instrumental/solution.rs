@@ -255,7 +255,7 @@ impl FoldedSolution {
     /// ```
     ///
     /// and `½ tr(∂²g Γ)` more for a value `g` that is not linear in them. The weights' own error is a quadratic of the noise, which the means do not
-    /// go together with where it is Gaussian; that of the start is gone from the second order after the second step.
+    /// go together with where it is Gaussian; that of the start vanishes from the second order after the second step.
     pub(crate) fn second_order(&self, solved: f64, samples: f64) -> Vec<f64> {
         let covariance = &self.inverse * (self.variance * solved / samples);
         let Some(factor) = Cholesky::new(covariance) else { return vec![f64::NAN; self.values.len()] };

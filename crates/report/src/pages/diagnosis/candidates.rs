@@ -6,7 +6,7 @@ use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
 use switchback_io::diagnosis::{closed_percent, digits};
 
-/// A row an candidate; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
+/// A row a candidate; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
 pub(super) fn candidates(gap: &GapFile) -> Markup {
     html! {
         (table(gap).html())
@@ -23,7 +23,7 @@ pub(super) fn candidates(gap: &GapFile) -> Markup {
 
 fn table(gap: &GapFile) -> Table {
     let head = [
-        "explanation",
+        "candidate",
         "stage",
         "probability",
         "BIC drop",
@@ -111,7 +111,7 @@ fn gains(gap: &GapFile) -> Markup {
         h3 { "Why: the error that each saves, by how far ahead it predicts" }
         div class="scroll" tabindex="0" role="region" aria-label="Errors saved by how far ahead models predict" {
             table class="sortable" {
-                thead { tr { th scope="col" { "explanation" } @for h in &horizons { th scope="col" class="n" { (name(h)) } } } }
+                thead { tr { th scope="col" { "candidate" } @for h in &horizons { th scope="col" class="n" { (name(h)) } } } }
                 tbody {
                     @for candidate in gap.candidates.iter().filter(|c| !c.gains.is_empty()) {
                         tr {
@@ -166,7 +166,7 @@ fn said(verdict: &Verdict) -> String {
 fn second(opinion: &SecondOpinion) -> Markup {
     let mut table = Table::new(
         "What the verdict rests on: a model fitted to diagnoses with known causes",
-        ["explanation", "probability", "what speaks for it"],
+        ["candidate", "probability", "what speaks for it"],
     );
     for weighed in opinion.effects.iter().take(LISTED) {
         let mut reasons: Vec<_> = weighed.contributions.iter().filter(|c| c.adds.is_finite()).collect();

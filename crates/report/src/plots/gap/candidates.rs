@@ -17,7 +17,7 @@ const COLUMNS: [&str; 3] = ["probability", "evidence: drop of the BIC", "closure
 /// Room for a bar's figure right of it, pixels.
 const FIGURE: f64 = 74.0;
 
-/// A row an candidate, best first: its probability, its evidence, and how far it closes the gap alone.
+/// A row a candidate, best first: its probability, its evidence, and how far it closes the gap alone.
 pub(super) fn figure(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let rows = rows(report);
