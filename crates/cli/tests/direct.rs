@@ -213,7 +213,10 @@ methods = ["free"]
     for (s, d) in superposed.cells.iter().zip(&direct.cells) {
         for (p, q) in s.parameters.iter().zip(&d.parameters) {
             let (x, y) = (p.mean_estimate.expect("estimated"), q.mean_estimate.expect("estimated"));
-            let (se, direct_se) = (p.model_sd.expect("told").value(), q.model_sd.expect("told").value());
+            let (se, direct_se) = (
+                p.model_sd.expect("a standard error").value(),
+                q.model_sd.expect("a standard error").value(),
+            );
             let place = || format!("{}, N = {}, {}: {x} and {y}", s.series, s.samples, p.name);
             // Iterations end where the sum of squares falls by no more than a billionth.
             assert!((x - y).abs() < 1e-4 * se, "{}, standard error {se}", place());

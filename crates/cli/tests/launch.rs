@@ -106,22 +106,22 @@ fn a_part_reported_twice_that_its_time_is_up_goes_back_into_the_queue() {
             std::thread::sleep(Duration::from_millis(10));
         }
     };
-    let describe = || {
-        let reported = Command::new("kill").args(["-TERM", &id]).status().expect("kill");
-        assert!(reported.success());
+    let signal = || {
+        let sent = Command::new("kill").args(["-TERM", &id]).status().expect("kill");
+        assert!(sent.success());
     };
     wait_for("part-begun");
-    describe();
+    signal();
     wait_for("part-reported");
-    describe();
+    signal();
     wait_for("asked");
-    describe();
+    signal();
     wait_for("requeued");
     assert_eq!(fs::read_to_string(folder.path("requeued")).expect("a file"), "requeue 77\n");
     // Slurm ends the job once it is back in the queue.
     let begun = Instant::now();
     let ended = loop {
-        describe();
+        signal();
         match job.try_wait().expect("a child") {
             Some(status) => break status,
             None => assert!(begun.elapsed() < Duration::from_secs(30), "it does not end"),

@@ -1,4 +1,4 @@
-//! No verb overwrites what someone else wrote, unless it is reported to.
+//! No verb overwrites what someone else wrote, unless it is asked to.
 
 use crate::common::{BLIND, Folder, STUDY, listing};
 use std::fs;

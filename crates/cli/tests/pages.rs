@@ -58,7 +58,7 @@ fn is_redrawn(folder: &Folder, report: &str, sections: &[&str]) {
     assert_eq!(bytes(&place), all, "drawn again it is the same");
     fs::remove_file(place.join("index.html")).expect("it was there");
     done(folder, &["report", report]);
-    assert_eq!(bytes(&place), all, "drawn again it is the same though it was gone");
+    assert_eq!(bytes(&place), all, "drawn again it is the same though it was removed");
 }
 
 #[test]

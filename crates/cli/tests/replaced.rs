@@ -74,7 +74,7 @@ fn folders_of_others_come_along_even_if_it_is_killed() {
     assert!(kept > 0 && missing == 1, "{kept} kept, {missing} brought back by the next run");
 }
 
-/// A shell that works there would find itself in a folder that is gone.
+/// A shell that works there would find itself in a removed folder.
 #[test]
 fn the_folder_that_the_process_works_in_stays_itself() {
     use std::os::unix::fs::MetadataExt;

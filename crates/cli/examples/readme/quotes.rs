@@ -112,7 +112,7 @@ fn rows(table: &str, wanted: &[&str]) -> miette::Result<String> {
 
 /// What a diagnosis says, down to its first table.
 fn verdict(path: &str) -> miette::Result<String> {
-    Ok(block(text(path)?.split("\nexplanation ").next().unwrap_or_default()))
+    Ok(block(text(path)?.split("\ncandidate ").next().unwrap_or_default()))
 }
 
 fn block(text: &str) -> String {

@@ -89,7 +89,7 @@ def job_wait(arguments):
 
 
 def job_info(arguments):
-    # Asked for what the server itself must know: an error where it has gone, or has forgotten the job.
+    # Asked for what the server itself must know: an error where it has ended, or has forgotten the job.
     ClientConnection(str(server_dir(arguments))).get_failed_tasks([arguments.id])
     print((server_dir(arguments) / f"job-{arguments.id}.json").read_text())
 

@@ -112,7 +112,7 @@ impl Launched {
 
     fn start<C: Cluster>(&mut self, command: &mut Command, cluster: &C) {
         let reported =
-            File::options().create(true).append(true).open(self.work.join("told")).expect("a new file");
+            File::options().create(true).append(true).open(self.work.join("reported")).expect("a new file");
         command.envs(cluster.environment()).stdin(Stdio::null());
         command.stderr(reported.try_clone().expect("a second handle")).stdout(reported);
         self.script = Some(command.spawn().expect("it starts"));
@@ -156,7 +156,7 @@ impl Launched {
 
     /// What script, parts and merge have said.
     pub(crate) fn reported(&self) -> String {
-        let reported = fs::read_to_string(self.work.join("told")).unwrap_or_default();
+        let reported = fs::read_to_string(self.work.join("reported")).unwrap_or_default();
         [vec![reported], self.logs()].concat().concat()
     }
 

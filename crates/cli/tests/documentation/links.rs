@@ -16,12 +16,34 @@ const OTHERS: [&str; 8] = [
     "crates/lab/README.md",
 ];
 
-/// Every link to a file or heading that is not there.
+/// Every link to a file or heading that is not there, and every source file named that is not.
 pub(crate) fn dead(root: &Path) -> Vec<String> {
     let docs = root.join("docs").read_dir().expect("docs/");
     let docs = docs.map(|entry| entry.expect("a readable entry").path());
     let pages = docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
-    pages.chain(OTHERS.iter().map(|name| root.join(name))).flat_map(|page| of_page(&page)).collect()
+    let pages = pages.chain(OTHERS.iter().map(|name| root.join(name)));
+    pages.flat_map(|page| [of_page(&page), missing_sources(root, &page)].concat()).collect()
+}
+
+/// The source files that a page names in code, by their path from the root, and that are not there. The change log names those of its day.
+fn missing_sources(root: &Path, page: &Path) -> Vec<String> {
+    if page.ends_with("CHANGELOG.md") {
+        return Vec::new();
+    }
+    let text = fs::read_to_string(page).unwrap_or_else(|error| panic!("{}: {error}", page.display()));
+    let missing = sources(&text).into_iter().filter(|path| !root.join(path).exists());
+    missing.map(|path| format!("{}: there is no `{path}`", page.display())).collect()
+}
+
+/// Code that is the path of a source file; capitals stand for a name to choose.
+fn sources(text: &str) -> Vec<&str> {
+    let prose = text.split("```").step_by(2);
+    let is_path = |code: &&str| {
+        let may_be =
+            |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '/' | '_' | '.' | '-');
+        code.starts_with("crates/") && code.contains('.') && code.chars().all(may_be)
+    };
+    prose.flat_map(|part| part.split('`').skip(1).step_by(2)).filter(is_path).collect()
 }
 
 fn of_page(page: &Path) -> Vec<String> {
@@ -63,6 +85,8 @@ fn headings(page: &Path) -> HashSet<String> {
 fn links_and_headings_are_found() {
     let page = "[a](b.md#c-d) ![e](f.svg)\n```text\n[g](h)\n```\n[i](#j)";
     assert_eq!(targets(page), ["b.md#c-d", "f.svg", "#j"]);
+    let named = "`crates/a/b.rs`, `crates/a/NAME.rs`, `crates/a` and `c.rs`\n```text\n`crates/d.rs`\n```";
+    assert_eq!(sources(named), ["crates/a/b.rs"]);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.md");
     fs::write(&path, "# What `x` is, and why\n[b](#what-x-is-and-why) [c](#d) [e](f.md)\n").expect("a file");
