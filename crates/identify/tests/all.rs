@@ -15,6 +15,8 @@ mod morris;
 mod oracle;
 mod pulse_methods;
 mod second_order_term;
+mod stray;
+mod structure;
 mod support;
 mod sweep;
 mod undersmoothing;

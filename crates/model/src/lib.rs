@@ -9,6 +9,7 @@
 //! |---|---|
 //! | [`record`], [`rig`] | measurements: one record; the records of one machine |
 //! | [`hysteresis`], [`linear`] | the two parts of a system |
+//! | [`stray`] | samples that no measurement can be |
 //! | [`step`] | a causal model as a small program, run here or printed as C |
 //!
 //! The crate is pure: no files, clocks, threads or ambient randomness.
@@ -18,5 +19,6 @@ pub mod linear;
 pub mod record;
 pub mod rig;
 pub mod step;
+pub mod stray;
 
 pub use record::Record;

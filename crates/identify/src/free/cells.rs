@@ -2,6 +2,7 @@
 
 use super::basis::{Basis, Cell, Place};
 use super::branch::Branches;
+use std::ops::Range;
 use switchback_model::hysteresis::Branch;
 
 /// One [`Cell`] a sample, sixteen bytes each: the few that lie on both branches have the second one beside them.
@@ -42,6 +43,18 @@ impl Cells {
         let Sample { weight, knot, next } = self.samples[t];
         let main = Place { knot: knot as usize, weight };
         Cell { main, next: next.checked_sub(1).map(|k| self.next[k as usize]) }
+    }
+
+    /// `u` over a range of samples, for knot values `f₁…`, relative to the reference knot.
+    pub(super) fn values(&self, range: Range<usize>, f: &[f64]) -> Vec<f64> {
+        // The reference knot has the value 0.
+        let at_knots: Vec<f64> = std::iter::once(0.0).chain(f.iter().copied()).collect();
+        let value = |t: usize| {
+            let Sample { weight, knot, next } = self.samples[t];
+            let (left, right) = (at_knots[knot as usize], at_knots[knot as usize + 1]);
+            if next == 0 { (1.0 - weight) * left + weight * right } else { self.at(t).value(f) }
+        };
+        range.map(value).collect()
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = Cell> + '_ {

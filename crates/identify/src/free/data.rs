@@ -3,12 +3,20 @@
 use super::basis::{Basis, Spacing, place_knots};
 use super::branch::{Branches, ReversalRule};
 use super::cells::Cells;
+use super::equation_error::Moments;
 use super::error::FreeError;
+use super::fit::{Fitted, equation_error_fit, stabilised};
 use super::problem::{Segment, Structure};
+use super::runs::SMOOTHNESS;
 use super::sensor::SensorNoise;
 use super::settings::{InputMap, Settings};
+use super::simulation_error::{Effort, Refinement, cost};
 use switchback_model::hysteresis::{Branch, Interval};
 use switchback_model::record::Record;
+
+/// Samples, spread over the records, on which structures are compared: two hundred for each coefficient of the largest one tried. The fit that is
+/// kept uses all samples.
+const SEARCH_SAMPLES: usize = 8000;
 
 /// The records and their branches.
 #[derive(Debug)]
@@ -98,20 +106,47 @@ impl Featured<'_> {
         whole.flatten().collect()
     }
 
-    /// Blocks of time of about equal length, none across records: `blocks` in all, or a few more.
+    /// Blocks of time of about equal length, none across records: `blocks` in all, or a few more. Of long records each block is only the first part, so
+    /// that all of them have [`SEARCH_SAMPLES`] or a few more.
     ///
-    /// A block's first outputs serve as its initial state, so that no block sees another's outputs.
-    pub(super) fn blocks(&self, structure: Structure, blocks: usize) -> Vec<Segment<'_>> {
+    /// A block's first outputs show its initial state, so that no block sees another's outputs.
+    pub(super) fn search_blocks(&self, structure: Structure, blocks: usize) -> Vec<Segment<'_>> {
         let total: usize = self.records.iter().map(|(r, ..)| r.len()).sum();
         let length = total.div_ceil(blocks).max(1);
+        let share = (SEARCH_SAMPLES as f64 / total as f64).min(1.0);
         let mut out = Vec::new();
         for (record, known, cells) in &self.records {
             let count = (record.len() as f64 / length as f64).round().max(1.0) as usize;
             for j in 0..count {
                 let (from, to) = (record.len() * j / count, record.len() * (j + 1) / count);
-                out.extend(Segment::usable(structure, record.y(), cells, from.max(*known)..to));
+                let to = from + (share * (to - from) as f64).ceil() as usize;
+                let block = Segment::usable(structure, record.y(), cells, from.max(*known)..to);
+                out.extend(block.map(Segment::with_fitted_start));
             }
         }
         out
+    }
+
+    /// The equation-error fit, without refinement.
+    pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
+        let moments = Moments::of(structure, self.basis.features(), segments);
+        let theta = equation_error_fit(&moments)?;
+        Some(Fitted { structure, basis: self.basis.clone(), theta, whitening: Vec::new() })
+    }
+
+    /// The fit of least simulation error from a fit in the same structure on another basis.
+    pub(super) fn lifted(&self, fitted: &Fitted, segments: &[Segment], effort: Effort) -> Option<Fitted> {
+        let start = stabilised(fitted.lifted(fitted.structure, &self.basis));
+        let curves: Vec<usize> = self.basis.sizes().collect();
+        let refinement =
+            Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening: &[], constant: 0.0 };
+        let theta = refinement.run(fitted.structure, start, segments);
+        let is_finite = cost(fitted.structure, &theta, segments).is_finite();
+        is_finite.then(|| Fitted {
+            structure: fitted.structure,
+            basis: self.basis.clone(),
+            theta,
+            whitening: Vec::new(),
+        })
     }
 }

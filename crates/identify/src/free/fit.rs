@@ -1,6 +1,7 @@
 //! One fit at a given structure: equation error, rank one, then the simulation error.
 
 use super::basis::Basis;
+use super::cross_validation::FOLDS;
 use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
@@ -64,11 +65,6 @@ impl<'a> Ladder<'a> {
         Self { rungs: rungs.into_iter().map(|(map, k)| data.featured(data.basis(map, k))).collect() }
     }
 
-    /// The last step only, for a climb that starts from an earlier fit.
-    pub(super) fn last_step(data: &Data<'a>, map: InputMap, knots: usize) -> Self {
-        Self { rungs: vec![data.featured(data.basis(map, knots))] }
-    }
-
     /// The rung of the map wanted.
     pub(super) fn top(&self) -> &Featured<'a> {
         &self.rungs[self.rungs.len() - 1]
@@ -102,7 +98,9 @@ impl<'a> Ladder<'a> {
         choose: impl Fn(&'s Featured<'a>) -> Vec<Segment<'s>>,
     ) -> Option<Fitted> {
         let mut below: Option<Fitted> = None;
-        for (i, rung) in self.rungs.iter().enumerate() {
+        // A smaller structure at the top has climbed before.
+        let from = if smaller.is_empty() { 0 } else { self.rungs.len() - 1 };
+        for (i, rung) in self.rungs.iter().enumerate().skip(from) {
             let is_top = i + 1 == self.rungs.len();
             let segments = choose(rung);
             let starts = below.iter().chain(smaller.iter().filter(|_| is_top));
@@ -114,24 +112,18 @@ impl<'a> Ladder<'a> {
         below
     }
 
-    /// The fit to everything, by means of the smaller structures inside it.
-    pub(super) fn climb_from_smaller(&self, structure: Structure, effort: Effort) -> Option<Fitted> {
+    /// The fit to the blocks of a search, by means of the smaller structures inside it.
+    pub(super) fn climb_from_smaller(&self, structure: Structure) -> Option<Fitted> {
         let smaller = |delay: isize| (1..=structure.order).map(move |order| Structure { order, delay });
         let delays = structure.delay..=structure.delay.max(0);
         let path: Vec<Structure> = delays.rev().flat_map(smaller).collect();
-        let fits = self.climb_all(&path, Effort::SEARCH, |rung, s| rung.segments(s));
-        let start: Vec<Fitted> = fits.into_iter().flatten().filter(|f| f.structure == structure).collect();
-        let top = self.top();
-        let theta =
-            refined(top, structure, &top.segments(structure), vec![start.first()?.theta.clone()], effort)?;
-        Some(Fitted { structure, basis: top.basis.clone(), theta, whitening: Vec::new() })
+        let fits = self.climb_all(&path, Effort::SEARCH, |rung, s| rung.search_blocks(s, FOLDS));
+        fits.into_iter().flatten().find(|f| f.structure == structure)
     }
 
     /// The equation-error fit at the top, without refinement.
     pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
-        let moments = Moments::of(structure, self.top().basis.features(), segments);
-        let theta = equation_error_fit(&moments)?;
-        Some(Fitted { structure, basis: self.top().basis.clone(), theta, whitening: Vec::new() })
+        self.top().one_shot(structure, segments)
     }
 }
 
@@ -233,7 +225,7 @@ pub(super) fn simulated(
     whitening: &[f64],
     kind: FitKind,
 ) -> Fitted {
-    let theta = runs.refined(structure, &basis, stabilised(start), whitening);
+    let theta = runs.refined(structure, &basis, stabilised(start), whitening, Effort::FINAL);
     let (theta, whitening) = match kind {
         FitKind::Prewhitened => runs.prewhitened(structure, &basis, theta, whitening.to_vec()),
         FitKind::Equation | FitKind::Simulation => (theta, Vec::new()),

@@ -6,7 +6,7 @@ use super::errors::{Errors, figures};
 use super::fit::{FitKind, Fitted, quick_equation_error_fit, simulated};
 use super::nested::NestedRegressions;
 use super::normalise::{Covariance, normalise, quantities};
-use super::problem::Segment;
+use super::problem::{Segment, Start};
 use super::regression::Regression;
 use super::runs::{Fold, Folded, Runs};
 use super::undersmoothing::{GridFit, undersmoothed};
@@ -51,9 +51,19 @@ impl<'a> Explained<'a> {
         match &self.fold {
             Some((fold, folded)) => {
                 let (y, weights, to) = (&folded.y[..], Some(&folded.weights[..]), from + 3 * fold.period);
-                Runs { segments: vec![Segment { y, cells, from, to, weights }], fold: Some(*fold) }
+                Runs {
+                    segments: vec![Segment { y, cells, from, to, weights, start: Start::Measured }],
+                    fold: Some(*fold),
+                }
             }
-            None => Runs::new(vec![Segment { y: self.y, cells, from, to: self.to, weights: None }]),
+            None => Runs::new(vec![Segment {
+                y: self.y,
+                cells,
+                from,
+                to: self.to,
+                weights: None,
+                start: Start::Measured,
+            }]),
         }
     }
 }

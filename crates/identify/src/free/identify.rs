@@ -24,6 +24,7 @@ use super::units::OutputUnits;
 use super::warning::Warning;
 use crate::{BorderDistance, Estimate, LevelErrors};
 use switchback_model::record::Record;
+use switchback_model::stray::screened;
 
 /// What was identified, how it was chosen, and what speaks against it.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,17 +89,19 @@ pub fn identify_watched(
     progress: &dyn Progress,
 ) -> Result<Identified, FreeError> {
     settings.check()?;
-    let units = OutputUnits::of(records);
+    let (records, stray) = screened(records);
+    let units = OutputUnits::of(&records.iter().collect::<Vec<_>>());
     let centred: Vec<Record> = records.iter().map(|record| units.centred(record)).collect();
     let data = with_best_rule(Data::new(&centred.iter().collect::<Vec<_>>(), settings)?, settings);
-    let selection = select(&data, settings, progress)?;
+    let (selection, found) = select(&data, settings, progress)?;
     let structure = selection.structure;
     let ladder = Ladder::new(&data, settings.input_map, selection.knots);
     let featured = ladder.top();
     let segments = featured.segments(structure);
     featured.basis.check_length(structure, &segments)?;
     let fitted = if settings.refine {
-        ladder.climb_from_smaller(structure, Effort::FINAL)
+        let found = found.or_else(|| ladder.climb_from_smaller(structure));
+        found.and_then(|found| featured.lifted(&found, &segments, Effort::FINAL))
     } else {
         ladder.one_shot(structure, &segments)
     };
@@ -117,7 +120,8 @@ pub fn identify_watched(
     let hollow = estimate.hollow_coefficients();
     let hollow = hollow.map(|(coefficient, sum)| Warning::CarrierNotReported { coefficient, sum }).collect();
     let examined = examine(&data, featured, structure, &theta, &segments);
-    let mut warnings = [doubt.warnings(), hollow, examined].concat();
+    let stray = stray.first().map(|&first| Warning::StraySamples { first, count: stray.len() });
+    let mut warnings = [stray.into_iter().collect(), doubt.warnings(), hollow, examined].concat();
     let distance = doubt.distance();
     let mut level_errors = covariance.map(|covariance| level_errors(&theta, covariance, units));
     let mut reported =

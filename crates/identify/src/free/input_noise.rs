@@ -9,7 +9,7 @@ use super::normalise::quantities;
 use super::problem::{Parameters, Segment, Structure};
 use super::runs::Runs;
 use super::sensor::SensorNoise;
-use super::simulation_error::{free_run, whitened_cost};
+use super::simulation_error::{Effort, free_run, whitened_cost};
 use super::smoothing::smoothed;
 use super::units::OutputUnits;
 use super::warning::Warning;
@@ -233,7 +233,8 @@ impl Again<'_> {
         match self.kind {
             FitKind::Equation => equation_error_fit(&Moments::of(*structure, basis.features(), segments)),
             FitKind::Simulation | FitKind::Prewhitened => {
-                Some(Runs::new(segments.to_vec()).refined(*structure, basis, theta.clone(), whitening))
+                let runs = Runs::new(segments.to_vec());
+                Some(runs.refined(*structure, basis, theta.clone(), whitening, Effort::REPEATED))
             }
         }
     }

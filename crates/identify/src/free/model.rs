@@ -3,7 +3,7 @@
 use super::basis::{Basis, Cell};
 use super::branch::{Branches, LookAhead, ReversalRule};
 use super::cells::Cells;
-use super::problem::{Parameters, Segment, Structure};
+use super::problem::{Parameters, Segment, Start, Structure};
 use super::simulation_error::free_run;
 use switchback_model::hysteresis::Branch;
 use switchback_model::record::Record;
@@ -168,8 +168,14 @@ impl Model {
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
         y.resize(memory + v.len(), 0.0);
-        let segment =
-            Segment { y: &y, cells: &cells, from: memory + given, to: memory + v.len(), weights: None };
+        let segment = Segment {
+            y: &y,
+            cells: &cells,
+            from: memory + given,
+            to: memory + v.len(),
+            weights: None,
+            start: Start::Measured,
+        };
         let run = free_run(self.structure, &self.parameters, &segment);
         y[memory..memory + given].iter().copied().chain(run).collect()
     }

@@ -51,6 +51,15 @@ fn yule_walker(covariances: &[f64]) -> Vec<(Vec<f64>, f64)> {
     all
 }
 
+/// `D(q⁻¹)x` of a signal that was zero before, with `D = 1 + d₁q⁻¹ + …`.
+pub(super) fn whitened(mut x: Vec<f64>, whitening: &[f64]) -> Vec<f64> {
+    for t in (1..x.len()).rev() {
+        let past = whitening.iter().zip(x[..t].iter().rev());
+        x[t] += past.map(|(d, x)| d * x).sum::<f64>();
+    }
+    x
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -86,6 +86,17 @@ pub(super) struct Segment<'a> {
     pub(super) to: usize,
     /// How many samples of the record each one stands for, over the same indices as `y`; one where there are none.
     pub(super) weights: Option<&'a [f64]>,
+    /// Where a free run begins.
+    pub(super) start: Start,
+}
+
+/// The outputs before a stretch, from which its free run starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Start {
+    /// As they were measured.
+    Measured,
+    /// Fitted with the stretch, in which they count as samples.
+    Fitted,
 }
 
 impl<'a> Segment<'a> {
@@ -98,7 +109,17 @@ impl<'a> Segment<'a> {
     ) -> Option<Self> {
         let from = range.start + structure.memory();
         let to = range.end.min(y.len() - structure.ahead().min(y.len()));
-        (from < to).then_some(Self { y, cells, from, to, weights: None })
+        (from < to).then_some(Self { y, cells, from, to, weights: None, start: Start::Measured })
+    }
+
+    /// The same stretch, its initial outputs fitted.
+    pub(super) fn with_fitted_start(self) -> Self {
+        Self { start: Start::Fitted, ..self }
+    }
+
+    /// Outputs before it that are fitted.
+    pub(super) fn fitted_outputs(&self, structure: Structure) -> usize {
+        if self.start == Start::Fitted { structure.order } else { 0 }
     }
 
     pub(super) fn len(&self) -> usize {

@@ -7,7 +7,7 @@ use super::error::FreeError;
 use super::errors::equation_error_estimate;
 use super::fit::quick_equation_error_fit;
 use super::one_shot::Grid;
-use super::problem::Segment;
+use super::problem::{Segment, Start};
 use crate::Estimate;
 use nalgebra::DMatrix;
 
@@ -43,7 +43,8 @@ impl Regression {
         let regression = Self::unchecked(v, grid, checkpoints)?;
         if let Some(first) = checkpoints.first() {
             let (from, cells) = (regression.start, &regression.cells);
-            let segment = [Segment { y: v, cells, from, to: from + first, weights: None }];
+            let segment =
+                [Segment { y: v, cells, from, to: from + first, weights: None, start: Start::Measured }];
             regression.grid.basis.check_visits(&segment)?;
             regression.grid.basis.check_length(regression.grid.structure, &segment)?;
         }

@@ -1,11 +1,10 @@
 //! What a free run is fitted to, and how.
 
 use super::basis::Basis;
-use super::noise_model::noise_model;
+use super::noise_model::{noise_model, whitened};
 use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::{
-    BATCH, Effort, Refinement, each_batch, free_run, free_run_errors, linearise_whitened, whitened,
-    whitened_cost,
+    BATCH, Effort, Refinement, each_batch, free_run, free_run_errors, linearise_whitened, whitened_cost,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -100,6 +99,7 @@ impl<'a> Runs<'a> {
         basis: &Basis,
         start: Parameters,
         whitening: &[f64],
+        effort: Effort,
     ) -> Parameters {
         let curves: Vec<usize> = basis.sizes().collect();
         let constant = if self.fold.is_some() {
@@ -108,13 +108,7 @@ impl<'a> Runs<'a> {
         } else {
             0.0
         };
-        let refinement = Refinement {
-            effort: Effort::FINAL,
-            curves: &curves,
-            smoothness: SMOOTHNESS,
-            whitening,
-            constant,
-        };
+        let refinement = Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening, constant };
         refinement.run(structure, start, &self.segments)
     }
 
@@ -137,7 +131,7 @@ impl<'a> Runs<'a> {
                 break;
             }
             whitening = next;
-            theta = self.refined(structure, basis, theta, &whitening);
+            theta = self.refined(structure, basis, theta, &whitening, Effort::FINAL);
         }
         (theta, whitening)
     }

@@ -1,21 +1,25 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::cross_validation::{Assessed, FOLDS, assess_all, assess_next};
-use super::data::Data;
+use super::cross_validation::{Assessed, FOLDS, assess};
+use super::data::{Data, Featured};
 use super::error::FreeError;
-use super::fit::{FIRST_KNOTS, Ladder};
+use super::fit::{FIRST_KNOTS, Fitted, Ladder};
+use super::noise_model::noise_model;
 use super::problem::{Segment, Structure};
 use super::progress::Progress;
+use super::runs::Runs;
 use super::settings::{InputMap, Settings};
-use super::simulation_error::Effort;
-use super::simulation_error::cost;
+use super::simulation_error::{Effort, cost, whitened_cost};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::ops::RangeInclusive;
 
+/// Probability of a choice by chance.
+const LEVEL: f64 = 0.05;
 /// Orders tried.
 const ORDERS: RangeInclusive<usize> = 1..=4;
 /// Delays tried. −1: no delay at all; −2: `y` answers one sample before `v` shows, as when the sensor of `v` lags.
 const DELAYS: RangeInclusive<isize> = -2..=1;
-/// Knots a curve tried in the second stage; the first stage has [`FIRST_KNOTS`].
+/// Knots a curve tried, [`FIRST_KNOTS`] among them.
 const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
 
 /// One candidate and what cross-validation says of it.
@@ -29,7 +33,7 @@ pub(crate) struct Candidate {
     pub parameters: usize,
     /// `100·(1 − √(Σ(y−ŷ)²/Σ(y−ȳ)²))`, free runs over blocks that the fit had not seen; the criterion.
     pub fit_percent: f64,
-    /// How far its squared error exceeds the best candidate's, in standard errors of the difference over folds.
+    /// How far its squared error exceeds the best candidate's, in standard errors of the difference over blocks.
     pub behind: f64,
 }
 
@@ -46,18 +50,22 @@ pub struct Selection {
     pub knots: usize,
 }
 
-/// Chooses what the settings leave open.
+/// Chooses what the settings leave open, and fits it to the blocks.
 ///
-/// First every order and delay at a middling number of knots, then every number of knots at the best
-/// order of each delay. The criterion is the free run over blocks of time left out of the fit, each started from its own first outputs. Of
-/// all candidates within one standard error of the best, the one with fewest parameters is taken (the one-standard-error rule of
-/// L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than chance, and the
-/// smaller ones travel better to records that the fit has not seen.
+/// In turn: knots for a middling structure, order and delay at these knots, knots for these. The criterion is the free run over blocks of
+/// time left out of the fit ([`assess`]), each started from its own first outputs. Of the numbers of knots within one standard error of the best the least is taken (the
+/// one-standard-error rule of L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than
+/// chance, and the smaller ones travel better to records that the fit has not seen.
+///
+/// A larger order or another delay must do more. A dozen structures are compared, so that the least of their errors is low by chance alone. Either the
+/// gain is beyond chance for the best of so many ([`sure_gain`]), or it exceeds its standard error and the BIC of the errors filtered by the noise model of
+/// the best candidate is lower, too: BIC takes a superfluous coefficient for real with a probability of P(χ²₁ > ln N), 0.3 % for 5,000 samples
+/// (G. Schwarz, Ann. Statist. 6 (1978)), but is of no use where no structure holds, as the free run and the filtered errors then want different ones.
 pub(super) fn select(
     data: &Data,
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<Selection, FreeError> {
+) -> Result<(Selection, Option<Fitted>), FreeError> {
     let orders: Vec<usize> = settings.order.map_or(ORDERS.collect(), |n| vec![n]);
     let delays: Vec<isize> =
         settings.delay.map_or(DELAYS.filter(|&d| settings.allows(d)).collect(), |d| vec![d]);
@@ -66,7 +74,6 @@ pub(super) fn select(
         (_, Some(k)) => vec![k],
         _ => KNOTS.to_vec(),
     };
-    let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
     // Smaller structures first: by falling delay, then by order.
     let structures: Vec<Structure> = delays
         .iter()
@@ -74,36 +81,161 @@ pub(super) fn select(
         .flat_map(|&delay| orders.iter().map(move |&order| Structure { order, delay }))
         .collect();
     if let ([structure], [knots]) = (&structures[..], &knots[..]) {
-        return Ok(Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots });
+        return Ok((
+            Selection { candidates: Vec::new(), folds: 0, structure: *structure, knots: *knots },
+            None,
+        ));
     }
-    let ladder = Ladder::new(data, settings.input_map, first_knots);
-    let more_knots = knots.iter().filter(|&&k| k != first_knots).count();
-    progress.found(FOLDS + more_knots);
-    let mut assessed = assess_all(&ladder, &structures, settings.refine, progress);
-    assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
-    let mut second: Vec<Assessed> = Vec::new();
-    for &k in knots.iter().filter(|&&k| k != first_knots) {
-        let ladder = Ladder::last_step(data, settings.input_map, k);
-        second.extend(best_of_each_delay(&assessed).map(|a| assess_next(&ladder, a, settings.refine)));
-        progress.did_one();
+    let search = Search { data, settings, progress };
+    progress.found(2 * knots.len() + structures.len());
+    search.run(&structures, &knots)
+}
+
+/// Fits and their cross-validation on the blocks of a search.
+struct Search<'a> {
+    data: &'a Data<'a>,
+    settings: &'a Settings,
+    progress: &'a dyn Progress,
+}
+
+impl Search<'_> {
+    fn run(
+        &self,
+        structures: &[Structure],
+        knots: &[usize],
+    ) -> Result<(Selection, Option<Fitted>), FreeError> {
+        let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
+        let ladder = Ladder::new(self.data, self.settings.input_map, first_knots);
+        let top = ladder.top();
+        let fits = self.coarse(&ladder, structures);
+        let coarse: Vec<Assessed> = fits.into_iter().map(|fit| self.assessed(top, fit)).collect();
+        let Some(middling) = least(&coarse) else { return Err(self.refusal(top, structures)) };
+        let by_knots = self.along(middling, knots, first_knots);
+        let Some(chosen) = most_parsimonious(&by_knots) else { return Err(self.refusal(top, structures)) };
+        let count = chosen.knots;
+        let at_knots: Vec<Assessed> = if count == middling.knots {
+            coarse
+        } else {
+            let featured = self.data.featured(chosen.fitted.basis.clone());
+            coarse.iter().filter_map(|coarse| self.refit(&featured, &coarse.fitted)).collect()
+        };
+        let structure = self.structure(&at_knots).unwrap_or(chosen);
+        let mut all = self.along(structure, knots, structure.knots);
+        let best = most_parsimonious(&all).unwrap_or(structure).clone();
+        all.extend(at_knots.iter().filter(|a| a.structure() != structure.structure()).cloned());
+        all.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
+        let candidates = all.iter().map(|a| candidate(a, &all[0])).collect();
+        let selection =
+            Selection { candidates, folds: FOLDS, structure: best.structure(), knots: best.knots };
+        Ok((selection, Some(best.fitted)))
     }
-    assessed.extend(second);
-    assessed.sort_by(|x, y| y.fit_percent.total_cmp(&x.fit_percent));
-    let candidates: Vec<Candidate> = assessed.iter().map(|a| candidate(a, &assessed[0])).collect();
-    let close = candidates.iter().filter(|c| c.behind <= 1.0);
-    match close.min_by_key(|c| c.parameters) {
-        Some(&Candidate { structure, knots, .. }) => {
-            Ok(Selection { candidates, folds: FOLDS, structure, knots })
+
+    /// A fit of every structure on the coarse grid, smaller ones first: each starts from those inside it.
+    fn coarse(&self, ladder: &Ladder, structures: &[Structure]) -> Vec<Fitted> {
+        if self.settings.refine {
+            let fits = ladder.climb_all(structures, Effort::SEARCH, |rung, s| rung.search_blocks(s, FOLDS));
+            return fits.into_iter().flatten().collect();
         }
-        None => {
-            // Without a fold's share of the data the smallest structure must still have its two samples a parameter.
-            let smallest = structures[0];
-            let mut blocks = ladder.top().blocks(smallest, FOLDS);
-            blocks.pop();
-            ladder.top().basis.check_length(smallest, &blocks)?;
-            Err(FreeError::Unstable { order: smallest.order })
-        }
+        let one_shot = |&s| ladder.one_shot(s, &ladder.top().search_blocks(s, FOLDS));
+        structures.iter().filter_map(one_shot).collect()
     }
+
+    fn assessed(&self, featured: &Featured, fitted: Fitted) -> Assessed {
+        let blocks = featured.search_blocks(fitted.structure, FOLDS);
+        self.progress.did_one();
+        assess(featured, fitted, &blocks)
+    }
+
+    /// The same structure on another basis.
+    fn refit(&self, featured: &Featured, fitted: &Fitted) -> Option<Assessed> {
+        let structure = fitted.structure;
+        let blocks = featured.search_blocks(structure, FOLDS);
+        let next = if self.settings.refine {
+            featured.lifted(fitted, &blocks, Effort::SEARCH)
+        } else {
+            featured.one_shot(structure, &blocks)
+        };
+        next.map(|next| self.assessed(featured, next))
+    }
+
+    /// One structure with every number of knots: finer grids from the next coarser one, coarser ones from the next finer one.
+    fn along(&self, start: &Assessed, knots: &[usize], at: usize) -> Vec<Assessed> {
+        let mut all = vec![start.clone()];
+        let finer = knots.iter().filter(|&&k| k > at);
+        let coarser = knots.iter().rev().filter(|&&k| k < at);
+        for counts in [finer.copied().collect::<Vec<_>>(), coarser.copied().collect()] {
+            let mut last = start.fitted.clone();
+            for count in counts {
+                let featured = self.data.featured(self.data.basis(self.settings.input_map, count));
+                if let Some(next) = self.refit(&featured, &last) {
+                    last = next.fitted.clone();
+                    all.push(next);
+                }
+            }
+        }
+        all
+    }
+
+    /// Order and delay: from the smallest on, the next one that gains more than chance.
+    fn structure<'b>(&self, assessed: &'b [Assessed]) -> Option<&'b Assessed> {
+        let best = least(assessed)?;
+        let filter = {
+            let featured = self.data.featured(best.fitted.basis.clone());
+            let runs = Runs::new(featured.search_blocks(best.structure(), FOLDS));
+            noise_model(&runs.residuals(best.structure(), &best.fitted.theta))
+        };
+        let bic = |a: &Assessed| {
+            let featured = self.data.featured(a.fitted.basis.clone());
+            let blocks = featured.search_blocks(a.structure(), FOLDS);
+            let samples: usize = blocks.iter().map(Segment::len).sum();
+            let mean = whitened_cost(a.structure(), &a.fitted.theta, &blocks, &filter) / samples as f64;
+            samples as f64 * mean.ln() + a.parameters as f64 * (samples as f64).ln()
+        };
+        let mut ordered: Vec<(f64, &Assessed)> =
+            assessed.iter().filter(|a| a.fit_percent.is_finite()).map(|a| (bic(a), a)).collect();
+        ordered.sort_by_key(|(_, a)| a.parameters);
+        let sure = sure_gain(assessed.len());
+        ordered
+            .into_iter()
+            .reduce(|now, next| {
+                let gain = candidate(now.1, next.1).behind;
+                let is_better = gain > sure || (gain > 1.0 && next.0 < now.0);
+                if is_better { next } else { now }
+            })
+            .map(|(_, chosen)| chosen)
+    }
+
+    /// Why no structure has a cross-validation: without a block the smallest must still have its two samples a parameter.
+    fn refusal(&self, featured: &Featured, structures: &[Structure]) -> FreeError {
+        let smallest = structures[0];
+        let mut blocks = featured.search_blocks(smallest, FOLDS);
+        blocks.pop();
+        featured
+            .basis
+            .check_length(smallest, &blocks)
+            .err()
+            .unwrap_or(FreeError::Unstable { order: smallest.order })
+    }
+}
+
+/// The gain in standard errors that the best of so many structures without merit reaches with probability [`LEVEL`] at most: Bonferroni's bound on
+/// Student's distribution, as the error comes from the scatter over the blocks.
+fn sure_gain(structures: usize) -> f64 {
+    let student = StudentsT::new(0.0, 1.0, (FOLDS - 1) as f64).expect("positive degrees of freedom");
+    student.inverse_cdf(1.0 - LEVEL / structures.max(1) as f64)
+}
+
+/// The assessment of least error, if any is finite.
+fn least(assessed: &[Assessed]) -> Option<&Assessed> {
+    let finite = assessed.iter().filter(|a| a.fit_percent.is_finite());
+    finite.max_by(|x, y| x.fit_percent.total_cmp(&y.fit_percent))
+}
+
+/// Of those within one standard error of the best, the one with fewest parameters.
+fn most_parsimonious(assessed: &[Assessed]) -> Option<&Assessed> {
+    let best = least(assessed)?;
+    let close = assessed.iter().filter(|a| candidate(a, best).behind <= 1.0);
+    close.min_by_key(|a| a.parameters)
 }
 
 /// The data with the reversal rule that fits best.
@@ -119,20 +251,14 @@ pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a
     let knots = settings.knots.unwrap_or(FIRST_KNOTS);
     let error = |data: &Data| {
         let ladder = Ladder::new(data, settings.input_map, knots);
-        let segments = ladder.top().segments(structure);
-        let fitted = ladder.climb_from_smaller(structure, Effort::SEARCH)?;
+        let segments = ladder.top().search_blocks(structure, FOLDS);
+        let fitted = ladder.climb_from_smaller(structure)?;
         let samples: usize = segments.iter().map(Segment::len).sum();
         Some(cost(structure, &fitted.theta, &segments) / samples as f64)
     };
     let tried = rules.into_iter().map(|rule| data.with_rule(rule)).filter_map(|d| Some((error(&d)?, d)));
     let best = tried.min_by(|x, y| x.0.total_cmp(&y.0));
     best.map_or_else(|| data.with_rule(data.rule), |(_, best)| best)
-}
-
-/// The best order of each delay, from assessments sorted by fit. A coarse grid may favour a delay that a finer one does not.
-fn best_of_each_delay(sorted: &[Assessed]) -> impl Iterator<Item = &Assessed> {
-    let is_first = |i: usize| sorted[..i].iter().all(|a| a.structure.delay != sorted[i].structure.delay);
-    (0..sorted.len()).filter(move |&i| is_first(i) && sorted[i].fit_percent.is_finite()).map(|i| &sorted[i])
 }
 
 /// Sets an assessment against the best one.
@@ -144,7 +270,7 @@ fn candidate(assessed: &Assessed, best: &Assessed) -> Candidate {
     let error = (variance / count).sqrt();
     let behind = if mean == 0.0 { 0.0 } else { mean / error };
     Candidate {
-        structure: assessed.structure,
+        structure: assessed.structure(),
         knots: assessed.knots,
         parameters: assessed.parameters,
         fit_percent: assessed.fit_percent,

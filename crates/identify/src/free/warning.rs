@@ -4,11 +4,19 @@ use crate::statistics::normal_quantile_975;
 use crate::{BorderDistance, Coefficient, PlusMinus};
 use std::fmt;
 use switchback_model::hysteresis::Branch;
+use switchback_model::stray::{SignalName, StraySample};
 
 /// Something that limits what the result can be trusted with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
+    /// Samples far from all others of their signal were replaced by straight lines.
+    StraySamples {
+        /// The first one.
+        first: StraySample,
+        /// How many there are.
+        count: usize,
+    },
     /// The sensor of `v` is noisy; smaller reversals were ignored.
     SensorNoise {
         /// Reversal threshold in force, input units.
@@ -103,6 +111,7 @@ impl Warning {
     /// One word for programs.
     pub fn kind(&self) -> &'static str {
         match self {
+            Self::StraySamples { .. } => "stray_samples",
             Self::SensorNoise { .. } => "sensor_noise",
             Self::InputNoise { .. } => "input_noise",
             Self::FewReversals { .. } => "few_reversals",
@@ -125,7 +134,7 @@ impl Warning {
         match *self {
             Self::SensorNoise { threshold } => Some(threshold),
             Self::InputNoise { errors, .. } => Some(errors),
-            Self::FewReversals { count } => Some(count as f64),
+            Self::StraySamples { count, .. } | Self::FewReversals { count } => Some(count as f64),
             Self::SteepCell { share, .. } => Some(share),
             Self::RarelyVisited { samples, .. } | Self::LooksAhead { samples } => Some(samples as f64),
             Self::IllConditioned { condition } => Some(condition),
@@ -147,6 +156,22 @@ impl fmt::Display for Warning {
             Branch::Descending => "descending",
         };
         match self {
+            Self::StraySamples { first: StraySample { record, sample, signal, value }, count } => {
+                let signal = match signal {
+                    SignalName::Input => "input",
+                    SignalName::Output => "output",
+                };
+                let place =
+                    format!("record {}, sample {}: the {signal} is {value:.4e}", record + 1, sample + 1);
+                let others = match count - 1 {
+                    0 => String::new(),
+                    more => format!(" and {more} more like it"),
+                };
+                write!(
+                    out,
+                    "{place}, far from all other values; it{others} was replaced by a straight line between its neighbours"
+                )
+            }
             Self::SensorNoise { threshold } => {
                 write!(out, "the input is noisy: reversals smaller than {threshold:.3e} were taken as noise")
             }
