@@ -7,9 +7,10 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use switchback_benches::{noise, settings, spring, system};
 use switchback_identify::excitation::RandomLevels;
-use switchback_identify::free::{Basis, Grid, Regression, ReversalRule, Structure, one_shot};
+use switchback_identify::free::{Basis, Grid, Regression, Structure, one_shot};
 use switchback_model::Record;
 use switchback_model::linear::filter;
+use switchback_model::reversal::ReversalRule;
 
 /// Regression samples.
 const SAMPLES: usize = 10_000;

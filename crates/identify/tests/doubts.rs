@@ -7,6 +7,7 @@ use switchback_identify::free::*;
 use switchback_model::hysteresis::{BorderPair, Interval, SwitchedHysteresis};
 use switchback_model::linear::filter;
 use switchback_model::record::Record;
+use switchback_model::reversal::{Branches, ReversalRule, Timing};
 
 /// Borders as plain functions: (descending, ascending).
 #[derive(Debug, Clone, Copy)]

@@ -6,6 +6,7 @@ use switchback_identify::{BorderPoint, Estimate};
 use switchback_model::hysteresis::Interval;
 use switchback_model::linear::filter;
 use switchback_model::record::Record;
+use switchback_model::reversal::{ReversalRule, Timing};
 use switchback_noise::{StreamId, white_samples};
 
 /// Borders as plain functions: (descending, ascending).

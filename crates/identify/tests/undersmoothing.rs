@@ -5,14 +5,14 @@ use rand_chacha::ChaCha8Rng;
 use switchback_identify::Estimate;
 use switchback_identify::excitation::RandomLevels;
 use switchback_identify::free::{
-    Basis, Grid, InputMap, Moments, NestedRegressions, Regression, ReversalRule, Settings, Structure,
-    identify, one_shot,
+    Basis, Grid, InputMap, Moments, NestedRegressions, Regression, Settings, Structure, identify, one_shot,
 };
 use switchback_model::Record;
 use switchback_model::hysteresis::{
     BorderPair, Branch, Discontinuous, Interval, LeafSpring, NonMonotone, Piece, SwitchedHysteresis, Wave,
 };
 use switchback_model::linear::filter;
+use switchback_model::reversal::ReversalRule;
 
 const A: [f64; 2] = [-1.2, 0.45];
 const B: [f64; 2] = [0.15, 0.10];

@@ -9,6 +9,8 @@
 //! |---|---|
 //! | [`record`], [`rig`] | measurements: one record; the records of one machine |
 //! | [`hysteresis`], [`linear`] | the two parts of a system |
+//! | [`reversal`] | the branch of every sample, and the strokes between reversals |
+//! | [`noise_model`] | the autoregression of the noise |
 //! | [`stray`] | samples that no measurement can be |
 //! | [`step`] | a causal model as a small program, run here or printed as C |
 //!
@@ -16,7 +18,9 @@
 
 pub mod hysteresis;
 pub mod linear;
+pub mod noise_model;
 pub mod record;
+pub mod reversal;
 pub mod rig;
 pub mod step;
 pub mod stray;

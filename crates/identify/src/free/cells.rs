@@ -1,9 +1,9 @@
 //! The hats of every sample of an input.
 
 use super::basis::{Basis, Cell, Place};
-use super::branch::Branches;
 use std::ops::Range;
 use switchback_model::hysteresis::Branch;
+use switchback_model::reversal::Branches;
 
 /// One [`Cell`] a sample, sixteen bytes each: the few that lie on both branches have the second one beside them.
 #[derive(Debug, Clone, Default)]

@@ -10,9 +10,6 @@ use super::simulation_error::{
 };
 use nalgebra::{DMatrix, DVector};
 
-/// Blocks that the fit records are cut into; each is left out once.
-pub(super) const FOLDS: usize = 10;
-
 /// A structure, its fit to all blocks, and the error of each block under a fit to the others.
 #[derive(Debug, Clone)]
 pub(super) struct Assessed {

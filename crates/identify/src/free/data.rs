@@ -1,22 +1,22 @@
 //! The fit records, with everything that does not depend on a model's structure worked out once.
 
 use super::basis::{Basis, Spacing, place_knots};
-use super::branch::{Branches, ReversalRule};
 use super::cells::Cells;
-use super::equation_error::Moments;
 use super::error::FreeError;
-use super::fit::{Fitted, equation_error_fit, stabilised};
 use super::problem::{Segment, Structure};
-use super::runs::SMOOTHNESS;
-use super::sensor::SensorNoise;
+use super::rules::rules;
 use super::settings::{InputMap, Settings};
-use super::simulation_error::{Effort, Refinement, cost};
 use switchback_model::hysteresis::{Branch, Interval};
 use switchback_model::record::Record;
+use switchback_model::reversal::SensorNoise;
+use switchback_model::reversal::{Branches, ReversalRule};
 
 /// Samples, spread over the records, on which structures are compared: two hundred for each coefficient of the largest one tried. The fit that is
 /// kept uses all samples.
 const SEARCH_SAMPLES: usize = 8000;
+
+/// Blocks that the fit records are cut into; each is left out once.
+pub(super) const FOLDS: usize = 10;
 
 /// The records and their branches.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl<'a> Data<'a> {
             .map(|r| SensorNoise::of(r.v()))
             .max_by(|x, y| x.threshold.total_cmp(&y.threshold))
             .ok_or(FreeError::NoRecords)?;
-        let rule = noise.rules(settings)[0];
+        let rule = rules(noise, settings)[0];
         let records: Vec<_> =
             records.iter().filter_map(|&record| Some((record, Branches::of(record.v(), rule)?))).collect();
         let values = || records.iter().flat_map(|(r, _)| r.v().iter().copied());
@@ -125,28 +125,5 @@ impl Featured<'_> {
             }
         }
         out
-    }
-
-    /// The equation-error fit, without refinement.
-    pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
-        let moments = Moments::of(structure, self.basis.features(), segments);
-        let theta = equation_error_fit(&moments)?;
-        Some(Fitted { structure, basis: self.basis.clone(), theta, whitening: Vec::new() })
-    }
-
-    /// The fit of least simulation error from a fit in the same structure on another basis.
-    pub(super) fn lifted(&self, fitted: &Fitted, segments: &[Segment], effort: Effort) -> Option<Fitted> {
-        let start = stabilised(fitted.lifted(fitted.structure, &self.basis));
-        let curves: Vec<usize> = self.basis.sizes().collect();
-        let refinement =
-            Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening: &[], constant: 0.0 };
-        let theta = refinement.run(fitted.structure, start, segments);
-        let is_finite = cost(fitted.structure, &theta, segments).is_finite();
-        is_finite.then(|| Fitted {
-            structure: fitted.structure,
-            basis: self.basis.clone(),
-            theta,
-            whitening: Vec::new(),
-        })
     }
 }

@@ -3,9 +3,10 @@
 use super::basis::Basis;
 use super::normalise::{Span, has_gain};
 use super::problem::{Parameters, Structure};
-use super::sensor::SensorNoise;
 use super::warning::Warning;
 use switchback_model::hysteresis::Branch;
+use switchback_model::reversal::SensorNoise;
+use switchback_model::reversal::Stroke;
 
 /// A knot with fewer samples beside it than this is reported.
 const FEW_SAMPLES: usize = 10;
@@ -25,6 +26,8 @@ pub(super) struct Examination<'a> {
     /// Width of the working interval.
     pub(super) range: f64,
     pub(super) reversals: usize,
+    /// The stroke that all records repeat.
+    pub(super) stroke: Option<Stroke>,
     /// Samples in the cells beside each knot.
     pub(super) visits: Vec<usize>,
 }
@@ -38,6 +41,11 @@ impl Examination<'_> {
         }
         if self.basis.is_switched() && self.reversals < FEW_REVERSALS {
             found.push(Warning::FewReversals { count: self.reversals });
+        }
+        if self.basis.is_switched()
+            && let Some(Stroke { length, samples }) = self.stroke
+        {
+            found.push(Warning::OneStroke { length, samples });
         }
         let lead = self.structure.ahead();
         if lead > 0 {

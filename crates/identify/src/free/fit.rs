@@ -1,7 +1,7 @@
 //! One fit at a given structure: equation error, rank one, then the simulation error.
 
 use super::basis::Basis;
-use super::cross_validation::FOLDS;
+use super::data::FOLDS;
 use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
@@ -124,6 +124,31 @@ impl<'a> Ladder<'a> {
     /// The equation-error fit at the top, without refinement.
     pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
         self.top().one_shot(structure, segments)
+    }
+}
+
+impl Featured<'_> {
+    /// The equation-error fit, without refinement.
+    pub(super) fn one_shot(&self, structure: Structure, segments: &[Segment]) -> Option<Fitted> {
+        let moments = Moments::of(structure, self.basis.features(), segments);
+        let theta = equation_error_fit(&moments)?;
+        Some(Fitted { structure, basis: self.basis.clone(), theta, whitening: Vec::new() })
+    }
+
+    /// The fit of least simulation error from a fit in the same structure on another basis.
+    pub(super) fn lifted(&self, fitted: &Fitted, segments: &[Segment], effort: Effort) -> Option<Fitted> {
+        let start = stabilised(fitted.lifted(fitted.structure, &self.basis));
+        let curves: Vec<usize> = self.basis.sizes().collect();
+        let refinement =
+            Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening: &[], constant: 0.0 };
+        let theta = refinement.run(fitted.structure, start, segments);
+        let is_finite = cost(fitted.structure, &theta, segments).is_finite();
+        is_finite.then(|| Fitted {
+            structure: fitted.structure,
+            basis: self.basis.clone(),
+            theta,
+            whitening: Vec::new(),
+        })
     }
 }
 

@@ -170,7 +170,6 @@ fn embedded(change: &DVector<f64>, coefficients: usize, basis: &Basis) -> DVecto
 
 #[cfg(test)]
 mod tests {
-    use super::super::branch::ReversalRule;
     use super::super::errors::Errors;
     use super::super::fit::equation_error_fit;
     use super::super::one_shot::Grid;
@@ -183,6 +182,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use switchback_model::hysteresis::{Branch, General, Interval, SaturatingCurve, SwitchedHysteresis};
     use switchback_model::linear::{autocovariance, filter};
+    use switchback_model::reversal::ReversalRule;
 
     #[test]
     fn the_bias_estimated_is_that_of_the_limit() {

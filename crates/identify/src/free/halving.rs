@@ -1,9 +1,9 @@
 //! Finer grids of knots, each of which contains the one before.
 
 use super::basis::Basis;
-use super::branch::Branches;
 use std::ops::Range;
 use switchback_model::hysteresis::Branch;
+use switchback_model::reversal::Branches;
 
 /// Where an input goes on each branch: every place once, in order.
 #[derive(Debug)]

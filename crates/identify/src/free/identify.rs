@@ -10,7 +10,6 @@ use super::fit::{FitKind, Fitted, Ladder, refitted};
 use super::halving::Places;
 use super::input_noise::InputNoise;
 use super::model::Model;
-use super::noise_model::noise_model;
 use super::normalise::{Figures, level_errors, normalise};
 use super::problem::{Parameters, Segment, Structure};
 use super::progress::Progress;
@@ -23,7 +22,9 @@ use super::undersmoothing::{GridFit, Undersmoothed, undersmoothed};
 use super::units::OutputUnits;
 use super::warning::Warning;
 use crate::{BorderDistance, Estimate, LevelErrors};
+use switchback_model::noise_model::noise_model;
 use switchback_model::record::Record;
+use switchback_model::reversal::Strokes;
 use switchback_model::stray::screened;
 
 /// What was identified, how it was chosen, and what speaks against it.
@@ -52,7 +53,7 @@ pub struct Identified {
 ///
 /// The output is centred and scaled first, so that the answer depends on neither its zero nor its unit:
 ///
-/// 1. The branch at every sample is read off `v` ([`crate::free::Branches`]).
+/// 1. The branch at every sample is read off `v` ([`switchback_model::reversal::Branches`]).
 /// 2. Whether reversals take effect at samples or between them is decided by the fit of a middling structure. Order, delay and knots are chosen by cross-validation where the settings leave them open.
 /// 3. Least squares with one coefficient for every product `bᵢf_k`, drawn to rank one.
 /// 4. With `refine`, Levenberg–Marquardt on the error of the free run. This is the model.
@@ -237,7 +238,9 @@ fn examine(
 ) -> Vec<Warning> {
     let visits = featured.basis.visits(segments);
     let reversals = data.records.iter().map(|(_, b)| b.reversals()).sum();
+    let mut strokes = Strokes::default();
+    data.records.iter().for_each(|(record, branches)| strokes.add(record.v(), branches));
     let (noise, threshold, range) = (data.noise, data.rule.threshold, data.interval.width());
-    Examination { basis: &featured.basis, structure, theta, noise, threshold, range, reversals, visits }
-        .warnings()
+    let (basis, stroke) = (&featured.basis, strokes.only_one());
+    Examination { basis, structure, theta, noise, threshold, range, reversals, stroke, visits }.warnings()
 }

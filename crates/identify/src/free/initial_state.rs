@@ -1,8 +1,8 @@
 //! The state in which a stretch begins, fitted with all of its samples.
 
-use super::noise_model::whitened;
 use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DVector};
+use switchback_model::noise_model::whitened;
 
 /// Outputs before a stretch that are parameters of their own.
 ///

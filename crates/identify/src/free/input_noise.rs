@@ -1,6 +1,5 @@
 //! What noise that the sensor adds to the input does to the estimate.
 
-use super::branch::{Branches, ReversalRule, Timing};
 use super::cells::Cells;
 use super::data::Data;
 use super::equation_error::Moments;
@@ -8,13 +7,14 @@ use super::fit::{FitKind, Fitted, equation_error_fit};
 use super::normalise::quantities;
 use super::problem::{Parameters, Segment, Structure};
 use super::runs::Runs;
-use super::sensor::SensorNoise;
 use super::simulation_error::{Effort, free_run, whitened_cost};
 use super::smoothing::smoothed;
 use super::units::OutputUnits;
 use super::warning::Warning;
 use crate::{BorderPoint, Estimate};
 use switchback_model::linear::is_stable;
+use switchback_model::reversal::SensorNoise;
+use switchback_model::reversal::{Branches, ReversalRule, Timing};
 use switchback_noise::{StreamId, white_samples};
 
 /// By how much noise of the size found on the input moves the estimate, worked out by simulation.

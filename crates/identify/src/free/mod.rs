@@ -1,6 +1,6 @@
 //! Identification from any record: no designed experiment.
 //!
-//! Where the switched model holds, the branch at every sample is known from `v` alone ([`Branches`]). On a grid of knots ([`Basis`]) `u` is
+//! Where the switched model holds, the branch at every sample is known from `v` alone ([`switchback_model::reversal::Branches`]). On a grid of knots ([`Basis`]) `u` is
 //! then linear in the border values, and `y` obeys a linear regression with one coefficient for every product `bᵢf_k`:
 //! least squares, then rank one ([`one_shot`]). On real records the equation error is not white and such a model
 //! simulates badly, so [`identify`] goes on to minimise the error of the free run, and chooses order, delay and
@@ -20,7 +20,6 @@
 //! nonlinearity in series with `v` and a common offset look like other borders.
 
 mod basis;
-mod branch;
 mod cells;
 mod cross_validation;
 mod data;
@@ -41,16 +40,15 @@ mod limit;
 mod model;
 mod nested;
 mod nesting;
-mod noise_model;
 mod normalise;
 mod one_shot;
 mod problem;
 mod progress;
 mod rank_one;
 mod regression;
+mod rules;
 mod runs;
 mod selection;
-mod sensor;
 mod settings;
 mod simulation_error;
 mod smoothing;
@@ -59,10 +57,6 @@ mod units;
 mod warning;
 
 pub use basis::Basis;
-pub use branch::Branches;
-pub use branch::LookAhead;
-pub use branch::ReversalRule;
-pub use branch::Timing;
 pub use equation_error::Moments;
 pub use error::FreeError;
 pub use fit::FitKind;
@@ -82,7 +76,6 @@ pub use problem::Structure;
 pub use progress::Progress;
 pub use regression::Regression;
 pub use selection::Selection;
-pub use sensor::SensorNoise;
 pub use settings::InputMap;
 pub use settings::Settings;
 pub use warning::Warning;

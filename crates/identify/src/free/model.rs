@@ -1,12 +1,12 @@
 //! An identified system that runs on its own.
 
 use super::basis::{Basis, Cell};
-use super::branch::{Branches, LookAhead, ReversalRule};
 use super::cells::Cells;
 use super::problem::{Parameters, Segment, Start, Structure};
 use super::simulation_error::free_run;
 use switchback_model::hysteresis::Branch;
 use switchback_model::record::Record;
+use switchback_model::reversal::{Branches, LookAhead, ReversalRule};
 use thiserror::Error;
 
 /// A Hammerstein system on piecewise-linear curves, in output units.

@@ -1,6 +1,5 @@
 //! Regressions of one input on ever finer grids.
 
-use super::branch::Branches;
 use super::equation_error::Moments;
 use super::error::FreeError;
 use super::errors::{Errors, figures};
@@ -12,6 +11,7 @@ use super::regression::Regression;
 use super::undersmoothing::{GridFit, undersmoothed};
 use super::units::OutputUnits;
 use crate::Estimate;
+use switchback_model::reversal::Branches;
 
 /// The regressions of one input on a grid and on ever finer ones that contain it, for estimates whose intervals hold the truth of borders
 /// that bend between the knots of any grid.

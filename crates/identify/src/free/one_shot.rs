@@ -1,7 +1,6 @@
 //! The estimate in one shot, on a grid that is known beforehand.
 
 use super::basis::Basis;
-use super::branch::{Branches, ReversalRule};
 use super::cells::Cells;
 use super::equation_error::Moments;
 use super::error::FreeError;
@@ -10,6 +9,7 @@ use super::fit::equation_error_fit;
 use super::problem::{Segment, Structure};
 use crate::Estimate;
 use switchback_model::record::Record;
+use switchback_model::reversal::{Branches, ReversalRule};
 
 /// All that [`one_shot`] takes as known.
 #[derive(Debug, Clone, PartialEq)]

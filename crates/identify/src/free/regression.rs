@@ -1,6 +1,5 @@
 //! The regression of one input, for many outputs.
 
-use super::branch::Branches;
 use super::cells::Cells;
 use super::equation_error::Moments;
 use super::error::FreeError;
@@ -10,6 +9,7 @@ use super::one_shot::Grid;
 use super::problem::{Segment, Start};
 use crate::Estimate;
 use nalgebra::DMatrix;
+use switchback_model::reversal::Branches;
 
 /// The regression of [`one_shot`](super::one_shot) on one input, at several numbers of samples: everything that the output does not touch is
 /// worked out once.

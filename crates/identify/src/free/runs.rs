@@ -1,12 +1,12 @@
 //! What a free run is fitted to, and how.
 
 use super::basis::Basis;
-use super::noise_model::{noise_model, whitened};
 use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::{
     BATCH, Effort, Refinement, each_batch, free_run, free_run_errors, linearise_whitened, whitened_cost,
 };
 use nalgebra::{DMatrix, DVector};
+use switchback_model::noise_model::{noise_model, whitened};
 
 /// Weight of the smoothness penalty: decides only what the data leave open.
 pub(super) const SMOOTHNESS: f64 = 1e-8;

@@ -1,17 +1,19 @@
 //! Order, delay and number of knots, chosen by cross-validation on the fit records.
 
-use super::cross_validation::{Assessed, FOLDS, assess};
+use super::cross_validation::{Assessed, assess};
+use super::data::FOLDS;
 use super::data::{Data, Featured};
 use super::error::FreeError;
 use super::fit::{FIRST_KNOTS, Fitted, Ladder};
-use super::noise_model::noise_model;
 use super::problem::{Segment, Structure};
 use super::progress::Progress;
-use super::runs::Runs;
+use super::rules::rules;
+use super::runs::{Runs, SMOOTHNESS};
 use super::settings::{InputMap, Settings};
-use super::simulation_error::{Effort, cost, whitened_cost};
+use super::simulation_error::{Effort, Refinement, cost, whitened_cost};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::ops::RangeInclusive;
+use switchback_model::noise_model::noise_model;
 
 /// Probability of a choice by chance.
 const LEVEL: f64 = 0.05;
@@ -184,25 +186,33 @@ impl Search<'_> {
             let runs = Runs::new(featured.search_blocks(best.structure(), FOLDS));
             noise_model(&runs.residuals(best.structure(), &best.fitted.theta))
         };
-        let bic = |a: &Assessed| {
-            let featured = self.data.featured(a.fitted.basis.clone());
-            let blocks = featured.search_blocks(a.structure(), FOLDS);
-            let samples: usize = blocks.iter().map(Segment::len).sum();
-            let mean = whitened_cost(a.structure(), &a.fitted.theta, &blocks, &filter) / samples as f64;
-            samples as f64 * mean.ln() + a.parameters as f64 * (samples as f64).ln()
-        };
-        let mut ordered: Vec<(f64, &Assessed)> =
-            assessed.iter().filter(|a| a.fit_percent.is_finite()).map(|a| (bic(a), a)).collect();
-        ordered.sort_by_key(|(_, a)| a.parameters);
         let sure = sure_gain(assessed.len());
-        ordered
-            .into_iter()
-            .reduce(|now, next| {
-                let gain = candidate(now.1, next.1).behind;
-                let is_better = gain > sure || (gain > 1.0 && next.0 < now.0);
-                if is_better { next } else { now }
-            })
-            .map(|(_, chosen)| chosen)
+        let mut ordered: Vec<&Assessed> = assessed.iter().filter(|a| a.fit_percent.is_finite()).collect();
+        ordered.sort_by_key(|a| a.parameters);
+        ordered.into_iter().reduce(|now, next| {
+            let gain = candidate(now, next).behind;
+            let is_better = gain > sure || (gain > 1.0 && self.bic(next, &filter) < self.bic(now, &filter));
+            if is_better { next } else { now }
+        })
+    }
+
+    /// BIC of the errors filtered by `D`, at the parameters that make these least.
+    fn bic(&self, assessed: &Assessed, filter: &[f64]) -> f64 {
+        let Assessed { fitted, parameters, .. } = assessed;
+        let featured = self.data.featured(fitted.basis.clone());
+        let blocks = featured.search_blocks(fitted.structure, FOLDS);
+        let samples: usize = blocks.iter().map(Segment::len).sum();
+        let curves: Vec<usize> = featured.basis.sizes().collect();
+        let refinement = Refinement {
+            effort: Effort::SEARCH,
+            curves: &curves,
+            smoothness: SMOOTHNESS,
+            whitening: filter,
+            constant: 0.0,
+        };
+        let theta = refinement.run(fitted.structure, fitted.theta.clone(), &blocks);
+        let mean = whitened_cost(fitted.structure, &theta, &blocks, filter) / samples as f64;
+        samples as f64 * mean.ln() + *parameters as f64 * (samples as f64).ln()
     }
 
     /// Why no structure has a cross-validation: without a block the smallest must still have its two samples a parameter.
@@ -243,7 +253,7 @@ fn most_parsimonious(assessed: &[Assessed]) -> Option<&Assessed> {
 /// The rules have the same parameters, so the fit itself decides; a middling structure shows the difference. All are judged
 /// over the same samples but for a few at the very start.
 pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a> {
-    let rules = data.noise.rules(settings);
+    let rules = rules(data.noise, settings);
     if rules.len() == 1 || settings.input_map != InputMap::Borders {
         return data;
     }

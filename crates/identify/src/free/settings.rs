@@ -1,8 +1,8 @@
 //! What the user may fix, and what is otherwise chosen from the data.
 
-use super::branch::Timing;
 use super::error::FreeError;
 use switchback_model::hysteresis::Interval;
+use switchback_model::reversal::Timing;
 
 /// How the input enters the linear part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,11 +1,11 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
 use super::initial_state::{InitialState, own_information, without_last};
-use super::noise_model::whitened;
 use super::problem::{Parameters, Segment, Start, Structure};
 use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use switchback_model::linear::is_stable;
+use switchback_model::noise_model::whitened;
 
 /// How hard a refinement tries.
 #[derive(Debug, Clone, Copy)]

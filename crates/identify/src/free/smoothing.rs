@@ -1,7 +1,7 @@
 //! An input without the noise of its sensor, as far as the samples beside each one show its motion.
 
-use super::branch::Branches;
 use std::ops::Range;
+use switchback_model::reversal::Branches;
 
 /// Largest half-width of a window, samples.
 const WIDEST: usize = 64;
@@ -74,9 +74,9 @@ fn parabola(v: &[f64], stretch: &Range<usize>, t: usize, half_width: usize) -> (
 
 #[cfg(test)]
 mod tests {
-    use super::super::branch::ReversalRule;
     use super::*;
     use nalgebra::{DMatrix, DVector};
+    use switchback_model::reversal::ReversalRule;
     use switchback_noise::{StreamId, white_samples};
 
     /// A triangle with corners every 50 samples, of slope 0.02.

@@ -1,11 +1,9 @@
 //! The fast paths against slow and obvious ones.
 
 use super::basis::Basis;
-use super::branch::{Branches, ReversalRule, Timing};
 use super::cells::Cells;
 use super::equation_error::{Moments, fill_row};
 use super::limit::Limit;
-use super::noise_model::whitened;
 use super::one_shot::{Grid, one_shot};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::over_parameterised;
@@ -19,7 +17,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use switchback_model::hysteresis::{Interval, SwitchedHysteresis, Table, TablePoint};
 use switchback_model::linear::{filter, is_stable};
+use switchback_model::noise_model::whitened;
 use switchback_model::record::Record;
+use switchback_model::reversal::{Branches, ReversalRule, Timing};
 
 fn uniform(rng: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
     (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()

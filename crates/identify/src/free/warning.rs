@@ -36,6 +36,13 @@ pub enum Warning {
         /// Reversals in all records.
         count: usize,
     },
+    /// All records repeat one stroke at one speed.
+    OneStroke {
+        /// From one turning point to the next, input units.
+        length: f64,
+        /// Samples that it takes.
+        samples: f64,
+    },
     /// Half of a curve's range or more lies between two neighbouring knots: a jump, or too coarse a grid.
     SteepCell {
         /// Which curve.
@@ -115,6 +122,7 @@ impl Warning {
             Self::SensorNoise { .. } => "sensor_noise",
             Self::InputNoise { .. } => "input_noise",
             Self::FewReversals { .. } => "few_reversals",
+            Self::OneStroke { .. } => "one_stroke",
             Self::SteepCell { .. } => "steep_cell",
             Self::RarelyVisited { .. } => "rarely_visited",
             Self::SpanIllDefined => "span_ill_defined",
@@ -135,6 +143,7 @@ impl Warning {
             Self::SensorNoise { threshold } => Some(threshold),
             Self::InputNoise { errors, .. } => Some(errors),
             Self::StraySamples { count, .. } | Self::FewReversals { count } => Some(count as f64),
+            Self::OneStroke { length, .. } => Some(length),
             Self::SteepCell { share, .. } => Some(share),
             Self::RarelyVisited { samples, .. } | Self::LooksAhead { samples } => Some(samples as f64),
             Self::IllConditioned { condition } => Some(condition),
@@ -180,7 +189,18 @@ impl fmt::Display for Warning {
                 "the fast part of the input (sd {sd:.3e}, {:.2} % of the interval), if it is noise of the sensor, moves a coefficient or a border point by roughly {errors:.1} standard errors, which the intervals do not allow for; longer records do not help, a less noisy sensor does, or the mean of several readings in each sample",
                 100.0 * share
             ),
-            Self::FewReversals { count } => write!(out, "only {count} reversals in all records"),
+            Self::FewReversals { count: 0 } => write!(
+                out,
+                "the input never turns: one border is visited, and the other is not identified; record a motion to and fro"
+            ),
+            Self::FewReversals { count } => write!(
+                out,
+                "only {count} reversals in all records: a loop is hardly distinguished from a trend; record more strokes to and fro"
+            ),
+            Self::OneStroke { length, samples } => write!(
+                out,
+                "the input repeats one stroke of {length:.4} in {samples:.0} samples: another linear part with other borders gives the same output, so that neither order and poles nor borders are identified; add a record of this stroke at half the speed, and one of shorter strokes"
+            ),
             Self::SteepCell { curve, between: (low, high), share } => write!(
                 out,
                 "{:.0} % of the {} border's range lies between its knots {low:.4} and {high:.4}: a jump, or too few knots",

@@ -2,7 +2,8 @@
 
 use super::{CausalAlternative, Flag};
 use switchback_identify::PlusMinus;
-use switchback_identify::free::{LookAhead, Model};
+use switchback_identify::free::Model;
+use switchback_model::reversal::LookAhead;
 
 /// Why a model could not run in real time, with the unit of its input; empty if it could.
 pub(crate) fn obstacles(model: &Model, unit: &str) -> Vec<String> {

@@ -5,7 +5,8 @@ use crate::identification::{EstimatedSystem, obstacles, unit};
 use miette::Diagnostic;
 use std::path::Path;
 use switchback_diagnose::LooksAhead;
-use switchback_identify::free::{Coefficients, Timing};
+use switchback_identify::free::Coefficients;
+use switchback_model::reversal::Timing;
 use switchback_model::step;
 use thiserror::Error;
 

@@ -5,9 +5,10 @@ use crate::identification::FreeRun;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::NominalModel;
-use switchback_identify::free::{Basis, Coefficients, Identified, Model, ReversalRule, Structure, Timing};
+use switchback_identify::free::{Basis, Coefficients, Identified, Model, Structure};
 use switchback_identify::statistics::propagated;
 use switchback_model::hysteresis::Interval;
+use switchback_model::reversal::{ReversalRule, Timing};
 
 /// `A(q⁻¹) y(t) = Σᵢ bᵢ u(t−delay−i) + c`, i from 1, `u` linear between knots, in output units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,9 +4,10 @@ use crate::scenario::{Border, Case};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use switchback_identify::excitation::RandomLevels;
-use switchback_identify::free::{Basis, Branches, Grid, ReversalRule, Structure};
+use switchback_identify::free::{Basis, Grid, Structure};
 use switchback_model::hysteresis::{Branch, Interval, SwitchedHysteresis};
 use switchback_model::linear::filter;
+use switchback_model::reversal::{Branches, ReversalRule};
 
 /// ChaCha stream of the drive, beyond those of any noise.
 const STREAM: u64 = u64::MAX;

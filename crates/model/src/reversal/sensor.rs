@@ -1,8 +1,5 @@
 //! Sensor noise on the input, and the reversal threshold that it calls for.
 
-use super::branch::{ReversalRule, Timing};
-use super::settings::Settings;
-
 /// What the sensor of `v` adds to it, and what a move must exceed to count as a reversal.
 ///
 /// Two independent looks, since neither sees everything:
@@ -17,7 +14,7 @@ use super::settings::Settings;
 ///   do, but then the "noise" exceeds 2 % of the range and is taken as motion. The threshold is `6σ`.
 ///
 /// ```
-/// use switchback_identify::free::SensorNoise;
+/// use switchback_model::reversal::SensorNoise;
 /// // Levels of a designed experiment are motion, not noise.
 /// let levels: Vec<f64> = (0..200).map(|t| f64::from(t * 7 % 16)).collect();
 /// assert_eq!(SensorNoise::of(&levels).threshold, 0.0);
@@ -36,9 +33,6 @@ pub struct SensorNoise {
 /// √2 σ, so this is 4.2 of those: about one false reversal in 10⁵ samples at rest, and none on a slope.
 const THRESHOLD_IN_SD: f64 = 6.0;
 
-/// A lower threshold that the fit may prefer: one false reversal in some hundred samples at rest, but loops of half the size seen.
-const LOW_THRESHOLD_IN_SD: f64 = 3.5;
-
 /// Share of the range that noise may take up.
 const LARGEST_NOISE: f64 = 0.02;
 
@@ -52,37 +46,6 @@ impl SensorNoise {
         let sd = (2..=4).find_map(|k| white_sd(v, k)).filter(|&sd| sd < limit).unwrap_or(0.0);
         let threshold = if small_pairs > 0.0 { 2.0 * small_pairs } else { THRESHOLD_IN_SD * sd };
         Self { sd, small_pairs, threshold }
-    }
-
-    /// The rules worth trying, simplest first; a threshold or timing that the settings give is kept.
-    ///
-    /// On a noisy input the extremum of a rest is anywhere in it, and three noise sds is the band that holds nearly all of it.
-    /// Beside the safe threshold a lower one is tried, since real loops may be small. A causal model has no choice but to switch
-    /// at the sample that confirms the reversal.
-    pub(super) fn rules(&self, settings: &Settings) -> Vec<ReversalRule> {
-        let thresholds = match settings.threshold {
-            Some(threshold) => vec![threshold],
-            None if self.small_pairs == 0.0 && self.sd > 0.0 => {
-                vec![self.threshold, LOW_THRESHOLD_IN_SD * self.sd]
-            }
-            None => vec![self.threshold],
-        };
-        if settings.causal {
-            let rule = |threshold| ReversalRule { threshold, band: 0.0, timing: Timing::AtConfirmation };
-            return thresholds.into_iter().map(rule).collect();
-        }
-        let timings = settings.timing.map_or(vec![Timing::AtSamples, Timing::BetweenSamples], |t| vec![t]);
-        let mut rules = Vec::new();
-        for &threshold in &thresholds {
-            for &timing in &timings {
-                let band = (3.0 * self.sd).min(threshold / 2.0);
-                rules.push(ReversalRule { threshold, band: 0.0, timing });
-                if band > 0.0 {
-                    rules.push(ReversalRule { threshold, band, timing });
-                }
-            }
-        }
-        rules
     }
 }
 

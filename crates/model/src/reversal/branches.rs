@@ -1,6 +1,6 @@
 //! Which border the working point is on, read off the input alone.
 
-use switchback_model::hysteresis::Branch;
+use crate::hysteresis::Branch;
 
 /// Where between two samples a reversal takes effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -65,7 +65,7 @@ pub enum LookAhead {
 /// With [`ReversalRule::EXACT`] this is (2.3): rising, falling, and holding at a rest.
 ///
 /// ```
-/// use switchback_identify::free::{Branches, ReversalRule};
+/// use switchback_model::reversal::{Branches, ReversalRule};
 /// use switchback_model::hysteresis::Branch::{Ascending, Descending};
 /// // The dip of 0.1 is sensor noise for a threshold of 0.3; the fall from 2 to 1 is a reversal.
 /// let rule = ReversalRule { threshold: 0.3, ..ReversalRule::EXACT };
@@ -167,7 +167,7 @@ impl Branches {
     }
 
     /// Share of a sample that belongs to the other branch already, if any.
-    pub(super) fn turned(&self, t: usize) -> Option<f64> {
+    pub fn turned(&self, t: usize) -> Option<f64> {
         Some(self.turned[t]).filter(|&share| share > 0.0)
     }
 

@@ -1,4 +1,4 @@
-//! The noise of the output, distinguished from what a free run leaves.
+//! The autoregressive model of an output's noise, and the filter that makes it white.
 
 /// Coefficients `d₁, d₂, …` of the filter `D(q⁻¹) = 1 + d₁q⁻¹ + …` that makes residuals white: an autoregression whose order minimises
 ///
@@ -10,7 +10,7 @@
 /// inside the unit circle, so that `1/D` is stable. `residuals` has one list for every stretch of samples without a gap.
 ///
 /// G. Schwarz, Ann. Statist. 6 (1978), doi 10.1214/aos/1176344136; N. Levinson, J. Math. Phys. 25 (1946).
-pub(super) fn noise_model(residuals: &[Vec<f64>]) -> Vec<f64> {
+pub fn noise_model(residuals: &[Vec<f64>]) -> Vec<f64> {
     let samples: usize = residuals.iter().map(Vec::len).sum();
     let most = ((10.0 * (samples.max(1) as f64).log10()) as usize).min(samples / 10);
     let covariance = |lag: usize| -> f64 {
@@ -52,7 +52,7 @@ fn yule_walker(covariances: &[f64]) -> Vec<(Vec<f64>, f64)> {
 }
 
 /// `D(q⁻¹)x` of a signal that was zero before, with `D = 1 + d₁q⁻¹ + …`.
-pub(super) fn whitened(mut x: Vec<f64>, whitening: &[f64]) -> Vec<f64> {
+pub fn whitened(mut x: Vec<f64>, whitening: &[f64]) -> Vec<f64> {
     for t in (1..x.len()).rev() {
         let past = whitening.iter().zip(x[..t].iter().rev());
         x[t] += past.map(|(d, x)| d * x).sum::<f64>();
