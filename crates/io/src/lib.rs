@@ -1,4 +1,4 @@
-//! Files: tables of measurements, rigs, models, results, and folders that are replaced whole.
+//! Files: rigs, models, results, and folders that are replaced whole.
 
 pub mod diagnosis;
 pub mod export;

@@ -1,9 +1,9 @@
 //! Which of the files of this program one is, to show those who gave another.
 
-use super::table::Table;
-use super::text_pieces::read_decoded;
 use serde_json::Value;
 use std::path::Path;
+use switchback_table::read_decoded;
+use switchback_table::table::Table;
 
 /// What a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,7 @@
 //! A TOML file, and errors that point into it.
 
-use super::closest::closest;
-use super::file_error::FileError;
 use super::terms::Terms;
-use super::text_file::read_text;
+use super::{FileError, closest, read_text};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use serde::de::DeserializeOwned;
 use std::ops::Range;

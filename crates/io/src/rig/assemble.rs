@@ -2,18 +2,19 @@
 
 use super::cut::{self, Part};
 use super::divided::Divided;
-use super::input_form::InputForm;
-use super::measured::{Measured, Request};
-use super::plan::{ColumnNames, Plan, PlannedRecord};
+use super::plan::{Plan, PlannedRecord};
 use super::problem::RigProblem;
 use super::reported::{self, Reported};
-use super::samples_needed::samples_needed;
-use crate::input::{Column, DataError, DataProblem, Table, stream};
+use crate::input::stream;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
+use switchback_table::signals::{
+    ColumnNames, InputForm, Measured, NO_TIME, Request, Sampling, samples_needed,
+};
+use switchback_table::table::{Column, DataError, DataProblem, Table};
 
 /// A rig, with the inferred settings.
 #[derive(Debug, Clone)]
@@ -56,13 +57,12 @@ fn assemble_measured(plan: &Plan, measured: Vec<Measured>) -> Result<Loaded, Vec
     check_agreement(plan, &measured)?;
     let needed = samples_needed(plan.order);
     let divided = each(plan.records.iter().zip(measured), |(record, measured)| {
-        let parts =
-            divide(record, &measured, (needed, &plan.input_form)).map_err(|error| vec![error.into()])?;
+        let parts = divide(record, &measured, (needed, &plan.input_form)).map_err(|error| vec![error])?;
         Ok(Divided { measured, parts })
     })?;
     let names = record_names(plan);
     let records = each(divided.iter().zip(&plan.records).zip(names), |((divided, record), name)| {
-        rig_records(divided, record, &name).map_err(|error| vec![error.into()])
+        rig_records(divided, record, &name).map_err(|error| vec![error])
     })?;
     let first = &divided[0].measured;
     let rig = Rig {
@@ -82,17 +82,17 @@ fn assemble_measured(plan: &Plan, measured: Vec<Measured>) -> Result<Loaded, Vec
 }
 
 /// Does the same with each, and gives all results or all problems.
-fn each<I, R>(
+fn each<I, R, P: Into<RigProblem>>(
     items: impl Iterator<Item = I>,
-    mut work: impl FnMut(I) -> Result<R, Vec<RigProblem>>,
+    mut work: impl FnMut(I) -> Result<R, Vec<P>>,
 ) -> Result<Vec<R>, Vec<Located>> {
     let (mut results, mut problems) = (Vec::new(), Vec::new());
     for (record, item) in items.enumerate() {
         match work(item) {
             Ok(result) => results.push(result),
-            Err(found) => {
-                problems.extend(found.into_iter().map(|problem| Located { record: Some(record), problem }))
-            }
+            Err(found) => problems.extend(
+                found.into_iter().map(|problem| Located { record: Some(record), problem: problem.into() }),
+            ),
         }
     }
     if problems.is_empty() { Ok(results) } else { Err(problems) }
@@ -242,7 +242,7 @@ fn resolved(plan: &Plan, rig: &Rig, divided: &[Divided]) -> Plan {
             .map(|(record, columns)| PlannedRecord { columns: own(columns), ..record.clone() })
             .collect(),
         columns: columns[0].clone(),
-        sampling: super::plan::Sampling { sample_time: Some(rig.sample_time), ..plan.sampling },
+        sampling: Sampling { sample_time: Some(rig.sample_time), ..plan.sampling },
         input_label: Some(rig.input_label.clone()),
         output_label: Some(rig.output_label.clone()),
         input_form: InputForm::Manifest,
@@ -264,7 +264,7 @@ fn named(measured: &Measured) -> ColumnNames {
     };
     let selection = &measured.selection;
     ColumnNames {
-        time: Some(selection.time.map_or_else(|| super::plan::NO_TIME.to_owned(), name)),
+        time: Some(selection.time.map_or_else(|| NO_TIME.to_owned(), name)),
         input: Some(name(selection.input)),
         output: selection.output.map(name),
     }

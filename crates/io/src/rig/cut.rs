@@ -1,9 +1,9 @@
 //! What of a file is fitted and what is held out.
 
-use super::input_form::InputForm;
-use crate::input::DataProblem;
 use std::ops::Range;
 use switchback_model::rig::Usage;
+use switchback_table::signals::InputForm;
+use switchback_table::table::DataProblem;
 
 /// Consecutive samples for one use.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! A record of a plan, read and divided.
 
 use super::cut::Part;
-use super::measured::Measured;
+use switchback_table::signals::Measured;
 
 /// One record of the plan, read and divided.
 pub(super) struct Divided {

@@ -1,12 +1,12 @@
 //! Records that can be read and are no likely measurements of the system that is declared.
 
 use super::divided::Divided;
-use super::measured::Measured;
 use super::plan::{Plan, PlannedRecord};
 use super::run_state;
-use crate::input::Place;
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Usage;
+use switchback_table::signals::Measured;
+use switchback_table::table::Place;
 
 /// One sentence a doubt.
 pub(super) fn warnings(plan: &Plan, divided: &[Divided]) -> Vec<String> {

@@ -3,7 +3,7 @@
 use super::assemble::{Loaded, assemble_tables};
 use super::plan::Plan;
 use super::problem::{RigError, RigProblem};
-use crate::input::{Cells, Table};
+use switchback_table::table::{Cells, Table};
 
 /// A record as columns in memory, all of the same length, which is not zero.
 #[derive(Debug)]

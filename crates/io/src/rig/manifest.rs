@@ -1,9 +1,9 @@
 //! The commented rig file that says what was inferred.
 
 use super::assemble::Loaded;
-use super::plan::ColumnNames;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
+use switchback_table::signals::ColumnNames;
 
 /// The rig file that gives the same rig as the files did, to be put into `folder` (none: the folder that the files are named from).
 pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {

@@ -1,9 +1,10 @@
 //! What can be wrong with a rig, all of it reported at once.
 
-use crate::input::{DataError, FileError, TableError, TomlError};
+use crate::input::{FileError, TomlError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use std::collections::HashSet;
 use std::fmt::{self, Display};
+use switchback_table::table::{DataError, TableError};
 use thiserror::Error;
 
 /// One thing that is wrong. Each message names file, place and remedy.

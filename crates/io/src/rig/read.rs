@@ -2,14 +2,15 @@
 
 use super::assemble::{Loaded, Located, assemble, probe};
 use super::check;
-use super::input_form::{InputForm, in_shell};
-use super::plan::{ColumnNames, Plan, PlannedRecord, Sampling};
+use super::plan::{Plan, PlannedRecord};
 use super::problem::{RigError, RigProblem};
 use super::wire::{WireColumns, WireRecord, WireRig};
-use crate::input::{DataProblem, FileError, FileKind, TomlError, TomlFile, closest, stream};
+use crate::input::{FileError, FileKind, TomlError, TomlFile, closest, stream};
 use std::ops::Range;
 use std::path::Path;
 use switchback_model::rig::{Rig, Usage};
+use switchback_table::signals::{ColumnNames, InputForm, Sampling, in_shell};
+use switchback_table::table::DataProblem;
 use toml::Spanned;
 
 /// Reads a rig file and the files of measurements it names, which lie relative to its folder.

@@ -1,13 +1,12 @@
 //! What was inferred, in a few lines.
 
 use super::divided::Divided;
-use super::input_form::InputForm;
-use super::measured::{ClockSource, Measured};
+use super::doubts;
 use super::plan::{HELD_OUT, Plan};
-use super::sampling::rounded;
-use super::{doubts, spikes};
 use std::fmt::{self, Display};
 use switchback_model::rig::Usage;
+use switchback_table::signals::{ClockSource, InputForm, Measured, rounded, spikes};
+use switchback_table::table::{Column, Place};
 
 /// What was inferred from the files rather than said by the user. Shown as lines, none where nothing was.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -58,7 +57,7 @@ pub(super) fn describe(plan: &Plan, divided: &[Divided]) -> Reported {
         held_out: is_line.then(|| held_out(plan, divided)),
         warnings: divided
             .iter()
-            .flat_map(|divided| spikes::warnings(&divided.measured))
+            .flat_map(|divided| spikes(&divided.measured))
             .chain(doubts::warnings(plan, divided))
             .collect(),
         notes: notes(divided),
@@ -67,8 +66,7 @@ pub(super) fn describe(plan: &Plan, divided: &[Divided]) -> Reported {
 
 /// The names that rig files always used.
 fn has_usual_names(measured: &Measured) -> bool {
-    let is =
-        |column: Option<&crate::input::Column>, name: &str| column.is_some_and(|column| column.name == name);
+    let is = |column: Option<&Column>, name: &str| column.is_some_and(|column| column.name == name);
     is(Some(measured.input()), "v") && is(measured.output(), "y")
 }
 
@@ -108,7 +106,7 @@ fn columns(plan: &Plan, first: &Measured) -> String {
 /// Files whose columns are called otherwise than the first's.
 fn other_columns(divided: &[Divided]) -> String {
     let named = |measured: &Measured| {
-        [Some(measured.input()), measured.output()].map(|column| column.map(crate::input::Column::label))
+        [Some(measured.input()), measured.output()].map(|column| column.map(Column::label))
     };
     let first = named(&divided[0].measured);
     let others = divided.iter().map(|divided| &divided.measured).filter(|measured| named(measured) != first);
@@ -158,8 +156,8 @@ fn dropouts(divided: &Divided) -> Option<String> {
     let count = measured.pieces.len().checked_sub(1).filter(|count| *count > 0)?;
     let error = measured.first_interruption()?;
     let place = match error.place {
-        Some(crate::input::Place::Line(line)) => format!("{}:{line}", error.path),
-        Some(crate::input::Place::Row(row)) => format!("{}, row {row}", error.path),
+        Some(Place::Line(line)) => format!("{}:{line}", error.path),
+        Some(Place::Row(row)) => format!("{}, row {row}", error.path),
         None => error.path,
     };
     let used: usize = parts.iter().map(|part| part.range.len()).sum();
@@ -188,8 +186,8 @@ fn held_out(plan: &Plan, divided: &[Divided]) -> String {
                     format!("{} %", short(100.0 * share))
                 };
                 let place = match measured.place(first.range.start) {
-                    crate::input::Place::Line(line) => format!("line {line}"),
-                    crate::input::Place::Row(row) => format!("row {row}"),
+                    Place::Line(line) => format!("line {line}"),
+                    Place::Row(row) => format!("row {row}"),
                 };
                 reported.push(format!(
                     "the last {share} of {} ({samples} of {all} samples, from {place} on)",

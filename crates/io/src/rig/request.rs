@@ -1,14 +1,14 @@
 //! What is asked of files of measurements, or of one rig file.
 
 use super::assemble::Loaded;
-use super::input_form::{InputForm, in_shell};
-use super::plan::{ColumnNames, HELD_OUT, NO_TIME, Plan, PlannedRecord, Sampling};
+use super::plan::{HELD_OUT, Plan, PlannedRecord};
 use super::problem::{RigError, RigProblem};
 use super::read::{load, load_plan};
 use crate::input::{FileKind, stream};
 use crate::values::is_positive;
 use std::path::{Component, Path, PathBuf};
 use switchback_model::rig::{Role, Usage};
+use switchback_table::signals::{ColumnNames, InputForm, NO_TIME, Sampling, in_shell};
 
 /// Files of measurements and how to read them, or one rig file, which says for itself what the other fields would.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,10 +1,10 @@
 //! Sensors that stand still while the machine moves: switched off, unplugged, or stuck.
 
-use super::measured::Measured;
 use super::plan::PlannedRecord;
-use crate::input::{Column, Place};
 use std::ops::Range;
 use switchback_model::rig::Role;
+use switchback_table::signals::Measured;
+use switchback_table::table::{Column, Place};
 
 /// Least share of a record, and least samples, over which a stuck sensor is distinguished from one that rests.
 const LONG: f64 = 0.1;

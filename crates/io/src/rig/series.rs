@@ -1,10 +1,9 @@
 //! One file as an input to be played: `v`, perhaps with a measured `y` beside it.
 
-use super::input_form::InputForm;
-use super::measured::{Measured, Request};
-use super::plan::{ColumnNames, Sampling};
-use super::problem::RigError;
+use super::problem::{RigError, RigProblem};
 use std::path::Path;
+use switchback_table::signals::{ColumnNames, InputForm, Measured, Request, Sampling, spikes};
+use switchback_table::table::Column;
 
 /// An evenly sampled input, and what was measured beside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +44,8 @@ pub fn read_input(
 ) -> Result<InputSeries, RigError> {
     let input_form = InputForm::Simulation(command.to_owned());
     let request = Request { names, sampling, input_form: &input_form, needs_output: false };
-    let measured = Measured::read(path, request).map_err(RigError::new)?;
+    let measured = Measured::read(path, request)
+        .map_err(|problems| RigError::new(problems.into_iter().map(RigProblem::from).collect()))?;
     if let Some(interruption) = measured.first_interruption() {
         return Err(interruption.into());
     }
@@ -53,8 +53,8 @@ pub fn read_input(
         sample_time: measured.sample_time,
         start: measured.start,
         input_label: measured.input().label(),
-        output_label: measured.output().map(crate::input::Column::label),
-        warnings: super::spikes::warnings(&measured),
+        output_label: measured.output().map(Column::label),
+        warnings: spikes(&measured),
         notes: measured.table.notes.clone(),
         times: measured.times(),
         time_unit: measured.time_unit(),

@@ -14,23 +14,23 @@ mod measurements;
 mod memory;
 mod places;
 mod table_error;
-pub(crate) mod unit;
+pub mod unit;
 
-pub(crate) use column::Column;
-pub(crate) use column::Kind;
+pub use column::Column;
+pub use column::Kind;
 use column::empty_column;
 pub use error::DataError;
 pub use error::DataProblem;
-pub(crate) use error::Place;
+pub use error::Place;
 pub use error::Step;
-pub(crate) use measurements::Table;
+pub use measurements::Table;
 pub use memory::Cells;
-pub(crate) use places::Places;
-pub(crate) use table_error::TableError;
+pub use places::Places;
+pub use table_error::TableError;
 
-use super::mat;
-use super::text_file::read_bytes;
-use super::text_pieces::{PieceError, TextPieces};
+use crate::mat;
+use crate::text_file::read_bytes;
+use crate::text_pieces::{PieceError, TextPieces};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
@@ -77,7 +77,7 @@ impl Table {
     ///
     /// # Errors
     /// A file that cannot be read, or holds no table. Single rows and cells that are wrong are kept in the table.
-    pub(crate) fn read(path: &Path, least: usize) -> Result<Self, TableError> {
+    pub fn read(path: &Path, least: usize) -> Result<Self, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
         if mat::is_matlab(path, pieces.first_bytes()) {
             return mat::read(path, read_bytes(path).map_err(TableError::File)?);
@@ -92,7 +92,7 @@ impl Table {
     }
 
     /// The table in a text.
-    pub(crate) fn parse(text: &str, least: usize) -> Result<Self, TableError> {
+    pub fn parse(text: &str, least: usize) -> Result<Self, TableError> {
         let path = Path::new("");
         Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::reported)
     }

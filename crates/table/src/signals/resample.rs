@@ -5,9 +5,9 @@ use std::ops::Range;
 
 /// What was done.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Resampled {
+pub struct Resampled {
     /// The longest step that was interpolated, seconds.
-    pub(super) longest: f64,
+    pub longest: f64,
 }
 
 /// Made-up samples in a row that are still called interpolation. More of them would be a record of straight lines that nobody measured; a

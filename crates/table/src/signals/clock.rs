@@ -1,13 +1,13 @@
 //! What the numbers of a time column mean.
 
 use super::input_form::InputForm;
-use crate::input::{Column, DataProblem, Kind, unit};
+use crate::table::{Column, DataProblem, Kind, unit};
 
 /// From a time column's numbers to seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Clock {
     /// Seconds in the column's unit.
-    pub(super) unit: f64,
+    pub unit: f64,
     /// Subtracted first, so that small steps of large numbers keep their digits.
     origin: f64,
     column: String,

@@ -1,7 +1,7 @@
 //! Values that no machine ever reached: a failed sensor, or a word for "nothing" written as a number.
 
 use super::measured::Measured;
-use crate::input::{Column, Place};
+use crate::table::{Column, Place};
 
 /// So many interquartile ranges from the median a value is no measurement: converters resolve 24 bits at most, 1.7e7 steps, and a signal
 /// that fills a millionth of their range is not what they were set up for.
@@ -11,7 +11,7 @@ const FAR: f64 = 1e6;
 const SENTINELS: [f64; 9] = [999.0, 9999.0, 99_999.0, 999_999.0, 1e20, 1e30, 1e31, 1e36, 1e38];
 
 /// One sentence a column that has such values.
-pub(super) fn warnings(measured: &Measured) -> Vec<String> {
+pub fn warnings(measured: &Measured) -> Vec<String> {
     let signals = [(Some(measured.input()), Some(&measured.v)), (measured.output(), measured.y.as_ref())];
     let reported = signals.into_iter().filter_map(|(column, values)| warning(measured, column?, values?));
     reported.collect()

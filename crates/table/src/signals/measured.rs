@@ -2,32 +2,38 @@
 
 use super::clock::Clock;
 use super::input_form::InputForm;
-use super::plan::{ColumnNames, NO_TIME, Sampling};
-use super::problem::RigProblem;
+use super::names::{ColumnNames, NO_TIME, Sampling};
 use super::resample::{self, Resampled};
 use super::samples_needed::samples_needed;
 use super::sampling::{Fault, Stamps, resolution};
 use super::select::Selection;
 use super::taken::Series;
 use super::{faults, guess};
-use crate::input::{Column, DataError, DataProblem, Kind, Place, Table, unit};
+use crate::table::{Column, DataError, DataProblem, Kind, Place, Table, TableError, unit};
 use std::ops::Range;
 use std::path::Path;
 
 /// One file's columns, evenly sampled between dropouts.
 #[derive(Debug)]
-pub(super) struct Measured {
-    pub(super) table: Table,
-    pub(super) selection: Selection,
-    pub(super) sample_time: f64,
+pub struct Measured {
+    /// The columns as read, with notes on how.
+    pub table: Table,
+    /// Which columns were taken.
+    pub selection: Selection,
+    /// Seconds between samples.
+    pub sample_time: f64,
     /// Seconds of the first sample by the time column; 0 without one, and where it holds instants.
-    pub(super) start: f64,
-    pub(super) source: ClockSource,
-    pub(super) v: Vec<f64>,
-    pub(super) y: Option<Vec<f64>>,
-    pub(super) predicted: Option<Vec<f64>>,
+    pub start: f64,
+    /// Origin of the sample time.
+    pub source: ClockSource,
+    /// The input.
+    pub v: Vec<f64>,
+    /// The output, where the table has one.
+    pub y: Option<Vec<f64>>,
+    /// Another simulator's prediction, where the table has one.
+    pub predicted: Option<Vec<f64>>,
     /// Samples between dropouts; together all of them.
-    pub(super) pieces: Vec<Range<usize>>,
+    pub pieces: Vec<Range<usize>>,
     /// Row of the table that each sample comes from, or lies after.
     rows: Vec<usize>,
     /// What interrupts the record before each piece but the first.
@@ -36,24 +42,31 @@ pub(super) struct Measured {
 
 /// Where the sample time comes from.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum ClockSource {
+pub enum ClockSource {
     /// The user, who has no time column.
     Given,
     /// The user; the time column agrees.
     GivenAndTime,
     /// The time column, whose steps differ from it by up to this share.
-    Time { jitter: f64 },
+    Time {
+        /// Largest difference of a step, as a share of the sample time.
+        jitter: f64,
+    },
     /// The rows were interpolated.
     Resampled(Resampled),
 }
 
 /// What is asked of a file.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Request<'a> {
-    pub(super) names: &'a ColumnNames,
-    pub(super) sampling: Sampling,
-    pub(super) input_form: &'a InputForm,
-    pub(super) needs_output: bool,
+pub struct Request<'a> {
+    /// Names of columns, where the user gave them.
+    pub names: &'a ColumnNames,
+    /// How rows become samples.
+    pub sampling: Sampling,
+    /// Who asks.
+    pub input_form: &'a InputForm,
+    /// Whether there must be an output.
+    pub needs_output: bool,
 }
 
 impl Measured {
@@ -61,9 +74,9 @@ impl Measured {
     ///
     /// # Errors
     /// All that is wrong with it.
-    pub(super) fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
-        let table = Table::read(path, if request.needs_output { 2 } else { 1 })
-            .map_err(|error| vec![error.into()])?;
+    pub fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<TableError>> {
+        let table =
+            Table::read(path, if request.needs_output { 2 } else { 1 }).map_err(|error| vec![error])?;
         Self::of(table, request)
     }
 
@@ -71,9 +84,9 @@ impl Measured {
     ///
     /// # Errors
     /// All that is wrong with it.
-    pub(super) fn of(table: Table, request: Request<'_>) -> Result<Self, Vec<RigProblem>> {
-        let at = |place, problem| RigProblem::Data(DataError { path: table.path.clone(), place, problem });
-        let mut problems: Vec<RigProblem> = table.faults.iter().cloned().map(RigProblem::Data).collect();
+    pub fn of(table: Table, request: Request<'_>) -> Result<Self, Vec<TableError>> {
+        let at = |place, problem| TableError::Data(DataError { path: table.path.clone(), place, problem });
+        let mut problems: Vec<TableError> = table.faults.iter().cloned().map(TableError::Data).collect();
         let selection = match Selection::of(&table, request.names, request.input_form, request.needs_output) {
             Ok(selection) => selection,
             Err(found) => {
@@ -96,12 +109,12 @@ impl Measured {
     }
 
     /// Where a sample stands in the file.
-    pub(super) fn place(&self, sample: usize) -> Place {
+    pub fn place(&self, sample: usize) -> Place {
         self.table.places.get(self.rows[sample])
     }
 
     /// Where the record is first interrupted, and by what.
-    pub(super) fn first_interruption(&self) -> Option<DataError> {
+    pub fn first_interruption(&self) -> Option<DataError> {
         let problem = self.interruptions.first()?.clone();
         let row = match problem {
             // A gap in time stands where it ends, an empty cell where it is.
@@ -112,23 +125,25 @@ impl Measured {
     }
 
     /// The time of every sample as it stands in the file; none without a time column, or where rows were interpolated.
-    pub(super) fn times(&self) -> Option<Vec<String>> {
+    pub fn times(&self) -> Option<Vec<String>> {
         let column = &self.table.columns[self.selection.time?];
         let is_read = !matches!(self.source, ClockSource::Resampled(_));
         is_read.then(|| self.rows.iter().map(|&row| column.written(row)).collect())
     }
 
     /// The unit of these times where it is not the second.
-    pub(super) fn time_unit(&self) -> Option<String> {
+    pub fn time_unit(&self) -> Option<String> {
         let unit = self.table.columns[self.selection.time?].unit.clone()?;
         (unit::seconds(&unit) != Some(1.0)).then_some(unit)
     }
 
-    pub(super) fn input(&self) -> &Column {
+    /// The input's column.
+    pub fn input(&self) -> &Column {
         &self.table.columns[self.selection.input]
     }
 
-    pub(super) fn output(&self) -> Option<&Column> {
+    /// The output's column.
+    pub fn output(&self) -> Option<&Column> {
         self.selection.output.map(|k| &self.table.columns[k])
     }
 }

@@ -1,6 +1,6 @@
 //! Which column is which, where the header says so.
 
-use crate::input::{Column, Kind};
+use crate::table::{Column, Kind};
 
 /// What a column can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,17 +1,17 @@
 //! Are the time stamps those of even sampling, and of which sample time?
 
 use super::input_form::InputForm;
-use crate::input::{DataProblem, Step};
+use crate::table::{DataProblem, Step};
 
 /// What the stamps of a record show.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Timing {
     /// Seconds between samples.
-    pub(super) sample_time: f64,
+    pub sample_time: f64,
     /// The largest difference of a step from the sample time, as a share of it; steps over dropouts not counted.
-    pub(super) jitter: f64,
+    pub jitter: f64,
     /// Samples before which others are missing.
-    pub(super) dropouts: Vec<usize>,
+    pub dropouts: Vec<usize>,
 }
 
 /// Share of the sample time that a step may be off where the stamps themselves show it.
@@ -25,15 +25,15 @@ const BESIDE: usize = 8;
 #[derive(Clone, Copy)]
 pub(super) struct Stamps<'a> {
     /// What messages call the column.
-    pub(super) column: &'a str,
+    pub column: &'a str,
     /// Seconds, one a sample that was measured.
-    pub(super) t: &'a [f64],
+    pub t: &'a [f64],
     /// Seconds that the last digit of each stamp is worth.
-    pub(super) resolution: &'a [f64],
+    pub resolution: &'a [f64],
     /// Each stamp as it stands in the file.
-    pub(super) written: &'a dyn Fn(usize) -> String,
+    pub written: &'a dyn Fn(usize) -> String,
     /// Who asks.
-    pub(super) input_form: &'a InputForm,
+    pub input_form: &'a InputForm,
 }
 
 /// Where in a record something is wrong (none: everywhere), and what.
@@ -228,7 +228,7 @@ fn shortest(x: f64, tolerance: f64) -> (usize, f64) {
 }
 
 /// Eight significant digits: differences of stamps carry rounding errors that nobody wants to read.
-pub(super) fn rounded(x: f64) -> f64 {
+pub fn rounded(x: f64) -> f64 {
     format!("{x:.7e}").parse().unwrap_or(x)
 }
 

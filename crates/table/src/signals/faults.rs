@@ -1,6 +1,6 @@
 //! Cells that are neither a value nor missing.
 
-use crate::input::{Column, DataProblem, Kind};
+use crate::table::{Column, DataProblem, Kind};
 
 /// What is wrong in a column, by row. `no_times` is the remedy where it is the time column and holds text.
 pub(super) fn of(column: &Column, no_times: Option<String>) -> Vec<(usize, DataProblem)> {

@@ -2,7 +2,7 @@
 
 /// One column.
 #[derive(Debug, Clone)]
-pub(crate) struct Column {
+pub struct Column {
     /// Its name without the unit; `column 2` where the file has no header.
     pub name: String,
     /// Its unit; empty for a pure number.
@@ -21,7 +21,7 @@ pub(crate) struct Column {
 
 /// What the cells of a column are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A number.
     Number,
     /// A time stamp.
@@ -32,14 +32,14 @@ pub(crate) enum Kind {
 
 /// A cell that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
+pub struct Fault {
     pub row: usize,
     pub cell: String,
 }
 
 impl Column {
     /// `force [N]`, or the name alone.
-    pub(crate) fn label(&self) -> String {
+    pub fn label(&self) -> String {
         match &self.unit {
             Some(unit) => format!("{} [{unit}]", self.name),
             None => self.name.clone(),
@@ -47,13 +47,13 @@ impl Column {
     }
 
     /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
-    pub(crate) fn is_number(&self) -> bool {
+    pub fn is_number(&self) -> bool {
         let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
         self.kind == Kind::Number && is_meant()
     }
 
     /// A cell as it stands in the file, a number up to zeros that say nothing.
-    pub(crate) fn written(&self, row: usize) -> String {
+    pub fn written(&self, row: usize) -> String {
         self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
     }
 }

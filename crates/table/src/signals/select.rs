@@ -2,22 +2,25 @@
 
 use super::guess::{self, Part};
 use super::input_form::InputForm;
-use super::plan::{ColumnNames, NO_TIME};
-use crate::input::{Column, DataProblem, Kind, Table, closest};
+use super::names::{ColumnNames, NO_TIME};
+use crate::closest;
+use crate::table::{Column, DataProblem, Kind, Table};
 
 /// The columns taken, as positions in the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Selection {
-    pub(super) time: Option<usize>,
+pub struct Selection {
+    /// The clock.
+    pub time: Option<usize>,
     /// A column that counts the samples, where there is no time.
-    pub(super) index: Option<usize>,
-    pub(super) input: usize,
+    pub index: Option<usize>,
+    /// The input.
+    pub input: usize,
     /// None where the table offers none; only an input's file may.
-    pub(super) output: Option<usize>,
+    pub output: Option<usize>,
     /// Another simulator's prediction, `y_sim`.
-    pub(super) prediction: Option<usize>,
+    pub prediction: Option<usize>,
     /// Columns that could be the input or output instead.
-    pub(super) rivals: Vec<usize>,
+    pub rivals: Vec<usize>,
 }
 
 /// In place of an output's name: an input's file has none that counts.
@@ -31,7 +34,7 @@ impl Selection {
     ///
     /// # Errors
     /// All that is wrong with the names given, or what cannot be guessed without doubt.
-    pub(super) fn of(
+    pub fn of(
         table: &Table,
         names: &ColumnNames,
         input_form: &InputForm,

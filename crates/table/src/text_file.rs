@@ -29,7 +29,7 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
 ///
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, or cannot be read; a stream that is silent for 10 s or goes on beyond 1 GiB.
-pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     if is_stream(path) {
         return stream::read(path);
     }
@@ -45,7 +45,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
 ///
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, or cannot be opened.
-pub(super) fn open(path: &Path) -> Result<File, FileError> {
+pub(crate) fn open(path: &Path) -> Result<File, FileError> {
     let shown = path.display().to_string();
     if path.is_dir() {
         return Err(FileError::Directory { help: instead_of_folder(path), path: shown });

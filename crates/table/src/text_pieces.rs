@@ -11,7 +11,7 @@ use std::path::Path;
 const PIECE: usize = 1 << 16;
 
 /// A text being read: UTF-8, UTF-16 with a byte order mark, else Windows-1252.
-pub(super) struct TextPieces<'a> {
+pub(crate) struct TextPieces<'a> {
     /// The file, as messages call it.
     path: String,
     source: Box<dyn Read + 'a>,
@@ -27,7 +27,7 @@ pub(super) struct TextPieces<'a> {
 
 /// Why no more text comes.
 #[derive(Debug)]
-pub(super) enum PieceError {
+pub(crate) enum PieceError {
     File(FileError),
     /// The guess was wrong: the text is in [Windows-1252](TextPieces::in_windows_1252).
     NotUtf8,
@@ -38,7 +38,7 @@ impl<'a> TextPieces<'a> {
     ///
     /// # Errors
     /// [`FileError`] if there is no file, it is a folder, or cannot be read.
-    pub(super) fn open(path: &Path) -> Result<Self, FileError> {
+    pub(crate) fn open(path: &Path) -> Result<Self, FileError> {
         let source: Box<dyn Read> = match is_stream(path) {
             true => Box::new(Cursor::new(stream::read(path)?)),
             false => Box::new(open(path)?),
@@ -47,7 +47,7 @@ impl<'a> TextPieces<'a> {
     }
 
     /// A text that is there already.
-    pub(super) fn of_text(path: &str, text: &'a str) -> Self {
+    pub(crate) fn of_text(path: &str, text: &'a str) -> Self {
         let (source, decoder) = (Box::new(text.as_bytes()), UTF_8.new_decoder_without_bom_handling());
         let (path, bytes) = (path.to_owned(), Vec::new());
         Self { path, source, decoder, encoding: None, is_guess: false, bytes, has_ended: false }
@@ -72,23 +72,23 @@ impl<'a> TextPieces<'a> {
     }
 
     /// The same from its beginning, each byte a letter of Windows-1252 (its printable part is Latin-1): this cannot fail.
-    pub(super) fn in_windows_1252(self) -> Self {
+    pub(crate) fn in_windows_1252(self) -> Self {
         let decoder = WINDOWS_1252.new_decoder_without_bom_handling();
         Self { decoder, encoding: Some("Windows-1252"), is_guess: false, ..self }
     }
 
     /// The encoding, where it is not UTF-8.
-    pub(super) fn encoding(&self) -> Option<&'static str> {
+    pub(crate) fn encoding(&self) -> Option<&'static str> {
         self.encoding
     }
 
     /// The first bytes of the file, before anything is taken.
-    pub(super) fn first_bytes(&self) -> &[u8] {
+    pub(crate) fn first_bytes(&self) -> &[u8] {
         &self.bytes
     }
 
     /// Whether all has been taken.
-    pub(super) fn has_ended(&self) -> bool {
+    pub(crate) fn has_ended(&self) -> bool {
         self.has_ended
     }
 
@@ -96,7 +96,7 @@ impl<'a> TextPieces<'a> {
     ///
     /// # Errors
     /// [`PieceError`] where the file cannot be read on, or is not UTF-8 where that was guessed.
-    pub(super) fn append_to(&mut self, text: &mut String) -> Result<(), PieceError> {
+    pub(crate) fn append_to(&mut self, text: &mut String) -> Result<(), PieceError> {
         if self.bytes.is_empty() {
             let read = self.source.by_ref().take(PIECE as u64).read_to_end(&mut self.bytes);
             read.map_err(|source| {
@@ -115,7 +115,7 @@ impl<'a> TextPieces<'a> {
 ///
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, or cannot be read.
-pub(super) fn read_decoded(path: &Path) -> Result<String, FileError> {
+pub fn read_decoded(path: &Path) -> Result<String, FileError> {
     let whole = |mut pieces: TextPieces<'_>| {
         let mut text = String::new();
         while !pieces.has_ended() {

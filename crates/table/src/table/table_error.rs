@@ -1,11 +1,11 @@
 //! Why a file gives no table at all.
 
 use super::error::DataError;
-use crate::input::FileError;
+use crate::FileError;
 
 /// Why a file gives no table at all.
 #[derive(Debug)]
-pub(crate) enum TableError {
+pub enum TableError {
     /// The file cannot be read.
     File(FileError),
     /// The file holds no table of numbers.

@@ -18,7 +18,7 @@ pub enum Cells {
 
 impl Cells {
     /// Number of rows.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
             Self::Texts(texts) => texts.len(),
@@ -28,7 +28,7 @@ impl Cells {
 
 impl Table {
     /// The table of columns of one length, with their labels. Cells are judged as those of a file are.
-    pub(crate) fn of_columns(name: &str, columns: Vec<(String, Cells)>) -> Self {
+    pub fn of_columns(name: &str, columns: Vec<(String, Cells)>) -> Self {
         let columns: Vec<Column> = columns.into_iter().map(column).collect();
         let rows = columns.first().map_or(0, |column| column.values.len());
         Self {

@@ -122,7 +122,7 @@ fn samples(count: usize) -> String {
 
 impl DataProblem {
     /// What the user can do about it.
-    pub(crate) fn remedy(&self) -> String {
+    pub fn remedy(&self) -> String {
         match self {
             Self::Empty | Self::NoTable => {
                 "a file of measurements has one row a sample, with the input and the output in two columns; commas, semicolons, tabs, bars or blanks between them".to_owned()

@@ -15,7 +15,7 @@ pub enum InputForm {
 
 impl InputForm {
     /// What to write to name columns.
-    pub(super) fn naming(&self, wanted: &[(&str, String)]) -> String {
+    pub fn naming(&self, wanted: &[(&str, String)]) -> String {
         match self {
             Self::Manifest => {
                 let keys: Vec<_> = wanted.iter().map(|(key, name)| format!("{key} = {name:?}")).collect();
@@ -34,7 +34,7 @@ impl InputForm {
     }
 
     /// How to take another column than the one guessed.
-    pub(super) fn other_column(&self) -> &'static str {
+    pub fn other_column(&self) -> &'static str {
         match self {
             Self::Manifest => "`columns = { input = …, output = … }`",
             Self::Arguments => "`input=NAME` or `output=NAME`",
@@ -43,7 +43,7 @@ impl InputForm {
     }
 
     /// How to leave the time column aside.
-    pub(super) fn without_time(&self) -> &'static str {
+    pub fn without_time(&self) -> &'static str {
         match self {
             Self::Manifest => "`columns = { time = \"none\" }` with `sample_time = SECONDS`",
             Self::CommandLine(_) => "`--time none --rate HZ`",
@@ -53,7 +53,7 @@ impl InputForm {
     }
 
     /// What to do about an interrupted record that must be whole.
-    pub(super) fn whole(&self) -> String {
+    pub fn whole(&self) -> String {
         match self {
             Self::Simulation(_) => {
                 "an input to be played must be whole: fill in what is missing, add `--resample` to interpolate gaps of up to ten samples, or play its pieces as files of their own".to_owned()
@@ -63,7 +63,7 @@ impl InputForm {
     }
 
     /// What to do about uneven steps.
-    pub(super) fn uneven(&self) -> String {
+    pub fn uneven(&self) -> String {
         let interpolate = match self {
             Self::Manifest => "write `resample = true` to interpolate linearly to the mean step",
             Self::CommandLine(_) => "add `--resample` to interpolate linearly to the mean step",
@@ -74,7 +74,7 @@ impl InputForm {
     }
 
     /// What to do about time that stands still or runs back.
-    pub(super) fn not_increasing(&self) -> String {
+    pub fn not_increasing(&self) -> String {
         format!(
             "sort the rows by time and remove repeated ones; give runs that start anew files of their own; where stamps are too coarse to \
              distinguish the rows, use {}",
@@ -83,7 +83,7 @@ impl InputForm {
     }
 
     /// What to do about a sample time that the stamps contradict.
-    pub(super) fn other_sample_time(&self, step: f64) -> String {
+    pub fn other_sample_time(&self, step: f64) -> String {
         match self {
             Self::Manifest => {
                 format!("write `sample_time = {step}`, or leave it out: the time column shows it")
@@ -103,7 +103,7 @@ impl InputForm {
     }
 
     /// What to do about files that were not sampled alike.
-    pub(super) fn sample_times_differ(&self, first: f64) -> String {
+    pub fn sample_times_differ(&self, first: f64) -> String {
         match self {
             Self::Manifest => format!(
                 "interpolate all of them to one: `resample = true` with `sample_time = {first}`; or diagnose them one by one"
@@ -119,7 +119,7 @@ impl InputForm {
     }
 
     /// What to do about a record that falls to pieces.
-    pub(super) fn shattered(&self) -> String {
+    pub fn shattered(&self) -> String {
         match self {
             Self::Manifest => "check the time column, or write `resample = true` to interpolate".to_owned(),
             Self::Arguments => "check the time column, or give `resample=True` to interpolate".to_owned(),
@@ -130,7 +130,7 @@ impl InputForm {
     }
 
     /// What to do about a record that is too short to be cut.
-    pub(super) fn cut_too_short(&self) -> String {
+    pub fn cut_too_short(&self) -> String {
         match self {
             Self::Manifest => {
                 "take a longer record, or hold out another file by `use = \"holdout\"`".to_owned()
@@ -143,7 +143,7 @@ impl InputForm {
     }
 
     /// What to do where neither the user nor a column shows the sample time.
-    pub(super) fn sample_time_wanted(&self) -> String {
+    pub fn sample_time_wanted(&self) -> String {
         match self {
             Self::Manifest => {
                 "write `sample_time = SECONDS`, or name the time column in `columns`".to_owned()
@@ -159,7 +159,7 @@ impl InputForm {
     }
 
     /// How to hold out something else.
-    pub(super) fn other_holdout(&self) -> &'static str {
+    pub fn other_holdout(&self) -> &'static str {
         match self {
             Self::Arguments => "`holdout=0.3` or `holdout=NAME`",
             _ => "`--holdout 0.3` or `--holdout FILE`",
@@ -167,7 +167,7 @@ impl InputForm {
     }
 
     /// What to do about a time column that cannot be read as times.
-    pub(super) fn no_times(&self) -> String {
+    pub fn no_times(&self) -> String {
         format!("write times in ISO 8601, as 2024-03-05T12:00:00.01, or take {}", self.without_time())
     }
 }

@@ -4,7 +4,7 @@ use super::error::Place;
 
 /// The place of every row, kept as runs of rows that follow each other: few numbers, however many rows there are.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Places {
+pub struct Places {
     /// Each run by the number of its first row and where that stands.
     runs: Vec<(usize, Place)>,
     rows: usize,
@@ -12,7 +12,7 @@ pub(crate) struct Places {
 
 impl Places {
     /// Adds the place of the next row.
-    pub(crate) fn push(&mut self, place: Place) {
+    pub fn push(&mut self, place: Place) {
         if self.runs.last().is_none_or(|run| place != after(*run, self.rows)) {
             self.runs.push((self.rows, place));
         }
@@ -23,13 +23,13 @@ impl Places {
     ///
     /// # Panics
     /// If there is no such row.
-    pub(crate) fn get(&self, row: usize) -> Place {
+    pub fn get(&self, row: usize) -> Place {
         assert!(row < self.rows, "row {row} of {}", self.rows);
         after(self.runs[self.runs.partition_point(|(first, _)| *first <= row) - 1], row)
     }
 
     /// Number of rows.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.rows
     }
 }

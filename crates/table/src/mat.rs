@@ -1,12 +1,12 @@
 //! MATLAB files: v5 to v7 and, as HDF5, v7.3. Numeric vectors of equal length are columns, matrices are several.
 
 #[cfg(feature = "matlab")]
-use super::{Column, Kind, Place};
-use super::{DataError, DataProblem, Table, TableError};
+use crate::table::{Column, Kind, Place};
+use crate::table::{DataError, DataProblem, Table, TableError};
 use std::path::Path;
 
 /// Whether a file is MATLAB's: by its ending, or its first bytes where it has none.
-pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
+pub(crate) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
     /// How a file in format v5 or v7.3 begins.
     const TEXT: &[u8] = b"MATLAB ";
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mat"))
@@ -14,7 +14,7 @@ pub(super) fn is_matlab(path: &Path, bytes: &[u8]) -> bool {
 }
 
 #[cfg(not(feature = "matlab"))]
-pub(super) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
+pub(crate) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
     Err(unreadable(path, "this program was built without the feature `matlab`".to_owned()))
 }
 
@@ -23,7 +23,7 @@ pub(super) fn read(path: &Path, _bytes: Vec<u8>) -> Result<Table, TableError> {
 /// # Errors
 /// Bytes that are no such file, or hold no two vectors of one length.
 #[cfg(feature = "matlab")]
-pub(super) fn read(path: &Path, bytes: Vec<u8>) -> Result<Table, TableError> {
+pub(crate) fn read(path: &Path, bytes: Vec<u8>) -> Result<Table, TableError> {
     let is_hdf5 = hdf5_pure::is_hdf5_bytes(&bytes);
     let arrays = if is_hdf5 { hdf5(bytes) } else { matlab5(&bytes) };
     let arrays = arrays.map_err(|reason| unreadable(path, reason))?;
@@ -70,7 +70,7 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         notes.push(format!("arrays of another length left out: {}", names.join(", ")));
     }
     let column = |(name, values): (String, Vec<f64>)| {
-        let (name, unit) = super::unit::split(&name);
+        let (name, unit) = crate::table::unit::split(&name);
         Column {
             name,
             unit,

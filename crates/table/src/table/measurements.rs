@@ -6,7 +6,7 @@ use super::places::Places;
 
 /// A file's columns, all of the same length.
 #[derive(Debug, Clone)]
-pub(crate) struct Table {
+pub struct Table {
     /// The file, as messages call it.
     pub path: String,
     /// In the order of the file.
@@ -25,7 +25,7 @@ pub(crate) struct Table {
 
 impl Table {
     /// All columns for a message: number, name, unit.
-    pub(crate) fn listing(&self) -> String {
+    pub fn listing(&self) -> String {
         let listed = self.columns.iter().enumerate().map(|(k, column)| {
             let kind = match column.kind {
                 Kind::Number => "",

@@ -9,7 +9,7 @@ const KNOWN: [&str; 62] = [
 ];
 
 /// Seconds in a unit of time; none where the unit is another quantity's.
-pub(crate) fn seconds(unit: &str) -> Option<f64> {
+pub fn seconds(unit: &str) -> Option<f64> {
     Some(match unit.trim() {
         "s" | "sec" | "secs" | "second" | "seconds" | "Sekunden" | "S" => 1.0,
         "ms" | "msec" | "millisecond" | "milliseconds" => 1e-3,
@@ -40,7 +40,7 @@ fn unbracketed(cell: &str) -> Option<&str> {
 }
 
 /// Splits `force [N]`, `force (N)`, `force / N` and `force_N` into name and unit.
-pub(crate) fn split(header: &str) -> (String, Option<String>) {
+pub fn split(header: &str) -> (String, Option<String>) {
     let header = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some(rest) = header.strip_suffix(close)

@@ -1,0 +1,16 @@
+//! Tables of measurements in any dialect, as evenly sampled signals.
+
+mod closest;
+mod file_error;
+mod mat;
+pub mod signals;
+pub mod stream;
+pub mod table;
+mod text_file;
+mod text_pieces;
+
+pub use closest::closest;
+pub use file_error::FileError;
+pub use text_file::read_bytes;
+pub use text_file::read_text;
+pub use text_pieces::read_decoded;
