@@ -16,6 +16,7 @@ mod destinations;
 mod dialects;
 mod direct;
 mod documentation;
+mod door;
 mod engine;
 mod export;
 mod field;

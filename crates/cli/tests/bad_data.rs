@@ -71,10 +71,16 @@ fn a_last_line_that_is_cut_off_is_left_out() {
 
 #[test]
 fn jitter_is_accepted_and_reported_up_to_one_percent() {
+    // Samples where the stamps say they are.
     let shaken = |share: f64| {
+        let all: Vec<(f64, f64, f64)> = rows().collect();
         let mut text = String::from("time,travel,force\n");
-        for (k, (t, v, y)) in rows().enumerate() {
-            text += &format!("{:.6},{v},{y}\n", t + 0.01 * share * (k as f64 * 1.3).sin());
+        for (k, (t, v, y)) in all.iter().enumerate() {
+            let off = share * (k as f64 * 1.3).sin();
+            let other = if off > 0.0 { (k + 1).min(SAMPLES - 1) } else { k.saturating_sub(1) };
+            let (_, next, further) = all[other];
+            let (v, y) = (v + off.abs() * (next - v), y + off.abs() * (further - y));
+            text += &format!("{:.6},{v},{y}\n", t + 0.01 * off);
         }
         text
     };
@@ -118,18 +124,20 @@ fn rows_without_time_need_a_rate() {
 }
 
 #[test]
-fn stamps_too_coarse_for_the_rows_are_reported_and_can_be_left_out() {
+fn stamps_too_coarse_for_the_rows_are_spread_and_can_be_left_out() {
     let text: String = std::iter::once("time,travel,force\n".to_owned())
         .chain(rows().map(|(t, v, y)| format!("{},{v},{y}\n", t.floor())))
         .collect();
-    refused(&text, &[], &["bench.csv:3: column `time`: the time stamp 0 does not lie after", "--time none"]);
+    let spread = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
+    assert_eq!(spread.rig.sample_time, 0.01);
+    assert!(spread.reported.to_string().contains("up to 100 rows share an instant"), "{}", spread.reported);
     let loaded = Bench::new().with("a.csv", &text).load(&["a.csv", "--time", "none", "--rate", "100"]);
     assert_eq!(loaded.expect("a good file").rig.sample_time, 0.01);
 }
 
 #[test]
 fn columns_in_doubt_are_listed_with_the_line_to_type() {
-    let text = table("time [s],s1 [mm],s2 [N]", |_, line| Some(format!("{line},3")));
+    let text = table("time [s],s1 [mm],s2 [N]", |k, line| Some(format!("{line},{}", k % 7)));
     let text = text.replacen("s2 [N]", "s2 [N],s3", 1);
     refused(
         &text,
@@ -137,7 +145,7 @@ fn columns_in_doubt_are_listed_with_the_line_to_type() {
         &[
             "which column is the input and which the output is ambiguous",
             "1 `time [s]`, 2 `s1 [mm]`, 3 `s2 [N]`, 4 `s3`",
-            "bench.csv --input s1 --output s2",
+            "bench.csv --input NAME --output NAME",
         ],
     );
 }
@@ -145,7 +153,11 @@ fn columns_in_doubt_are_listed_with_the_line_to_type() {
 #[test]
 fn a_voltage_and_a_motion_may_either_drive() {
     let text = table("time [s],voltage [V],displacement [um]", |_, line| Some(line));
-    refused(&text, &[], &["which column is the input", "--input voltage --output displacement"]);
+    let tried = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
+    assert_eq!(tried.rig.input_label, "voltage [V]");
+    let reported = tried.reported.to_string();
+    assert!(reported.contains("no name says which column is the input"), "{reported}");
+    assert!(reported.contains("--input displacement --output voltage"), "{reported}");
     let loaded =
         Bench::new().with("a.csv", &text).load(&["a.csv", "--input", "voltage"]).expect("a good file");
     assert_eq!(loaded.rig.output_label, "displacement [um]");
@@ -205,12 +217,12 @@ fn stamps_are_reported_as_they_stand_in_the_file() {
 fn times_that_are_none_lead_to_iso_or_to_none() {
     let text = table("timestamp,travel,force", |k, line| {
         let (_, rest) = line.split_once(',')?;
-        Some(format!("05.03.2024 12:00:00.{:06},{rest}", 100 * k))
+        Some(format!("day 65 at 12:00:00.{:06},{rest}", 100 * k))
     });
     refused(
         &text,
         &[],
-        &["`05.03.2024 12:00:00.000000`, cannot be read", "2024-03-05T12:00:00.01", "--time none --rate HZ"],
+        &["`day 65 at 12:00:00.000000`, cannot be read", "2024-03-05T12:00:00.01", "--time none --rate HZ"],
     );
     refused(
         &text,
@@ -268,7 +280,7 @@ fn a_file_that_holds_no_table_is_reported() {
     refused("force\n1\n2\n3\n", &[], &["no table was found", "two columns"]);
     refused("time,force\n0,1.5\n0.1,2\n0.2,4\n", &[], &["the input", "an input and an output"]);
     refused("t,v\n0,1,2\n0.1,2,3\n", &[], &["bench.csv:1: the header has 2 cells, the rows 3"]);
-    refused("t,v,y,w\n0,1,2\n0.1,2,3\n", &[], &["bench.csv:1: the header has 4 cells, the rows 3"]);
+    refused("t,v,y,w\n0,1,2\n0.1,2,3\n", &[], &["the record has 2 samples; at least 10"]);
     refused("t,v,y\n0,1,2\n0.1,2,3\n", &[], &["the record has 2 samples; at least 10"]);
 }
 

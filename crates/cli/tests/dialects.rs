@@ -181,7 +181,7 @@ fn the_manifest_that_init_writes_gives_the_same_rig() {
         &["a.csv", "--resample"],
     ] {
         let direct = bench.load(words).expect("good files");
-        let manifest = switchback_io::rig::manifest(&direct, Some(&bench.path("")));
+        let manifest = switchback_io::rig::manifest(&direct.plan, Some(&bench.path("")));
         println!("{manifest}");
         std::fs::write(bench.path("rig.toml"), &manifest).expect("writable");
         let again = bench.load(&["rig.toml"]).unwrap_or_else(|error| panic!("{error}\n{manifest}"));
@@ -203,7 +203,7 @@ fn columns_that_are_called_otherwise_in_another_file_are_named_there() {
         .collect();
     let bench = Bench::new().with("a.csv", first).with("b.csv", second);
     let direct = bench.load(&["a.csv", "b.csv"]).expect("good files");
-    let manifest = switchback_io::rig::manifest(&direct, Some(&bench.path("")));
+    let manifest = switchback_io::rig::manifest(&direct.plan, Some(&bench.path("")));
     assert!(
         manifest.contains("columns = { time = \"t\", input = \"position\", output = \"load\" }"),
         "{manifest}"

@@ -309,7 +309,7 @@ fn bad_models_and_inputs_are_refused_with_their_place_and_a_remedy() {
         refused(&folder, &["simulate", "found/model.json", "bad.csv", "--out", "run.csv"], words)
     };
     input("t,a,b\n0,1,3\n0.01,2,5\n0.02,1,3\n");
-    refused_input(&["bad.csv", "1 `t`, 2 `a`, 3 `b`", "--input a --output b"]);
+    refused_input(&["bad.csv", "1 `t`, 2 `a`, 3 `b`", "--input NAME --output NAME"]);
     input("t,v\n0,1\n0.01,1\n0.02,NaN\n0.03,1\n0.04,2\n");
     refused_input(&["bad.csv:4", "`v`", "empty or NaN"]);
     input("t,v\n0,1\n0.02,1\n0.04,2\n");

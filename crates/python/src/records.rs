@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use switchback_io::rig::{
-    self, Cells, ColumnNames, Frame, InputForm, Loaded, Plan, PlannedRecord, RigError, RigProblem, Sampling,
+    self, Between, Cells, ColumnNames, Frame, InputForm, Loaded, Plan, PlannedRecord, RigError, RigProblem,
+    Sampling,
 };
 use switchback_io::values::positive;
 use switchback_model::Record;
@@ -95,11 +96,11 @@ impl Records {
                 sample_time: options.value("--sample-time <SECONDS>", positive)?,
                 rate: options.value("--rate <HZ>", positive)?,
                 holdout: options.text("--holdout <SHARE|FILE>")?,
-                resample: options.switch("--resample")?,
+                resample: options.switch("--resample")?.then_some(Between::Linear),
             };
             options.finish()?;
             let loaded = request.load("gap")?;
-            let inputs = request.inputs(&loaded).into_iter().map(Path::to_owned).collect();
+            let inputs = request.inputs(&loaded.plan).into_iter().map(Path::to_owned).collect();
             Ok(Self::of(loaded, request.place().to_owned(), inputs))
         })
     }
@@ -232,7 +233,7 @@ impl Records {
 
 impl Records {
     fn of(loaded: Loaded, place: PathBuf, inputs: Vec<PathBuf>) -> Self {
-        let manifest = rig::manifest(&loaded, None);
+        let manifest = rig::manifest(&loaded.plan, None);
         let Loaded { rig, reported, .. } = loaded;
         let about =
             About { place, reported: reported.to_string(), warnings: reported.warnings, manifest, inputs };
@@ -322,7 +323,10 @@ fn plan(described: &Described) -> Result<Plan, RigError> {
             input: described.input.clone(),
             output: described.output.clone(),
         },
-        sampling: Sampling { sample_time: described.sample_time, resample: described.resample },
+        sampling: Sampling {
+            sample_time: described.sample_time,
+            resample: described.resample.then_some(Between::Linear),
+        },
         order: order.flatten(),
         interval,
         input_label: None,

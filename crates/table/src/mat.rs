@@ -1,7 +1,7 @@
 //! MATLAB files: v5 to v7 and, as HDF5, v7.3. Numeric vectors of equal length are columns, matrices are several.
 
 #[cfg(feature = "matlab")]
-use crate::table::{Column, Kind, Place};
+use crate::table::{Column, Place, empty_column};
 use crate::table::{DataError, DataProblem, Table, TableError};
 use std::path::Path;
 
@@ -71,15 +71,7 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
     }
     let column = |(name, values): (String, Vec<f64>)| {
         let (name, unit) = crate::table::unit::split(&name);
-        Column {
-            name,
-            unit,
-            kind: Kind::Number,
-            values,
-            stamps: Vec::new(),
-            faults: Vec::new(),
-            fault_count: 0,
-        }
+        Column { values, ..empty_column(name, unit) }
     };
     Ok(Table {
         path: path.display().to_string(),
@@ -87,8 +79,7 @@ fn table(path: &Path, arrays: Vec<Array>) -> Result<Table, TableError> {
         places: (1..=rows as u64).map(Place::Row).collect(),
         has_header: true,
         notes,
-        faults: Vec::new(),
-        cut_off: None,
+        ..Table::default()
     })
 }
 

@@ -18,7 +18,7 @@ pub fn run(bytes: &[u8]) {
     let path = FOLDER.with(|folder| folder.write("rig.toml", bytes));
     match rig::load(&path) {
         Ok(loaded) => {
-            let again = rig::manifest(&loaded, path.parent());
+            let again = rig::manifest(&loaded.plan, path.parent());
             assert!(again.contains("[[record]]"), "{again}");
         }
         Err(refusal) => reported(&refusal),

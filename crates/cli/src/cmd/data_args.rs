@@ -1,8 +1,9 @@
 //! The data a verb works on: files of measurements and how to read them, or one rig file.
 
 use crate::options::Quiet;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
-use switchback_io::rig::{ColumnNames, Loaded, Request, RigError};
+use switchback_io::rig::{Between, ColumnNames, Loaded, Request, RigError, Survey};
 use switchback_io::values::positive;
 
 /// Files of measurements and how to read them, or one rig file.
@@ -37,9 +38,16 @@ pub(crate) struct DataArgs {
     #[arg(long, value_name = "SHARE|FILE", help_heading = "Data", allow_negative_numbers = true)]
     holdout: Option<String>,
 
-    /// Interpolate uneven rows linearly to even ones.
-    #[arg(long, help_heading = "Data")]
-    resample: bool,
+    /// Bring uneven rows to even ones, and slow signals to the rows of others: on straight lines, or the last value held [default where it
+    /// stands alone: linear]
+    #[arg(long, value_name = "HOW", num_args = 0..=1, default_missing_value = "linear", value_parser = between(), help_heading = "Data")]
+    resample: Option<Between>,
+}
+
+/// Reads `hold` and `linear`.
+pub(crate) fn between() -> impl TypedValueParser<Value = Between> {
+    let names = [Between::Linear, Between::Hold].map(Between::name);
+    PossibleValuesParser::new(names).map(|name| Between::named(&name).unwrap_or(Between::Linear))
 }
 
 impl DataArgs {
@@ -52,6 +60,17 @@ impl DataArgs {
         let loaded = request.load(verb)?;
         quiet.note(&loaded.reported.to_string());
         Ok((request, loaded))
+    }
+
+    /// The same where only a rig file is wanted: long files are looked at part by part.
+    ///
+    /// # Errors
+    /// [`RigError`] with all that is wrong.
+    pub(crate) fn survey(&self, verb: &str, quiet: Quiet) -> Result<(Request, Survey), RigError> {
+        let request = self.request();
+        let survey = request.survey(verb)?;
+        quiet.note(&survey.reported.to_string());
+        Ok((request, survey))
     }
 
     fn request(&self) -> Request {

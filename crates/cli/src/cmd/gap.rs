@@ -116,7 +116,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     if args.power.power {
         return run_power(args, &data, &loaded);
     }
-    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded))?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded.plan))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.reported.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
     let subject = Subject::choose(rig, args.model.as_deref())?.noting(notes);

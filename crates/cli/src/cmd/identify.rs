@@ -50,7 +50,7 @@ const FILES: [&str; 6] =
 /// A rig that cannot be read or identified, or a folder that cannot be written.
 pub(crate) fn run(args: &Args) -> CommandResult {
     let (data, loaded) = args.data.load("identify", args.output.quiet)?;
-    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded))?;
+    let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded.plan))?;
     let rig = loaded.rig;
     let request = Request::new(&rig, args.method, args.causal);
     let watch = Watch::new(args.output.quiet);

@@ -27,9 +27,9 @@ pub(crate) struct Args {
 /// Files that cannot be read, or a rig file that is there already.
 pub(crate) fn run(args: &Args) -> CommandResult {
     let target = args.out.as_deref();
-    let (data, loaded) = args.data.load("init", args.output.quiet)?;
-    let file = args.output.force.claim_file(target, &data.inputs(&loaded))?;
-    let manifest = rig::manifest(&loaded, target.map(folder));
+    let (data, survey) = args.data.survey("init", args.output.quiet)?;
+    let file = args.output.force.claim_file(target, &data.inputs(&survey.plan))?;
+    let manifest = rig::manifest(&survey.plan, target.map(folder));
     match file {
         Some(file) => file.commit(manifest)?,
         None => print(&manifest)?,

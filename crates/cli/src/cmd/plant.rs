@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let host_model = args.model.as_deref().map(model::read).transpose()?;
     let host_model = host_model.as_ref().zip(args.model.as_deref());
     let (data, loaded) = args.data.load("plant", args.output.quiet)?;
-    let folder = args.output.force.claim_if_asked(Some(&args.out), &FILES, &data.inputs(&loaded))?;
+    let folder = args.output.force.claim_if_asked(Some(&args.out), &FILES, &data.inputs(&loaded.plan))?;
     let injected = plant(&loaded.rig, &request, (data.place(), host_model))?;
     if let Some(folder) = folder {
         folder.commit(&rig::artefacts(&injected.rig))?;

@@ -66,7 +66,7 @@ pub(super) fn run(
     let (threads, quiet, force) = order.options;
     let request = Request { effects: args.effects.clone(), draws: args.draws, seed: args.seed };
     let plan = request.plan(&order.settings)?;
-    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, &data.inputs(loaded))?;
+    let folder = force.claim_if_asked(order.out.map(PathBuf::as_path), &FILES, &data.inputs(&loaded.plan))?;
     let model = order.model.map(GivenModel::read).transpose()?;
     let name = data.place().display().to_string();
     let meter = Meter::counting("diagnoses", quiet);

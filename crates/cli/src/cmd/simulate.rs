@@ -1,11 +1,12 @@
 //! `switchback simulate MODEL.json INPUT.csv`
 
+use super::data_args::between;
 use crate::failure::{CommandResult, Outcome};
 use crate::options::Output;
 use std::path::PathBuf;
 use switchback_io::model;
 use switchback_io::output::{note, print};
-use switchback_io::rig::ColumnNames;
+use switchback_io::rig::{Between, ColumnNames};
 use switchback_report::simulation::{Request, Simulation};
 
 /// Run a model on a new input, with a 95 % band: `identify --out` and `gap --out` write such models.
@@ -31,9 +32,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
 
-    /// Interpolate the rows linearly to the model's sample time.
-    #[arg(long)]
-    resample: bool,
+    /// Bring the rows to the model's sample time: on straight lines, or the last value held [default where it stands alone: linear]
+    #[arg(long, value_name = "HOW", num_args = 0..=1, default_missing_value = "linear", value_parser = between())]
+    resample: Option<Between>,
 
     /// Write the columns t,v,y,y_low,y_high, t as it stands in the input's file, into this file instead of printing them.
     #[arg(long, value_name = "CSV")]

@@ -2,7 +2,8 @@
 
 use std::fs;
 use std::path::PathBuf;
-use switchback_io::rig::{Loaded, Request, RigError};
+use switchback_io::rig::Survey;
+use switchback_io::rig::{Between, Loaded, Request, RigError};
 use tempfile::TempDir;
 
 pub(crate) const SAMPLES: usize = 600;
@@ -52,7 +53,7 @@ pub(crate) fn comma(x: f64) -> String {
 /// What the words after a verb ask for: files, and options with their values.
 fn request(words: impl IntoIterator<Item = String>) -> Request {
     let mut request = Request::default();
-    let mut words = words.into_iter();
+    let mut words = words.into_iter().peekable();
     while let Some(word) = words.next() {
         let mut value = || words.next().expect("a value");
         let number = |text: String| text.parse().expect("a number");
@@ -63,7 +64,11 @@ fn request(words: impl IntoIterator<Item = String>) -> Request {
             "--sample-time" => request.sample_time = Some(number(value())),
             "--rate" => request.rate = Some(number(value())),
             "--holdout" => request.holdout = Some(value()),
-            "--resample" => request.resample = true,
+            "--resample" => {
+                let named = words.peek().and_then(|word| Between::named(word));
+                named.inspect(|_| drop(words.next()));
+                request.resample = named.or(Some(Between::Linear));
+            }
             file => request.data.push(file.into()),
         }
     }
@@ -100,6 +105,11 @@ impl Bench {
             }
         };
         request(words.iter().map(word)).load("gap")
+    }
+
+    /// Looks at a file of this folder as `switchback init` does.
+    pub(crate) fn survey(&self, file: &str) -> Result<Survey, RigError> {
+        request([self.path(file).display().to_string()]).survey("init")
     }
 
     /// The message of an error, as it is reported, with the folder left out.

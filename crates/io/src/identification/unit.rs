@@ -2,5 +2,8 @@
 
 /// The unit in a label, `N` in `force [N]`; empty where there is none.
 pub fn unit(label: &str) -> &str {
-    label.split_once('[').and_then(|(_, rest)| rest.split_once(']')).map_or("", |(unit, _)| unit.trim())
+    let within = label.split_once('[').and_then(|(_, rest)| rest.split_once(']'));
+    // `position[2]` is the third of several alike.
+    let is_unit = |unit: &&str| !unit.is_empty() && !unit.bytes().all(|byte| byte.is_ascii_digit());
+    within.map(|(unit, _)| unit.trim()).filter(is_unit).unwrap_or_default()
 }

@@ -1,13 +1,14 @@
 //! Whether what a rig file says can be.
 
 use super::plan::PlannedRecord;
-use super::wire::WireRig;
+use super::wire::{WireResample, WireRig};
 use crate::input::{TomlError, TomlFile};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Usage;
+use switchback_table::signals::Between;
 use toml::Spanned;
 
 /// Highest order that a rig file may ask for; beyond it the coefficients drown in rounding errors.
@@ -53,6 +54,19 @@ pub(super) fn order(file: &TomlFile, order: &Spanned<i64>) -> Result<usize, Toml
             format!("give a whole number from 1 to {MAX_ORDER}, or leave `order` out to have it chosen from the data"),
         )
     })
+}
+
+pub(super) fn resample(file: &TomlFile, how: &Spanned<WireResample>) -> Result<Option<Between>, TomlError> {
+    match how.get_ref() {
+        WireResample::Switch(is_on) => Ok(is_on.then_some(Between::Linear)),
+        WireResample::Named(name) => Between::named(name).map(Some).ok_or_else(|| {
+            file.error(
+                how.span(),
+                format!("`resample = {name:?}` is not known here"),
+                "write `\"linear\"`, `\"hold\"`, `true` for linear, or leave it out",
+            )
+        }),
+    }
 }
 
 pub(super) fn interval(file: &TomlFile, ends: &Spanned<Vec<f64>>) -> Result<Interval, TomlError> {

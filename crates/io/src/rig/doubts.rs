@@ -2,7 +2,7 @@
 
 use super::divided::Divided;
 use super::plan::{Plan, PlannedRecord};
-use super::run_state;
+use super::{plausibility, run_state};
 use switchback_model::hysteresis::Interval;
 use switchback_model::rig::Usage;
 use switchback_table::signals::Measured;
@@ -18,7 +18,8 @@ pub(super) fn warnings(plan: &Plan, divided: &[Divided]) -> Vec<String> {
     });
     let all: Vec<(&PlannedRecord, &Measured)> = records().collect();
     let still = records().flat_map(|(record, measured)| run_state::warnings(record, measured));
-    copies(&all).into_iter().chain(still).chain(outside).chain(one_way(&fitted)).collect()
+    let unlikely = plausibility::warnings(&all);
+    copies(&all).into_iter().chain(still).chain(outside).chain(one_way(&fitted)).chain(unlikely).collect()
 }
 
 /// Samples under two names, by a link or a copy, of which one is fitted and the other held out.

@@ -21,7 +21,7 @@ impl Frame {
         let Some((first, cells)) = columns.first() else {
             return refuse("there is no column".to_owned(), "give the input and the output in two columns");
         };
-        if cells.len() == 0 {
+        if cells.is_empty() {
             return refuse("there is no row".to_owned(), "give one row a sample");
         }
         if let Some((other, others)) = columns.iter().find(|(_, other)| other.len() != cells.len()) {

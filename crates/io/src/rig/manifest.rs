@@ -1,13 +1,12 @@
 //! The commented rig file that says what was inferred.
 
-use super::assemble::Loaded;
+use super::plan::Plan;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
-use switchback_table::signals::ColumnNames;
+use switchback_table::signals::{Between, ColumnNames};
 
 /// The rig file that gives the same rig as the files did, to be put into `folder` (none: the folder that the files are named from).
-pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
-    let plan = &loaded.plan;
+pub fn manifest(plan: &Plan, folder: Option<&Path>) -> String {
     let mut page = String::new();
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let mut line = |text: String, comment: &str| {
@@ -26,8 +25,14 @@ pub fn manifest(loaded: &Loaded, folder: Option<&Path>) -> String {
     line(format!("input = {}", optional(plan.input_label.as_deref())), "label [unit], on every axis");
     line(format!("output = {}", optional(plan.output_label.as_deref())), "");
     line(format!("columns = {{ {} }}", columns(&plan.columns)), "");
-    if plan.sampling.resample {
-        line("resample = true".to_owned(), "uneven rows are interpolated linearly to the sample time");
+    if let Some(between) = plan.sampling.resample {
+        let (written, how) = match between {
+            Between::Linear => {
+                ("true".to_owned(), "uneven rows are interpolated linearly to the sample time")
+            }
+            Between::Hold => (quoted(between.name()), "of uneven rows the last is held at every sample time"),
+        };
+        line(format!("resample = {written}"), how);
     }
     for record in &plan.records {
         line("\n[[record]]".to_owned(), "");

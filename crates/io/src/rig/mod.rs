@@ -8,7 +8,7 @@
 //! input = "stroke [mm]"        # optional label and unit, else those of the column
 //! output = "force [N]"
 //! columns = { time = "time", input = "stroke", output = "force" }   # optional, else guessed from the header
-//! resample = false             # optional: interpolate uneven rows linearly to even ones
+//! resample = "linear"          # optional: bring uneven rows to even ones, on straight lines ("hold": the last value)
 //!
 //! [[record]]
 //! file = "first.csv"           # beside rig.toml
@@ -26,12 +26,14 @@ mod doubts;
 mod frame;
 mod manifest;
 mod plan;
+mod plausibility;
 mod problem;
 mod read;
 mod reported;
 mod request;
 mod run_state;
 mod series;
+mod survey;
 mod wire;
 mod write;
 
@@ -51,6 +53,8 @@ pub use reported::Reported;
 pub use request::Request;
 pub use series::InputSeries;
 pub use series::read_input;
+pub use survey::Survey;
+pub use switchback_table::signals::Between;
 pub use switchback_table::signals::ColumnNames;
 pub use switchback_table::signals::InputForm;
 pub use switchback_table::signals::NO_TIME;

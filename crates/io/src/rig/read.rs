@@ -113,6 +113,8 @@ fn draft(file: &TomlFile) -> Draft {
     let mut noted = |problem: Result<(), TomlError>| problems.extend(problem.err());
     let order = wire.order.as_ref().map_or(Ok(None), |order| check::order(file, order).map(Some));
     let interval = wire.interval.as_ref().map_or(Ok(None), |ends| check::interval(file, ends).map(Some));
+    let resample = wire.resample.as_ref().map_or(Ok(None), |how| check::resample(file, how));
+    let resample = resample.map_err(|error| noted(Err(error))).unwrap_or_default();
     noted(check::name(file, &wire, keys.lacks("name")));
     noted(wire.sample_time.as_ref().map_or(Ok(()), |time| check::sample_time(file, time)));
     let order = order.map_err(|error| noted(Err(error))).unwrap_or_default();
@@ -147,10 +149,7 @@ fn draft(file: &TomlFile) -> Draft {
     let plan = Plan {
         name: wire.name.map(Spanned::into_inner).unwrap_or_default(),
         columns: names(&wire.columns),
-        sampling: Sampling {
-            sample_time: wire.sample_time.map(Spanned::into_inner),
-            resample: wire.resample,
-        },
+        sampling: Sampling { sample_time: wire.sample_time.map(Spanned::into_inner), resample },
         order,
         interval,
         input_label: wire.input.map(one_line),

@@ -5,7 +5,7 @@ use super::doubts;
 use super::plan::{HELD_OUT, Plan};
 use std::fmt::{self, Display};
 use switchback_model::rig::Usage;
-use switchback_table::signals::{ClockSource, InputForm, Measured, rounded, spikes};
+use switchback_table::signals::{Between, ClockSource, InputForm, Measured, Resampled, rounded, spikes};
 use switchback_table::table::{Column, Place};
 
 /// What was inferred from the files rather than said by the user. Shown as lines, none where nothing was.
@@ -47,8 +47,10 @@ pub(super) fn describe(plan: &Plan, divided: &[Divided]) -> Reported {
     let is_line = plan.input_form != InputForm::Manifest;
     let is_usual = plan.columns.input.is_some() && plan.columns.output.is_some() || has_usual_names(first);
     let interruptions: Vec<String> = divided.iter().filter_map(dropouts).collect();
-    let timed =
-        is_line || plan.sampling.sample_time.is_none() || !interruptions.is_empty() || plan.sampling.resample;
+    let timed = is_line
+        || plan.sampling.sample_time.is_none()
+        || !interruptions.is_empty()
+        || plan.sampling.resample.is_some();
     Reported {
         columns: (is_line || !is_usual).then(|| columns(plan, first) + &other_columns(divided)),
         sample_time: timed.then(|| {
@@ -57,7 +59,7 @@ pub(super) fn describe(plan: &Plan, divided: &[Divided]) -> Reported {
         held_out: is_line.then(|| held_out(plan, divided)),
         warnings: divided
             .iter()
-            .flat_map(|divided| spikes(&divided.measured))
+            .flat_map(|Divided { measured, .. }| measured.doubts.iter().cloned().chain(spikes(measured)))
             .chain(doubts::warnings(plan, divided))
             .collect(),
         notes: notes(divided),
@@ -127,9 +129,16 @@ fn sample_time(divided: &[Divided]) -> String {
     let mut line = format!("{} s ({} Hz)", rounded(step), short(1.0 / step));
     match &first.source {
         ClockSource::Given => line += ", as given",
+        ClockSource::Stated => line += ", as stated above the table",
+        ClockSource::Counted => line += ", from the time column and the column that counts the samples",
         ClockSource::GivenAndTime => line += ", as given; the time column agrees",
         ClockSource::Time { .. } => line += ", from the time column",
-        ClockSource::Resampled(_) => line += ", to which the rows were interpolated",
+        ClockSource::Resampled(Resampled { between: Between::Linear, .. }) => {
+            line += ", to which the rows were interpolated";
+        }
+        ClockSource::Resampled(Resampled { between: Between::Hold, .. }) => {
+            line += ", at which the last rows are held";
+        }
     }
     let jitter = divided.iter().filter_map(|divided| match divided.measured.source {
         ClockSource::Time { jitter } => Some(jitter),
@@ -145,7 +154,11 @@ fn sample_time(divided: &[Divided]) -> String {
         _ => None,
     });
     if let Some(longest) = longest.reduce(f64::max) {
-        line += &format!(" linearly; the longest step bridged is {} s", short(longest));
+        let how = match &first.source {
+            ClockSource::Resampled(Resampled { between: Between::Hold, .. }) => "",
+            _ => " linearly",
+        };
+        line += &format!("{how}; the longest step bridged is {} s", short(longest));
     }
     line
 }
@@ -162,7 +175,9 @@ fn dropouts(divided: &Divided) -> Option<String> {
     };
     let used: usize = parts.iter().map(|part| part.range.len()).sum();
     let all: usize = measured.pieces.iter().map(std::ops::Range::len).sum();
+    let anew = measured.starts_anew();
     let split = match count {
+        _ if anew == count => return None,
         1 => format!("a dropout at {place} splits the record in two"),
         _ => format!("{count} dropouts, the first at {place}, split the record into {} pieces", count + 1),
     };
@@ -198,6 +213,24 @@ fn held_out(plan: &Plan, divided: &[Divided]) -> String {
             _ => {}
         }
     }
+    match reported.is_empty() {
+        true => "nothing".to_owned(),
+        false => format!("{}; {} changes it", reported.join(", "), plan.input_form.other_holdout()),
+    }
+}
+
+/// The same of files of which only the number of samples is known.
+pub(super) fn held_out_of(plan: &Plan, samples: &[usize]) -> String {
+    let reported = plan.records.iter().zip(samples).filter_map(|(record, all)| match record.held_out {
+        Some(share) => {
+            let part =
+                if share == HELD_OUT { "third".to_owned() } else { format!("{} %", short(100.0 * share)) };
+            let held = (share * *all as f64).round();
+            Some(format!("the last {part} of {} (about {held} of {all} samples)", record.named))
+        }
+        None => (record.usage == Usage::Holdout).then(|| format!("{} ({all} samples)", record.named)),
+    });
+    let reported: Vec<String> = reported.collect();
     match reported.is_empty() {
         true => "nothing".to_owned(),
         false => format!("{}; {} changes it", reported.join(", "), plan.input_form.other_holdout()),

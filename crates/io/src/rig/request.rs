@@ -4,11 +4,12 @@ use super::assemble::Loaded;
 use super::plan::{HELD_OUT, Plan, PlannedRecord};
 use super::problem::{RigError, RigProblem};
 use super::read::{load, load_plan};
+use super::survey::{self, Survey};
 use crate::input::{FileKind, stream};
 use crate::values::is_positive;
 use std::path::{Component, Path, PathBuf};
 use switchback_model::rig::{Role, Usage};
-use switchback_table::signals::{ColumnNames, InputForm, NO_TIME, Sampling, in_shell};
+use switchback_table::signals::{Between, ColumnNames, InputForm, NO_TIME, Sampling, in_shell};
 
 /// Files of measurements and how to read them, or one rig file, which says for itself what the other fields would.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,8 +24,8 @@ pub struct Request {
     pub rate: Option<f64>,
     /// What models are judged on: a share of every record, at its end, or a file; else the last third of a single file, or the last file.
     pub holdout: Option<String>,
-    /// Interpolate uneven rows linearly to even ones.
-    pub resample: bool,
+    /// Bring uneven rows to even ones in this way.
+    pub resample: Option<Between>,
 }
 
 impl Request {
@@ -42,6 +43,21 @@ impl Request {
         }
     }
 
+    /// What a rig file for these data says, without holding long files in memory.
+    ///
+    /// # Errors
+    /// [`RigError`] with all that is wrong, of long files with what is wrong first.
+    pub fn survey(&self, verb: &str) -> Result<Survey, RigError> {
+        if let Source::Files = self.source()? {
+            let plan = self.plan(verb)?;
+            let found = if survey::is_for(&plan) { survey::look(&plan)? } else { None };
+            if let Some(survey) = found {
+                return Ok(survey);
+            }
+        }
+        self.load(verb).map(Survey::from)
+    }
+
     /// What messages that concern the whole rig should lead to.
     ///
     /// # Panics
@@ -51,8 +67,8 @@ impl Request {
     }
 
     /// Every file that was read.
-    pub fn inputs<'a>(&'a self, loaded: &'a Loaded) -> Vec<&'a Path> {
-        let records = loaded.plan.records.iter().map(|record| &record.path);
+    pub fn inputs<'a>(&'a self, plan: &'a Plan) -> Vec<&'a Path> {
+        let records = plan.records.iter().map(|record| &record.path);
         self.data.iter().chain(records).map(PathBuf::as_path).collect()
     }
 
@@ -87,7 +103,7 @@ impl Request {
             (self.sample_time.is_some(), "--sample-time", "sample_time = …"),
             (self.rate.is_some(), "--rate", "sample_time = …"),
             (self.holdout.is_some(), "--holdout", "use = \"holdout\"` or `holdout = 0.3"),
-            (self.resample, "--resample", "resample = true"),
+            (self.resample.is_some(), "--resample", "resample = \"linear\""),
         ];
         match flags.into_iter().find(|(is_given, ..)| *is_given) {
             None => Ok(()),
@@ -206,8 +222,9 @@ impl Request {
         for (flag, value) in flags {
             words.extend(value.into_iter().flat_map(|value| [flag.to_owned(), in_shell(&value)]));
         }
-        if self.resample {
+        if let Some(between) = self.resample {
             words.push("--resample".to_owned());
+            words.extend((between == Between::Hold).then(|| between.name().to_owned()));
         }
         words.join(" ")
     }

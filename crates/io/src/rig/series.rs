@@ -54,7 +54,7 @@ pub fn read_input(
         start: measured.start,
         input_label: measured.input().label(),
         output_label: measured.output().map(Column::label),
-        warnings: spikes(&measured),
+        warnings: measured.doubts.iter().cloned().chain(spikes(&measured)).collect(),
         notes: measured.table.notes.clone(),
         times: measured.times(),
         time_unit: measured.time_unit(),

@@ -17,9 +17,17 @@ pub(super) struct WireRig {
     #[serde(default)]
     pub(super) columns: WireColumns,
     #[serde(default)]
-    pub(super) resample: bool,
+    pub(super) resample: Option<Spanned<WireResample>>,
     #[serde(default)]
     pub(super) record: Vec<Spanned<WireRecord>>,
+}
+
+/// `true` stands for `"linear"`.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum WireResample {
+    Switch(bool),
+    Named(String),
 }
 
 #[derive(Debug, Default, Deserialize)]

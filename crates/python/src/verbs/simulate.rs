@@ -11,7 +11,7 @@ use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
-use switchback_io::rig::{ColumnNames, InputSeries};
+use switchback_io::rig::{Between, ColumnNames, InputSeries};
 use switchback_report::simulation::{Request, Simulation};
 
 /// A free run: the answer, then the outputs, both ends of the band, and the first simulated sample.
@@ -69,7 +69,7 @@ pub(crate) fn simulate_file<'py>(
                 input: options.text("--input <COLUMN>")?,
                 output: options.text("--output <COLUMN>")?,
             },
-            resample: options.switch("--resample")?,
+            resample: options.switch("--resample")?.then_some(Between::Linear),
         };
         options.finish()?;
         let file = model::of_text(&path, &text)?;

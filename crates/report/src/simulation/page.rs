@@ -40,6 +40,26 @@ pub(super) struct Page<'a> {
     version: &'static str,
 }
 
+/// Least share of measured outputs in the 95 % band of a model of the machine that was measured; noise and wear explain less of them, but not
+/// that most lie outside.
+const LEAST_COVERED: f64 = 0.5;
+
+/// A model of another machine, or outputs in another unit or from another zero.
+fn outside_the_band(file: &ModelFile, input: &InputSeries, run: &Run) -> Option<String> {
+    let y = input.y.as_ref()?;
+    let covered = run.covered(y).filter(|covered| *covered < LEAST_COVERED)?;
+    let unit = match unit(&file.header.output) {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    Some(format!(
+        "only {:.1} % of the measured outputs lie within the 95 % band, and their middle is {:.3e}{unit} off the model's: check units, zero \
+         and columns, and that the model is of this machine",
+        100.0 * covered,
+        run.offset(y)?
+    ))
+}
+
 /// The JSON Schema of what `--json` prints.
 pub fn schema() -> Schema {
     stamped_schema::<Page<'_>>(SCHEMA)
@@ -58,6 +78,7 @@ impl<'a> Page<'a> {
             covered: input.y.as_ref().and_then(|y| run.covered(y)),
             warnings: [
                 input.warnings.clone(),
+                outside_the_band(file, input, run).into_iter().collect(),
                 header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
             ]
             .concat(),

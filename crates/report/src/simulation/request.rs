@@ -4,7 +4,7 @@ use super::SimulateError;
 use std::path::{Path, PathBuf};
 use switchback_io::input::{DataError, DataProblem};
 use switchback_io::model::ModelFile;
-use switchback_io::rig::{ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
+use switchback_io::rig::{Between, ColumnNames, InputSeries, RigError, RigProblem, Sampling, read_input};
 
 /// A file that holds the input, and how to read it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,8 +13,8 @@ pub struct Request {
     pub file: PathBuf,
     /// Names of columns. With a measured output the run begins where the record does.
     pub columns: ColumnNames,
-    /// Interpolate the rows linearly to the model's sample time.
-    pub resample: bool,
+    /// Bring the rows to the model's sample time in this way.
+    pub resample: Option<Between>,
 }
 
 impl Request {

@@ -1,6 +1,7 @@
 //! What the numbers of a time column mean.
 
 use super::input_form::InputForm;
+use super::sampling::rounded;
 use crate::table::{Column, DataProblem, Kind, unit};
 
 /// From a time column's numbers to seconds.
@@ -15,7 +16,16 @@ pub(super) struct Clock {
     epoch: Option<&'static str>,
     /// Whether nobody named the unit.
     is_assumed: bool,
+    /// Whether numbers without a unit were taken as days.
+    is_days: bool,
 }
+
+/// Numbers of days: since 1899-12-30, as spreadsheets count them, from 1954 to 2119; since the year 0, as MATLAB does, from 1900 to 2190.
+const DAYS: [(f64, f64); 2] = [(20_000.0, 80_000.0), (693_962.0, 800_000.0)];
+/// Steps below this are no seconds where the number is one of such a day.
+const SHORT: f64 = 1e-3;
+/// Rates outside of these are doubted: no machine with hysteresis is sampled a million times a second, and few once an hour.
+const LIKELY: [f64; 2] = [1.0 / 3600.0, 1e6];
 
 /// Numbers beyond these, and what they must be: seconds since 1970 reach 1e11 in the year 5138, and a thousand times as many milliseconds
 /// do so in the same year, while they passed 1e11 in 1973.
@@ -29,7 +39,18 @@ impl Clock {
     /// A unit that is no time's.
     pub(super) fn of(column: &Column, raw: &[f64], input_form: &InputForm) -> Result<Self, DataProblem> {
         let first = raw.first().copied().unwrap_or(0.0);
-        let clock = |unit| Self { unit, origin: 0.0, column: column.label(), epoch: None, is_assumed: false };
+        // Subtracted already where a number has more digits than a value keeps.
+        let size = (first + column.origin as f64).abs();
+        let clock = |unit| Self {
+            unit,
+            origin: 0.0,
+            column: column.label(),
+            epoch: None,
+            is_assumed: false,
+            is_days: false,
+        };
+        let is_day =
+            DAYS.iter().any(|(low, high)| (*low..*high).contains(&first)) && median_step(raw) < SHORT;
         match &column.unit {
             _ if column.kind == Kind::Stamp => Ok(clock(1.0)),
             Some(unit) => unit::seconds(unit).map(clock).ok_or_else(|| DataProblem::NoSampleTime {
@@ -39,8 +60,9 @@ impl Clock {
                     input_form.without_time()
                 ),
             }),
-            None => Ok(match EPOCHS.into_iter().find(|(least, ..)| first.abs() >= *least) {
+            None => Ok(match EPOCHS.into_iter().find(|(least, ..)| size >= *least) {
                 Some((_, unit, name)) => Self { origin: first, epoch: Some(name), ..clock(unit) },
+                None if is_day => Self { origin: first, is_days: true, ..clock(86_400.0) },
                 None => Self { is_assumed: true, ..clock(1.0) },
             }),
         }
@@ -58,6 +80,11 @@ impl Clock {
         if let Some(unit) = self.epoch {
             return vec![format!("`{column}` is taken as {unit} since 1970")];
         }
+        if self.is_days {
+            return vec![format!(
+                "`{column}` is taken as days; write the unit into the header if it is another, as in `{column} [s]`"
+            )];
+        }
         if self.is_assumed && sample_time >= 1.0 && is_whole() {
             return vec![format!(
                 "`{column}` is taken as seconds; write the unit into the header, as in `{column} [ms]`, or give {}",
@@ -66,4 +93,25 @@ impl Clock {
         }
         Vec::new()
     }
+
+    /// A rate that no such machine is sampled at, in words.
+    pub(super) fn doubt(&self, sample_time: f64, input_form: &InputForm) -> Option<String> {
+        let [low, high] = LIKELY;
+        let rate = 1.0 / sample_time;
+        (!(low..=high).contains(&rate)).then(|| {
+            format!(
+                "{} Hz, from `{}`, is no likely sample rate: write the unit of the column into the header, as in `time [ms]` or `time [d]`, or give {}",
+                rounded(rate),
+                self.column,
+                input_form.without_time()
+            )
+        })
+    }
+}
+
+/// The usual step of some numbers.
+fn median_step(raw: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = raw.windows(2).take(2000).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied().unwrap_or(f64::INFINITY)
 }

@@ -1,26 +1,37 @@
 //! The columns of a table as evenly sampled signals: which are time, input and output, what the clock shows, what interrupts it.
 
+mod causality;
 mod clock;
+mod clock_source;
+mod counter;
+mod counters;
+mod even;
 mod faults;
 mod guess;
 mod input_form;
+mod instants;
 mod measured;
 mod names;
+mod rates;
+mod request;
 mod resample;
 mod samples_needed;
 mod sampling;
 mod select;
 mod spikes;
 mod taken;
+mod two_part_stamps;
+mod words;
 
+pub use clock_source::ClockSource;
 pub use input_form::InputForm;
 pub use input_form::in_shell;
-pub use measured::ClockSource;
 pub use measured::Measured;
-pub use measured::Request;
+pub use names::Between;
 pub use names::ColumnNames;
 pub use names::NO_TIME;
 pub use names::Sampling;
+pub use request::Request;
 pub use resample::Resampled;
 pub use samples_needed::samples_needed;
 pub use sampling::rounded;

@@ -33,6 +33,30 @@ impl ColumnNames {
 pub struct Sampling {
     /// Seconds between samples, where the user gave it; else the time column shows it.
     pub sample_time: Option<f64>,
-    /// Interpolate linearly to even steps.
-    pub resample: bool,
+    /// Bring uneven rows to even steps, and slow signals to the rows of the output, in this way; else only where nothing is in doubt.
+    pub resample: Option<Between>,
+}
+
+/// A signal between two of its values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Between {
+    /// The value before.
+    Hold,
+    /// On the straight line.
+    Linear,
+}
+
+impl Between {
+    /// By its name on the command line and in rig files.
+    pub fn named(name: &str) -> Option<Self> {
+        [Self::Hold, Self::Linear].into_iter().find(|between| between.name() == name)
+    }
+
+    /// `hold` or `linear`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hold => "hold",
+            Self::Linear => "linear",
+        }
+    }
 }

@@ -12,14 +12,26 @@ pub(super) struct Timing {
     pub jitter: f64,
     /// Samples before which others are missing.
     pub dropouts: Vec<usize>,
+    /// By how many sample times stamps are off at most, where the samples are more even than they are.
+    pub(super) shaken: Option<f64>,
 }
 
 /// Share of the sample time that a step may be off where the stamps themselves show it.
-const JITTER: f64 = 0.01;
+pub(super) const JITTER: f64 = 0.01;
+
+/// Seconds, in sample times, put between two parts of which the second starts anew: longer than any gap that is bridged.
+pub(super) const APART: f64 = 1e6;
 
 /// Stamps on each side of a long step that show whether samples are missing there. Where each is off by up to 0.4 sample times, the medians
 /// of eight differ by 0.18 sample times in standard deviation, and by 1 more where a sample is missing.
 const BESIDE: usize = 8;
+
+/// Steps apart from gaps, the gaps, and the stamps with the gaps closed.
+struct Separated {
+    plain: Vec<f64>,
+    gaps: Vec<usize>,
+    closed: Vec<f64>,
+}
 
 /// The stamps of a record that nobody has judged yet: its time column in seconds and how finely it is written.
 #[derive(Clone, Copy)]
@@ -55,13 +67,13 @@ impl Stamps<'_> {
         self.check_order()?;
         let Some(mean) = self.mean_step() else {
             let sample_time = declared.unwrap_or(f64::NAN);
-            return Ok(Timing { sample_time, jitter: 0.0, dropouts: Vec::new() });
+            return Ok(Timing { sample_time, jitter: 0.0, dropouts: Vec::new(), shaken: None });
         };
         let sample_time = declared.unwrap_or(mean);
         if (mean - sample_time).abs() >= 0.3 * sample_time {
             return Err((None, self.other_sample_time(mean, sample_time)));
         }
-        let mut timing = Timing { sample_time, jitter: 0.0, dropouts: Vec::new() };
+        let mut timing = Timing { sample_time, jitter: 0.0, dropouts: Vec::new(), shaken: None };
         for (k, step) in self.steps() {
             let off = (step - sample_time).abs() / sample_time;
             let rounding = self.rounding(k) / sample_time;
@@ -131,8 +143,12 @@ impl Stamps<'_> {
     /// the long one left out the mean would be too small. Late are stamps whose median lies half a sample or more behind that of those before,
     /// a few on each side, once the gaps before them are taken away.
     fn plain_steps(&self, step: f64, rounding: impl Fn(usize) -> f64) -> Vec<f64> {
+        self.separated(step, rounding).plain
+    }
+
+    fn separated(&self, step: f64, rounding: impl Fn(usize) -> f64) -> Separated {
         let on_time = |k: usize, t: f64| t - step * k as f64;
-        let (mut missing, mut closed, mut plain) = (0.0, vec![self.t[0]], Vec::new());
+        let (mut missing, mut closed, mut plain, mut gaps) = (0.0, vec![self.t[0]], Vec::new(), Vec::new());
         for (k, length) in self.steps() {
             if length >= 1.5 * step + rounding(k) {
                 let before = (k.saturating_sub(BESIDE)..k).map(|i| on_time(i, closed[i]));
@@ -141,18 +157,67 @@ impl Stamps<'_> {
                 if late >= 0.5 * step {
                     missing += late;
                     closed.push(self.t[k] - missing);
+                    gaps.push(k);
                     continue;
                 }
             }
             closed.push(self.t[k] - missing);
             plain.push(length);
         }
-        plain
+        Separated { plain, gaps, closed }
+    }
+
+    /// The sample time of which nearly all steps are multiples, and how many of them are longer.
+    pub(super) fn multiples(&self, declared: Option<f64>) -> Option<(f64, usize)> {
+        /// Longer steps begin another part.
+        const LONGEST: f64 = 0.5 * APART;
+        let mut steps: Vec<f64> = self.steps().map(|(_, step)| step).collect();
+        steps.sort_by(f64::total_cmp);
+        let short = declared.or_else(|| steps.get(steps.len() / 20).copied()).filter(|step| *step > 0.0)?;
+        let within: Vec<f64> = steps.into_iter().filter(|step| *step < LONGEST * short).collect();
+        let odd = within.iter().filter(|step| (*step / short - (*step / short).round()).abs() > 0.1).count();
+        let samples: f64 = within.iter().map(|step| (step / short).round()).sum();
+        let gaps = within.iter().filter(|step| **step > 1.5 * short).count();
+        let mean = nice(within.iter().sum::<f64>() / samples, 0.1 * short / samples);
+        (50 * odd <= within.len()).then_some((declared.unwrap_or(mean), gaps))
+    }
+
+    /// By how much each stamp is off even steps, in sample times, and the gaps between.
+    fn offsets(&self, sample_time: f64) -> (Vec<f64>, Vec<usize>) {
+        let Separated { closed, gaps, .. } = self.separated(sample_time, |_| 0.0);
+        let late: Vec<f64> = closed.iter().enumerate().map(|(k, t)| t / sample_time - k as f64).collect();
+        let local =
+            |k: usize| middle(late[k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(late.len())].to_vec());
+        ((0..late.len()).map(|k| late[k] - local(k)).collect(), gaps)
+    }
+
+    /// Stamps that shake although the samples are even: taken late by whatever received them, or rounded in odd ways.
+    ///
+    /// The signals show it. Where the samples lie where the stamps say, a signal leaves the straight line between its neighbours by its slope times
+    /// what the stamp is off; the regression of the one on the other has the coefficient 1. Where the samples are even it has 0.
+    /// Stamps of samples that stand still, or whose noise hides the difference, do no harm either way.
+    pub(super) fn shaken(&self, declared: Option<f64>, signals: &[&[f64]]) -> Option<Timing> {
+        /// Share of the stamps that may be off by half a sample or more.
+        const LATE: f64 = 0.2;
+        let sample_time = declared.or_else(|| self.mean_step())?;
+        let (offsets, dropouts) = self.offsets(sample_time);
+        let far = offsets.iter().filter(|off| off.abs() >= 0.5).count();
+        let follow = |signal: &&[f64]| follows(signal, &offsets);
+        if far as f64 > LATE * offsets.len() as f64 || signals.iter().any(follow) {
+            return None;
+        }
+        let most = offsets.iter().map(|off| off.abs()).fold(0.0, f64::max);
+        Some(Timing { sample_time, jitter: 0.0, dropouts, shaken: Some(most) })
     }
 
     /// The step into the `k`-th gap, a gap of a designed experiment.
     pub(super) fn gap(&self, k: usize, sample_time: f64) -> DataProblem {
         DataProblem::Gap(self.step_to(k, sample_time, self.input_form.whole()))
+    }
+
+    /// The step from which time starts anew.
+    pub(super) fn anew(&self, k: usize) -> DataProblem {
+        DataProblem::StartsAnew(self.step_to(k, f64::NAN, self.input_form.whole()))
     }
 
     fn steps(&self) -> impl Iterator<Item = (usize, f64)> {
@@ -197,6 +262,26 @@ impl Stamps<'_> {
     }
 }
 
+/// Whether a signal lies where the stamps say, rather than evenly.
+fn follows(signal: &[f64], offsets: &[f64]) -> bool {
+    let beside = |of: &[f64], k: usize| of[k] - 0.5 * (of[k - 1] + of[k + 1]);
+    let inner = 1..signal.len().saturating_sub(1);
+    let pairs: Vec<(f64, f64)> = inner
+        .map(|k| (beside(signal, k), 0.5 * (signal[k + 1] - signal[k - 1]) * beside(offsets, k)))
+        .collect();
+    // Corners and spikes say nothing of the clock.
+    let mut sizes: Vec<f64> = pairs.iter().map(|(off, _)| off.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let Some(usual) = sizes.get(9 * sizes.len() / 10) else { return false };
+    let plain = || pairs.iter().filter(|(off, _)| off.abs() <= *usual);
+    let (cross, square): (f64, f64) = plain().fold((0.0, 0.0), |(cross, square), (off, expected)| {
+        (cross + off * expected, square + expected * expected)
+    });
+    let noise = plain().map(|(off, _)| off * off).sum::<f64>() / plain().count().max(1) as f64;
+    let slope = cross / square;
+    square > 0.0 && slope > 0.4 && slope > 3.0 * (noise / square).sqrt()
+}
+
 /// The upper median of some numbers, one at least.
 fn middle(mut of: Vec<f64>) -> f64 {
     of.sort_by(f64::total_cmp);
@@ -213,7 +298,7 @@ pub(super) fn resolution(stamp: f64, unit: f64) -> f64 {
 }
 
 /// The step of the fewest digits within `tolerance`, or that whose rate has fewer still: 0.004 s, but 300 Hz.
-fn nice(step: f64, tolerance: f64) -> f64 {
+pub(super) fn nice(step: f64, tolerance: f64) -> f64 {
     let (digits, short) = shortest(step, tolerance);
     let (digits_of_rate, rate) = shortest(1.0 / step, tolerance / (step * step));
     if digits_of_rate < digits { 1.0 / rate } else { short }

@@ -1,17 +1,18 @@
 //! Which columns of a table are time, input and output.
 
-use super::guess::{self, Part};
+use super::causality::Precedence;
+use super::guess::{self, Part, Surety};
 use super::input_form::InputForm;
 use super::names::{ColumnNames, NO_TIME};
 use crate::closest;
-use crate::table::{Column, DataProblem, Kind, Table};
+use crate::table::{Column, DataProblem, Kind, Table, unit};
 
 /// The columns taken, as positions in the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection {
     /// The clock.
     pub time: Option<usize>,
-    /// A column that counts the samples, where there is no time.
+    /// A column that counts the samples.
     pub index: Option<usize>,
     /// The input.
     pub input: usize,
@@ -21,6 +22,8 @@ pub struct Selection {
     pub prediction: Option<usize>,
     /// Columns that could be the input or output instead.
     pub rivals: Vec<usize>,
+    /// Why input and output may be the other way round.
+    pub doubt: Option<String>,
 }
 
 /// In place of an output's name: an input's file has none that counts.
@@ -63,26 +66,40 @@ impl Selection {
         // A single column is a signal, however evenly it rises.
         let has_clock = !has_no_time && table.columns.len() > 1;
         let time = time.or_else(|| if has_clock { clock(table, &free) } else { None });
-        let index = (0..table.columns.len()).filter(free).find(|&k| guess::is_index(&table.columns[k]));
+        let column = |k: &usize| &table.columns[*k];
+        let columns = || (0..table.columns.len()).filter(free);
+        let index = columns().filter(|k| Some(*k) != time).find(|k| guess::is_index(column(k)));
         let is_signal = |k: &usize| {
-            free(k) && Some(*k) != time && Some(*k) != index && table.columns[*k].is_number()
+            let is_other = guess::is_index(column(k))
+                || guess::is_part_number(column(k))
+                || is_other_clock(column(k))
                 // With no time column wanted, what is one all the same is no signal.
-                && !(has_no_time && is_clock(&table.columns[*k]))
+                || has_no_time && is_clock(column(k));
+            Some(*k) != time && column(k).is_number() && !is_other
         };
-        let signals: Vec<usize> = (0..table.columns.len()).filter(is_signal).collect();
-        let offer = Offer { table, signals: &signals, input_form };
-        let (input, output) = offer.settle(input, output, needs_output).map_err(|problem| vec![problem])?;
+        let signals: Vec<usize> = columns().filter(is_signal).collect();
+        let moving: Vec<usize> =
+            signals.iter().copied().filter(|k| !guess::stands_still(column(k))).collect();
+        if moving.is_empty() && signals.len() > 2 && input.is_none() && output.is_none() {
+            let columns =
+                signals.iter().map(|k| format!("`{}`", column(k).label())).collect::<Vec<_>>().join(", ");
+            return Err(vec![DataProblem::NothingMoves { columns }]);
+        }
+        // Of many columns those that stand still are settings.
+        let offered = if moving.len() >= 2 { &moving } else { &signals };
+        let offer = Offer { table, signals: offered, input_form };
+        let (input, output, doubt) =
+            offer.settle(input, output, needs_output).map_err(|problem| vec![problem])?;
         let output = output.filter(|_| !has_no_output);
         let rival = |k: &usize| {
-            let column = &table.columns[*k];
             Some(*k) != output
                 && *k != input
-                && [Part::Input, Part::Motion, Part::Output]
+                && [Part::Input, Part::Motion, Part::Output, Part::Command]
                     .into_iter()
-                    .any(|part| guess::surety(column, part).is_some())
+                    .any(|part| guess::surety(column(k), part).is_some())
         };
         let rivals = signals.iter().copied().filter(rival).collect();
-        Ok(Self { time, index: index.filter(|_| time.is_none()), input, output, prediction, rivals })
+        Ok(Self { time, index, input, output, prediction, rivals, doubt })
     }
 }
 
@@ -148,6 +165,7 @@ fn shared(table: &Table, parts: [(&'static str, Option<usize>); 3]) -> Vec<DataP
 fn clock(table: &Table, free: &impl Fn(&usize) -> bool) -> Option<usize> {
     let columns = || (0..table.columns.len()).filter(free).filter(|&k| table.columns[k].kind != Kind::Text);
     let called = columns()
+        .filter(|&k| guess::goes_on(&table.columns[k]) && !guess::is_index(&table.columns[k]))
         .filter_map(|k| Some((guess::surety(&table.columns[k], Part::Time)?, k)))
         .max_by_key(|(surety, k)| (*surety, std::cmp::Reverse(*k)));
     let stamps = || columns().find(|&k| table.columns[k].kind == Kind::Stamp);
@@ -170,6 +188,15 @@ fn is_clock(column: &Column) -> bool {
     guess::surety(column, Part::Time).is_some() || column.kind == Kind::Stamp || guess::is_ramp(column)
 }
 
+/// Whether a column is the clock of some signals only.
+fn is_other_clock(column: &Column) -> bool {
+    let name = guess::surety(column, Part::Time);
+    let has_unit = column.unit.as_deref().is_some_and(|unit| unit::seconds(unit).is_some());
+    name == Some(Surety::Name)
+        || name.is_some() && (has_unit || guess::is_ramp(column))
+        || column.kind == Kind::Stamp
+}
+
 /// The columns that can be input or output.
 struct Offer<'a> {
     table: &'a Table,
@@ -177,38 +204,59 @@ struct Offer<'a> {
     input_form: &'a InputForm,
 }
 
+/// Input, output, and why they may be the other way round.
+type Settled = (usize, Option<usize>, Option<String>);
+
 impl Offer<'_> {
     fn settle(
         &self,
         input: Option<usize>,
         output: Option<usize>,
         needs_output: bool,
-    ) -> Result<(usize, Option<usize>), DataProblem> {
+    ) -> Result<Settled, DataProblem> {
         let rest = |other: Option<usize>| self.signals.iter().copied().filter(move |k| Some(*k) != other);
         let is_guessed = input.is_none() || output.is_none();
-        let mut output = output.or_else(|| self.called(Part::Output));
-        let mut input = input.or_else(|| self.called(Part::Input));
+        let is_none = input.is_none() && output.is_none();
+        let (mut input, mut output) = self.paired(input, output);
+        output = output.or_else(|| self.called(&[Part::Output, Part::Response], input));
+        input = input.or_else(|| self.called(&[Part::Input, Part::Command], output));
+        if input.is_none() && output.is_none() {
+            (input, output) = match (self.called(&[Part::Drive], None), self.called(&[Part::Answer], None)) {
+                (Some(drive), Some(answer)) if drive != answer => (Some(drive), Some(answer)),
+                _ => (None, None),
+            };
+        }
         // One is known and one is left.
         if let (Some(_), None) = (input, output) {
             output = only(rest(input));
         }
         if let (None, Some(_)) = (input, output) {
-            input = self.called(Part::Motion).filter(|k| Some(*k) != output).or_else(|| only(rest(output)));
+            let motion = || self.called(&[Part::Motion], output);
+            let drive = || self.called(&[Part::Drive], output);
+            input = motion().or_else(|| only(rest(output))).or_else(drive);
         }
-        if let (None, None, [first, second]) = (input, output, self.signals)
-            && !self.table.has_header
-        {
-            (input, output) = (Some(*first), Some(*second));
+        let mut doubt = None;
+        let shares = |pair: (Option<usize>, Option<usize>)| matches!(pair, (Some(input), Some(output)) if is_guessed && self.share_a_name(input, output));
+        if is_none && shares((input, output)) {
+            (input, output) = (None, None);
+        }
+        if let (None, None, [first, second], true) = (input, output, self.signals, needs_output) {
+            let settled = self.by_causality(*first, *second);
+            (input, output, doubt) = settled.map_or((None, None, None), |(input, output, doubt)| {
+                (Some(input), Some(output), Some(doubt))
+            });
         }
         if !needs_output && input.is_none() {
-            input = self.called(Part::Motion).or_else(|| only(rest(None)));
+            input = self.called(&[Part::Motion], None).or_else(|| only(rest(None)));
         }
         match (input, output) {
             // Two columns of one name are distinguished by number only.
-            (Some(input), Some(output)) if is_guessed && self.share_a_name(input, output) => {
+            (Some(input), Some(output))
+                if is_guessed && doubt.is_none() && self.share_a_name(input, output) =>
+            {
                 Err(self.doubt(None, None))
             }
-            (Some(input), output) if output.is_some() || !needs_output => Ok((input, output)),
+            (Some(input), output) if output.is_some() || !needs_output => Ok((input, output, doubt)),
             (Some(input), None) if self.signals == [input] => {
                 Err(DataProblem::NotMeasured { input: self.table.columns[input].label() })
             }
@@ -216,10 +264,108 @@ impl Offer<'_> {
         }
     }
 
-    /// The column whose name says it most surely, the first of several.
-    fn called(&self, part: Part) -> Option<usize> {
-        let of = |k: usize| Some((guess::surety(&self.table.columns[k], part)?, std::cmp::Reverse(k)));
-        self.signals.iter().filter_map(|&k| of(k)).max().map(|(_, k)| k.0)
+    /// A command and its response, which are called alike but for that word: `target pos (5)` and `pos (5)`.
+    fn paired(&self, input: Option<usize>, output: Option<usize>) -> (Option<usize>, Option<usize>) {
+        let column = |k: usize| &self.table.columns[k];
+        let pairs = self.signals_and(input).into_iter().flat_map(|command| {
+            let base = guess::without(column(command), Part::Command);
+            self.signals_and(output).into_iter().filter_map(move |response| {
+                let (base, other) = (base.clone()?, column(response));
+                let is_other = response != command && guess::without(other, Part::Command).is_none();
+                let plain = guess::without(other, Part::Response).unwrap_or_else(|| guess::named(other));
+                (is_other && (plain == base || guess::named(other) == base)).then_some((command, response))
+            })
+        });
+        let is_meant = |given: Option<usize>, k: usize| given.is_none_or(|given| given == k);
+        let mut fitting =
+            pairs.filter(|(command, response)| is_meant(input, *command) && is_meant(output, *response));
+        match fitting.next() {
+            Some((command, response)) => (Some(command), Some(response)),
+            None => (input, output),
+        }
+    }
+
+    /// The signals, or the one that the user named.
+    fn signals_and(&self, given: Option<usize>) -> Vec<usize> {
+        given.map_or_else(|| self.signals.to_vec(), |given| vec![given])
+    }
+
+    /// Both directions, tried: the input is the one whose past says what the other does next. The order in the file decides where neither does.
+    fn by_causality(&self, first: usize, second: usize) -> Option<(usize, usize, String)> {
+        let column = |k: usize| &self.table.columns[k];
+        let rows: Vec<usize> = (0..self.table.places.len())
+            .filter(|&row| column(first).values[row].is_finite() && column(second).values[row].is_finite())
+            .collect();
+        let of = |k: usize| -> Vec<f64> { rows.iter().map(|&row| column(k).values[row]).collect() };
+        let precedence = Precedence::of(&of(first), &of(second));
+        if precedence.is_none() && self.table.has_header {
+            return None;
+        }
+        let (input, output) = match precedence {
+            Some(precedence) if !precedence.is_forward() => (second, first),
+            _ => (first, second),
+        };
+        let shown = |k: usize| match self.table.has_header && self.is_unique(k) {
+            true => format!("`{}`", column(k).label()),
+            false => format!("column {}", k + 1),
+        };
+        let why = match precedence {
+            Some(_) => format!(
+                "{} is taken for the input, since its past predicts {} better than the other way round",
+                shown(input),
+                shown(output)
+            ),
+            None => format!("{} is taken for the input, as the first", shown(input)),
+        };
+        let other = self.input_form.naming(&[("input", self.name(output)), ("output", self.name(input))]);
+        Some((
+            input,
+            output,
+            format!("no name says which column is the input: {why}; if that is wrong, {other}"),
+        ))
+    }
+
+    /// The column whose name says most surely that it is one of these parts, the first of several; the first part named counts most.
+    ///
+    /// Words that all signals share say nothing, a command is no output, and a signal in its unit is better than the same one in volts.
+    fn called(&self, parts: &[Part], taken: Option<usize>) -> Option<usize> {
+        let column = |k: usize| &self.table.columns[k];
+        let is_raw =
+            |k: usize| self.signals.iter().any(|&other| guess::is_raw_form(column(k), column(other)));
+        let is_out = parts.contains(&Part::Output);
+        let of = |k: usize, part: Part| {
+            let says_nothing = || self.is_shared(k, part);
+            let is_command = is_out
+                && guess::surety(column(k), Part::Command).is_some()
+                && !self.is_shared(k, Part::Command);
+            let surety = guess::surety(column(k), part).filter(|_| !is_command && !says_nothing())?;
+            Some((surety, !is_raw(k), std::cmp::Reverse(k)))
+        };
+        let free = || self.signals.iter().copied().filter(|k| Some(*k) != taken);
+        let of_part = |part: &Part| free().filter_map(|k| of(k, *part)).max();
+        // The whole name of any part counts more than a word.
+        let found: Vec<_> = parts.iter().filter_map(of_part).collect();
+        let named = found.iter().find(|(surety, ..)| *surety == Surety::Name);
+        named.or(found.first()).map(|(.., k)| k.0)
+    }
+
+    /// Whether the words by which a column would be this part stand in the names of all signals.
+    fn is_shared(&self, k: usize, part: Part) -> bool {
+        let name = guess::named(&self.table.columns[k]);
+        let Some(others) = guess::without(&self.table.columns[k], part) else { return false };
+        let mut deciding = name.iter().filter(|word| !others.contains(word));
+        let in_all = |word: &String| {
+            self.signals.iter().all(|&other| guess::named(&self.table.columns[other]).contains(word))
+        };
+        self.signals.len() > 1 && deciding.all(in_all)
+    }
+
+    /// By what a column is named on the command line.
+    fn name(&self, k: usize) -> String {
+        match self.table.has_header && self.is_unique(k) {
+            true => self.table.columns[k].name.clone(),
+            false => (k + 1).to_string(),
+        }
     }
 
     fn doubt(&self, input: Option<usize>, output: Option<usize>) -> DataProblem {
@@ -228,12 +374,8 @@ impl Offer<'_> {
             (None, _) => "the input",
             _ => "the output",
         };
-        let mut left = self.signals.iter().copied().filter(|k| Some(*k) != input && Some(*k) != output);
-        let mut name = |known: Option<usize>| match known.or_else(|| left.next()) {
-            Some(k) if self.table.has_header && self.is_unique(k) => self.table.columns[k].name.clone(),
-            Some(k) => (k + 1).to_string(),
-            None => "NAME".to_owned(),
-        };
+        // An example that guessed would be copied.
+        let name = |known: Option<usize>| known.map_or_else(|| "NAME".to_owned(), |k| self.name(k));
         let wanted = [("input", name(input)), ("output", name(output))];
         let remedy = if self.signals.len() < 2 {
             "a record needs an input and an output, one number each in every row, beside the time".to_owned()

@@ -1,7 +1,6 @@
 //! What a cell says: a number, a time stamp, nothing, or text.
 
-use jiff::civil::{DateTime, Time};
-use jiff::{Timestamp, tz::TimeZone};
+use super::dates::{self, Format, Stamp};
 
 /// What a cell says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,13 +37,27 @@ impl Decimal {
 const MISSING: [&str; 10] = ["nan", "-nan", "na", "n/a", "#n/a", "null", "none", "nil", "-", "--"];
 
 pub(super) fn read(cell: &str, decimal: Decimal) -> Cell {
+    read_in(cell, decimal, &mut None)
+}
+
+/// The same where cells like it came before: their format of times is tried first, and kept.
+pub(super) fn read_in(cell: &str, decimal: Decimal, format: &mut Option<Format>) -> Cell {
     match number(cell, decimal) {
         Some(value) if value.is_nan() => Cell::Missing,
         Some(value) => Cell::Number(value),
         None if cell.is_empty() || MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) => {
             Cell::Missing
         }
-        None => stamp(cell).unwrap_or(Cell::Text),
+        None => match dates::read(cell, *format) {
+            Some((stamp, found)) => {
+                *format = Some(found);
+                match stamp {
+                    Stamp::Instant(nanoseconds) => Cell::Stamp(nanoseconds),
+                    Stamp::Clock(nanoseconds) => Cell::Clock(nanoseconds),
+                }
+            }
+            None => Cell::Text,
+        },
     }
 }
 
@@ -67,23 +80,6 @@ fn number(cell: &str, decimal: Decimal) -> Option<f64> {
         Err(_) if cell.starts_with('\u{2212}') => cell.replacen('\u{2212}', "-", 1).parse().ok(),
         Err(_) => None,
     }
-}
-
-/// ISO 8601: date and time with or without an offset, or a time of day.
-fn stamp(cell: &str) -> Option<Cell> {
-    let digits = cell.bytes().next()?.is_ascii_digit();
-    if !digits || !cell.contains(':') {
-        return None;
-    }
-    if let Ok(instant) = cell.parse::<Timestamp>() {
-        return Some(Cell::Stamp(instant.as_nanosecond()));
-    }
-    if cell.as_bytes().get(4) == Some(&b'-') {
-        let local: DateTime = cell.parse().ok()?;
-        return TimeZone::UTC.to_timestamp(local).ok().map(|instant| Cell::Stamp(instant.as_nanosecond()));
-    }
-    let time: Time = cell.parse().ok()?;
-    Some(Cell::Clock(time.duration_since(Time::midnight()).as_nanos()))
 }
 
 #[cfg(test)]

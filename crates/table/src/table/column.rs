@@ -11,8 +11,15 @@ pub struct Column {
     pub kind: Kind,
     /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
     pub values: Vec<f64>,
-    /// The cells as they stand in the file, of stamps only.
+    /// The cells as they stand in the file, of stamps and of numbers with too many digits only.
     pub stamps: Vec<String>,
+    /// What was subtracted: of stamps the nanoseconds of the first; of whole numbers with more digits than a value keeps the first, once they are
+    /// [`exact`](Self::exact).
+    pub origin: i128,
+    /// The words of a column of text, as far as they are few, in the order of their first cells.
+    pub words: Vec<String>,
+    /// Of a column of few words the one of each row, counted from 1; 0 where there is none.
+    pub codes: Vec<u8>,
     /// The first cells that are neither a value nor missing.
     pub faults: Vec<Fault>,
     /// How many such cells there are.
@@ -46,6 +53,19 @@ impl Column {
         }
     }
 
+    /// Takes the first number off all others, where they have more digits than a value keeps: their differences are then exact.
+    pub fn exact(&mut self) {
+        if self.kind != Kind::Number || self.stamps.is_empty() || self.origin != 0 {
+            return;
+        }
+        let numbers: Vec<Option<i128>> = self.stamps.iter().map(|cell| cell.parse().ok()).collect();
+        let Some(origin) = numbers.iter().flatten().next().copied() else { return };
+        for (value, number) in self.values.iter_mut().zip(numbers) {
+            *value = number.map_or(*value - origin as f64, |number| (number - origin) as f64);
+        }
+        self.origin = origin;
+    }
+
     /// Whether it holds numbers that can be an input or output, or cells that are meant as such.
     pub fn is_number(&self) -> bool {
         let is_meant = || !self.faults.is_empty() || self.values.iter().any(|value| value.is_finite());
@@ -58,13 +78,16 @@ impl Column {
     }
 }
 
-pub(super) fn empty_column(name: String, unit: Option<String>) -> Column {
+pub(crate) fn empty_column(name: String, unit: Option<String>) -> Column {
     Column {
         name,
         unit,
         kind: Kind::Number,
         values: Vec::new(),
         stamps: Vec::new(),
+        origin: 0,
+        words: Vec::new(),
+        codes: Vec::new(),
         faults: Vec::new(),
         fault_count: 0,
     }

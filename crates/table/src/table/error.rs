@@ -57,6 +57,8 @@ pub enum DataProblem {
     NotMeasured { input: String },
     #[error("column `{column}`: the cell is empty or NaN")]
     EmptyCell { column: String, remedy: String },
+    #[error("the record is interrupted: samples are missing, or another record begins")]
+    Interrupted { remedy: String },
     #[error("column `{column}`: `{cell}` is not a number")]
     NotANumber { column: String, cell: String },
     #[error("column `{column}`: `{cell}` is not an ISO 8601 time as in the rows above")]
@@ -71,6 +73,10 @@ pub enum DataProblem {
     OtherDecimal { column: String, cell: String, found: &'static str },
     #[error("column `{}`: the time stamp {} does not lie after the one before it, {}", .0.column, .0.now, .0.before)]
     NotIncreasing(Box<Step>),
+    #[error("column `{}`: its unit changes: from {} to {} on, steps of {} s become steps of {} s", .0.column, .0.before, .0.now, .0.sample_time, .0.step)]
+    UnitChanges(Box<Step>),
+    #[error("column `{}`: time starts anew: {} is followed by {}", .0.column, .0.before, .0.now)]
+    StartsAnew(Box<Step>),
     #[error("column `{}`: {} is followed by {}, a step of {} s where the sample time is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
     Gap(Box<Step>),
     #[error("column `{}`: uneven sampling: {} is followed by {}, a step of {} s where the mean one is {} s", .0.column, .0.before, .0.now, .0.step, .0.sample_time)]
@@ -87,6 +93,8 @@ pub enum DataProblem {
     UnitsDiffer { here: String, there: String, other: String },
     #[error("the input `{column}` never moves, in this file nor in any other that is fitted")]
     NeverMoves { column: String },
+    #[error("none of the columns ever moves: {columns}")]
+    NothingMoves { columns: String },
     #[error("the output `{column}` never changes, in this file nor in any other that is fitted")]
     NeverChanges { column: String },
     #[error(
@@ -151,19 +159,21 @@ impl DataProblem {
             }
             Self::UnitsDiffer { .. } => "write both files in the same units".to_owned(),
             Self::NeverMoves { column } => format!("fit to records in which `{column}` rises and falls; check that the column holds the input"),
+            Self::NothingMoves { .. } => "give a record of a machine that is driven; check that it was switched on, and the logger connected".to_owned(),
             Self::NeverChanges { column } => {
                 format!("check the sensor, and that `{column}` is the column of the output")
             }
             Self::Doubtful { remedy, .. }
             | Self::NoSampleTime { remedy, .. }
             | Self::EmptyCell { remedy, .. }
+            | Self::Interrupted { remedy }
             | Self::More { remedy, .. }
             | Self::NotATime { remedy, .. }
             | Self::OtherSampleTime { remedy, .. }
             | Self::SampleTimesDiffer { remedy, .. }
             | Self::CutTooShort { remedy, .. }
             | Self::Shattered { remedy, .. } => remedy.clone(),
-            Self::NotIncreasing(step) | Self::Gap(step) | Self::Uneven(step) => step.remedy.clone(),
+            Self::NotIncreasing(step) | Self::Gap(step) | Self::Uneven(step) | Self::UnitChanges(step) | Self::StartsAnew(step) => step.remedy.clone(),
             Self::TooShort { .. } => {
                 "take a longer record; the fit needs more samples than there are coefficients".to_owned()
             }

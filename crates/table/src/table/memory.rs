@@ -17,6 +17,11 @@ pub enum Cells {
 }
 
 impl Cells {
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         match self {
@@ -36,9 +41,7 @@ impl Table {
             columns,
             places: (1..=rows as u64).map(Place::Row).collect(),
             has_header: true,
-            notes: Vec::new(),
-            faults: Vec::new(),
-            cut_off: None,
+            ..Self::default()
         }
     }
 }

@@ -6,6 +6,7 @@
 mod body;
 mod cell;
 mod column;
+mod dates;
 mod dialect;
 mod error;
 mod head;
@@ -13,12 +14,13 @@ mod lines;
 mod measurements;
 mod memory;
 mod places;
+mod preamble;
 mod table_error;
 pub mod unit;
 
 pub use column::Column;
 pub use column::Kind;
-use column::empty_column;
+pub(crate) use column::empty_column;
 pub use error::DataError;
 pub use error::DataProblem;
 pub use error::Place;
@@ -97,18 +99,45 @@ impl Table {
         Self::of_pieces(path, TextPieces::of_text("", text), least).map_err(Unread::reported)
     }
 
+    /// Reads a file of text in tables of so many rows at most, one after the other, until `take` wants no more; says whether that was possible.
+    ///
+    /// # Errors
+    /// As of [`read`](Self::read).
+    pub fn batches(
+        path: &Path,
+        (least, most): (usize, usize),
+        take: &mut dyn FnMut(Self) -> bool,
+    ) -> Result<bool, TableError> {
+        let pieces = TextPieces::open(path).map_err(TableError::File)?;
+        if mat::is_matlab(path, pieces.first_bytes()) {
+            return Ok(false);
+        }
+        match Self::in_batches(path, pieces, (least, most), take) {
+            Ok(()) => Ok(true),
+            Err(Unread::NotUtf8) => Ok(false),
+            Err(error) => Err(error.reported()),
+        }
+    }
+
+    fn of_pieces(path: &Path, pieces: TextPieces<'_>, least: usize) -> Result<Self, Unread> {
+        let mut whole = Self::default();
+        Self::in_batches(path, pieces, (least, usize::MAX), &mut |table| {
+            whole = table;
+            true
+        })?;
+        Ok(whole)
+    }
+
     /// The first lines show the dialect; then rows are read line by line, and no more of the text is held than a piece.
-    fn of_pieces(path: &Path, mut pieces: TextPieces<'_>, least: usize) -> Result<Self, Unread> {
+    fn in_batches(
+        path: &Path,
+        mut pieces: TextPieces<'_>,
+        (least, most): (usize, usize),
+        take: &mut dyn FnMut(Self) -> bool,
+    ) -> Result<(), Unread> {
         let path = path.display().to_string();
         let fail = |place, problem| DataError { path: path.clone(), place, problem };
-        let mut text = String::new();
-        let mut wanted = ENOUGH;
-        while !pieces.has_ended() && !Dialect::is_seen_in(&text) {
-            while !pieces.has_ended() && text.len() < wanted {
-                pieces.append_to(&mut text)?;
-            }
-            wanted *= 2;
-        }
+        let mut text = beginning(&mut pieces)?;
         if text.trim().is_empty() {
             return Err(fail(None, DataProblem::Empty).into());
         }
@@ -116,19 +145,23 @@ impl Table {
         let whole = if pieces.has_ended() { text.len() } else { text.rfind(end).unwrap_or(text.len()) };
         let first = &text[..whole];
         let single = || if least <= 1 { Dialect::single(first) } else { None };
-        let dialect = Dialect::of(first).or_else(single).ok_or_else(|| fail(None, DataProblem::NoTable))?;
-        let head = Head::find(first, &dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
+        let dialect = Dialect::of(first).or_else(single);
+        let mut dialect = dialect.ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let head = Head::find(first, &mut dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
         let mut table = Self {
             path: path.clone(),
             columns: columns(&head, dialect.width),
-            places: Places::default(),
             has_header: !head.names.is_empty(),
             notes: notes(&head, &dialect),
-            faults: Vec::new(),
-            cut_off: None,
+            increment: head.increment,
+            ..Self::default()
         };
         table.notes.splice(..0, pieces.encoding().map(|encoding| format!("text in {encoding}")));
-        let mut rows = Rows::of(&mut table, dialect, head.first_row);
+        let without_blank = |table: Self| {
+            let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
+            table.without_blank_end().ok_or_else(|| fail(Some(Place::Line(head.line)), problem))
+        };
+        let mut rows = Rows::of(&mut table, dialect, &head);
         let mut line = 0;
         loop {
             let mut rest = text.as_str();
@@ -136,6 +169,9 @@ impl Table {
                 line += 1;
                 rows.push(line, lines::without_return(whole));
                 rest = after;
+                if rows.len() >= most && !take(without_blank(rows.take())?) {
+                    return Ok(());
+                }
             }
             if pieces.has_ended() {
                 rows.push(line + 1, lines::without_return(rest));
@@ -146,15 +182,32 @@ impl Table {
             pieces.append_to(&mut text)?;
         }
         rows.finish();
-        // A delimiter at the end of every row makes no column.
-        let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
-        if table.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
-            let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
-            return Err(fail(Some(Place::Line(head.line)), problem).into());
-        }
-        table.columns.retain(|column| !is_blank(column));
-        Ok(table)
+        take(without_blank(table)?);
+        Ok(())
     }
+
+    /// Leaves out a last column without name and values: a delimiter at the end of every row makes none. None where a nameless one has values.
+    fn without_blank_end(mut self) -> Option<Self> {
+        let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
+        if self.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
+            return None;
+        }
+        self.columns.retain(|column| !is_blank(column));
+        Some(self)
+    }
+}
+
+/// As much of a text as shows its dialect.
+fn beginning(pieces: &mut TextPieces<'_>) -> Result<String, Unread> {
+    let mut text = String::new();
+    let mut wanted = ENOUGH;
+    while !pieces.has_ended() && !Dialect::is_seen_in(&text) {
+        while !pieces.has_ended() && text.len() < wanted {
+            pieces.append_to(&mut text)?;
+        }
+        wanted *= 2;
+    }
+    Ok(text)
 }
 
 fn columns(head: &Head, width: usize) -> Vec<Column> {

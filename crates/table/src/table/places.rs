@@ -28,6 +28,17 @@ impl Places {
         after(self.runs[self.runs.partition_point(|(first, _)| *first <= row) - 1], row)
     }
 
+    /// Leaves the first `rows` only.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        self.runs.retain(|(first, _)| *first < rows);
+        self.rows = self.rows.min(rows);
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.rows == 0
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows

@@ -17,20 +17,72 @@ pub fn seconds(unit: &str) -> Option<f64> {
         "ns" | "nanoseconds" => 1e-9,
         "min" | "minute" | "minutes" => 60.0,
         "h" | "hour" | "hours" => 3600.0,
+        "d" | "day" | "days" => 86_400.0,
         _ => return None,
     })
 }
 
-/// Whether a cell of a row of units holds one: bracketed, known, or none (`-`, `1`, blank).
-pub(super) fn is_unit(cell: &str) -> bool {
-    let bare = unbracketed(cell).unwrap_or(cell).trim();
-    bare.is_empty() || bare == "-" || KNOWN.contains(&bare) || unbracketed(cell).is_some()
+/// Words for units, in lower case.
+const WORDS: [(&str, &str); 27] = [
+    ("second", "s"),
+    ("seconds", "s"),
+    ("millisecond", "ms"),
+    ("milliseconds", "ms"),
+    ("volt", "V"),
+    ("volts", "V"),
+    ("millivolt", "mV"),
+    ("ampere", "A"),
+    ("amperes", "A"),
+    ("amp", "A"),
+    ("amps", "A"),
+    ("newton", "N"),
+    ("newtons", "N"),
+    ("kilonewton", "kN"),
+    ("metre", "m"),
+    ("metres", "m"),
+    ("meter", "m"),
+    ("meters", "m"),
+    ("millimetre", "mm"),
+    ("millimeter", "mm"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    ("hertz", "Hz"),
+    ("pascal", "Pa"),
+    ("percent", "%"),
+];
+
+/// The short form of a unit in words.
+fn in_words(word: &str) -> Option<&'static str> {
+    WORDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)).map(|(_, short)| *short)
 }
 
-/// What a cell of a row of units says.
+/// Whether a word is a unit.
+pub(super) fn is_known(word: &str) -> bool {
+    KNOWN.contains(&word) || in_words(word).is_some()
+}
+
+/// Whether a cell of a row of units holds one: bracketed, known, or none (`-`, `1`, blank).
+fn is_unit(cell: &str) -> bool {
+    let bare = unbracketed(cell).unwrap_or(cell).trim();
+    bare.is_empty() || bare == "-" || is_known(bare) || unbracketed(cell).is_some()
+}
+
+/// Whether a line is a row of units: all of its cells that are no numbers are, but perhaps the first, which may name a counter.
+pub(super) fn are_units(cells: &[&str]) -> bool {
+    let is_number = |cell: &str| !cell.is_empty() && cell.parse::<f64>().is_ok();
+    let units = |cells: &[&str]| cells.iter().all(|cell| is_unit(cell) || is_number(cell));
+    let is_some = |cells: &[&str]| cells.iter().any(|cell| is_unit(cell) && !cell.is_empty());
+    units(cells) && !cells.iter().all(|cell| is_number(cell))
+        || cells.len() > 2 && units(&cells[1..]) && is_some(&cells[1..])
+}
+
+/// The unit in a cell of a row of units; none where it is another word or no word.
 pub(super) fn bare(cell: &str) -> Option<String> {
     let bare = unbracketed(cell).unwrap_or(cell).trim();
-    (!bare.is_empty() && bare != "-").then(|| bare.to_owned())
+    let is_word = !bare.is_empty() && bare != "-" && is_unit(cell);
+    is_word.then(|| in_words(bare).unwrap_or(bare).to_owned())
 }
 
 fn unbracketed(cell: &str) -> Option<&str> {
@@ -48,6 +100,10 @@ pub fn split(header: &str) -> (String, Option<String>) {
             && !name.trim().is_empty()
         {
             let unit = unit.trim();
+            // `pos (5)` is the fifth of several alike.
+            if unit.bytes().all(|byte| byte.is_ascii_digit()) && !unit.is_empty() {
+                return (header.to_owned(), None);
+            }
             return (name.trim().to_owned(), (!unit.is_empty() && unit != "-").then(|| unit.to_owned()));
         }
     }
@@ -85,6 +141,8 @@ mod tests {
             ("t_ms", "t", Some("ms")),
             ("v [-]", "v", None),
             ("[N]", "[N]", None),
+            ("pos (5)", "pos (5)", None),
+            ("command[0]", "command[0]", None),
         ] {
             assert_eq!(split(header), (name.to_owned(), unit.map(str::to_owned)), "{header}");
         }
