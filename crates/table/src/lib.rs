@@ -2,6 +2,7 @@
 
 mod closest;
 mod file_error;
+mod log;
 mod mat;
 pub mod signals;
 pub mod stream;

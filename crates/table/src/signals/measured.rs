@@ -6,6 +6,7 @@ use super::request::Request;
 use super::select::Selection;
 use super::taken::Series;
 use super::{counters, rates, two_part_stamps};
+use crate::log::{self, Chosen};
 use crate::table::{Column, DataError, DataProblem, Place, Table, TableError, unit};
 use std::ops::Range;
 use std::path::Path;
@@ -46,8 +47,22 @@ impl Measured {
     /// All that is wrong with it.
     pub fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<TableError>> {
         let one = |error: TableError| vec![error];
+        if Table::is_log(path).map_err(one)? {
+            return Self::of(Self::logged(path, request).map_err(one)?, request);
+        }
         let table = Table::read(path, if request.needs_output { 2 } else { 1 }).map_err(one)?;
         Self::of(table, request)
+    }
+
+    /// The signals of a log that are input and output, or all of its first messages where that is in doubt.
+    fn logged(path: &Path, request: Request<'_>) -> Result<Table, TableError> {
+        log::read(path, &|head| {
+            let Request { names, input_form, needs_output, .. } = request;
+            let selection = Selection::of(head, names, input_form, needs_output).ok()?;
+            let signals = [selection.input, selection.output.unwrap_or(selection.input)];
+            let is_guessed = names.input.is_none() || names.output.is_none();
+            Some(Chosen { signals, rivals: if is_guessed { selection.rivals } else { Vec::new() } })
+        })
     }
 
     /// Takes a table that was read.

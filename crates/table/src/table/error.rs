@@ -35,6 +35,8 @@ pub enum DataProblem {
     NoTable,
     #[error("the file cannot be read as MATLAB data: {reason}")]
     NotMatlab { reason: String },
+    #[error("the file cannot be read as a log in MCAP: {reason}")]
+    NotLog { reason: String },
     #[error("the header has {found} cells, the rows {expected}")]
     HeaderWidth { found: usize, expected: usize },
     #[error(
@@ -136,6 +138,7 @@ impl DataProblem {
                 "a file of measurements has one row a sample, with the input and the output in two columns; commas, semicolons, tabs, bars or blanks between them".to_owned()
             }
             Self::NotMatlab { .. } => "save numeric vectors of one length, or a CSV file by `writetable`; MATLAB files are read by programs built with `--features matlab`".to_owned(),
+            Self::NotLog { .. } => "give a log of ROS 2 (`ros2 bag record -s mcap`), or a CSV file; logs are read by programs built with `--features mcap`".to_owned(),
             Self::HeaderWidth { .. } => "give every column its name in the header, and none to spare".to_owned(),
             Self::Ragged { .. } => {
                 "give every row one cell a column; a decimal comma would split a number in two where commas separate columns".to_owned()

@@ -30,9 +30,9 @@ pub use memory::Cells;
 pub use places::Places;
 pub use table_error::TableError;
 
-use crate::mat;
 use crate::text_file::read_bytes;
 use crate::text_pieces::{PieceError, TextPieces};
+use crate::{log, mat};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
@@ -93,6 +93,15 @@ impl Table {
         }
     }
 
+    /// Whether a file is a log of topics rather than a table.
+    ///
+    /// # Errors
+    /// A file that cannot be opened.
+    pub(crate) fn is_log(path: &Path) -> Result<bool, TableError> {
+        let pieces = TextPieces::open(path).map_err(TableError::File)?;
+        Ok(log::is_log(path, pieces.first_bytes()))
+    }
+
     /// The table in a text.
     pub fn parse(text: &str, least: usize) -> Result<Self, TableError> {
         let path = Path::new("");
@@ -109,7 +118,7 @@ impl Table {
         take: &mut dyn FnMut(Self) -> bool,
     ) -> Result<bool, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
-        if mat::is_matlab(path, pieces.first_bytes()) {
+        if mat::is_matlab(path, pieces.first_bytes()) || log::is_log(path, pieces.first_bytes()) {
             return Ok(false);
         }
         match Self::in_batches(path, pieces, (least, most), take) {

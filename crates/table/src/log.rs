@@ -1,0 +1,69 @@
+//! Logs of robots in the format MCAP: topics, each with messages at instants of its own.
+//!
+//! Every number of a message is a column, called `/topic.field[2]`; every topic has a clock, of its headers where they hold stamps, else of the
+//! logger. Messages are described by the definitions of ROS 2 in the log itself.
+
+use crate::table::{Table, TableError};
+use std::path::Path;
+
+#[cfg(feature = "mcap")]
+mod cdr;
+#[cfg(feature = "mcap")]
+mod definition;
+#[cfg(feature = "mcap")]
+mod messages;
+#[cfg(all(test, feature = "mcap"))]
+mod tests;
+mod unreadable;
+
+/// How a log begins.
+const MAGIC: &[u8] = b"\x89MCAP0\r\n";
+
+/// Whether a file is such a log: by its ending, or its first bytes.
+pub(crate) fn is_log(path: &Path, bytes: &[u8]) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) || bytes.starts_with(MAGIC)
+}
+
+/// Which columns of the first messages are input and output.
+pub(crate) type Choice<'a> = &'a dyn Fn(&Table) -> Option<Chosen>;
+
+/// Input and output, and others that they could be.
+pub(crate) struct Chosen {
+    #[cfg_attr(not(feature = "mcap"), allow(dead_code, reason = "no log is read"))]
+    pub(crate) signals: [usize; 2],
+    #[cfg_attr(not(feature = "mcap"), allow(dead_code, reason = "no log is read"))]
+    pub(crate) rivals: Vec<usize>,
+}
+
+#[cfg(not(feature = "mcap"))]
+pub(crate) fn read(path: &Path, _choice: Choice<'_>) -> Result<Table, TableError> {
+    Err(unreadable::log(path, "this program was built without the feature `mcap`".to_owned()))
+}
+
+/// The columns chosen, with their clocks; those of the first messages where nothing can be chosen.
+///
+/// # Errors
+/// A file that is no such log, or holds no message that can be read.
+#[cfg(feature = "mcap")]
+pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError> {
+    /// Messages looked at to see what there is.
+    const FIRST: usize = 20_000;
+    let head = messages::collect(path, None, FIRST)?;
+    let table = head.table(path);
+    if head.is_whole() {
+        return Ok(table);
+    }
+    match choice(&table) {
+        None => Ok(table),
+        Some(Chosen { signals, rivals }) => {
+            let name = |k: usize| table.columns[k].name.clone();
+            let names = signals.map(name);
+            let mut whole = messages::collect(path, Some(&names), usize::MAX)?.table(path);
+            if !rivals.is_empty() {
+                let rivals: Vec<String> = rivals.into_iter().map(|k| format!("`{}`", name(k))).collect();
+                whole.notes.push(format!("the log also holds {}", rivals.join(", ")));
+            }
+            Ok(whole)
+        }
+    }
+}

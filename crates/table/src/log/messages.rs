@@ -1,0 +1,177 @@
+//! The messages of a log, as columns.
+
+use super::cdr;
+use super::definition::Definition;
+use super::unreadable;
+use crate::table::{Column, Kind, Place, Table, TableError, empty_column};
+use crate::text_file::open;
+use mcap::io::MessageReader;
+use mcap::{Channel, Message};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::io::BufReader;
+use std::path::Path;
+
+/// What a clock in the header of a message is called, and what its columns are not.
+const STAMP: [&str; 2] = ["header.stamp.sec", "header.stamp.nanosec"];
+const NANOSECONDS: i128 = 1_000_000_000;
+
+/// The numbers of a topic, message by message.
+#[derive(Default)]
+struct Topic {
+    /// Nanoseconds of each message.
+    instants: Vec<i128>,
+    /// Values by their paths, NaN where a message has none.
+    values: BTreeMap<String, Vec<f64>>,
+}
+
+/// What was read of a log.
+#[derive(Default)]
+pub(super) struct Messages {
+    topics: BTreeMap<String, Topic>,
+    /// Topics whose messages cannot be read.
+    left: BTreeSet<String>,
+    count: usize,
+    /// Why no more messages came, where that is not the end of the log.
+    broken: Option<String>,
+    is_whole: bool,
+}
+
+/// Reads the first messages of a log, of all topics or the columns named.
+///
+/// # Errors
+/// A file that cannot be opened, or is broken before its first message.
+pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> Result<Messages, TableError> {
+    let file = BufReader::new(open(path).map_err(TableError::File)?);
+    let mut definitions: HashMap<u16, Option<Definition>> = HashMap::new();
+    let mut found = Messages::default();
+    for message in MessageReader::new(file) {
+        let message = match message {
+            Ok(message) => message,
+            Err(error) => {
+                found.broken = Some(error.to_string());
+                break;
+            }
+        };
+        found.count += 1;
+        let channel = &message.channel;
+        if names.is_none_or(|names| names.iter().any(|name| is_of(name, &channel.topic))) {
+            let definition = definitions.entry(channel.id).or_insert_with(|| definition(channel));
+            found.add(&message, definition.as_ref(), names);
+        }
+        if found.count >= most {
+            return Ok(found);
+        }
+    }
+    found.is_whole = true;
+    match &found.broken {
+        Some(reason) if found.topics.is_empty() => Err(unreadable::log(path, reason.clone())),
+        _ if found.topics.is_empty() => {
+            Err(unreadable::log(path, "it holds no message of ROS 2 with numbers in it".to_owned()))
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Whether a column is one of a topic.
+fn is_of(name: &str, topic: &str) -> bool {
+    name.strip_prefix(topic).is_some_and(|rest| rest.starts_with('.'))
+}
+
+fn definition(channel: &Channel<'_>) -> Option<Definition> {
+    let schema = channel.schema.as_ref()?;
+    let is_ros = channel.message_encoding == "cdr" && schema.encoding == "ros2msg";
+    Definition::parse(std::str::from_utf8(&schema.data).ok()?).filter(|_| is_ros)
+}
+
+impl Messages {
+    /// Whether nothing is left to be read.
+    pub(super) fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    fn add(&mut self, message: &Message<'_>, definition: Option<&Definition>, names: Option<&[String; 2]>) {
+        let topic = &message.channel.topic;
+        let mut values: Vec<(String, f64)> = Vec::new();
+        let mut stamp = [0.0; 2];
+        let is_wanted = |path: &str| {
+            names.is_none_or(|names| {
+                names.iter().any(|name| is_of(name, topic) && name[topic.len() + 1..] == *path)
+            })
+        };
+        let read = definition.and_then(|definition| {
+            cdr::visit(definition, &message.data, &mut |path, value| match STAMP
+                .iter()
+                .position(|part| *part == path)
+            {
+                Some(part) => stamp[part] = value,
+                None if is_wanted(path) => values.push((path.to_owned(), value)),
+                None => {}
+            })
+        });
+        if read.is_none() {
+            self.left.insert(topic.clone());
+            return;
+        }
+        let own = stamp[0] as i128 * NANOSECONDS + stamp[1] as i128;
+        let of = self.topics.entry(topic.clone()).or_default();
+        let row = of.instants.len();
+        of.instants.push(if own == 0 { i128::from(message.log_time) } else { own });
+        for (path, value) in values {
+            let column = of.values.entry(path).or_default();
+            column.resize(row, f64::NAN);
+            column.push(if value.is_finite() { value } else { f64::NAN });
+        }
+    }
+
+    /// Every topic's clock and numbers as columns; rows are messages, each topic's counted by itself.
+    pub(super) fn table(&self, path: &Path) -> Table {
+        let with_numbers = || self.topics.iter().filter(|(_, topic)| !topic.values.is_empty());
+        let rows =
+            with_numbers().map(|(_, topic)| topic).map(|topic| topic.instants.len()).max().unwrap_or(0);
+        let mut notes = vec![format!("MCAP, {} messages", self.count)];
+        if let Some(reason) = &self.broken {
+            notes.push(format!("broken after them ({reason}): what precedes is used"));
+        }
+        if !self.left.is_empty() {
+            let left = self.left.iter().cloned().collect::<Vec<_>>().join(", ");
+            notes.push(format!("topics whose messages cannot be read left out: {left}"));
+        }
+        Table {
+            path: path.display().to_string(),
+            columns: with_numbers().flat_map(|(name, topic)| topic.columns(name, rows)).collect(),
+            places: (1..=rows as u64).map(Place::Row).collect(),
+            has_header: true,
+            notes,
+            ..Table::default()
+        }
+    }
+}
+
+impl Topic {
+    /// In the order of their instants, which messages may arrive out of.
+    fn columns(&self, name: &str, rows: usize) -> Vec<Column> {
+        let mut order: Vec<usize> = (0..self.instants.len()).collect();
+        order.sort_by_key(|k| self.instants[*k]);
+        let origin = order.first().map_or(0, |k| self.instants[*k]);
+        let since = |k: &usize| (self.instants[*k] - origin) as f64 / NANOSECONDS as f64;
+        let written =
+            |k: &usize| format!("{}.{:09}", self.instants[*k] / NANOSECONDS, self.instants[*k] % NANOSECONDS);
+        let filled = |values: Vec<f64>| {
+            let mut values = values;
+            values.resize(rows, f64::NAN);
+            values
+        };
+        let clock = Column {
+            kind: Kind::Stamp,
+            origin,
+            values: filled(order.iter().map(since).collect()),
+            stamps: order.iter().map(written).collect(),
+            ..empty_column(format!("{name} time"), None)
+        };
+        let numbers = self.values.iter().map(|(path, values)| Column {
+            values: filled(order.iter().map(|k| values.get(*k).copied().unwrap_or(f64::NAN)).collect()),
+            ..empty_column(format!("{name}.{path}"), None)
+        });
+        std::iter::once(clock).chain(numbers).collect()
+    }
+}

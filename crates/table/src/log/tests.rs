@@ -1,0 +1,175 @@
+use crate::signals::{ColumnNames, InputForm, Measured, Request, Sampling};
+use crate::table::TableError;
+use mcap::records::MessageHeader;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+const JOINT_STATE: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n\
+    ================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\
+    ================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+
+const ROWS: usize = 2000;
+
+/// Little-endian CDR.
+#[derive(Default)]
+struct Cdr(Vec<u8>);
+
+impl Cdr {
+    fn align(&mut self, to: usize) {
+        self.0.resize(self.0.len().next_multiple_of(to), 0);
+    }
+
+    fn u32(&mut self, x: u32) {
+        self.align(4);
+        self.0.extend(x.to_le_bytes());
+    }
+
+    fn text(&mut self, text: &str) {
+        self.u32(text.len() as u32 + 1);
+        self.0.extend(text.as_bytes());
+        self.0.push(0);
+    }
+
+    fn list(&mut self, list: &[f64]) {
+        self.u32(list.len() as u32);
+        for x in list {
+            self.align(8);
+            self.0.extend(x.to_le_bytes());
+        }
+    }
+}
+
+fn joint_state(nanoseconds: u64, position: &[f64]) -> Vec<u8> {
+    let mut cdr = Cdr::default();
+    cdr.u32((nanoseconds / 1_000_000_000) as u32);
+    cdr.u32((nanoseconds % 1_000_000_000) as u32);
+    cdr.text("base");
+    cdr.u32(position.len() as u32);
+    (0..position.len()).for_each(|k| cdr.text(&format!("joint_{k}")));
+    cdr.list(position);
+    cdr.list(&[]);
+    cdr.list(&[]);
+    [vec![0, 1, 0, 0], cdr.0].concat()
+}
+
+fn command(k: usize) -> f64 {
+    let t = 0.005 * k as f64;
+    12.0 * (5.1 * t).sin() * (0.9 * t).cos()
+}
+
+/// A log of a command and, 1.5 ms later, its state, each joint but the third at rest; a topic in words beside them.
+fn log() -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let options =
+        mcap::WriteOptions::new().chunk_size(Some(1 << 14)).compression(Some(mcap::Compression::Zstd));
+    let mut writer = options.create(&mut bytes).expect("a log");
+    let schema =
+        writer.add_schema("sensor_msgs/msg/JointState", "ros2msg", JOINT_STATE.as_bytes()).expect("a schema");
+    let words = writer.add_schema("std_msgs/msg/String", "ros2msg", b"string data\n").expect("a schema");
+    let mut channel =
+        |schema, topic: &str| writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).expect("a channel");
+    let [cmd, state, text] = [channel(schema, "/cmd"), channel(schema, "/state"), channel(words, "/log")];
+    let (mut y, first) = (0.0, 1_766_147_454_233_218_075_u64);
+    for k in 0..ROWS {
+        let at = first + 5_000_000 * k as u64;
+        let late = |k: usize| 200_000 * (k % 7) as u64;
+        let mut write = |channel_id, stamp: u64, data: Vec<u8>| {
+            let log_time = stamp + late(k);
+            let header = MessageHeader { channel_id, sequence: k as u32, log_time, publish_time: log_time };
+            writer.write_to_known_channel(&header, &data).expect("a message");
+        };
+        write(cmd, at, joint_state(at, &[0.5, 0.25, command(k)]));
+        write(state, at + 1_500_000, joint_state(at + 1_500_000, &[0.5, 0.25, y]));
+        if k.is_multiple_of(100) {
+            write(
+                text,
+                at,
+                [vec![0, 1, 0, 0], {
+                    let mut cdr = Cdr::default();
+                    cdr.text("well");
+                    cdr.0
+                }]
+                .concat(),
+            );
+        }
+        y += 0.3 * (command(k) - y);
+    }
+    writer.finish().expect("the end");
+    drop(writer);
+    bytes.into_inner()
+}
+
+/// A file of its own, removed at the end.
+struct File(PathBuf);
+
+impl File {
+    fn of(name: &str, bytes: &[u8]) -> Self {
+        let path = std::env::temp_dir().join(format!("switchback-{}-{name}.mcap", std::process::id()));
+        std::fs::write(&path, bytes).expect("a writable temporary folder");
+        Self(path)
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+fn read(file: &File, [input, output]: [Option<&str>; 2]) -> Result<Measured, Vec<TableError>> {
+    let named = |name: Option<&str>| name.map(str::to_owned);
+    let names = ColumnNames { time: None, input: named(input), output: named(output) };
+    let input_form = InputForm::CommandLine("switchback init log.mcap".to_owned());
+    let request =
+        Request { names: &names, sampling: Sampling::default(), input_form: &input_form, needs_output: true };
+    Measured::read(&file.0, request)
+}
+
+#[test]
+fn topics_are_joined_on_the_stamps_of_their_headers() {
+    let file = File::of("joined", &log());
+    for names in [[Some("/cmd.position[2]"), Some("/state.position[2]")], [None, None]] {
+        let measured = read(&file, names).expect("a good log");
+        assert!((measured.sample_time - 0.005).abs() < 1e-7, "{}", measured.sample_time);
+        assert_eq!(
+            [measured.input().label(), measured.output().unwrap().label()],
+            ["/cmd.position[2]", "/state.position[2]"]
+        );
+        // Between two commands the straight line, 1.5 ms behind the first.
+        let wanted = |k: usize| command(k) + 0.3 * (command(k + 1) - command(k));
+        assert!(measured.v.len() >= ROWS - 2);
+        let far = measured.v.iter().enumerate().find(|(k, v)| (**v - wanted(*k)).abs() > 1e-6);
+        assert_eq!(far, None, "{:?} {:?}", far.map(|(k, _)| [command(k), wanted(k)]), measured.table.notes);
+        assert!(
+            measured.table.notes.iter().any(|note| note.contains("clock of its own")),
+            "{:?}",
+            measured.table.notes
+        );
+    }
+}
+
+#[test]
+fn a_log_that_breaks_off_is_used_up_to_there() {
+    let bytes = log();
+    let file = File::of("broken", &bytes[..bytes.len() / 2]);
+    let measured = read(&file, [Some("/cmd.position[2]"), Some("/state.position[2]")]).expect("half a log");
+    assert!((ROWS / 4..ROWS).contains(&measured.v.len()), "{}", measured.v.len());
+    assert!(
+        measured.table.notes.iter().any(|note| note.contains("what precedes is used")),
+        "{:?}",
+        measured.table.notes
+    );
+    let file = File::of("torn", &bytes[..40]);
+    assert!(read(&file, [None, None]).is_err());
+}
+
+#[test]
+fn columns_are_listed_where_they_are_in_doubt() {
+    let file = File::of("listed", &log());
+    let errors = read(&file, [Some("/cmd.effort[0]"), None]).expect_err("there is no such column");
+    let Some(TableError::Data(error)) = errors.first() else { panic!("{errors:?}") };
+    let said = error.to_string();
+    for column in ["`/cmd time`, times", "`/cmd.position[2]`", "`/state.position[0]`"] {
+        assert!(said.contains(column), "{said}");
+    }
+}
