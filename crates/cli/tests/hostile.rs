@@ -370,3 +370,17 @@ fn short_records_and_records_without_noise_are_consistent_with_a_model_that_lack
         assert!(reported.contains("the records are consistent with it"), "{reported}");
     }
 }
+
+#[test]
+fn a_held_out_share_needs_no_use() {
+    let folder = Folder::with_good_rig();
+    folder.write(
+        "loop.toml",
+        "name = \"l\"\nsample_time = 1.0\norder = 1\n[[record]]\nfile = \"a.csv\"\nholdout = 0.3\n",
+    );
+    folder.write("a.csv", &loop_record(400, 0.0, |_, v, y| (v, y)));
+    let output = folder.switchback(&["identify", "loop.toml", "--json"]).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    assert_eq!(page["fit_percent"].as_object().map(|by_record| by_record.len()), Some(2), "{page:#}");
+}

@@ -4,7 +4,7 @@ use super::{Direction, ExcitationError, PulseExperiment, Reversals, StepExperime
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use switchback_model::hysteresis::Interval;
-use switchback_model::rig::{Role, Usage};
+use switchback_model::rig::{Role, Usage, samples_needed};
 
 /// The inputs of a measuring dataset, one record after the other.
 ///
@@ -103,10 +103,10 @@ impl Dataset {
         (PULSE_SHARE * total / self.pulses[0].period() as f64).floor().max(0.0) as usize
     }
 
-    /// Samples of a step, of the free and of the held-out record, the first one apart.
+    /// Samples of a step, of the free and of the held-out record, the first one apart: none is too short to be read again.
     fn lengths(&self) -> [usize; 3] {
-        let n = self.samples();
-        [n.div_ceil(6), (2 * n).div_ceil(3), n.div_ceil(3)]
+        let (n, fewest) = (self.samples(), samples_needed(Some(self.pulses[0].order())));
+        [n.div_ceil(6), (2 * n).div_ceil(3), n.div_ceil(3)].map(|samples| samples.max(fewest))
     }
 
     /// Every record, in the order in which to play them.
@@ -151,6 +151,17 @@ mod tests {
             let longer = plan.clone().with_periods(periods + 1).unwrap();
             let filled = plan.clone().with_periods(periods).unwrap();
             assert!(filled.total() as f64 <= total + 10.0 && longer.total() as f64 > total);
+        }
+    }
+
+    #[test]
+    fn no_record_is_shorter_than_is_read() {
+        for (order, points) in (1..=20).flat_map(|order| [1, 2, 8].map(|points| (order, points))) {
+            let plan = Dataset::new(Interval::new(-1.0, 2.0).unwrap(), order, points, 3).unwrap();
+            for record in plan.records() {
+                assert!(record.v.len() > samples_needed(Some(order)), "{}: {}", record.name, record.v.len());
+            }
+            assert_eq!(plan.total(), plan.records().iter().map(|r| r.v.len()).sum::<usize>());
         }
     }
 

@@ -10,9 +10,9 @@ use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path};
 use switchback_model::Record;
-use switchback_model::rig::{Rig, RigRecord, Role, Usage};
+use switchback_model::rig::{Rig, RigRecord, Role, Usage, samples_needed};
 use switchback_table::signals::{
-    ColumnNames, InputForm, Measured, NO_TIME, Request, Sampling, samples_needed,
+    ColumnNames, InputForm, Measured, NO_TIME, Request, Sampling,
 };
 use switchback_table::table::{Column, DataError, DataProblem, Table};
 

@@ -221,7 +221,9 @@ fn planned(file: &TomlFile, record: &Spanned<WireRecord>) -> (PlannedRecord, Ran
 fn record_faults(file: &TomlFile, record: &Spanned<WireRecord>, keys: &Keys) -> Vec<TomlError> {
     let wire = record.get_ref();
     let mut problems = Vec::new();
-    for (key, is_there) in [("file", wire.file.is_some()), ("use", wire.usage.is_some())] {
+    for (key, is_there) in
+        [("file", wire.file.is_some()), ("use", wire.usage.is_some() || wire.holdout.is_some())]
+    {
         if !is_there && keys.lacks(key) {
             problems.push(check::missing(file, record.span(), key));
         }

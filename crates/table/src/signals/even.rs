@@ -6,7 +6,7 @@ use super::counter::Counter;
 use super::instants::{Instants, Written};
 use super::names::{Between, NO_TIME};
 use super::request::Request;
-use super::samples_needed::samples_needed;
+use switchback_model::rig::samples_needed;
 use super::sampling::{APART, Fault, JITTER, Stamps, nice, resolution};
 use super::select::Selection;
 use super::taken::Series;
