@@ -206,3 +206,56 @@ fn what_slurm_merges_are_the_bytes_of_one_run() {
         assert!(files(&folder.path(name)) == files(&folder.path(&whole)), "{name}: another report");
     }
 }
+
+#[test]
+fn names_and_options_are_words_whatever_they_hold() {
+    let names = [
+        "a\r\ntouch PWNED\n#",
+        "a\n",
+        "$(touch PWNED)",
+        "`touch PWNED`",
+        "a'b",
+        "'; touch PWNED; '",
+        "\u{1b}[2J",
+        "a\u{202e}b",
+        "-a",
+        "\u{9b}31m",
+        "$'\\n'",
+        "\\",
+        "a b",
+        "*",
+        "!!",
+        "\u{7f}",
+    ];
+    for (k, name) in names.into_iter().enumerate() {
+        let folder = Folder::with_good_rig();
+        let file = format!("{name}.toml");
+        folder.write(&file, STUDY);
+        let (engine, more) = if k % 2 == 0 {
+            ("--slurm", format!("--partition={name}"))
+        } else {
+            ("--hq", "--tasks=24".to_owned())
+        };
+        let output = folder.switchback(&["launch", engine, &more, "--", &file]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{name:?}: {}", String::from_utf8_lossy(&output.stderr));
+        let script = String::from_utf8(output.stdout).expect("UTF-8");
+        let is_obeyed = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+        assert!(!script.contains(is_obeyed), "{script}");
+        folder.write("launch.sh", &script);
+        let in_bash = |arguments: &[&str]| {
+            Command::new("bash").args(arguments).current_dir(folder.path(".")).output().expect("bash")
+        };
+        let missing = in_bash(&["launch.sh", "missing", "1"]);
+        assert_eq!(
+            String::from_utf8_lossy(&missing.stdout),
+            "1-24\n",
+            "{}",
+            String::from_utf8_lossy(&missing.stderr)
+        );
+        assert!(!folder.path("PWNED").exists(), "{script}");
+        let head = script.split("\n\n").nth(1).expect("its variables");
+        let shown = in_bash(&["-c", &format!("{head}\nprintf %s \"$scenario\"")]);
+        let given = fs::canonicalize(folder.path(&file)).expect("it is there");
+        assert_eq!(String::from_utf8_lossy(&shown.stdout), given.display().to_string());
+    }
+}

@@ -3,7 +3,7 @@
 use miette::Diagnostic;
 use std::path::Path;
 use switchback_io::input::FileKind;
-use switchback_io::rig::in_shell;
+use switchback_io::output::path_in_shell;
 use thiserror::Error;
 
 /// A file of another kind was given.
@@ -22,7 +22,7 @@ pub struct OtherKind {
 /// [`OtherKind`] for any of them.
 pub fn refuse_other_kinds(file: &Path) -> Result<(), OtherKind> {
     let path = file.display().to_string();
-    let shown = in_shell(&path);
+    let shown = path_in_shell(file);
     let (kind, remedy) = match FileKind::of(file) {
         Some(FileKind::Data) => ("data", format!("`switchback gap {shown}`")),
         Some(FileKind::Rig) => ("a rig", format!("`switchback gap {shown}`")),

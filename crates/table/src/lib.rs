@@ -4,6 +4,7 @@ mod closest;
 mod file_error;
 mod log;
 mod mat;
+pub mod shell;
 pub mod signals;
 pub mod stream;
 pub mod table;

@@ -9,8 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf, absolute};
 use std::process::Command;
 use switchback_io::input::stream;
-use switchback_io::output::print;
-use switchback_io::rig::in_shell;
+use switchback_io::output::{in_shell, path_in_shell, print};
 use switchback_io::values::whole;
 use switchback_lab::examination::{self, Design, design_of};
 use switchback_study::refuse_other_kinds;
@@ -96,7 +95,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let place = launch.work.join(SCRIPT);
     std::fs::create_dir_all(&launch.work).into_diagnostic()?;
     args.force.claim_file(Some(&place), &[])?.into_iter().try_for_each(|file| file.commit(script.clone()))?;
-    let script = in_shell(&place.display().to_string());
+    let script = path_in_shell(&place);
     let status = Command::new("bash").arg(&place).status();
     let status = status.map_err(|source| SubmitError::NotRun { script: script.clone(), source })?;
     match status.code() {

@@ -10,7 +10,7 @@ pub(crate) use time_limit::TimeLimit;
 
 use std::fmt::Write;
 use std::path::PathBuf;
-use switchback_io::rig::in_shell;
+use switchback_io::output::{in_shell, path_in_shell};
 
 /// What runs the parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,12 +80,12 @@ impl Launch {
     fn header(&self) -> String {
         let mut text = format!(
             "#!/bin/bash\n# {} in {} parts. Written by `{}`; change it as you like, and run it where `{}` is.\n\n",
-            self.name,
+            in_shell(&self.name),
             self.parts,
             self.command,
             self.engine.submits_by()
         );
-        let path = |path: &PathBuf| in_shell(&path.display().to_string());
+        let path = |path: &PathBuf| path_in_shell(path);
         let options: Vec<String> = self.options().iter().map(|option| in_shell(option)).collect();
         let of_all = [
             ("switchback", path(&self.program)),

@@ -5,7 +5,7 @@
 # Submits the parts that are missing as job arrays, no larger than the site allows, and the merge behind them.
 submit() {
   local most first array arrays=() behind=() merge busy
-  busy=$(squeue --me --noheader --name="$name,$name-merge" --format="%F|%k" | awk -F "|" -v place="$place" '$2 == place { print $1 }' | sort -u)
+  busy=$(squeue --me --noheader --name="$name,$name-merge" --format="%F|%k" | place=$place awk -F "|" '$2 == ENVIRON["place"] { print $1 }' | sort -u)
   if [ -n "$busy" ]; then
     echo "jobs of this round are under way already:" $busy "- wait for them, or scancel them first" >&2
     return 2

@@ -10,7 +10,7 @@
 //! | `verify` | the check that a folder's files are those of one run |
 //! | `disk`, `faults` | the calls that change the disk, and the means of tests to make them fail |
 //! | `schema` | JSON Schemas of what is written |
-//! | `text`, `plain`, `terminal`, `sha256` | formats of text, failures as text, standard output and error, hashes |
+//! | `text`, `plain`, `shell`, `terminal`, `sha256` | formats of text, failures as text, words of a command line, standard output and error, hashes |
 
 mod artefacts;
 mod disk;
@@ -37,6 +37,7 @@ pub use folder::{FolderError, OutputFolder};
 pub use plain::{Diagnostic, plain};
 pub use schema::{schema, schema_text, stamped_schema};
 pub use sha256::sha256;
+pub use switchback_table::shell::{in_shell, path_in_shell};
 pub use staging::abandon;
 pub use terminal::{note, print};
 pub use text::{columns, csv_cell, markdown, markdown_code, markdown_text, stamped, visible};

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write;
+use switchback_table::shell::is_obeyed;
 
 /// Columns padded to their widest cell: the first to the left, the others to the right, no blanks at the end of a line.
 pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
@@ -84,11 +85,6 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     let shown =
         text.char_indices().map(|(k, c)| if !is_obeyed(c) || is_line_end(k) { c } else { picture(c) });
     Cow::Owned(shown.collect())
-}
-
-fn is_obeyed(c: char) -> bool {
-    let is_control = c.is_control() && c != '\n' && c != '\t';
-    is_control || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}')
 }
 
 fn picture(c: char) -> char {

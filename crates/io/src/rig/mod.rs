@@ -59,7 +59,6 @@ pub use switchback_table::signals::ColumnNames;
 pub use switchback_table::signals::InputForm;
 pub use switchback_table::signals::NO_TIME;
 pub use switchback_table::signals::Sampling;
-pub use switchback_table::signals::in_shell;
 pub use switchback_table::table::Cells;
 pub use write::RIG_FILE;
 pub use write::artefacts;

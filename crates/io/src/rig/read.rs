@@ -6,10 +6,11 @@ use super::plan::{Plan, PlannedRecord};
 use super::problem::{RigError, RigProblem};
 use super::wire::{WireColumns, WireRecord, WireRig};
 use crate::input::{FileError, FileKind, TomlError, TomlFile, closest, stream};
+use crate::output::path_in_shell;
 use std::ops::Range;
 use std::path::Path;
 use switchback_model::rig::{Rig, Usage};
-use switchback_table::signals::{ColumnNames, InputForm, Sampling, in_shell};
+use switchback_table::signals::{ColumnNames, InputForm, Sampling};
 use switchback_table::table::DataProblem;
 use toml::Spanned;
 
@@ -182,8 +183,7 @@ impl Keys {
 
 /// A file of the wrong kind is reported as such, rather than by its first unknown key.
 fn refuse_other_kinds(file: &TomlFile) -> Result<(), TomlError> {
-    let path = file.path().display().to_string();
-    let shown = in_shell(&path);
+    let shown = path_in_shell(file.path());
     let (kind, remedy) = match FileKind::of(file.path()) {
         Some(FileKind::Scenario) => ("a scenario", format!("run a scenario with `switchback {shown}`")),
         Some(FileKind::Data) => (

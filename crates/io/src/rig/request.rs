@@ -6,10 +6,11 @@ use super::problem::{RigError, RigProblem};
 use super::read::{load, load_plan};
 use super::survey::{self, Survey};
 use crate::input::{FileKind, stream};
+use crate::output::{in_shell, path_in_shell};
 use crate::values::is_positive;
 use std::path::{Component, Path, PathBuf};
 use switchback_model::rig::{Role, Usage};
-use switchback_table::signals::{Between, ColumnNames, InputForm, NO_TIME, Sampling, in_shell};
+use switchback_table::signals::{Between, ColumnNames, InputForm, NO_TIME, Sampling};
 
 /// Files of measurements and how to read them, or one rig file, which says for itself what the other fields would.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -211,7 +212,7 @@ impl Request {
     /// The command line as given, so that a remedy can be typed as it stands.
     fn command(&self, verb: &str) -> String {
         let mut words = vec!["switchback".to_owned(), verb.to_owned()];
-        words.extend(self.data.iter().map(|path| in_shell(&path.display().to_string())));
+        words.extend(self.data.iter().map(|path| path_in_shell(path)));
         let number = |x: Option<f64>| x.map(|x| x.to_string());
         let flags = [
             ("--time", self.columns.time.clone().filter(|name| name == NO_TIME)),

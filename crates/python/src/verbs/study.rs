@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use switchback_io::output::Artefacts;
-use switchback_io::rig::in_shell;
+use switchback_io::output::path_in_shell;
 use switchback_io::threads::Threads;
 use switchback_lab::examination::design_of;
 use switchback_report::study as report;
@@ -55,7 +55,7 @@ fn refuse_examinations(file: &Path) -> Result<(), Refusal> {
     let path = file.display().to_string();
     Err(Refusal::new(format!(
         "{path}: this is {kind}, which only the command line runs\nhelp: it seals its rigs in a folder: run it with `switchback {}`",
-        in_shell(&path)
+        path_in_shell(file)
     )))
 }
 

@@ -1,5 +1,7 @@
 //! Remedies in the terms of whoever gave the plan.
 
+use crate::shell::in_shell;
+
 /// How the plan was given.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum InputForm {
@@ -175,14 +177,4 @@ impl InputForm {
 /// Four digits of a rate.
 fn short(rate: f64) -> f64 {
     format!("{rate:.3e}").parse().unwrap_or(rate)
-}
-
-/// A word as a shell takes it.
-pub fn in_shell(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "._-/+:".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }

@@ -24,7 +24,6 @@ mod words;
 
 pub use clock_source::ClockSource;
 pub use input_form::InputForm;
-pub use input_form::in_shell;
 pub use measured::Measured;
 pub use names::Between;
 pub use names::ColumnNames;
