@@ -372,6 +372,46 @@ fn short_records_and_records_without_noise_are_consistent_with_a_model_that_lack
 }
 
 #[test]
+fn texts_open_no_links_in_a_report() {
+    let folder = Folder::with_good_rig();
+    let links = "[x](javascript:alert(1)) ![y](http://a/b) <javascript:b> \\\\[z](c)";
+    let text =
+        STUDY.replace("\"Is it", &format!("\"{links} Is it")).replace("\"spring\"", "\"[s](javascript:d)\"");
+    folder.write("a.toml", &text);
+    assert_eq!(run(&folder, &["a.toml", "--out", "out", "--quiet"]).0, Some(0));
+    let page = fs::read_to_string(folder.path("out/report.md")).expect("a report");
+    let outside: String = page.split("```").step_by(2).collect();
+    assert!(outside.contains("&#91;x](javascript:alert(1))"), "{outside}");
+    for open in ["[x]", "[y]", "[z]", "[s]", "<javascript"] {
+        assert!(!outside.contains(open), "{open}: {outside}");
+    }
+}
+
+#[test]
+fn numbers_far_from_one_have_an_exponent() {
+    for (of_v, of_y) in [(1e150, 1.0), (1e-200, 1e120), (1.0, 1e-150)] {
+        let folder = Folder::with_good_rig();
+        folder.write("loop.toml", LOOP);
+        for (name, phase) in [("a.csv", 0.0), ("b.csv", 1.0)] {
+            folder.write(name, &loop_record(300, phase, |_, v, y| (of_v * v, of_y * y)));
+        }
+        let output = folder.switchback(&["identify", "loop.toml", "--out", "out"]).output().expect("it runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let mut texts = vec![("stdout".to_owned(), output.stdout), ("stderr".to_owned(), output.stderr)];
+        let names = crate::common::listing(&folder.path("out"));
+        texts.extend(names.into_iter().map(|name| {
+            let bytes = fs::read(folder.path("out").join(&name)).expect("a file");
+            (name, bytes)
+        }));
+        for (name, bytes) in texts {
+            let longest = bytes.split(|byte| !byte.is_ascii_digit()).map(<[u8]>::len).max().unwrap_or(0);
+            // A hash has sixty-four.
+            assert!(longest < 65, "{name} has a number of {longest} digits");
+        }
+    }
+}
+
+#[test]
 fn a_held_out_share_needs_no_use() {
     let folder = Folder::with_good_rig();
     folder.write(

@@ -201,7 +201,11 @@ fn labels(edges: &[f64], unit: CellUnit) -> Vec<(String, Option<CellInterval>)> 
         true => (3.0 - narrowest.log10().floor()).clamp(4.0, 300.0) as usize,
         false => 4,
     };
-    let reported = |x: f64| format!("{x:.decimals$}");
+    // Far from 1 the digits before or behind the point would be hundreds.
+    let reported = |x: f64| match format!("{x:.decimals$}") {
+        long if long.len() > 60 => format!("{x:.16e}"),
+        text => text,
+    };
     // Label and figures say the same.
     let figure = |x: f64| reported(x).parse().unwrap_or(x);
     let cell = |w: &[f64]| {

@@ -4,7 +4,7 @@ use super::Run;
 use crate::diagnosis::Report;
 use crate::identification::Identification;
 use crate::input::json_file::JsonError;
-use crate::output::csv_cell;
+use crate::output::{csv_cell, number};
 use std::fmt::Write;
 use std::path::Path;
 use switchback_diagnose::PortableModel;
@@ -112,14 +112,15 @@ impl Series {
         let mut text = format!("record,use,t,v,y,{},{}\n", self.names.join(","), bands.join(","));
         let cell = |text: &mut String, column: Option<&Vec<f64>>, t: usize| {
             let _ = match column {
-                Some(column) => write!(text, ",{}", column[t]),
+                Some(column) => write!(text, ",{}", number(column[t])),
                 None => write!(text, ","),
             };
         };
         for record in &self.records {
             let name = quoted(&csv_cell(&record.record));
             for (t, (v, y)) in record.v.iter().zip(&record.y).enumerate() {
-                let _ = write!(text, "{name},{},{},{v},{y}", record.usage, record.t[t]);
+                let (at, v, y) = (number(record.t[t]), number(*v), number(*y));
+                let _ = write!(text, "{name},{},{at},{v},{y}", record.usage);
                 for run in &record.runs {
                     cell(&mut text, run.as_ref().map(|run| &run.y), t);
                 }

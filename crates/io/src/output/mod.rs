@@ -40,6 +40,6 @@ pub use sha256::sha256;
 pub use switchback_table::shell::{in_shell, path_in_shell};
 pub use staging::abandon;
 pub use terminal::{note, print};
-pub use text::{columns, csv_cell, markdown, markdown_code, markdown_text, stamped, visible};
+pub use text::{columns, csv_cell, markdown, markdown_code, markdown_text, number, stamped, visible};
 pub use verify::{NotWhole, verify};
 pub use wrapped::wrapped;

@@ -20,15 +20,15 @@ pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
     text
 }
 
-/// A name in Markdown, tables and headings included, whose signs open no HTML, cell or code.
+/// A name in Markdown, tables and headings included, whose signs open no HTML, link, cell or code.
 pub fn markdown(name: &str) -> String {
-    let one_line = name.replace(['\n', '\r'], " ");
-    one_line.replace('&', "&amp;").replace('<', "&lt;").replace('|', "\\|").replace('`', "\\`")
+    let one_line = name.replace(['\n', '\r'], " ").replace('&', "&amp;");
+    markdown_text(&one_line).replace('|', "\\|").replace('`', "\\`")
 }
 
-/// A text in Markdown that may be formatted, but contains no HTML.
+/// A text in Markdown that may be formatted, but contains no HTML and no link: brackets open neither links nor images, nor do they define any.
 pub fn markdown_text(text: &str) -> String {
-    text.replace('<', "&lt;")
+    text.replace('<', "&lt;").replace('[', "&#91;")
 }
 
 /// Code within a line of Markdown, with any characters: CommonMark 0.31, section 6.1.
@@ -43,6 +43,22 @@ pub fn markdown_code(code: &str) -> String {
 pub fn csv_cell(cell: &str) -> String {
     let is_formula = cell.starts_with(['=', '+', '-', '@', '\t', '\r']) && cell.len() > 1;
     if is_formula && cell.parse::<f64>().is_err() { format!("'{cell}") } else { cell.to_owned() }
+}
+
+/// Letters of a number that are written without an exponent.
+const LONG_NUMBER: usize = 60;
+
+/// A number as text that is read back as the same: with an exponent where it would be long without.
+///
+/// ```
+/// # use switchback_io::output::number;
+/// assert_eq!((number(0.1).as_str(), number(-2.5e300).as_str()), ("0.1", "-2.5e300"));
+/// ```
+pub fn number(x: f64) -> String {
+    match x.to_string() {
+        long if long.len() > LONG_NUMBER => format!("{x:e}"),
+        text => text,
+    }
 }
 
 /// An object behind the name and version of its layout.
@@ -104,6 +120,17 @@ mod tests {
         assert_eq!(markdown("a <b> | `c` & d"), "a &lt;b> \\| \\`c\\` &amp; d");
         assert_eq!(markdown("two\nlines"), "two lines");
         assert_eq!(markdown_text("is `a` < b?"), "is `a` &lt; b?");
+        for link in [
+            "[x](javascript:alert(1))",
+            "![x](http://somewhere)",
+            "[x]: javascript:a",
+            "<javascript:a>",
+            "\\[x](a)",
+        ] {
+            for shown in [markdown(link), markdown_text(link)] {
+                assert!(!shown.contains(['[', '<']), "{shown}");
+            }
+        }
         assert_eq!(markdown_code("switchback a.toml"), "`switchback a.toml`");
         assert_eq!(markdown_code("a`b"), "`` a`b ``");
     }

@@ -1,6 +1,7 @@
 //! Tables that a reader may sort.
 
 use maud::{Markup, html};
+use switchback_io::output::number;
 
 /// A cell: what is read, and the number that it is sorted by.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +88,7 @@ impl Table {
                     tbody {
                         @for row in &self.rows {
                             tr { @for (column, cell) in row.iter().enumerate() {
-                                td class=[is_numeric(column).then_some("n")] data-v=[cell.number] { (cell.text) }
+                                td class=[is_numeric(column).then_some("n")] data-v=[cell.number.map(number)] { (cell.text) }
                             } }
                         }
                     }

@@ -1,6 +1,7 @@
 //! Axes: from values to places, and the ticks between.
 
 use super::style::{minus, percent, plain, power_of_ten};
+use switchback_io::output::number;
 
 /// An axis from `low` to `high`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,7 +111,7 @@ impl Axis {
             Scale::Linear | Scale::Percent | Scale::Rows => "linear",
             Scale::Decades | Scale::Doublings => "logarithmic",
         };
-        format!("{scale} {} {}", self.low, self.high)
+        format!("{scale} {} {}", number(self.low), number(self.high))
     }
 
     /// Whether a value lies between the ends.
@@ -184,13 +185,19 @@ impl Axis {
         let decimals = |step: f64| (-step.log10().floor()).max(0.0) as usize;
         let label = |x: f64| match self.scale {
             Scale::Percent => percent(x, decimals(100.0 * step)),
-            _ => minus(&format!("{x:.*}", decimals(step))),
+            _ => match format!("{x:.*}", decimals(step)) {
+                long if long.len() > LONGEST_LABEL => minus(&format!("{x:.3e}")),
+                label => minus(&label),
+            },
         };
         let (first, last) = ((self.low / step).ceil() as i64, (self.high / step).floor() as i64);
         let tick = |at: f64| Tick { at, label: Some(label(at)) };
         (first..=last).map(|k| tick(k as f64 * step)).collect()
     }
 }
+
+/// Letters of a label beyond which it gets an exponent.
+const LONGEST_LABEL: usize = 20;
 
 fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values

@@ -3,7 +3,7 @@
 use super::Plan;
 use std::fmt::Write;
 use switchback_identify::excitation::PlannedRecord;
-use switchback_io::output::Artefacts;
+use switchback_io::output::{Artefacts, number};
 use switchback_io::rig::RIG_FILE;
 
 /// One CSV a record, with the columns `t` (s) and `v` (input units), and the `rig.toml` that names them all.
@@ -22,7 +22,7 @@ fn rows(record: &PlannedRecord, sample_time: f64) -> String {
     for (k, v) in record.v.iter().enumerate() {
         // Twelve digits drop what rounding left of the product, and no meaning.
         let stamp: f64 = format!("{:.11e}", k as f64 * sample_time).parse().unwrap_or_default();
-        let _ = writeln!(csv, "{stamp},{v}");
+        let _ = writeln!(csv, "{},{}", number(stamp), number(*v));
     }
     csv
 }

@@ -5,6 +5,7 @@ use crate::diagnosis::probability;
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
 use switchback_io::diagnosis::{closed_percent, digits};
+use switchback_io::output::number;
 
 /// A row a candidate; then what each saves by how far ahead it predicts; then the pair and what the verdict rests on, where there are.
 pub(super) fn candidates(gap: &GapFile) -> Markup {
@@ -118,7 +119,7 @@ fn gains(gap: &GapFile) -> Markup {
                             td { (candidate.effect.replace('_', " ")) }
                             @for h in &horizons {
                                 @match candidate.gains.iter().find(|gain| gain.samples == *h) {
-                                    Some(gain) => td class="n" data-v=(gain.share) {
+                                    Some(gain) => td class="n" data-v=(number(gain.share)) {
                                         (percent(gain.share)) " (" (digits(gain.certainty, 2)) " se)"
                                     },
                                     None => td class="n" { "–" },
