@@ -224,3 +224,21 @@ methods = ["free"]
         }
     }
 }
+
+/// Orders up to six have code of their own; what is larger goes one by one.
+#[test]
+fn every_order_comes_out_the_same_by_every_designed_method() {
+    for order in 1..=20 {
+        let a: Vec<f64> = (0..order).map(|k| if k % 2 == 0 { -0.3 } else { 0.2 } / order as f64).collect();
+        let b: Vec<f64> = (0..order).map(|k| 0.1 + 0.02 * k as f64).collect();
+        let text = format!(
+            "study = \"consistency\"\nquestion = \"?\"\nseed = 1\nreplicates = 3\n[system]\na = {a:?}\nb = {b:?}\n\
+             interval = [-40.0, 40.0]\n[[border]]\nname = \"h\"\nkind = \"relay\"\nlow = 0.0\nhigh = 1.0\n\
+             ascending_threshold = 1.0\ndescending_threshold = -1.0\n[sweep]\nnoise = [0.01]\nsamples = [1500]\npoints = [2]\n\
+             methods = [\"paper-descendant\", \"paper-ascendant\", \"joint\", \"efficient\", \"instrumental\", \"memoryless\"]\n"
+        );
+        both_agree(
+            &Scenario::parse("order.toml", &text).unwrap_or_else(|error| panic!("order {order}: {error}")),
+        );
+    }
+}

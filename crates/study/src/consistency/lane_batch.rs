@@ -91,7 +91,10 @@ impl Place<'_> {
         }
         for (i, noise) in noise.iter().enumerate() {
             let solved = array::from_fn(|l| noise.chosen[l] && is_sound(i, l));
-            sums.add(noise.first, &method_case.truth, errors[i], &solved);
+            // Of an order without compiled lanes none are solved, and there is nothing to add.
+            if solved.contains(&true) {
+                sums.add(noise.first, &method_case.truth, errors[i], &solved);
+            }
             for l in (0..LANES).filter(|&l| noise.chosen[l] && !is_sound(i, l)) {
                 let replicate = noise.first + l as u32;
                 let outcome = |side: &Side| {
