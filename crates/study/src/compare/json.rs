@@ -20,7 +20,7 @@ struct ComparisonFile<'a> {
     beyond_chance: Vec<DifferenceFile<'a>>,
     /// Whether every figure is the same.
     identical: bool,
-    /// Truth, theory or bound that differ.
+    /// Differences that chance does not explain: of the study, the truth, theory or bound, of what was judged, or made of equal figures.
     known: &'a [String],
     /// Largest difference in standard errors; null where it is infinite, both figures being exact and different.
     #[schemars(with = "Option<f64>", range(min = 0))]
@@ -33,6 +33,8 @@ struct ComparisonFile<'a> {
     only_baseline: &'a [String],
     /// Figures that the first lacks.
     only_new: &'a [String],
+    /// Differences that two runs of one study may have: seed, replicates, what was made of other figures.
+    runs: &'a [String],
     /// What chance stays below.
     #[schemars(range(min = 0))]
     threshold: f64,
@@ -88,6 +90,7 @@ pub fn json(comparison: &Comparison, baseline: &Results, new: &Results) -> Strin
         new: origin(new),
         only_baseline: &comparison.only_baseline,
         only_new: &comparison.only_new,
+        runs: &comparison.runs,
         threshold: comparison.threshold,
     };
     stamped(SCHEMA, &page)

@@ -1,5 +1,6 @@
 //! Matching measures and judging their differences.
 
+use super::beside::beside;
 use crate::results::{Cell, Measured, Parameter, Results, Series};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -12,8 +13,11 @@ pub struct Comparison {
     pub only_baseline: Vec<String>,
     /// Cells, parameters and measures of the new table that the baseline lacks.
     pub only_new: Vec<String>,
-    /// What no noise changes and is not the same: the truth, what theory and bound say, where a border point lies.
+    /// What no noise changes and is not the same: the study, the truth, what theory and bound say, where a border point lies, what was judged; and
+    /// what was made of equal measures.
     pub known: Vec<String>,
+    /// What differs as it may between two runs of one study: the seed, the number of replicates, what was made of other measures.
+    pub runs: Vec<String>,
     /// Largest |z| that chance explains among so many differences.
     pub threshold: f64,
 }
@@ -47,7 +51,7 @@ pub struct Difference {
 /// Chance of calling any difference real when all are chance.
 const LEVEL: f64 = 0.01;
 
-/// Compares every measure that both tables hold.
+/// Compares every measure that both tables hold, and all else beside them.
 ///
 /// The threshold is Šidák's: with K differences, `|z| ≤ Φ⁻¹(½ + ½(1 − 0.01)^(1/K))` for all of them with probability
 /// at least 99 % if nothing changed and both tables have independent noise. Differences of one cell are correlated, and so are cells that share their noise; the threshold
@@ -63,7 +67,10 @@ pub fn compare(baseline: &Results, new: &Results) -> Comparison {
     }
     let (only_baseline, only_new) = (lacking(baseline, new), lacking(new, baseline));
     let threshold = sidak(differences.len());
-    Comparison { differences, only_baseline, only_new, known, threshold }
+    let is_same = differences.iter().all(|d: &Difference| d.z == 0.0);
+    let beside = beside(baseline, new, (is_same, rounding, threshold));
+    known.extend(beside.known);
+    Comparison { differences, only_baseline, only_new, known, runs: beside.runs, threshold }
 }
 
 impl Comparison {
@@ -80,9 +87,9 @@ impl Comparison {
         self.holds_the_same() && self.beyond_chance().is_empty()
     }
 
-    /// Whether, besides, every measure is the same to the last digit.
+    /// Whether, besides, the runs are the same, and every measure to the last digit.
     pub(crate) fn identical(&self) -> bool {
-        self.holds_the_same() && self.differences.iter().all(|d| d.baseline == d.new)
+        self.holds_the_same() && self.runs.is_empty() && self.differences.iter().all(|d| d.baseline == d.new)
     }
 
     fn holds_the_same(&self) -> bool {

@@ -20,7 +20,8 @@ pub fn summary(comparison: &Comparison, baseline: &Results, new: &Results) -> St
     listed(&mut lines, "beyond chance", &beyond.iter().map(|d| reported(d)).collect::<Vec<_>>());
     listed(&mut lines, "only in the baseline", &comparison.only_baseline);
     listed(&mut lines, "only in the new results", &comparison.only_new);
-    listed(&mut lines, "figures that no noise changes differ", &comparison.known);
+    listed(&mut lines, "differences that chance does not explain", &comparison.known);
+    listed(&mut lines, "differences of the runs", &comparison.runs);
     lines.push(verdict(comparison).to_owned());
     lines.join("\n") + "\n"
 }
@@ -62,7 +63,7 @@ fn verdict(comparison: &Comparison) -> &'static str {
     } else if comparison.differences.is_empty() {
         "The two have no measure in common."
     } else if !comparison.known.is_empty() {
-        "The two are of different studies: what no noise changes differs."
+        "The two are of different studies, or one is not as it was made: what chance does not explain differs."
     } else if comparison.agrees() {
         "The two agree within their Monte-Carlo errors."
     } else if comparison.beyond_chance().is_empty() {
@@ -93,7 +94,7 @@ mod tests {
 
         new.cells[0].parameters[0].truth += 5.0;
         let reported = summary(&compare(&baseline, &new), &baseline, &new);
-        assert!(reported.contains("1 figures that no noise changes differ:\n"), "{reported}");
-        assert!(reported.ends_with("what no noise changes differs.\n"), "{reported}");
+        assert!(reported.contains("1 differences that chance does not explain:\n"), "{reported}");
+        assert!(reported.ends_with("what chance does not explain differs.\n"), "{reported}");
     }
 }
