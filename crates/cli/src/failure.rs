@@ -1,9 +1,8 @@
 //! How a command ends, and how a failure is reported.
 
 use miette::Diagnostic;
-use std::io::Write;
 use std::process::ExitCode;
-use switchback_io::output::plain;
+use switchback_io::output::{note, plain};
 
 /// How a command ended that was given good input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +14,8 @@ pub(crate) enum Outcome {
     Unmet,
     /// Part of it is done and kept, and the rest is to be asked for; exit code 3.
     Stopped,
+    /// As another process did, whose exit code is passed on.
+    Of(u8),
 }
 
 /// Exit code of a process that a signal stopped: what was finished is kept.
@@ -29,9 +30,10 @@ pub(crate) fn exit_code(result: CommandResult) -> ExitCode {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::Unmet) => 1,
         Ok(Outcome::Stopped) => STOPPED,
+        Ok(Outcome::Of(code)) => code,
         Err(report) => {
             let diagnostic: &dyn Diagnostic = report.as_ref();
-            let _nobody_listens = writeln!(std::io::stderr(), "{}", plain(diagnostic).trim_end());
+            note(&format!("{}\n", plain(diagnostic).trim_end()));
             2
         }
     };

@@ -1,6 +1,8 @@
 //! Being stopped: Ctrl-C, SIGTERM, a closed terminal.
 
 use crate::failure::STOPPED;
+#[cfg(unix)]
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -32,9 +34,21 @@ pub(crate) fn install() {
         });
     };
     ctrlc::set_handler(stop).expect("no other handler of signals is installed");
+    survive_limits();
+}
+
+/// A file that would grow beyond `ulimit -f` cannot be written, as on a full disk; without this the process would end at once, and leave what is
+/// only staged.
+fn survive_limits() {
+    #[cfg(unix)]
+    {
+        use signal_hook::consts::SIGXFSZ;
+        let _the_call_reports_it_too = signal_hook::flag::register(SIGXFSZ, Arc::default());
+    }
 }
 
 fn end() -> ! {
+    switchback_host::stop();
     let _nobody_begins_to_write = abandon();
     note("\nstopped; what was finished is kept, and nothing is half-written\n");
     std::process::exit(STOPPED.into());

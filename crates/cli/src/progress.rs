@@ -6,9 +6,8 @@ pub(crate) use watch::Watch;
 
 use crate::options::Quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
-use switchback_io::output::note;
+use switchback_io::output::{is_watched, note};
 use switchback_study::consistency::Progress;
 
 /// Counts units of work and shows them on stderr.
@@ -33,7 +32,7 @@ impl Meter {
     /// A meter of anything else.
     pub(crate) fn counting(what: &'static str, quiet: Quiet) -> Self {
         let quiet = quiet.quiet;
-        let terminal = std::io::stderr().is_terminal();
+        let terminal = is_watched();
         let target =
             if quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style =

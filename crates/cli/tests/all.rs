@@ -9,6 +9,7 @@ mod cluster;
 mod command_line;
 mod common;
 mod compare;
+mod contained;
 mod control;
 mod dependencies;
 mod design;

@@ -31,7 +31,7 @@ fn refused(content: Option<&str>, reported: &str) {
 
 #[test]
 fn a_missing_file_is_refused() {
-    refused(None, "cannot be read");
+    refused(None, "no such file");
 }
 
 #[test]

@@ -177,7 +177,7 @@ fn by_hand(folder: &Folder, failure: u8, description: &str) -> Option<PathBuf> {
     Some(place)
 }
 
-fn archive(place: &Path, entries: &[(&str, Vec<u8>)]) {
+pub(crate) fn archive(place: &Path, entries: &[(&str, Vec<u8>)]) {
     let mut archive = zip::ZipWriter::new(fs::File::create(place).expect("a file"));
     for (name, bytes) in entries {
         archive.start_file(*name, zip::write::SimpleFileOptions::default()).expect("an entry");
@@ -186,7 +186,7 @@ fn archive(place: &Path, entries: &[(&str, Vec<u8>)]) {
     archive.finish().expect("an archive");
 }
 
-const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+pub(crate) const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="hand" guid="{1}">
   <CoSimulation modelIdentifier="hand"/>
   <ModelVariables>

@@ -17,6 +17,7 @@ const FLOORS: [&str; 12] = [
     "switchback-diagnose",
     "switchback-fmu",
     "switchback-io",
+    "switchback-host",
     "switchback-study",
     "switchback-lab",
     "switchback-report",

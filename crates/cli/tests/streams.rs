@@ -113,3 +113,70 @@ fn ctrl_c_ends_the_wait_for_a_stream() {
         drop(writer);
     }
 }
+
+/// What is read whole, by any verb: a pipe that nobody writes is given up, a device without end refused, and neither is kept in memory.
+#[test]
+fn no_file_is_waited_for_without_end_or_read_without_end() {
+    let folder = folder();
+    folder.write("study.toml", STUDY);
+    for line in
+        ["switchback study.toml --out study --quiet", "switchback identify rig.toml --out found --quiet"]
+    {
+        assert_eq!(bash(&folder, line).0, Some(0), "{line}");
+    }
+    assert_eq!(bash(&folder, "switchback study.toml --shard 1/2 --out part --quiet").0, Some(0));
+    let mut cases = Vec::new();
+    for source in ["fifo", "/dev/zero"] {
+        let copy = |name: &str, file: &str| {
+            let to = format!("{name}{}-{}", file.len(), source.trim_start_matches('/').replace('/', "-"));
+            assert_eq!(bash(&folder, &format!("cp -r {name} {to}")).0, Some(0));
+            let place = folder.path(&to).join(file);
+            let _where_there_is_none = std::fs::remove_file(&place);
+            let source = std::fs::canonicalize(folder.path(source)).expect("it is there");
+            std::os::unix::fs::symlink(source, place).expect("a link");
+            to
+        };
+        let report = copy("study", ".switchback.sha256");
+        let found = copy("found", ".switchback.beside.sha256");
+        let part = copy("part", "replicates.sums");
+        let label = copy("part", "part.json");
+        cases.extend([
+            format!("switchback compare {source} {source}"),
+            format!("switchback compare study {source}"),
+            format!("switchback replay {source} 0:0"),
+            format!("switchback gap rig.toml --fmu {source}"),
+            format!("switchback gap rig.toml --model {source}"),
+            format!("switchback simulate {source} descendant.csv"),
+            format!("switchback export found/model.json --to fmu --library {source} --out a.fmu"),
+            format!("switchback report {report}"),
+            format!("switchback report {found}"),
+            format!("switchback merge {part} --out merged"),
+            format!("switchback merge {label} --out merged"),
+            format!("switchback identify {source}"),
+            format!("switchback {source} --out none"),
+        ]);
+    }
+    let refused = |line: &str| {
+        // A stream is read up to 1 GiB, and copied once.
+        let (code, out, reported) = bash(&folder, &format!("ulimit -v 4000000; timeout 100 {line}"));
+        assert_eq!(code, Some(2), "{line}: {out}{reported}");
+        assert!(reported.starts_with("error: ") && reported.contains("help: "), "{line}: {reported}");
+    };
+    let (fifos, devices): (Vec<&String>, Vec<&String>) = cases.iter().partition(|line| line.contains("fifo"));
+    // Each may wait for ten seconds, and needs no memory.
+    std::thread::scope(|scope| fifos.into_iter().for_each(|line| drop(scope.spawn(|| refused(line)))));
+    // Each may take 2 GiB, and waits for nothing.
+    devices.into_iter().for_each(|line| refused(line));
+    assert!(!folder.path("merged").exists() && !folder.path("a.fmu").exists());
+}
+
+/// A limit on the size of files is a full disk, not the end of the process.
+#[test]
+fn a_file_that_grows_beyond_a_limit_leaves_nothing_staged() {
+    let folder = folder();
+    let before = listing(&folder.path("."));
+    let (code, _, reported) = bash(&folder, "ulimit -f 4; switchback identify rig.toml --quiet --out out");
+    assert_eq!(code, Some(2), "{reported}");
+    assert!(reported.contains("cannot write to this output folder"), "{reported}");
+    assert_eq!(listing(&folder.path(".")), before);
+}

@@ -2,7 +2,6 @@
 
 pub mod diagnosis;
 pub mod export;
-pub mod fmu;
 pub mod identification;
 pub mod input;
 pub mod model;

@@ -6,12 +6,12 @@
 
 use crate::consistency::{Ended, Keeper, Origin, RunState, Snapshot, Unusable};
 use miette::Diagnostic;
-use std::fs;
 use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use switchback_io::output::Disk;
+use switchback_io::input::own;
+use switchback_io::output::{Disk, make_folder, remove};
 use thiserror::Error;
 
 /// What a report keeps.
@@ -91,7 +91,7 @@ impl Checkpoint {
         let mut found = Found { run_state: begin.clone(), reported: None };
         for name in [CHECKPOINT_FILE, UNFINISHED_FILE] {
             let place = self.place.with_file_name(name);
-            let bytes = match fs::read(&place) {
+            let bytes = match own(&place) {
                 Err(error) if is_nothing(&error) => continue,
                 other => other.map_err(|source| unwritable(&place, source))?,
             };
@@ -120,7 +120,7 @@ impl Checkpoint {
     /// [`CheckpointError`] if the system refuses; what was written before is still there.
     pub(crate) fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CheckpointError> {
         let begun = Instant::now();
-        let folder = self.place.parent().map_or(Ok(()), fs::create_dir_all);
+        let folder = self.place.parent().map_or(Ok(()), make_folder);
         let written = folder.and_then(|()| self.disk.replace(&self.place, &snapshot.to_bytes(&self.origin)));
         self.last = (Instant::now(), begun.elapsed());
         written.map_err(|source| unwritable(&self.place, source))
@@ -153,7 +153,7 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError`] if the system refuses.
     pub fn close(self) -> Result<(), CheckpointError> {
-        match fs::remove_file(&self.place) {
+        match remove(&self.place) {
             Err(error) if !is_nothing(&error) => Err(unwritable(&self.place, error)),
             _ => Ok(()),
         }

@@ -8,17 +8,17 @@
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use switchback_io::output::sha256;
+use switchback_io::input::own;
+use switchback_io::output::{Growing, make_folder, overwrite, remove, sha256};
 use thiserror::Error;
 
 /// Judged rigs, in memory and on disk.
 #[derive(Debug)]
 pub struct Journal<C> {
     path: PathBuf,
-    file: File,
+    file: Growing,
     program: String,
     known: HashMap<String, C>,
     /// SHA-256 of the key file sealed last.
@@ -64,8 +64,8 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
     pub fn open(folder: &Path, program: &str) -> Result<Self, JournalError> {
         let path = folder.join("unfinished.jsonl");
         let fails = |source| JournalError { path: path.display().to_string(), source };
-        fs::create_dir_all(folder).map_err(fails)?;
-        let text = match fs::read(&path) {
+        make_folder(folder).map_err(fails)?;
+        let text = match own(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             other => other.map_err(fails)?,
         };
@@ -77,10 +77,10 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
             let source = io::Error::other("something else wrote it");
             return Err(JournalError { path: sealed.display().to_string(), source });
         }
-        let mut file = OpenOptions::new().create(true).append(true).open(&path).map_err(fails)?;
+        let mut file = Growing::open(&path).map_err(fails)?;
         if text.last().is_some_and(|last| *last != b'\n') {
             // Interrupted within a line.
-            file.write_all(b"\n").map_err(fails)?;
+            file.append(b"\n").map_err(fails)?;
         }
         // Cases hold names, which live as long as the program: so does the text, which is read once.
         let text: &'static str = String::from_utf8_lossy(&text).into_owned().leak();
@@ -101,7 +101,8 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
 
     /// The text of the key file beside the journal, if the same sources sealed it; else none.
     pub fn keys(&self) -> String {
-        let text = fs::read_to_string(self.sealed()).unwrap_or_default();
+        let text = own(&self.sealed()).unwrap_or_default();
+        let text = String::from_utf8(text).unwrap_or_default();
         if self.keys.as_ref() == Some(&sha256(&text)) { text } else { String::new() }
     }
 
@@ -113,10 +114,9 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
         let line = KeysLine { program: &self.program, keys: sha256(keys) };
         let line = serde_json::to_string(&line).expect("strings are JSON") + "\n";
         self.file
-            .write_all(line.as_bytes())
-            .and_then(|()| self.file.sync_all())
-            .and_then(|()| File::create(self.sealed()))
-            .and_then(|mut file| file.write_all(keys.as_bytes()).and_then(|()| file.sync_all()))
+            .append(line.as_bytes())
+            .and_then(|()| self.file.sync())
+            .and_then(|()| overwrite(&self.sealed(), keys.as_bytes()))
             .map_err(|source| self.error(source))
     }
 
@@ -137,7 +137,7 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
     pub fn keep(&mut self, key_line: &str, case: &C) -> Result<(), JournalError> {
         let line = Line { program: &self.program, rig: sha256(key_line), case: case.clone() };
         let line = serde_json::to_string(&line).expect("names and numbers are JSON") + "\n";
-        self.file.write_all(line.as_bytes()).map_err(|source| self.error(source))
+        self.file.append(line.as_bytes()).map_err(|source| self.error(source))
     }
 
     /// Removes it and the keys beside it: the report shows all.
@@ -146,9 +146,9 @@ impl<C: Clone + Serialize + Deserialize<'static>> Journal<C> {
     /// [`JournalError`] if the system refuses.
     pub fn close(self) -> Result<(), JournalError> {
         if self.sealed().exists() {
-            fs::remove_file(self.sealed()).map_err(|source| self.error(source))?;
+            remove(&self.sealed()).map_err(|source| self.error(source))?;
         }
-        fs::remove_file(&self.path).map_err(|source| self.error(source))
+        remove(&self.path).map_err(|source| self.error(source))
     }
 
     fn error(&self, source: io::Error) -> JournalError {

@@ -53,6 +53,24 @@ pub enum FileError {
         /// The limit.
         gibibytes: usize,
     },
+    /// It holds more than is read.
+    #[error("{path}: more than {most} bytes of it would be in memory at once")]
+    #[diagnostic(help(
+        "give the file that was meant: a table has lines, and this program writes nothing as large"
+    ))]
+    TooLong {
+        /// The path as given.
+        path: String,
+        /// The limit.
+        most: u64,
+    },
+    /// It is a pipe or a device where a file is wanted.
+    #[error("{path}: is a pipe or a device, not a file")]
+    #[diagnostic(help("give the path of a file on a disk"))]
+    NoFile {
+        /// The path as given.
+        path: String,
+    },
     /// The system refused to read it.
     #[error("{path}: cannot be read: {source}")]
     #[diagnostic(help("check that the file may be read and that its disk is present"))]

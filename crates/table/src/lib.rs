@@ -1,6 +1,7 @@
 //! Tables of measurements in any dialect, as evenly sampled signals.
 
 mod closest;
+pub mod door;
 mod file_error;
 mod log;
 mod mat;
@@ -13,6 +14,5 @@ mod text_pieces;
 
 pub use closest::closest;
 pub use file_error::FileError;
-pub use text_file::read_bytes;
 pub use text_file::read_text;
 pub use text_pieces::read_decoded;

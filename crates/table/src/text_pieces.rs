@@ -1,14 +1,17 @@
 //! A text file read piece by piece and decoded at once, so that it is never whole in memory.
 
+use super::door::open;
 use super::file_error::FileError;
 use super::stream::{self, is_stream};
-use super::text_file::open;
 use encoding_rs::{Decoder, Encoding, UTF_8, WINDOWS_1252};
 use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 16;
+
+/// Most bytes of a text that are held at once: no line is as long, and no text whose kind is asked for.
+const LONGEST: usize = 256 << 20;
 
 /// A text being read: UTF-8, UTF-16 with a byte order mark, else Windows-1252.
 pub(crate) struct TextPieces<'a> {
@@ -95,8 +98,12 @@ impl<'a> TextPieces<'a> {
     /// Appends what comes next.
     ///
     /// # Errors
-    /// [`PieceError`] where the file cannot be read on, or is not UTF-8 where that was guessed.
+    /// [`PieceError`] where the text is too long, the file cannot be read on, or is not UTF-8 where that was guessed.
     pub(crate) fn append_to(&mut self, text: &mut String) -> Result<(), PieceError> {
+        if text.len() > LONGEST {
+            let (path, most) = (self.path.clone(), LONGEST as u64);
+            return Err(PieceError::File(FileError::TooLong { path, most }));
+        }
         if self.bytes.is_empty() {
             let read = self.source.by_ref().take(PIECE as u64).read_to_end(&mut self.bytes);
             read.map_err(|source| {

@@ -10,10 +10,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 use switchback_diagnose::Effect;
 use switchback_diagnose::fitted::Shares;
+use switchback_host::{FmuError, Map, Simulator, predictions};
 use switchback_io::diagnosis::{
     self, Checked, Expectation, Report, Request, Subject, examine_watched, prior,
 };
-use switchback_io::fmu::{self, FmuError, Map, Simulator};
 use switchback_io::output::note;
 use switchback_io::rig::{self, Loaded};
 use switchback_model::rig::Rig;
@@ -57,7 +57,7 @@ pub(crate) struct Args {
 
     /// Which variables of the FMU are the input and the output, e.g. v=position,y=force; delay=1 where its output is a sample late
     /// [default: the only ones, or v and y]
-    #[arg(long, value_name = "VARIABLES", value_parser = fmu::map, requires = "fmu")]
+    #[arg(long, value_name = "VARIABLES", value_parser = switchback_host::map, requires = "fmu")]
     map: Option<Map>,
 
     /// Seconds without a sign of life after which the FMU is ended.
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
 fn simulated(args: &Args, rig: Rig) -> Result<Rig, FmuError> {
     let Some(fmu) = &args.fmu else { return Ok(rig) };
     let map = args.map.clone().unwrap_or_default();
-    fmu::predictions(rig, &Simulator { fmu, map, patience: args.patience })
+    predictions(rig, &Simulator { fmu, map, patience: args.patience })
 }
 
 /// Shows which expectations hold.

@@ -7,9 +7,8 @@ use clap::ArgGroup;
 use miette::{Diagnostic, IntoDiagnostic, miette};
 use std::io;
 use std::path::{Path, PathBuf, absolute};
-use std::process::Command;
-use switchback_io::input::stream;
-use switchback_io::output::{in_shell, path_in_shell, print};
+use switchback_io::input::{program, stream};
+use switchback_io::output::{in_shell, make_folder, path_in_shell, print, run_script};
 use switchback_io::values::whole;
 use switchback_lab::examination::{self, Design, design_of};
 use switchback_study::refuse_other_kinds;
@@ -93,10 +92,10 @@ pub(crate) fn run(args: &Args) -> CommandResult {
         return Ok(Outcome::Done);
     }
     let place = launch.work.join(SCRIPT);
-    std::fs::create_dir_all(&launch.work).into_diagnostic()?;
+    make_folder(&launch.work).into_diagnostic()?;
     args.force.claim_file(Some(&place), &[])?.into_iter().try_for_each(|file| file.commit(script.clone()))?;
     let script = path_in_shell(&place);
-    let status = Command::new("bash").arg(&place).status();
+    let status = run_script(&place);
     let status = status.map_err(|source| SubmitError::NotRun { script: script.clone(), source })?;
     match status.code() {
         Some(0) => Ok(Outcome::Done),
@@ -143,7 +142,7 @@ fn launch(args: &Args) -> miette::Result<Launch> {
     Ok(Launch {
         engine: if args.hq { Engine::HyperQueue } else { Engine::Slurm },
         command: command(args),
-        program: std::env::current_exe().into_diagnostic()?,
+        program: program().into_diagnostic()?,
         scenario: absolute(&args.scenario).into_diagnostic()?,
         name,
         parts: args.tasks as usize,

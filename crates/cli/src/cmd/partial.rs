@@ -1,9 +1,8 @@
 //! What a study or an examination amounts to that was stopped, beside the report that will be.
 
 use crate::options::Force;
-use std::fs;
 use std::path::{Path, PathBuf};
-use switchback_io::output::Artefacts;
+use switchback_io::output::{Artefacts, remove};
 
 /// Where it is written.
 pub(super) fn place(report: &Path) -> PathBuf {
@@ -17,7 +16,7 @@ pub(super) fn forget(report: &Path, files: &[&str], force: Force) {
     if let Some(folder) = claimed
         && folder.commit(&Artefacts::default()).is_ok()
     {
-        let _ = fs::remove_file(place.join(".switchback.sha256"));
-        let _ = fs::remove_dir(&place);
+        let _ = remove(&place.join(".switchback.sha256"));
+        let _ = remove(&place);
     }
 }

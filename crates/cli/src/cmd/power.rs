@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use switchback_diagnose::Settings;
 use switchback_io::diagnosis::GivenModel;
+use switchback_io::output::note;
 use switchback_io::rig::{self, Loaded};
 use switchback_io::values::whole;
 use switchback_lab::generate::EFFECTS;
@@ -95,8 +96,8 @@ fn announce(plan: &Plan, first: Duration, quiet: Quiet) {
     let seconds = first.as_secs_f64();
     let all = seconds * (plan.draws as f64 + WITH_FAULT * plan.budget() as f64);
     let reported = if all < 90.0 { format!("{all:.0} s") } else { format!("{:.0} min", all / 60.0) };
-    eprintln!(
-        "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {reported} in all (less with `--draws` or `--effects`)",
+    note(&format!(
+        "{} diagnoses at most; the first took {seconds:.1} s, with a fault they take longer: about {reported} in all (less with `--draws` or `--effects`)\n",
         plan.diagnoses()
-    );
+    ));
 }

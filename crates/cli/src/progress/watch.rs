@@ -2,9 +2,9 @@
 
 use crate::options::Quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
 use std::time::Duration;
 use switchback_identify::free::Progress;
+use switchback_io::output::is_watched;
 use switchback_io::progress::Stages;
 
 /// A line on a terminal's stderr: the stage, how many of its pieces of work are done, the time since the command began.
@@ -28,7 +28,7 @@ const MANY_PIECES: &str = "{spinner} {msg} {bar:20} {pos}/{len}, {elapsed}";
 impl Watch {
     /// A line without a stage yet; none where stderr is no terminal.
     pub(crate) fn new(quiet: Quiet) -> Self {
-        let hidden = quiet.quiet || !std::io::stderr().is_terminal();
+        let hidden = quiet.quiet || !is_watched();
         let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(0), target).with_style(style(ONE_PIECE));
         if !hidden {

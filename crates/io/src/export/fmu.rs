@@ -2,6 +2,7 @@
 
 use super::heading::{effect, name_from};
 use crate::identification::unit;
+use crate::input::{own, program};
 use crate::model::ModelFile;
 use miette::Diagnostic;
 use sha2::{Digest, Sha256};
@@ -28,6 +29,7 @@ pub enum LibraryError {
     Missing(PathBuf),
     /// It cannot be read.
     #[error("{}: {why}", .path.display())]
+    #[diagnostic(help("give the file `{}`, as cargo builds it", library_name()))]
     Unreadable {
         /// The library.
         path: PathBuf,
@@ -64,7 +66,7 @@ pub(super) fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
         Some(path) => path.to_owned(),
         None => beside_program(),
     };
-    match std::fs::read(&path) {
+    match own(&path) {
         Ok(bytes) => Ok(bytes),
         Err(why) if why.kind() == std::io::ErrorKind::NotFound => Err(LibraryError::Missing(path)),
         Err(why) => Err(LibraryError::Unreadable { path, why }),
@@ -74,10 +76,10 @@ pub(super) fn library(named: Option<&Path>) -> Result<Vec<u8>, LibraryError> {
 /// Where the library is: beside the program, or in `deps` there, where cargo leaves it that builds it for this program alone; the newer one
 /// where it is in both.
 fn beside_program() -> PathBuf {
-    let program = std::env::current_exe().unwrap_or_default();
+    let program = program().unwrap_or_default();
     let folder = program.parent().unwrap_or(Path::new(""));
     let places = [folder.join(library_name()), folder.join("deps").join(library_name())];
-    let written = |place: &&PathBuf| std::fs::metadata(place).and_then(|found| found.modified()).ok();
+    let written = |place: &&PathBuf| place.metadata().and_then(|found| found.modified()).ok();
     let newest = places.iter().filter(|place| place.is_file()).max_by_key(written);
     newest.unwrap_or(&places[0]).clone()
 }

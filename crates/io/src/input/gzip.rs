@@ -5,9 +5,10 @@ use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 use miette::Diagnostic;
 use std::ffi::OsStr;
-use std::fs::File;
-use std::io::{self, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use switchback_table::FileError;
+use switchback_table::door::read_within;
 use thiserror::Error;
 
 /// The most bytes that a compressed text may hold. Results of a study have a few million.
@@ -17,10 +18,10 @@ const LIMIT: u64 = 1 << 30;
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum GzipError {
-    /// It cannot be opened.
-    #[error("{}: cannot be read: {}", .0.display(), .1)]
-    #[diagnostic(help("check the path, and that the file may be read"))]
-    Unreadable(PathBuf, #[source] io::Error),
+    /// It cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Unreadable(#[from] FileError),
     /// It ends too early or its bytes were changed; the second value is the number of bytes of text before.
     #[error("{}: is cut off or damaged: its text cannot be read beyond byte {}", .0.display(), .1)]
     #[diagnostic(help("copy the file again from where it was taken, or run the command that wrote it"))]
@@ -43,10 +44,9 @@ pub fn is_gzip(path: &Path) -> bool {
 /// The text of a compressed file.
 ///
 /// # Errors
-/// [`GzipError`] if it cannot be opened, is damaged, or holds more than 1 GiB or no text.
+/// [`GzipError`] if it cannot be read, is damaged, or holds more than 1 GiB or no text.
 pub fn read(path: &Path) -> Result<String, GzipError> {
-    let file = File::open(path).map_err(|source| GzipError::Unreadable(path.to_owned(), source))?;
-    inflated(path, BufReader::new(file), LIMIT)
+    inflated(path, read_within(path, LIMIT)?.as_slice(), LIMIT)
 }
 
 /// The text that some bytes hold, up to a limit; `path` is what messages call them.

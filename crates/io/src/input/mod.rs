@@ -11,6 +11,7 @@ mod two_numbers;
 pub use kinds::FileKind;
 pub use switchback_table::FileError;
 pub use switchback_table::closest;
+pub use switchback_table::door::{names, own, program, read_within, regular};
 pub use switchback_table::read_text;
 pub use switchback_table::stream;
 pub use switchback_table::table::Cells;

@@ -41,4 +41,4 @@ pub use series::identified_series;
 pub(crate) use switchback_diagnose::PortableModel;
 pub use system::System;
 pub use units::UnitError;
-pub(crate) use units::same_unit;
+pub use units::same_unit;

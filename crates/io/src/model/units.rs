@@ -54,7 +54,7 @@ impl Header {
 }
 
 /// Whether two units are the same, however their letters are typed.
-pub(crate) fn same_unit(one: &str, other: &str) -> bool {
+pub fn same_unit(one: &str, other: &str) -> bool {
     plain(one) == plain(other)
 }
 

@@ -2,6 +2,7 @@
 
 use super::artefacts::Artefacts;
 use super::sha256::sha256;
+use crate::input::own;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -63,7 +64,7 @@ impl HashList {
             Err(error) => return Err(error),
         };
         match self.sum(name) {
-            Some(sum) if kind.is_file() && *sum == sha256(fs::read(&place)?) => Ok(Owner::Program),
+            Some(sum) if kind.is_file() && *sum == sha256(own(&place)?) => Ok(Owner::Program),
             Some(_) => Ok(Owner::Editor),
             None if [SUMS, BESIDE].contains(&name) => Ok(Owner::Program),
             None => Ok(Owner::Stranger),
@@ -90,7 +91,7 @@ impl HashList {
 }
 
 fn read(list: &Path) -> io::Result<BTreeMap<String, String>> {
-    match fs::read(list) {
+    match own(list) {
         Ok(bytes) => {
             let text = String::from_utf8_lossy(&bytes);
             let sums = text.lines().filter_map(|line| line.split_once("  "));

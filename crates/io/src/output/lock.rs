@@ -1,5 +1,6 @@
 //! One run at a time for each destination.
 
+use crate::input::own;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -139,7 +140,7 @@ fn is_at(_file: &File, place: &Path) -> bool {
 
 /// The process that wrote its number into a lock.
 fn process(place: &Path) -> String {
-    let number = fs::read_to_string(place).unwrap_or_default();
+    let number = own(place).ok().and_then(|number| String::from_utf8(number).ok()).unwrap_or_default();
     if number.is_empty() { "another process".to_owned() } else { format!("process {number}") }
 }
 

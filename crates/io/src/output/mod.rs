@@ -9,6 +9,7 @@
 //! | `replacement`, `moves` | the replacement of a folder by another, its undoing after a failure, its end after a kill |
 //! | `verify` | the check that a folder's files are those of one run |
 //! | `disk`, `faults` | the calls that change the disk, and the means of tests to make them fail |
+//! | `working` | files that a command keeps while it runs |
 //! | `schema` | JSON Schemas of what is written |
 //! | `text`, `plain`, `shell`, `terminal`, `sha256` | formats of text, failures as text, words of a command line, standard output and error, hashes |
 
@@ -28,6 +29,7 @@ mod staging;
 mod terminal;
 mod text;
 mod verify;
+mod working;
 mod wrapped;
 
 pub use artefacts::Artefacts;
@@ -37,9 +39,10 @@ pub use folder::{FolderError, OutputFolder};
 pub use plain::{Diagnostic, plain};
 pub use schema::{schema, schema_text, stamped_schema};
 pub use sha256::sha256;
-pub use switchback_table::shell::{in_shell, path_in_shell};
 pub use staging::abandon;
-pub use terminal::{note, print};
+pub use switchback_table::shell::{in_shell, path_in_shell};
+pub use terminal::{is_watched, note, print};
 pub use text::{columns, csv_cell, markdown, markdown_code, markdown_text, number, stamped, visible};
 pub use verify::{NotWhole, verify};
+pub use working::{Growing, make_folder, overwrite, remove, run_script};
 pub use wrapped::wrapped;

@@ -1,7 +1,7 @@
 //! Standard output and standard error.
 
 use super::text::visible;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 
 /// Prints a page on standard output. A reader that closed its end early (`| head`) needs no more of it.
 ///
@@ -19,4 +19,9 @@ pub fn print(page: &str) -> miette::Result<()> {
 /// Writes a message to standard error, made [`visible`]. The work goes on even where that terminal or pipe is closed.
 pub fn note(words: &str) {
     let _is_closed = std::io::stderr().write_all(visible(words).as_bytes());
+}
+
+/// Whether a person sees what is written to standard error.
+pub fn is_watched() -> bool {
+    std::io::stderr().is_terminal()
 }

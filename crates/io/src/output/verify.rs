@@ -17,6 +17,19 @@ pub enum NotWhole {
         /// The folder as given.
         folder: String,
     },
+    /// The list of its files cannot be read.
+    #[error(
+        "{folder}: its list of hashes, .switchback.sha256 or .switchback.beside.sha256, cannot be read: {why}"
+    )]
+    #[diagnostic(help(
+        "remove what is there in its place, and run the command that writes this folder again"
+    ))]
+    NoList {
+        /// The folder as given.
+        folder: String,
+        /// What the system said.
+        why: String,
+    },
     /// Its files do not match their list of hashes.
     #[error("{folder}: is not as it was written: {files}")]
     #[diagnostic(help(
@@ -43,7 +56,8 @@ pub fn verify(folder: &Path, is_checked: impl Fn(&str) -> bool) -> Result<(), No
     if stagings_of(folder).iter().any(|staging| is_unfinished(staging)) {
         return Err(NotWhole::Unfinished { folder: shown });
     }
-    let list = HashList::in_folder(folder).unwrap_or_default();
+    let unreadable = |why: std::io::Error| NotWhole::NoList { folder: shown.clone(), why: why.to_string() };
+    let list = HashList::in_folder(folder).map_err(unreadable)?;
     let fault = |name: &str| match list.owner(folder, name) {
         _ if !folder.join(name).exists() => Some(format!("{name} is missing")),
         Ok(Owner::Program) => None,

@@ -11,9 +11,7 @@ use std::ops::Range;
 use std::path::{Component, Path};
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage, samples_needed};
-use switchback_table::signals::{
-    ColumnNames, InputForm, Measured, NO_TIME, Request, Sampling,
-};
+use switchback_table::signals::{ColumnNames, InputForm, Measured, NO_TIME, Request, Sampling};
 use switchback_table::table::{Column, DataError, DataProblem, Table};
 
 /// A rig, with the inferred settings.

@@ -3,6 +3,7 @@
 use miette::Diagnostic;
 use std::io;
 use std::path::PathBuf;
+use switchback_io::input::FileError;
 use switchback_io::input::json_file::JsonError;
 use switchback_io::model::ModelError;
 use switchback_io::output::NotWhole;
@@ -36,6 +37,10 @@ pub enum PageError {
         /// The system's message.
         source: io::Error,
     },
+    /// A file in it cannot be read as text.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] FileError),
     /// There is no report in it.
     #[error("{}: there is no report in this folder", folder.display())]
     #[diagnostic(help("{HOLDS_A_REPORT}"))]

@@ -5,10 +5,9 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{gzip, json_file};
+use switchback_io::input::{gzip, json_file, names, read_text};
 use switchback_io::output::{Artefacts, verify};
 use switchback_study::results::{COMPRESSED, ResultsError};
 
@@ -82,20 +81,18 @@ impl Files {
             let path = path.to_owned();
             move |source| PageError::Unreadable { path, source }
         };
-        match fs::metadata(folder) {
-            Ok(found) if !found.is_dir() => return Err(PageError::IsFile { path: folder.to_owned() }),
-            Ok(_) => {}
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Err(PageError::Missing { folder: folder.to_owned() });
-            }
-            Err(error) => return Err(unreadable(folder)(error)),
+        if folder.is_file() {
+            return Err(PageError::IsFile { path: folder.to_owned() });
         }
+        let found = names(folder).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => PageError::Missing { folder: folder.to_owned() },
+            _ => unreadable(folder)(error),
+        })?;
         let mut texts = BTreeMap::new();
-        for entry in fs::read_dir(folder).map_err(unreadable(folder))? {
-            let path = entry.map_err(unreadable(folder))?.path();
-            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
-            if is_shown(&name) && name != COMPRESSED && path.is_file() {
-                texts.insert(name, fs::read_to_string(&path).map_err(unreadable(&path))?);
+        for name in found.into_iter().filter(|name| is_shown(name) && name != COMPRESSED) {
+            let path = folder.join(&name);
+            if path.is_file() {
+                texts.insert(name, read_text(&path)?);
             }
         }
         let compressed = folder.join(COMPRESSED);

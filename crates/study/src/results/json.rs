@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use switchback_io::input::gzip::{self, GzipError};
 use switchback_io::input::json_file::{self, JsonError};
+use switchback_io::input::{FileError, read_text};
 use switchback_io::output::{NotWhole, verify};
 use thiserror::Error;
 
@@ -17,13 +18,11 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ResultsError {
     /// The file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
+    #[error("{reported}")]
     #[diagnostic(help("give a results.json, or the folder of a report that holds one"))]
     Unreadable {
-        /// The path tried.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
+        /// The path, and what is wrong with it.
+        reported: FileError,
     },
     /// The compressed file gives no text.
     #[error(transparent)]
@@ -86,8 +85,7 @@ pub fn read(path: &Path) -> Result<Results, ResultsError> {
     let text = if gzip::is_gzip(&path) {
         gzip::read(&path)?
     } else {
-        std::fs::read_to_string(&path)
-            .map_err(|source| ResultsError::Unreadable { path: path.clone(), source })?
+        read_text(&path).map_err(|reported| ResultsError::Unreadable { reported })?
     };
     parse(&path, &text)
 }

@@ -3,8 +3,8 @@
 use super::cdr;
 use super::definition::Definition;
 use super::unreadable;
+use crate::door::open;
 use crate::table::{Column, Kind, Place, Table, TableError, empty_column};
-use crate::text_file::open;
 use mcap::io::MessageReader;
 use mcap::{Channel, Message};
 use std::collections::{BTreeMap, BTreeSet, HashMap};

@@ -6,13 +6,13 @@ use super::counter::Counter;
 use super::instants::{Instants, Written};
 use super::names::{Between, NO_TIME};
 use super::request::Request;
-use switchback_model::rig::samples_needed;
 use super::sampling::{APART, Fault, JITTER, Stamps, nice, resolution};
 use super::select::Selection;
 use super::taken::Series;
 use super::{faults, guess, resample};
 use crate::table::{Column, DataProblem, Kind, Place, Table};
 use std::ops::Range;
+use switchback_model::rig::samples_needed;
 
 /// A table with the parts its columns play.
 pub(super) struct Signals<'a> {

@@ -30,7 +30,7 @@ pub use memory::Cells;
 pub use places::Places;
 pub use table_error::TableError;
 
-use crate::text_file::read_bytes;
+use crate::door::{LARGEST, read_within};
 use crate::text_pieces::{PieceError, TextPieces};
 use crate::{log, mat};
 use body::Rows;
@@ -82,7 +82,7 @@ impl Table {
     pub fn read(path: &Path, least: usize) -> Result<Self, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
         if mat::is_matlab(path, pieces.first_bytes()) {
-            return mat::read(path, read_bytes(path).map_err(TableError::File)?);
+            return mat::read(path, read_within(path, LARGEST).map_err(TableError::File)?);
         }
         match Self::of_pieces(path, pieces, least) {
             Err(Unread::NotUtf8) => {

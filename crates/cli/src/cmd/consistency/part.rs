@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{FileError, read_text, stream};
+use switchback_io::input::{FileError, own, read_text, stream};
 use switchback_io::output::{Artefacts, stamped_schema};
 use switchback_io::provenance::PROVENANCE_FILE;
 use switchback_lab::examination;
@@ -111,7 +111,7 @@ impl Part {
     pub(super) fn run_state_in(&self, round: &RunState, study: &Study<'_>) -> Result<RunState, MergeError> {
         let origin = study.origin(BUILD.study_sources).of_part(self.label.shard, round);
         let folder = || self.folder.display().to_string();
-        let sums = std::fs::read(self.folder.join(CHECKPOINT_FILE));
+        let sums = own(&self.folder.join(CHECKPOINT_FILE));
         let sums = sums.map_err(|_| MergeError::NoPart { folder: folder() })?;
         let strange = |why| MergeError::Unusable { folder: folder(), why };
         round.emptied().read(&sums, &origin).map_err(strange)

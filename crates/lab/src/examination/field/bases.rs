@@ -7,9 +7,9 @@ use crate::examination::scenario::Study;
 use crate::generate::MakeError;
 use miette::Diagnostic;
 use rayon::prelude::*;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use switchback_io::input::names;
 use switchback_io::output::note;
 use switchback_io::rig::{self, RIG_FILE};
 use switchback_model::rig::Rig;
@@ -140,10 +140,9 @@ fn measured(folder: &Path) -> miette::Result<Vec<Base>> {
 /// Every rig file below a folder but those in folders called `made-…`: their rigs are made.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), BaseError> {
     let fails = |source| BaseError::Folder { folder: folder.display().to_string(), source };
-    for entry in fs::read_dir(folder).map_err(fails)? {
-        let path = entry.map_err(fails)?.path();
-        let is_made = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("made-"));
-        if !path.is_dir() || is_made {
+    for name in names(folder).map_err(fails)? {
+        let path = folder.join(&name);
+        if !path.is_dir() || name.starts_with("made-") {
             continue;
         }
         let file = path.join(RIG_FILE);

@@ -1,15 +1,15 @@
 //! `--map v=…,y=…`
 
-use super::description::{Description, Port};
-use super::error::FmuError;
-use crate::identification::unit;
-use crate::input::closest;
-use crate::model::same_unit;
+use crate::description::{Description, Port};
+use crate::error::FmuError;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
-use switchback_model::rig::Rig;
+use switchback_io::identification::unit;
+use switchback_io::input::closest;
+use switchback_io::model::same_unit;
 
 /// Which variables of an FMU are the input and the output.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Map {
     v: Option<String>,
     y: Option<String>,
@@ -20,9 +20,9 @@ pub struct Map {
 /// Parses which variables are meant.
 ///
 /// ```
-/// assert!(switchback_io::fmu::map("v=position,y=force").is_ok());
-/// assert!(switchback_io::fmu::map("y=force,delay=1").is_ok());
-/// assert!(switchback_io::fmu::map("x=position").is_err());
+/// assert!(switchback_host::map("v=position,y=force").is_ok());
+/// assert!(switchback_host::map("y=force,delay=1").is_ok());
+/// assert!(switchback_host::map("x=position").is_err());
 /// ```
 ///
 /// # Errors
@@ -55,15 +55,15 @@ pub fn map(text: &str) -> Result<Map, String> {
 
 /// The variables that are played and read.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Ports {
-    pub(super) input: Port,
-    pub(super) output: Port,
-    pub(super) delay: usize,
+pub(crate) struct Ports {
+    pub(crate) input: Port,
+    pub(crate) output: Port,
+    pub(crate) delay: usize,
 }
 
 impl Map {
     /// Finds them in an FMU; where none was named, the only ones, or `v` and `y`.
-    pub(super) fn find(&self, fmu: &Path, description: &Description) -> Result<Ports, FmuError> {
+    pub(crate) fn find(&self, fmu: &Path, description: &Description) -> Result<Ports, FmuError> {
         let input = find(fmu, ("v", "input", &self.v), &description.inputs)?;
         let output = find(fmu, ("y", "output", &self.y), &description.outputs)?;
         Ok(Ports { input, output, delay: self.delay.unwrap_or(description.delay) })
@@ -98,9 +98,9 @@ fn find(
 }
 
 impl Ports {
-    /// Compares units with those of a rig where both are known.
-    pub(super) fn check_units(&self, fmu: &Path, rig: &Rig) -> Result<(), FmuError> {
-        for (port, label) in [(&self.input, &rig.input_label), (&self.output, &rig.output_label)] {
+    /// Compares units with those of the records where both are known.
+    pub(crate) fn check_units(&self, fmu: &Path, labels: &[String; 2]) -> Result<(), FmuError> {
+        for (port, label) in [&self.input, &self.output].into_iter().zip(labels) {
             let (own, other) = (port.unit.as_str(), unit(label));
             if !own.is_empty() && !other.is_empty() && !same_unit(own, other) {
                 return Err(FmuError::new(

@@ -1,20 +1,21 @@
 //! The archive that an FMU is.
 
-use super::error::FmuError;
+use crate::error::FmuError;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::Path;
+use switchback_io::input::regular;
 use zip::ZipArchive;
 
 /// Most bytes that an archive may unpack to.
 const LARGEST: u64 = 4 << 30;
 
-/// Unpacks an FMU into a folder; what would leave the folder, or is a link, is refused.
-pub(super) fn unpack(fmu: &Path, folder: &Path) -> Result<(), FmuError> {
+/// Unpacks an FMU into a folder; what would leave the folder, or is a link, is refused. `goes_on` is told how many bytes there are so far.
+pub(crate) fn unpack(fmu: &Path, folder: &Path, mut goes_on: impl FnMut(u64)) -> Result<(), FmuError> {
     let fail = |what: String| {
         FmuError::new(fmu, what, "give a co-simulation FMU of FMI 2.0, as simulators export it")
     };
-    let file = File::open(fmu).map_err(|error| fail(error.to_string()))?;
+    let file = regular(fmu).map_err(|error| fail(error.to_string()))?;
     let mut archive = ZipArchive::new(file)
         .map_err(|error| fail(format!("this is no FMU, which is a zip archive: {error}")))?;
     let mut left = LARGEST;
@@ -30,7 +31,9 @@ pub(super) fn unpack(fmu: &Path, folder: &Path) -> Result<(), FmuError> {
             fs::create_dir_all(&place).map_err(|error| fail(format!("`{name}`: {error}")))?;
             continue;
         }
-        let written = write(entry, &place, left).map_err(|error| fail(format!("`{name}`: {error}")))?;
+        let so_far = |written| goes_on(LARGEST - left + written);
+        let written =
+            write(entry, &place, (left, so_far)).map_err(|error| fail(format!("`{name}`: {error}")))?;
         left = left
             .checked_sub(written)
             .filter(|left| *left > 0)
@@ -39,9 +42,19 @@ pub(super) fn unpack(fmu: &Path, folder: &Path) -> Result<(), FmuError> {
     Ok(())
 }
 
-fn write(entry: impl Read, place: &Path, most: u64) -> io::Result<u64> {
+/// Most bytes of an entry that are unpacked at once.
+const CHUNK: u64 = 1 << 20;
+
+fn write(entry: impl Read, place: &Path, (most, mut so_far): (u64, impl FnMut(u64))) -> io::Result<u64> {
     if let Some(parent) = place.parent() {
         fs::create_dir_all(parent)?;
     }
-    io::copy(&mut entry.take(most), &mut File::create(place)?)
+    let (mut entry, mut file, mut written) = (entry.take(most), File::create(place)?, 0);
+    loop {
+        match io::copy(&mut entry.by_ref().take(CHUNK), &mut file)? {
+            0 => return file.flush().map(|()| written),
+            more => written += more,
+        }
+        so_far(written);
+    }
 }

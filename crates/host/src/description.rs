@@ -1,39 +1,39 @@
 //! What an FMU says of itself.
 
-use super::error::FmuError;
-use crate::export;
+use crate::error::FmuError;
 use roxmltree::{Document, Node};
 use std::env::consts::DLL_SUFFIX;
-use std::fs;
 use std::path::{Path, PathBuf};
+use switchback_io::export;
+use switchback_io::input::{names, read_text};
 
 /// A real variable that can be played or read.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Port {
-    pub(super) name: String,
-    pub(super) reference: u32,
+pub(crate) struct Port {
+    pub(crate) name: String,
+    pub(crate) reference: u32,
     /// Its unit; empty where it has none.
-    pub(super) unit: String,
+    pub(crate) unit: String,
 }
 
 /// An unpacked FMU.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Description {
-    pub(super) library: PathBuf,
-    pub(super) guid: String,
-    pub(super) inputs: Vec<Port>,
-    pub(super) outputs: Vec<Port>,
+pub(crate) struct Description {
+    pub(crate) library: PathBuf,
+    pub(crate) guid: String,
+    pub(crate) inputs: Vec<Port>,
+    pub(crate) outputs: Vec<Port>,
     /// Samples by which the output is late, where it says so.
-    pub(super) delay: usize,
+    pub(crate) delay: usize,
 }
 
 impl Description {
     /// Reads `modelDescription.xml` in the folder of an FMU.
-    pub(super) fn read(fmu: &Path, folder: &Path) -> Result<Self, FmuError> {
+    pub(crate) fn read(fmu: &Path, folder: &Path) -> Result<Self, FmuError> {
         let fail = |what: String, remedy: &str| FmuError::new(fmu, what, remedy);
         let other = "export it as an FMU 2.0 for co-simulation";
-        let text = fs::read_to_string(folder.join("modelDescription.xml"))
-            .map_err(|error| fail(format!("modelDescription.xml: {error}"), other))?;
+        let text = read_text(&folder.join("modelDescription.xml"))
+            .map_err(|error| fail(error.to_string(), other))?;
         let document =
             Document::parse(&text).map_err(|error| fail(format!("modelDescription.xml: {error}"), other))?;
         let root = document.root_element();
@@ -89,10 +89,7 @@ fn library(fmu: &Path, folder: &Path, identifier: &str) -> Result<PathBuf, FmuEr
     if !identifier.is_empty() && !identifier.contains(['/', '\\']) && library.is_file() {
         return Ok(library);
     }
-    let there = fs::read_dir(binaries).into_iter().flatten().filter_map(Result::ok);
-    let mut there: Vec<String> =
-        there.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    there.sort();
+    let there = names(&binaries).unwrap_or_default();
     let has = if there.is_empty() { "none".to_owned() } else { there.join(", ") };
     Err(FmuError::new(
         fmu,

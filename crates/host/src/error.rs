@@ -1,6 +1,7 @@
 //! Why an FMU did not run.
 
 use miette::Diagnostic;
+use std::path::Path;
 use thiserror::Error;
 
 /// What went wrong, where, and what to do about it.
@@ -9,12 +10,12 @@ use thiserror::Error;
 #[diagnostic(help("{remedy}"))]
 pub struct FmuError {
     file: String,
-    what: String,
-    remedy: String,
+    pub(crate) what: String,
+    pub(crate) remedy: String,
 }
 
 impl FmuError {
-    pub(super) fn new(file: &std::path::Path, what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { file: file.display().to_string(), what: what.into(), remedy: remedy.into() }
+    pub(crate) fn new(file: &Path, what: impl ToString, remedy: impl ToString) -> Self {
+        Self { file: file.display().to_string(), what: what.to_string(), remedy: remedy.to_string() }
     }
 }

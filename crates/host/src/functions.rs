@@ -1,73 +1,44 @@
-//! The process in which an FMU runs.
+//! The functions of an FMU's library.
 
-use super::job::{Job, Line};
+use crate::description::Description;
+use crate::map::Ports;
+use crate::messages::{Job, Line};
+use crate::simulation::Teller;
 use libloading::{Library, Symbol};
 use std::error::Error;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
-use std::fs::File;
-use std::io::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
 use switchback_fmu::fmi2::{
     CO_SIMULATION, Callbacks, Component, DoStep, FreeInstance, GetReal, Instantiate, Logger, OfInstance,
     SetReal, SetupExperiment, Status,
 };
 
-/// From one sign of life to the next.
-const HEARTBEAT: Duration = Duration::from_millis(200);
-
-/// Runs a job and reports it in a file beside it; what goes wrong is reported there, too.
-///
-/// # Errors
-/// If the job cannot be read, or nothing can be reported.
-pub fn host(job: &Path) -> miette::Result<()> {
-    let fail = |error: &dyn std::fmt::Display| miette::miette!("{}: {error}", job.display());
-    let text = std::fs::read_to_string(job).map_err(|error| fail(&error))?;
-    let given: Job = serde_json::from_str(&text).map_err(|error| fail(&error))?;
-    let lines = File::create(job.with_extension("lines")).map_err(|error| fail(&error))?;
-    let mut teller = Teller { lines, last: Instant::now() };
-    if let Err(why) = run(&given, &mut teller) {
-        teller.describe(&Line::Failed(why)).map_err(|error| fail(&error))?;
-    }
-    Ok(())
-}
-
-/// Writes lines.
-struct Teller {
-    lines: File,
-    last: Instant,
-}
-
-impl Teller {
-    fn describe(&mut self, line: &Line) -> std::io::Result<()> {
-        self.last = Instant::now();
-        let text = serde_json::to_string(line).expect("numbers and words are JSON");
-        self.lines.write_all((text + "\n").as_bytes())
-    }
-
-    fn stands(&mut self, record: usize, sample: usize) -> Result<(), String> {
-        if sample == 0 || self.last.elapsed() > HEARTBEAT {
-            self.describe(&Line::At(record, sample)).map_err(|error| error.to_string())?;
-        }
-        Ok(())
-    }
-}
-
-fn run(job: &Job, teller: &mut Teller) -> Result<(), String> {
+/// Runs the library of an FMU, unpacked into `folder`, over a job, and tells what comes out.
+pub(crate) fn run(
+    description: &Description,
+    ports: &Ports,
+    (job, folder): (&Job, &Path),
+    teller: &mut Teller,
+) -> Result<(), String> {
     // SAFETY: a library runs code of its own when it is loaded: that is why this process is none but its own.
-    let library = unsafe { Library::new(&job.library) }.map_err(|error| {
+    let library = unsafe { Library::new(&description.library) }.map_err(|error| {
         let why = error.source().map_or_else(|| error.to_string(), ToString::to_string);
         format!("its library cannot be loaded: {why}")
     })?;
     let unit = Functions::of(&library)?;
+    let fails = |error: std::io::Error| error.to_string();
+    let resources = std::path::absolute(folder.join("resources")).map_err(fails)?;
+    let words = |text: String| CString::new(text).map_err(|_| "its description has a zero byte".to_owned());
+    let about = (words(description.guid.clone())?, words(address(&resources))?);
     for (record, v) in job.inputs.iter().enumerate() {
-        teller.stands(record, 0)?;
-        let y = unit.over(job, v, |sample| teller.stands(record, sample))?;
+        teller.stands(record, 0).map_err(fails)?;
+        let stands = |sample| teller.stands(record, sample).map_err(fails);
+        let y = unit.over((&about.0, &about.1), (ports, job.sample_time), v, stands)?;
         if let Some(sample) = y.iter().position(|y| !y.is_finite()) {
-            teller.describe(&Line::At(record, sample)).map_err(|error| error.to_string())?;
+            teller.tell(&Line::At(record, sample)).map_err(fails)?;
             return Err(format!("its output is {}, which is no finite number", y[sample]));
         }
-        teller.describe(&Line::Ran(record, y)).map_err(|error| error.to_string())?;
+        teller.tell(&Line::Ran(record, y)).map_err(fails)?;
     }
     Ok(())
 }
@@ -108,13 +79,11 @@ impl<'a> Functions<'a> {
     /// A fresh instance over an input: one output a sample, the first one that of its beginning.
     fn over(
         &self,
-        job: &Job,
+        (guid, resources): (&CStr, &CStr),
+        (ports, h): (&Ports, f64),
         v: &[f64],
         mut stands: impl FnMut(usize) -> Result<(), String>,
     ) -> Result<Vec<f64>, String> {
-        let words =
-            |text: String| CString::new(text).map_err(|_| "its description has a zero byte".to_owned());
-        let (guid, resources) = (words(job.guid.clone())?, words(address(&job.resources))?);
         let callbacks = callbacks();
         // SAFETY: the arguments are what the standard asks for, and live until the instance is freed.
         let instance = unsafe {
@@ -131,31 +100,30 @@ impl<'a> Functions<'a> {
         if instance.is_null() {
             return Err("it makes no instance".to_owned());
         }
-        let h = job.sample_time;
         let end = v.len() as f64 * h;
         // SAFETY: as the standard has it, in its order, on a living instance.
         unsafe {
             went((self.set_up)(instance, 0, 0.0, 0.0, 1, end), "fmi2SetupExperiment")?;
             went((self.enter)(instance), "fmi2EnterInitializationMode")?;
         }
-        self.set(instance, job.input, v[0])?;
+        self.set(instance, ports.input.reference, v[0])?;
         // SAFETY: as above.
         unsafe { went((self.exit)(instance), "fmi2ExitInitializationMode")? };
-        let mut y = vec![self.get(instance, job.output)?];
-        for t in 1..v.len() + job.delay {
+        let mut y = vec![self.get(instance, ports.output.reference)?];
+        for t in 1..v.len() + ports.delay {
             stands(t - 1)?;
-            self.set(instance, job.input, v[(t - 1).min(v.len() - 1)])?;
+            self.set(instance, ports.input.reference, v[(t - 1).min(v.len() - 1)])?;
             // SAFETY: as above.
             let status = unsafe { (self.step)(instance, (t - 1) as f64 * h, h, 1) };
             went(status, &format!("a step of {h} s"))?;
-            y.push(self.get(instance, job.output)?);
+            y.push(self.get(instance, ports.output.reference)?);
         }
         // SAFETY: as above; nobody uses it afterwards.
         unsafe {
             let _ = (self.terminate)(instance);
             (self.free)(instance);
         }
-        Ok(y.split_off(job.delay))
+        Ok(y.split_off(ports.delay))
     }
 
     fn set(&self, instance: Component, reference: u32, x: f64) -> Result<(), String> {
