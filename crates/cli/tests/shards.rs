@@ -48,12 +48,12 @@ fn parts_merged_are_the_bytes_of_one_run() {
     for part in ["1", "2"] {
         fs::remove_file(folder.path(part).join(".switchback.sha256")).expect("a list");
     }
-    refused(&["merge", "1", "2"], &["2: the scenario differs from that of 1"]);
+    refused(&["merge", "1", "2"], &["2: part.json is not of the files beside it", "run this part again"]);
     folder.write("2/two.toml", &scenario);
     folder.edit("2/key.jsonl", |text| text.replace("\"seed\":", "\"seed\": "));
     refused(&["merge", "1", "2"], &["2: key.jsonl is not what was judged"]);
     folder.edit("1/part.json", |text| text.replace("\"program\": \"", "\"program\": \"0"));
-    refused(&["merge", "1", "2"], &["1: was judged by another version"]);
+    refused(&["merge", "1", "2"], &["1: part.json is not of the files beside it"]);
 }
 
 #[test]

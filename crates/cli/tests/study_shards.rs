@@ -106,19 +106,23 @@ fn what_makes_no_whole_is_refused() {
     let (code, _) = run(&folder, &["study.toml", "--shard", "3/3", "--quiet", "--out", "other"], "");
     assert_eq!(code, Some(0));
     refused(&["part-1", "part-2", "other"], "the scenario differs");
-    // Sums under another scenario's text, with the list of hashes taken away.
+    // Another scenario's text, and then another's sums, with the list of hashes taken away.
     for part in &made {
         fs::remove_file(folder.path(part).join(".switchback.sha256")).expect("a list");
         folder.write(&format!("{part}/study.toml"), &other);
     }
+    refused(&["part-1", "part-2", "part-3"], "part.json is not of the files beside it");
+    for part in &made {
+        folder.write(&format!("{part}/study.toml"), &text("replicates = 700"));
+    }
+    let own = fs::read(folder.path("part-3/replicates.sums")).expect("sums");
+    fs::copy(folder.path("other/replicates.sums"), folder.path("part-3/replicates.sums")).expect("a copy");
     refused(&["part-1", "part-2", "part-3"], "is of another scenario");
+    fs::write(folder.path("part-3/replicates.sums"), own).expect("it can be written");
     let sums = folder.path("part-2/replicates.sums");
     let mut bytes = fs::read(&sums).expect("sums");
     bytes.truncate(bytes.len() - 8);
     fs::write(&sums, bytes).expect("it can be written");
-    for part in &made {
-        folder.write(&format!("{part}/study.toml"), &text("replicates = 700"));
-    }
     refused(&["part-1", "part-2", "part-3"], "is not as it was written");
 }
 
@@ -148,4 +152,43 @@ fn a_part_that_was_killed_goes_on() {
     let (code, reported) = run(&folder, &arguments, "");
     assert_eq!(code, Some(0), "{reported}");
     assert!(files(&folder.path("again")) == first);
+}
+
+/// A part took hours, perhaps: it is lost to no other command, and a bit of its label that flipped is seen, whatever the list of hashes says.
+#[test]
+fn a_part_is_replaced_by_the_same_part_only_and_its_label_is_whole() {
+    let folder = Folder::with_good_rig();
+    folder.write("study.toml", &text("replicates = 100"));
+    let made = parts(&folder, 2, &[]);
+    let before = made.iter().map(|part| files(&folder.path(part))).collect::<Vec<_>>();
+    for (arguments, words) in [
+        (&["merge", "part-1", "part-2", "--out", "part-1"][..], "holds a part of a study"),
+        (&["merge", "part-1", "part-2", "--out", "./part-2/"], "holds a part of a study"),
+        (&["merge", "part-1", "part-2", "--out", "part-1", "--force"], "is read by this command"),
+        (&["study.toml", "--out", "part-1"], "holds a part of a study"),
+        (&["study.toml", "--shard", "2/2", "--out", "part-1"], "holds a part of a study"),
+        (&["identify", "rig.toml", "--out", "part-1"], "holds a part of a study"),
+    ] {
+        let (code, reported) = run(&folder, &[arguments, &["--quiet"]].concat(), "");
+        assert_eq!(code, Some(2), "{arguments:?}: {reported}");
+        assert!(reported.contains(words), "{arguments:?}: {reported}");
+        assert!(
+            made.iter().map(|part| files(&folder.path(part))).eq(before.iter().cloned()),
+            "{arguments:?}"
+        );
+    }
+    // The same part again.
+    let same = ["study.toml", "--shard", "1/2", "--quiet", "--out", "part-1"];
+    let (code, reported) = run(&folder, &same, "");
+    assert_eq!(code, Some(0), "{reported}");
+
+    fs::remove_file(folder.path("part-1/.switchback.sha256")).expect("a list");
+    let label = fs::read(folder.path("part-1/part.json")).expect("a label");
+    for at in (0..label.len()).step_by(3) {
+        let mut flipped = label.clone();
+        flipped[at] ^= 1 << (at % 8);
+        fs::write(folder.path("part-1/part.json"), &flipped).expect("it can be written");
+        let (code, reported) = merge(&folder, &made, "none");
+        assert_eq!(code, Some(2), "byte {at}: {reported}");
+    }
 }

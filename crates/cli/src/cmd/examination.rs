@@ -7,6 +7,7 @@ use crate::interrupt::{self, SignalGuard};
 use crate::options::{Force, Quiet, Threads};
 use crate::progress::Meter;
 use rayon::prelude::*;
+use serde_json::json;
 use std::path::Path;
 use std::sync::mpsc;
 use std::thread;
@@ -103,6 +104,7 @@ pub(crate) fn run_part(
     let name = stream::copy_name(scenario);
     let files = [PART_FILE, KEY_FILE, "answers.csv", "cases.jsonl", &name, PROVENANCE_FILE];
     let folder = order.force.claim(out, &files)?;
+    folder.refuse_part(Some(json!({ "scenario": name, "shard": shard }).to_string().as_bytes()))?;
     let tickets = examination.tickets().into_iter().enumerate();
     let tickets = tickets.filter(|(position, _)| shard.holds(*position)).map(|(_, ticket)| ticket).collect();
     let Begun { mut journal, sealed } = seal(examination, tickets, folder.path(), order)?;

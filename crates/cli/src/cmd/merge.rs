@@ -83,11 +83,13 @@ fn merge(args: &Args) -> CommandResult {
         parts.push(part);
     }
     let shards = parts.iter().map(|part| part.shard().to_string()).collect();
+    let inputs: Vec<PathBuf> = parts.iter().flat_map(Part::inputs).collect();
     let Whole { scenario, keys, cases } = merged(parts)?;
     let examination = Examination::without_bases(read(&scenario)?);
     let page = Page { json: args.json, quiet: args.output.quiet };
     let folder = examination::Order { out: Some(&args.out), force: args.output.force, threads, page }
-        .claim(examination.study())?;
+        .claim(examination.study())?
+        .sparing(inputs.iter().map(PathBuf::as_path))?;
     let mut report = report(&examination, &sha256(&keys), &cases);
     report.files.add_beside(PROVENANCE_FILE, provenance.end(shards).text());
     conclude(report, &keys, folder, page)

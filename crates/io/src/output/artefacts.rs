@@ -48,6 +48,11 @@ impl Artefacts {
         self.files.get(name).map_or_else(String::new, |bytes| String::from_utf8_lossy(bytes).into_owned())
     }
 
+    /// A file's contents.
+    pub(super) fn bytes(&self, name: &str) -> Option<&[u8]> {
+        self.files.get(name).map(Vec::as_slice)
+    }
+
     /// Names and contents, by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[u8])> {
         self.files.iter().map(|(name, contents)| (name.as_str(), contents.as_slice()))

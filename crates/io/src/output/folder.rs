@@ -6,7 +6,9 @@ use super::hash_list::{HashList, Owner};
 use super::lock::LockError;
 use super::replacement::{finish, replace, unfinished};
 use super::staging::{READY, Staging, obstacle, uninterrupted};
+use crate::input::own;
 use miette::Diagnostic;
+use serde_json::Value;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -38,6 +40,9 @@ pub struct OutputFolder {
     inputs: Vec<PathBuf>,
 }
 
+/// The label of a part of a study or examination.
+pub const PART: &str = "part.json";
+
 /// Why a folder cannot be written. The first value is the folder as given.
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
@@ -58,6 +63,10 @@ pub enum FolderError {
     #[error("{0}: {1} would be lost there")]
     #[diagnostic(help("give another folder, or --force to replace what is there"))]
     Foreign(String, String),
+    /// It holds a part of a study or examination, which this command does not write.
+    #[error("{0}: holds a part of a study, part.json, which would be lost there")]
+    #[diagnostic(help("give another folder, or --force to replace the part"))]
+    Part(String),
     /// The second value, a process, writes there.
     #[error("{0}: {1} is writing there")]
     #[diagnostic(help("wait until it has ended, or give another place"))]
@@ -101,6 +110,9 @@ impl OutputFolder {
     pub fn expecting(self, names: &[&str]) -> Result<Self, FolderError> {
         let folder = self.clearing(names);
         folder.refuse_foreign(&folder.expected_names(), "")?;
+        if !names.contains(&PART) {
+            folder.refuse_part(None)?;
+        }
         Ok(folder)
     }
 
@@ -134,6 +146,7 @@ impl OutputFolder {
         let _until_done = uninterrupted();
         let names: Vec<String> = artefacts.iter().map(|(name, _)| name.to_owned()).collect();
         self.refuse_inputs(&names)?;
+        self.refuse_part(artefacts.bytes(PART))?;
         let list = self.refuse_foreign(&names, "")?;
         let is_stale = |name: &String| {
             !names.contains(name) && matches!(list.owner(&self.target, name), Ok(Owner::Program))
@@ -188,6 +201,19 @@ impl OutputFolder {
         }
     }
 
+    /// Makes sure that no part is lost that took hours to run, unless the folder is forced: one that is there is replaced by the same part only.
+    ///
+    /// # Errors
+    /// [`FolderError::Part`] if there is one of another scenario, or another of it, than `label` says.
+    pub fn refuse_part(&self, label: Option<&[u8]>) -> Result<(), FolderError> {
+        let own_part = label.and_then(part_of);
+        let is_lost = |there: Vec<u8>| part_of(&there).is_some_and(|there| own_part != Some(there));
+        if !self.forced && own(&self.target.join(PART)).is_ok_and(is_lost) {
+            return Err(FolderError::Part(self.target.display().to_string()));
+        }
+        Ok(())
+    }
+
     /// The list of the program's own files, if every file of these names is one of them or may be replaced by force.
     fn refuse_foreign(&self, names: &[String], reason: &str) -> Result<HashList, FolderError> {
         let shown = || self.target.display().to_string();
@@ -212,6 +238,12 @@ impl OutputFolder {
     fn unwritable(&self, source: io::Error) -> FolderError {
         FolderError::Unwritable(self.target.display().to_string(), source)
     }
+}
+
+/// Which part of which scenario a label names; none where it is no label.
+fn part_of(label: &[u8]) -> Option<(String, Value)> {
+    let label: Value = serde_json::from_slice(label).ok()?;
+    Some((label.get("scenario")?.as_str()?.to_owned(), label.get("shard")?.clone()))
 }
 
 /// Whether a name is one of these, where a `*` stands for any part of it.

@@ -35,7 +35,7 @@ mod wrapped;
 pub use artefacts::Artefacts;
 pub use disk::Disk;
 pub use file::{FileError, OutputFile};
-pub use folder::{FolderError, OutputFolder};
+pub use folder::{FolderError, OutputFolder, PART};
 pub use plain::{Diagnostic, plain};
 pub use schema::{schema, schema_text, stamped_schema};
 pub use sha256::sha256;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use switchback_io::input::{read_text, stream};
 use switchback_io::output::{Artefacts, sha256};
 use switchback_study::Shard;
-use switchback_study::parts::{MergeError, PART_FILE, Piece, check_whole, label, label_text};
+use switchback_study::parts::{MergeError, PART_FILE, Piece, check_whole, label, label_hash, label_text};
 
 const CASES_FILE: &str = "cases.jsonl";
 
@@ -27,6 +27,17 @@ pub struct Label {
     program: String,
     /// SHA-256 of the keys of its rigs.
     key_sha256: String,
+    /// SHA-256 of the label, the scenario, the keys and the cases.
+    #[serde(default)]
+    sha256: String,
+}
+
+impl Label {
+    /// The same with the hash of itself and of the texts of the scenario, the keys and the cases.
+    fn sealed(&self, texts: [&str; 3]) -> Self {
+        let bare = Self { sha256: String::new(), ..self.clone() };
+        Self { sha256: label_hash(&bare, &texts), ..bare }
+    }
 }
 
 /// A part of an examination that was judged.
@@ -60,7 +71,9 @@ impl Part {
         cases: Vec<Case>,
     ) -> Self {
         let scenario = stream::copy_name(file);
-        let label = Label { scenario, shard, program: program.to_owned(), key_sha256: sha256(&keys) };
+        let (program, key_sha256, sha256) = (program.to_owned(), sha256(&keys), String::new());
+        let label = Label { scenario, shard, program, key_sha256, sha256 };
+        let label = label.sealed([&text, &keys, &case_lines(&cases)]);
         Self { folder: PathBuf::new(), label, scenario: text, keys, cases }
     }
 
@@ -89,12 +102,21 @@ impl Part {
             return Err(changed(KEY_FILE));
         }
         let cases = read_cases(folder)?;
+        if label != label.sealed([&scenario, &keys, &read_text(&folder.join(CASES_FILE))?]) {
+            return Err(MergeError::Unsealed { folder: name() });
+        }
         let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id)).collect();
         let sealed: Vec<Option<usize>> = keys.lines().map(id_of).collect();
         if judged != sealed {
             return Err(changed(CASES_FILE));
         }
         Ok(Self { folder: folder.to_owned(), label, scenario, keys, cases })
+    }
+
+    /// Paths of the files of its folder.
+    pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
+        let names = [PART_FILE, &self.label.scenario, KEY_FILE, "answers.csv", CASES_FILE];
+        names.map(|name| self.folder.join(name)).into_iter()
     }
 
     /// SHA-256 of the sources that made and judged it.

@@ -32,6 +32,13 @@ pub enum MergeError {
         /// The file that was changed.
         file: &'static str,
     },
+    /// The label was made of other files, or changed since.
+    #[error("{folder}: part.json is not of the files beside it")]
+    #[diagnostic(help("run this part again"))]
+    Unsealed {
+        /// The folder.
+        folder: String,
+    },
     /// Two parts belong to different wholes.
     #[error("{folder}: {what} differs from that of {first}")]
     #[diagnostic(help(

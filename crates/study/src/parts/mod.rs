@@ -12,10 +12,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use switchback_io::input::read_text;
-use switchback_io::output::stamped;
+use switchback_io::output::{sha256, stamped};
 
 /// What shows that a folder holds a part.
-pub const PART_FILE: &str = "part.json";
+pub const PART_FILE: &str = switchback_io::output::PART;
 
 /// Name and version of the layout of [`PART_FILE`].
 pub const PART_SCHEMA: &str = "switchback/part/1";
@@ -23,6 +23,11 @@ pub const PART_SCHEMA: &str = "switchback/part/1";
 /// The text of [`PART_FILE`].
 pub fn label_text(label: &impl Serialize) -> String {
     stamped(PART_SCHEMA, label)
+}
+
+/// The hash by which a label shows that neither it nor the files that belong to it were changed: of the label without a hash, and of the files.
+pub fn label_hash(label: &impl Serialize, files: &[&str]) -> String {
+    sha256(files.iter().fold(sha256(label_text(label)), |text, file| text + &sha256(file)))
 }
 
 /// What a folder says that it is.

@@ -36,17 +36,18 @@ pub(crate) fn merge(folders: &[PathBuf], next: Option<&Path>, order: Order<'_>) 
         interrupt::is_wished,
     );
     let out = order.out.unwrap_or(Path::new("."));
+    let inputs: Vec<PathBuf> = parts.iter().flat_map(Part::inputs).collect();
     let shards: Vec<String> = parts.iter().filter_map(|part| Some(part.label.shard?.to_string())).collect();
     let provenance = provenance.end(shards);
     let order = Order { command: &first.label.command, ..order };
     if is_whole {
-        let folder = order.force.claim(out, &FILES)?;
+        let folder = order.force.claim(out, &FILES)?.sparing(inputs.iter().map(PathBuf::as_path))?;
         let results = order.threads.install(|| study.results(&run_state, order.command.to_owned()))?;
         return write(&results, (&scenario, &run_state, &kept, &provenance), folder, order);
     }
     let out = next.unwrap_or(out);
     let merged = first.of_all();
-    let folder = order.force.claim(out, &merged.files())?;
+    let folder = order.force.claim(out, &merged.files())?.sparing(inputs.iter().map(PathBuf::as_path))?;
     let mut artefacts = merged.artefacts(kept.bytes(&run_state));
     artefacts.add_beside(PROVENANCE_FILE, provenance.text());
     folder.commit(&artefacts)?;

@@ -90,6 +90,7 @@ fn run_part(scenario: &Scenario, shard: Shard, order: Order<'_>) -> CommandResul
     };
     let part = Part::new(order, scenario.engine(), Some(shard))?;
     let folder = order.force.claim(&out, &part.files())?;
+    folder.refuse_part(Some(part.label().as_bytes()))?;
     let mut kept = Checkpoint::new(
         folder.path(),
         study.origin(BUILD.study_sources).of_part(Some(shard), &begin),

@@ -13,7 +13,7 @@ use switchback_lab::examination;
 use switchback_study::Shard;
 use switchback_study::checkpoint::CHECKPOINT_FILE;
 use switchback_study::consistency::{RunState, Study};
-use switchback_study::parts::{MergeError, PART_FILE, PART_SCHEMA, Piece, label, label_text};
+use switchback_study::parts::{MergeError, PART_FILE, PART_SCHEMA, Piece, label, label_hash, label_text};
 use switchback_study::scenario::{Engine, Scenario, ScenarioError};
 
 /// The label of a part of a study.
@@ -27,6 +27,17 @@ pub(super) struct Label {
     pub(super) engine: Engine,
     /// Which part; null for the rounds before, put together.
     pub(super) shard: Option<Shard>,
+    /// SHA-256 of the label and the scenario.
+    #[serde(default)]
+    pub(super) sha256: String,
+}
+
+impl Label {
+    /// The same with the hash of itself and the scenario's text.
+    fn sealed(&self, text: &str) -> Self {
+        let bare = Self { sha256: String::new(), ..self.clone() };
+        Self { sha256: label_hash(&bare, &[text]), ..bare }
+    }
 }
 
 /// What `part.json` holds: the label of a part of a study, or of an examination.
@@ -61,19 +72,31 @@ impl Part {
     /// A part that is to be run.
     pub(super) fn new(order: Order<'_>, engine: Engine, shard: Option<Shard>) -> Result<Self, FileError> {
         let (scenario, command) = (stream::copy_name(order.file), order.command.to_owned());
-        let label = Label { scenario, command, engine, shard };
-        Ok(Self { folder: PathBuf::new(), label, text: read_text(order.file)? })
+        let (text, sha256) = (read_text(order.file)?, String::new());
+        let label = Label { scenario, command, engine, shard, sha256 }.sealed(&text);
+        Ok(Self { folder: PathBuf::new(), label, text })
     }
 
     /// The same label and scenario, without a shard: for what all parts of a round make.
     pub(super) fn of_all(&self) -> Self {
-        Self { label: Label { shard: None, ..self.label.clone() }, ..self.clone() }
+        let label = Label { shard: None, ..self.label.clone() };
+        Self { label: label.sealed(&self.text), ..self.clone() }
     }
 
     /// The scenario as it is run.
     pub(super) fn scenario(&self) -> Result<Scenario, ScenarioError> {
         let file = self.folder.join(&self.label.scenario);
         Ok(Scenario::parse(&file.display().to_string(), &self.text)?.on(self.label.engine))
+    }
+
+    /// Its label as it is written.
+    pub(super) fn label(&self) -> String {
+        label_text(&self.label)
+    }
+
+    /// Paths of the files of its folder, which a merge reads.
+    pub(super) fn inputs(&self) -> impl Iterator<Item = PathBuf> {
+        self.files().map(|name| self.folder.join(name)).into_iter()
     }
 
     /// Names of the files of its folder.
@@ -84,7 +107,7 @@ impl Part {
     /// What its folder gets, with what its replicates left behind.
     pub(super) fn artefacts(&self, sums: Vec<u8>) -> Artefacts {
         let mut artefacts = Artefacts::default();
-        artefacts.add(PART_FILE, label_text(&self.label));
+        artefacts.add(PART_FILE, self.label());
         artefacts.add(self.label.scenario.as_str(), self.text.as_str());
         artefacts.add(CHECKPOINT_FILE, sums);
         artefacts
@@ -94,6 +117,9 @@ impl Part {
     pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
         let label: Label = label(folder)?;
         let text = read_text(&folder.join(&label.scenario))?;
+        if label != label.sealed(&text) {
+            return Err(MergeError::Unsealed { folder: folder.display().to_string() });
+        }
         Ok(Self { folder: folder.to_owned(), label, text })
     }
 

@@ -273,3 +273,23 @@ fn a_second_claim_is_refused_while_the_first_lives() {
     OutputFolder::claim(&target, false).unwrap();
     assert_eq!(names(&root.path().join("new")), ["out"]);
 }
+
+#[test]
+fn a_part_is_replaced_by_the_same_part_only() {
+    let root = tempdir().unwrap();
+    let target = root.path().join("out");
+    let label = |shard: &str| format!("{{\"scenario\": \"a.toml\", \"shard\": {shard}, \"sha256\": \"…\"}}");
+    write(&target, &[(PART, &label("1")), ("sums", "1")]).unwrap();
+    let is_refused = |written: Result<(), FolderError>| matches!(written, Err(FolderError::Part(_)));
+    assert!(is_refused(write(&target, &[("report", "1")])));
+    assert!(is_refused(write(&target, &[(PART, &label("2"))])));
+    let claimed = OutputFolder::claim(&target, false).unwrap();
+    assert!(is_refused(claimed.expecting(&["report"]).map(drop)), "before the computation");
+    assert_eq!((names(&target).len(), text(&target, PART)), (3, label("1")));
+    write(&target, &[(PART, &label("1")), ("sums", "2")]).unwrap();
+    OutputFolder::claim(&target, true).unwrap().commit(&artefacts(&[("report", "1")])).unwrap();
+    // What only has the name is nothing of a study.
+    let other = root.path().join("other");
+    write(&other, &[(PART, "{\"shard\": 1}")]).unwrap();
+    write(&other, &[("report", "1")]).unwrap();
+}
