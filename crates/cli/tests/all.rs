@@ -18,6 +18,7 @@ mod dialects;
 mod direct;
 mod documentation;
 mod door;
+mod doors;
 mod engine;
 mod export;
 mod field;
