@@ -6,13 +6,19 @@
 pub mod csv;
 #[path = "targets/gap.rs"]
 pub mod gap;
+#[path = "targets/host.rs"]
+pub mod host;
 #[path = "targets/json.rs"]
 pub mod json;
 #[path = "targets/manifest.rs"]
 pub mod manifest;
 #[path = "targets/mat.rs"]
 pub mod mat;
+#[path = "targets/merge.rs"]
+pub mod merge;
 mod one_file;
+#[path = "targets/page.rs"]
+pub mod page;
 #[path = "targets/scenario.rs"]
 pub mod scenario;
 
@@ -31,6 +37,11 @@ impl Scratch {
             root.join(format!("switchback-fuzz-{}-{:?}", std::process::id(), std::thread::current().id()));
         std::fs::create_dir_all(&folder).expect("a writable temporary folder");
         Self(folder)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
     }
 
     /// Writes a file into it.

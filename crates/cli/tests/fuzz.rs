@@ -189,3 +189,18 @@ fn json_files() {
 fn short_rigs() {
     fuzz("gap", targets::gap::run, 60);
 }
+
+#[test]
+fn words_of_an_fmu() {
+    fuzz("host", targets::host::run, 50_000);
+}
+
+#[test]
+fn folders_of_reports() {
+    fuzz("page", targets::page::run, 2000);
+}
+
+#[test]
+fn parts_of_studies() {
+    fuzz("merge", targets::merge::run, 5000);
+}
