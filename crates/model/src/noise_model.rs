@@ -67,7 +67,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
-    use switchback_model::linear::{autocovariance, filter, is_stable};
+    use crate::linear::{autocovariance, filter, is_stable};
 
     fn white(seed: u64, samples: usize) -> Vec<f64> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
